@@ -1,0 +1,122 @@
+//! What a quantity measures: exponents of length, mass, time and angle.
+
+/// A product of powers of metre, kilogram, second and radian. Angle is a dimension of its own, so
+/// that degrees never meet plain numbers silently.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
+pub struct Dimension {
+    pub length: i8,
+    pub mass: i8,
+    pub time: i8,
+    pub angle: i8,
+}
+
+const fn dim(length: i8, mass: i8, time: i8, angle: i8) -> Dimension {
+    Dimension { length, mass, time, angle }
+}
+
+/// The named dimensions. Torque and energy are one dimension under two names; the first name that
+/// fits is the one shown.
+pub const NAMED: &[(&str, Dimension)] = &[
+    ("Number", Dimension::NUMBER),
+    ("Length", Dimension::LENGTH),
+    ("Angle", Dimension::ANGLE),
+    ("Time", Dimension::TIME),
+    ("Mass", Dimension::MASS),
+    ("Speed", dim(1, 0, -1, 0)),
+    ("AngularSpeed", dim(0, 0, -1, 1)),
+    ("Acceleration", dim(1, 0, -2, 0)),
+    ("AngularAcceleration", dim(0, 0, -2, 1)),
+    ("Force", dim(1, 1, -2, 0)),
+    ("Torque", dim(2, 1, -2, 0)),
+    ("Energy", dim(2, 1, -2, 0)),
+    ("Power", dim(2, 1, -3, 0)),
+    ("Area", dim(2, 0, 0, 0)),
+    ("Volume", dim(3, 0, 0, 0)),
+    ("Frequency", dim(0, 0, -1, 0)),
+];
+
+impl Dimension {
+    pub const NUMBER: Dimension = dim(0, 0, 0, 0);
+    pub const LENGTH: Dimension = dim(1, 0, 0, 0);
+    pub const MASS: Dimension = dim(0, 1, 0, 0);
+    pub const TIME: Dimension = dim(0, 0, 1, 0);
+    pub const ANGLE: Dimension = dim(0, 0, 0, 1);
+    pub const SPEED: Dimension = dim(1, 0, -1, 0);
+    pub const ANGULAR_SPEED: Dimension = dim(0, 0, -1, 1);
+    pub const ACCELERATION: Dimension = dim(1, 0, -2, 0);
+    pub const ANGULAR_ACCELERATION: Dimension = dim(0, 0, -2, 1);
+    pub const FORCE: Dimension = dim(1, 1, -2, 0);
+    pub const TORQUE: Dimension = dim(2, 1, -2, 0);
+    pub const FREQUENCY: Dimension = dim(0, 0, -1, 0);
+
+    /// The dimension with this name, such as `AngularSpeed`.
+    pub fn named(name: &str) -> Option<Dimension> {
+        NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
+    }
+
+    /// The name of this dimension, if it has one.
+    pub fn name(self) -> Option<&'static str> {
+        NAMED.iter().find(|(_, d)| *d == self).map(|(n, _)| *n)
+    }
+
+    /// `None` when an exponent leaves -128..=127.
+    pub fn times(self, other: Dimension) -> Option<Dimension> {
+        self.combine(other, i8::checked_add)
+    }
+
+    /// `None` when an exponent leaves -128..=127.
+    pub fn over(self, other: Dimension) -> Option<Dimension> {
+        self.combine(other, i8::checked_sub)
+    }
+
+    /// `None` when an exponent leaves -128..=127.
+    pub fn power(self, n: i32) -> Option<Dimension> {
+        let n = i8::try_from(n).ok()?;
+        Some(dim(
+            self.length.checked_mul(n)?,
+            self.mass.checked_mul(n)?,
+            self.time.checked_mul(n)?,
+            self.angle.checked_mul(n)?,
+        ))
+    }
+
+    /// Half of every exponent; `None` when one is odd.
+    pub fn root(self) -> Option<Dimension> {
+        let all = [self.length, self.mass, self.time, self.angle];
+        all.iter()
+            .all(|e| e % 2 == 0)
+            .then(|| dim(self.length / 2, self.mass / 2, self.time / 2, self.angle / 2))
+    }
+
+    fn combine(self, o: Dimension, op: fn(i8, i8) -> Option<i8>) -> Option<Dimension> {
+        Some(dim(
+            op(self.length, o.length)?,
+            op(self.mass, o.mass)?,
+            op(self.time, o.time)?,
+            op(self.angle, o.angle)?,
+        ))
+    }
+
+    /// Whether a quantity of this dimension may stand where `wanted` is: the same dimension, or one
+    /// that radians were dropped from. Radians are dropped, never invented, and only where a length
+    /// or a mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular
+    /// speed no frequency.
+    pub fn fits(self, wanted: Dimension) -> bool {
+        self == wanted
+            || (self.angle > 0
+                && wanted.angle == 0
+                && (self.length != 0 || self.mass != 0)
+                && Dimension { angle: 0, ..self } == wanted)
+    }
+
+    /// The dimension that both fit, if there is one.
+    pub fn common(self, other: Dimension) -> Option<Dimension> {
+        if self.fits(other) {
+            Some(other)
+        } else if other.fits(self) {
+            Some(self)
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Quantities as people write them.
+
+use super::Dimension;
+use super::table::{UNITS, to_si};
+
+/// A value in SI as text with a fitting unit: `76 mm` is shown as `76mm`, as it would be written.
+/// Six significant digits; a dimension without a name is shown in base units (`0.25kg*m^2`).
+pub fn quantity(value: f64, dimension: Dimension) -> String {
+    if dimension == Dimension::NUMBER {
+        return number(value);
+    }
+    let (suffix, factor) = best_unit(value, dimension);
+    format!("{}{}", number(value / to_si(1.0, factor)), suffix)
+}
+
+/// A plain number: up to six significant digits, no trailing zeros, exponent only when far from one.
+pub fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    let magnitude = libm::floor(libm::log10(value.abs())) as i32;
+    if !(-5..15).contains(&magnitude) {
+        let text = format!("{value:.5e}");
+        let (mantissa, exponent) = text.split_once('e').expect("formatted with an exponent");
+        return format!("{}e{exponent}", trim_zeros(mantissa));
+    }
+    let decimals = (5 - magnitude).max(0) as usize;
+    trim_zeros(&format!("{value:.decimals$}")).to_string()
+}
+
+fn trim_zeros(text: &str) -> &str {
+    if text.contains('.') {
+        let text = text.trim_end_matches('0').trim_end_matches('.');
+        if text == "-0" { "0" } else { text }
+    } else {
+        text
+    }
+}
+
+/// The units to show a dimension in, largest first; the first in which the value reaches 1 is taken.
+fn best_unit(value: f64, dimension: Dimension) -> (String, f64) {
+    const DEG: f64 = std::f64::consts::PI / 180.0;
+    let ladder: &[(&str, f64)] = match dimension.name() {
+        Some("Length") => &[("m", 1.0), ("mm", 1e-3)],
+        Some("Angle") => &[("deg", DEG)],
+        Some("Time") => &[("s", 1.0), ("ms", 1e-3)],
+        Some("Mass") => &[("kg", 1.0), ("g", 1e-3)],
+        Some("Speed") => &[("m/s", 1.0), ("mm/s", 1e-3)],
+        Some("AngularSpeed") => &[("rad/s", 1.0)],
+        Some("Force") => &[("N", 1.0)],
+        Some("Torque") => &[("N*m", 1.0)],
+        Some("Power") => &[("W", 1.0)],
+        Some("Frequency") => &[("Hz", 1.0)],
+        _ => return (base_units(dimension), 1.0),
+    };
+    let last = ladder[ladder.len() - 1];
+    let (name, factor) = *ladder.iter().find(|(_, f)| value.abs() >= f * (1.0 - 1e-12)).unwrap_or(&last);
+    (name.to_string(), factor)
+}
+
+/// The dimension as a product of base units, as it could be written: `kg*m^2/s^2`.
+pub fn base_units(dimension: Dimension) -> String {
+    let parts =
+        [("kg", dimension.mass), ("m", dimension.length), ("rad", dimension.angle), ("s", dimension.time)];
+    let power = |name: &str, n: i8| if n == 1 { name.to_string() } else { format!("{name}^{n}") };
+    let above: Vec<String> = parts.iter().filter(|(_, n)| *n > 0).map(|(s, n)| power(s, *n)).collect();
+    let below: Vec<String> = parts.iter().filter(|(_, n)| *n < 0).map(|(s, n)| power(s, -*n)).collect();
+    match (above.is_empty(), below.is_empty()) {
+        (_, true) => above.join("*"),
+        (true, false) => {
+            parts.iter().filter(|(_, n)| *n < 0).map(|(s, n)| power(s, *n)).collect::<Vec<_>>().join("*")
+        }
+        (false, false) => format!("{}/{}", above.join("*"), below.join("/")),
+    }
+}
+
+/// The usual unit of a dimension, for messages: `rad/s` for an angular speed.
+pub fn usual_unit(dimension: Dimension) -> String {
+    match dimension.name() {
+        Some("Number") => String::new(),
+        _ => best_unit(f64::MAX, dimension).0,
+    }
+}
+
+/// Whether any unit has this name.
+pub fn is_unit(name: &str) -> bool {
+    UNITS.iter().any(|unit| unit.name == name)
+}
