@@ -8,3 +8,7 @@ pub mod source;
 pub mod units;
 
 pub mod syntax;
+
+pub mod geometry;
+pub mod plan;
+pub mod robot;

@@ -1,0 +1,7 @@
+//! Poses, shapes and distances. The only user of parry; knows no robots.
+
+pub mod pose;
+pub mod shape;
+
+pub use pose::{Pose, Vec3};
+pub use shape::{Placed, Shape};

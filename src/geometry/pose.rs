@@ -1,0 +1,25 @@
+//! Rigid displacements. A pose `X_AB` is the pose of frame B in frame A: `p_A = X_AB * p_B`.
+
+/// A rigid displacement of SE(3): rotation, then translation in metres.
+pub type Pose = nalgebra::Isometry3<f64>;
+
+/// A vector of three numbers: a position in metres, a direction, a moment.
+pub type Vec3 = nalgebra::Vector3<f64>;
+
+/// A rotation about an axis by the right-hand rule; radians. The axis need not be of unit length;
+/// a zero axis gives no rotation.
+pub fn turned(axis: Vec3, angle: f64) -> Pose {
+    let n = axis.norm();
+    if n == 0.0 {
+        return Pose::identity();
+    }
+    let (s, c) = libm::sincos(angle / 2.0);
+    let v = axis * (s / n);
+    let q = nalgebra::Quaternion::new(c, v.x, v.y, v.z);
+    Pose::from_parts(nalgebra::Translation3::identity(), nalgebra::UnitQuaternion::new_normalize(q))
+}
+
+/// A displacement without rotation; metres.
+pub fn shifted(p: Vec3) -> Pose {
+    Pose::from_parts(p.into(), nalgebra::UnitQuaternion::identity())
+}

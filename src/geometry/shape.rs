@@ -1,0 +1,51 @@
+//! The shapes that links are made of, as declared. Lengths in metres; the shape's own frame is at
+//! its centre (a hull's and a mesh's where their points say).
+
+use super::{Pose, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// A solid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// Edge lengths along x, y, z.
+    Box {
+        size: Vec3,
+    },
+    /// `axis` is a unit vector; `length` along it.
+    Cylinder {
+        radius: f64,
+        length: f64,
+        axis: Vec3,
+    },
+    Sphere {
+        radius: f64,
+    },
+    /// `length` between the centres of the two caps.
+    Capsule {
+        radius: f64,
+        length: f64,
+        axis: Vec3,
+    },
+    /// The convex hull of at least four points that do not lie in one plane. A prism is one, too.
+    Hull {
+        points: Vec<Vec3>,
+    },
+    /// A closed triangle mesh; `name` is the file it was read from.
+    Mesh {
+        name: String,
+        vertices: Vec<Vec3>,
+        triangles: Vec<[u32; 3]>,
+    },
+    Union {
+        parts: Vec<Placed>,
+    },
+}
+
+/// A shape at a pose in the frame of what it belongs to (`X_LS`, link to shape).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Placed {
+    pub pose: Pose,
+    pub shape: Shape,
+}

@@ -1,0 +1,116 @@
+//! What the judge found: every check with its status, worst values, and failures with their causes.
+
+use super::CauseId;
+use serde::{Deserialize, Serialize};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CheckKind {
+    Conflict,
+    Collision,
+    JointRange,
+    Speed,
+    Acceleration,
+    Torque,
+    BondLoad,
+    Docking,
+    Connectedness,
+    Closure,
+    Ground,
+    Stability,
+    Slip,
+    Rest,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Status {
+    /// Holds at every instant.
+    Proved,
+    /// Holds at this many samples; between them nothing is proved.
+    Sampled(usize),
+    NotChecked(String),
+    /// The library states no limit to check against.
+    NoLimit,
+    /// Failures were excused by an exemption that stands in the source.
+    Exempt,
+    Failed,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Check {
+    pub kind: CheckKind,
+    pub status: Status,
+}
+
+/// A worst value with its time and the modules (or joints) it was found at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Worst {
+    /// SI; a margin is a fraction of the limit.
+    pub value: f64,
+    pub time: f64,
+    /// Path names.
+    pub at: Vec<String>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Failure {
+    pub kind: CheckKind,
+    /// Seconds.
+    pub time: f64,
+    /// Until when it lasts, where that was followed.
+    pub until: Option<f64>,
+    /// Path names of the modules, links or joints concerned.
+    pub at: Vec<String>,
+    /// What was found, in words with units: "s[0].m[2] and s[1].m[0] meet, 3.1 mm deep".
+    pub message: String,
+    /// Amount and limit in SI, where there is one of each.
+    pub value: f64,
+    pub limit: f64,
+    /// The commands to blame, latest first, at most three: held still, each removes the failure.
+    pub blame: Vec<CauseId>,
+    /// Whether `blame` names the start pose (`set`, `connect`) instead of commands.
+    pub blames_start: bool,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verdict {
+    pub checks: Vec<Check>,
+    pub failures: Vec<Failure>,
+    /// Things worth saying that are no failures: a large settling at the start, "needs friction".
+    pub notes: Vec<String>,
+    /// Indices of exemptions that nothing needed.
+    pub unneeded_exemptions: Vec<usize>,
+    /// Signed distance between links that may not touch, m.
+    pub clearance: Option<Worst>,
+    /// Distance of the centre of mass inside the support polygon, m.
+    pub margin: Option<Worst>,
+    /// 1 - load / limit, with the best contact forces there are.
+    pub torque_margin: Option<Worst>,
+    pub bond_margin: Option<Worst>,
+    pub speed_margin: Option<Worst>,
+    /// Displacement of the base over the plan, m.
+    pub travel: [f64; 3],
+    /// Change of the base's heading, rad.
+    pub heading: f64,
+    /// Greatest slip of a loaded link, summed over the plan, m.
+    pub slip: Option<Worst>,
+    pub duration: f64,
+    /// Least mechanical work of the motors, quasi-static, J.
+    pub energy: f64,
+    /// Samples judged, refinements included.
+    pub samples: usize,
+    /// Tips and contacts, in order of time, in words.
+    pub events: Vec<(f64, String)>,
+}
+
+impl Verdict {
+    /// Whether nothing failed. What was not checked, or has no limit, is told apart in `checks`.
+    pub fn ok(&self) -> bool {
+        self.failures.is_empty()
+    }
+}

@@ -1,0 +1,115 @@
+//! A robot as connected modules, and the state it is in: Definitions IV.2 and V.1, flattened.
+//!
+//! What a configuration is to a person, a tree of parts, is here a list of modules with path names
+//! and a list of bonds between their ports.
+
+use super::Library;
+use crate::geometry::Pose;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Assembly {
+    pub name: String,
+    pub library: Arc<Library>,
+    pub modules: Vec<ModuleInstance>,
+    /// Every bond that exists at some time; which ones do at the moment is part of the state.
+    pub bonds: Vec<Bond>,
+    /// The module whose body frame is drawn upright at the start, and whose pose is reported.
+    pub base: usize,
+    /// Whether the connections may close loops.
+    pub closed: bool,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModuleInstance {
+    /// Path name, such as `leg[2].m[0]`; unique in the assembly.
+    pub name: String,
+    /// Index in [`Library::modules`].
+    pub kind: usize,
+}
+
+/// A port of a module of the assembly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PortRef {
+    pub module: usize,
+    pub port: usize,
+}
+
+/// Port `b` docked to port `a` with a turn: `X_PQ = Rz(180°) · Rx(turn · 360° / turns)`, P at `a`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bond {
+    pub a: PortRef,
+    pub b: PortRef,
+    pub turn: u32,
+}
+
+/// A joint of the assembly: an index into [`Assembly::joints`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct JointId(pub u32);
+
+/// Where a joint of the assembly lives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum JointOwner {
+    /// Module and index in its `joints`. Fixed joints are listed too, so that numbering is plain;
+    /// they and mimics take no commands, and what the state holds for them is ignored.
+    Module { module: usize, joint: usize },
+    /// The hinge of a bond.
+    Bond(usize),
+}
+
+/// Positions of all joints, which bonds hold, and where the base is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// One position for every [`JointId`], radians or metres.
+    pub joints: Vec<f64>,
+    /// One flag for every bond of the assembly.
+    pub bonds: Vec<bool>,
+    /// World pose of the base module's body (`X_WB`).
+    pub base: Pose,
+}
+
+impl Assembly {
+    pub fn module_type(&self, module: usize) -> &super::ModuleType {
+        &self.library.modules[self.modules[module].kind]
+    }
+
+    /// All joints in the order of their ids: those of the modules in order, then the hinges of the
+    /// bonds whose connectors have one.
+    pub fn joints(&self) -> impl Iterator<Item = JointOwner> + '_ {
+        let of_modules = (0..self.modules.len()).flat_map(move |module| {
+            (0..self.module_type(module).joints.len()).map(move |joint| JointOwner::Module { module, joint })
+        });
+        let of_bonds = (0..self.bonds.len()).filter(|&b| self.hinge(b).is_some()).map(JointOwner::Bond);
+        of_modules.chain(of_bonds)
+    }
+
+    /// The hinge of a bond, that of the connector at its first port.
+    pub fn hinge(&self, bond: usize) -> Option<&super::Hinge> {
+        let a = self.bonds[bond].a;
+        let connector = self.module_type(a.module).ports[a.port].connector;
+        self.library.connectors[connector].hinge.as_ref()
+    }
+
+    /// The path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports.
+    pub fn joint_name(&self, owner: JointOwner) -> String {
+        match owner {
+            JointOwner::Module { module, joint } => {
+                format!("{}.{}", self.modules[module].name, self.module_type(module).joints[joint].name)
+            }
+            JointOwner::Bond(bond) => {
+                format!("{} -- {}", self.port_name(self.bonds[bond].a), self.port_name(self.bonds[bond].b))
+            }
+        }
+    }
+
+    pub fn port_name(&self, p: PortRef) -> String {
+        format!("{}.{}", self.modules[p.module].name, self.module_type(p.module).ports[p.port].name)
+    }
+}
