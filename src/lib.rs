@@ -12,3 +12,5 @@ pub mod syntax;
 pub mod geometry;
 pub mod plan;
 pub mod robot;
+
+pub mod interpret;

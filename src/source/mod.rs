@@ -4,6 +4,7 @@
 
 pub mod code;
 pub mod diagnostic;
+pub mod files;
 pub mod render;
 pub mod span;
 pub mod suggest;
@@ -12,6 +13,7 @@ pub mod text;
 
 pub use code::Code;
 pub use diagnostic::{Diagnostic, Label, Severity};
+pub use files::{Files, ReadError};
 pub use span::{FileId, Span};
 pub use symbol::Symbol;
 pub use text::{LineColumn, SourceFile, Sources};

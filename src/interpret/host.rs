@@ -1,0 +1,97 @@
+//! What a running program needs of the outside, and what comes back from a run.
+
+use crate::source::Diagnostic;
+
+/// Why an output can't be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WriteError {
+    /// The path, or a link on it, leads out of the output folder.
+    Outside,
+    /// Anything else, in the system's words.
+    Failed(String),
+}
+
+/// The outside of a run: `main` gives it a terminal and an output folder, tests a buffer.
+pub trait Host {
+    /// One line that the program prints, without its line end.
+    fn print(&mut self, line: &str);
+
+    /// Writes a whole file below the output folder, or nothing; gives the path to show.
+    fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError>;
+
+    /// A line about how far long work has come; shown on terminals only.
+    fn progress(&mut self, line: &str);
+
+    /// Whether the user wants the run to end; asked at least every few milliseconds.
+    fn cancelled(&self) -> bool;
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Elaborate every declaration with its defaults and every instance that statements make;
+    /// plan, verify, print and write nothing.
+    Check,
+    /// Execute the statements of the file that is run.
+    Run,
+    /// Execute the tests of the file that is run, and none of its statements.
+    Test,
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Tests whose name contains this are run.
+    pub filter: Option<String>,
+    /// Default seed of planners.
+    pub seed: u64,
+    pub limits: Limits,
+}
+
+/// Bounds on what a program may use. Reaching one is a diagnostic.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// Evaluation steps: expressions evaluated.
+    pub steps: u64,
+    /// Calls within calls.
+    pub recursion: usize,
+    /// Elements of one list.
+    pub list: usize,
+    /// Bytes of one text.
+    pub text: usize,
+    /// Decimal digits of one whole number.
+    pub digits: usize,
+    /// Modules of one robot.
+    pub modules: usize,
+    /// Samples of one verification.
+    pub samples: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Limits {
+        Limits {
+            steps: 50_000_000,
+            recursion: 200,
+            list: 1_000_000,
+            text: 1 << 24,
+            digits: 10_000,
+            modules: 10_000,
+            samples: 10_000_000,
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TestResult {
+    pub name: String,
+    /// The first diagnostic of a failed test is also in [`Outcome::diagnostics`].
+    pub passed: bool,
+}
+
+/// What a run ended with.
+#[derive(Clone, Debug, Default)]
+pub struct Outcome {
+    pub diagnostics: Vec<Diagnostic>,
+    pub tests: Vec<TestResult>,
+    /// Paths written, as the host showed them.
+    pub written: Vec<String>,
+    pub cancelled: bool,
+}
