@@ -9,6 +9,8 @@ pub mod units;
 
 pub mod syntax;
 
+pub mod check;
+
 pub mod geometry;
 pub mod plan;
 pub mod robot;

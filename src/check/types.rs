@@ -1,0 +1,110 @@
+//! The types of the language.
+
+use super::typed::DefId;
+use crate::source::Symbol;
+use crate::units::Dimension;
+use std::sync::Arc;
+
+/// What an expression is. Nothing is typed at run time: only choices and optional values are told
+/// apart there.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Type {
+    /// Something that was wrong and has been reported; it fits everywhere.
+    Error,
+    /// No value: `print(...)`.
+    Nothing,
+    /// `Number` is the quantity without dimension.
+    Quantity(Dimension),
+    /// A whole number; it is a `Number`.
+    Int,
+    Bool,
+    Text,
+    List(Arc<Type>),
+    /// Three quantities; a direction is three numbers.
+    Vec3(Arc<Type>),
+    Pose,
+    Range(Arc<Type>),
+    Optional(Arc<Type>),
+    Fn(Arc<FnType>),
+    Choice(Arc<Choice>),
+    /// `Joint<Angle>`, `Joint<Length>`
+    Joint(Dimension),
+    Port,
+    Behavior,
+    Signal(Arc<Type>),
+    Condition,
+    Shape,
+    /// `revolute(...)`, `prismatic(...)`, `fixed()`: only a `joint` clause takes it.
+    JointKind,
+    Cells,
+    Mesh,
+    Cloud,
+    /// The instances of a `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
+    Instance(DefId),
+    /// The supertypes: `Module`, `Config` (a module is the smallest one), `Lattice`, ...
+    Any(Family),
+    /// An `extern type`.
+    Record(DefId),
+    /// A type parameter of the `extern fn` at hand.
+    Param(u8),
+    /// A quantity in a dimension parameter raised to a power: `Quantity<D>`, `Quantity<D^2>`.
+    QuantityParam {
+        param: u8,
+        power: i8,
+    },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    Module,
+    Config,
+    Cell,
+    Strut,
+    Lattice,
+    Truss,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct FnType {
+    pub params: Vec<Type>,
+    pub result: Type,
+}
+
+/// `exact | enumerate`, `auto | Int`, `Mesh | Cloud`: words, types, or both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    pub words: Vec<Symbol>,
+    pub types: Vec<Type>,
+}
+
+impl Type {
+    pub const NUMBER: Type = Type::Quantity(Dimension::NUMBER);
+
+    pub fn list(element: Type) -> Type {
+        Type::List(Arc::new(element))
+    }
+
+    pub fn optional(inner: Type) -> Type {
+        match inner {
+            Type::Optional(_) | Type::Error => inner,
+            inner => Type::Optional(Arc::new(inner)),
+        }
+    }
+
+    pub fn vec3(dimension: Dimension) -> Type {
+        Type::Vec3(Arc::new(Type::Quantity(dimension)))
+    }
+
+    /// The dimension of a number: `Int` and quantities.
+    pub fn dimension(&self) -> Option<Dimension> {
+        match self {
+            Type::Quantity(d) => Some(*d),
+            Type::Int => Some(Dimension::NUMBER),
+            _ => None,
+        }
+    }
+
+    pub fn is_error(&self) -> bool {
+        *self == Type::Error
+    }
+}
