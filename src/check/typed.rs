@@ -135,7 +135,9 @@ pub struct ConnectorDef {
     pub frame: usize,
 }
 
-/// What can be reached by a name inside a body with instances, and from outside by `object.name`.
+/// What can be reached by a name inside a body with instances. The expressions of members and of
+/// parameters' defaults each run in a fresh frame of the declaration's `frame` slots, clauses
+/// together in one; `This` is the instance at hand in all of them, and from outside by `object.name`.
 #[derive(Clone, Debug)]
 pub struct Member {
     pub name: Symbol,
