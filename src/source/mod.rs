@@ -4,7 +4,9 @@
 
 pub mod code;
 pub mod diagnostic;
+pub mod excerpt;
 pub mod files;
+pub mod json;
 pub mod render;
 pub mod span;
 pub mod suggest;

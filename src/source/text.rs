@@ -42,6 +42,13 @@ impl SourceFile {
         self.text[start as usize..end].trim_end_matches(['\n', '\r'])
     }
 
+    /// The byte at which a line (from 1) begins; the end of the text when there is no such line.
+    pub fn line_start(&self, line: usize) -> usize {
+        line.checked_sub(1)
+            .and_then(|i| self.line_starts.get(i))
+            .map_or(self.text.len(), |&start| start as usize)
+    }
+
     pub fn line_count(&self) -> usize {
         self.line_starts.len()
     }

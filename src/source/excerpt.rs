@@ -1,0 +1,282 @@
+//! The lines of a text that a diagnostic shows, cut to fit: around each label, a line before and
+//! after, long lines shortened about the label, nothing in them that a terminal would obey.
+//!
+//! An [`Excerpt`] is a small text of its own, made of blocks from one or several files. Drawing it
+//! costs the same near the end of a large file as at its beginning.
+
+use super::{FileId, Label, LineColumn, Sources};
+use std::ops::Range;
+
+/// Lines shown before the first and after the last labelled line of a block.
+const CONTEXT: usize = 1;
+
+/// A label over more lines than this is drawn on its first line only.
+const LABEL_LINES_MAX: usize = 6;
+
+/// Columns between two tab stops.
+const TAB: usize = 4;
+
+/// Columns that a label's words need to the right of its middle; else its line is shifted.
+pub const LABEL_ROOM: usize = 14;
+
+/// What stands for text that was cut off.
+const CUT: &str = "…";
+
+/// Neighbouring lines of one file.
+#[derive(Debug)]
+pub struct Block {
+    pub file: FileId,
+    /// From 1.
+    pub first_line: usize,
+    pub line_count: usize,
+    /// In [`Excerpt::text`].
+    pub range: Range<usize>,
+}
+
+/// Where a label lies in the excerpt.
+#[derive(Debug)]
+pub struct Mark {
+    /// In [`Excerpt::text`]; never empty, never past the last visible character.
+    pub range: Range<usize>,
+    /// In the file.
+    pub position: LineColumn,
+    /// Columns left of the mark's middle.
+    pub indent: usize,
+}
+
+#[derive(Debug, Default)]
+pub struct Excerpt {
+    pub text: String,
+    pub blocks: Vec<Block>,
+    /// One for each label, in the labels' order.
+    pub marks: Vec<Mark>,
+}
+
+/// A label's lines in its file, and bytes within the first and the last of them.
+#[derive(Clone, Copy)]
+struct Place {
+    file: FileId,
+    first: usize,
+    last: usize,
+    start: usize,
+    end: usize,
+}
+
+/// The excerpt that shows all `labels`, no line of it wider than `columns`.
+pub fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
+    let places: Vec<Place> = labels.iter().map(|label| place(sources, label)).collect();
+    let mut excerpt = Excerpt::default();
+    let mut starts = vec![0; places.len()];
+    let mut ends = vec![0; places.len()];
+    for (file, lines) in blocks(sources, &places) {
+        let begin = excerpt.text.len();
+        for line in lines.clone() {
+            let text = sources.file(file).line(line);
+            let on_line = places.iter().find(|p| p.file == file && (p.first == line || p.last == line));
+            let focus = on_line.map_or(0..0, |p| {
+                let start = if p.first == line { p.start } else { 0 };
+                start..if p.last == line { p.end } else { text.len() }
+            });
+            let cut = cut_line(text, focus, columns);
+            let base = excerpt.text.len();
+            for (i, place) in places.iter().enumerate().filter(|(_, p)| p.file == file) {
+                if place.first == line {
+                    starts[i] = base + cut.byte(place.start);
+                }
+                if place.last == line {
+                    ends[i] = base + cut.byte(place.end);
+                }
+            }
+            excerpt.text.push_str(&cut.text);
+            excerpt.text.push('\n');
+        }
+        excerpt.blocks.push(Block {
+            file,
+            first_line: lines.start,
+            line_count: lines.len(),
+            range: begin..excerpt.text.len(),
+        });
+    }
+    let shown = places.iter().zip(starts.into_iter().zip(ends));
+    excerpt.marks = shown
+        .map(|(&place, (start, end))| mark(sources, &excerpt.text, place, start..end, columns))
+        .collect();
+    excerpt
+}
+
+fn mark(sources: &Sources, text: &str, place: Place, shown: Range<usize>, columns: usize) -> Mark {
+    let Range { start, end } = shown;
+    let before = &text[text[..start].rfind('\n').map_or(0, |i| i + 1)..start];
+    let before: usize = before.chars().map(columns_of).sum();
+    let next = text[start..].chars().next().map_or(0, char::len_utf8);
+    let marked = text[start..end.max(start + next)].lines().next().unwrap_or("");
+    // On a narrow terminal the words matter more than the whole length of the line above them.
+    let room = (2 * columns.saturating_sub(LABEL_ROOM + before)).max(1);
+    let one_line = place.first == place.last;
+    let drawn = if one_line { marked.chars().take(room).map(char::len_utf8).sum() } else { end - start };
+    let first = sources.file(place.file).line(place.first);
+    let column = first[..floor(first, place.start)].chars().count() + 1;
+    Mark {
+        range: start..start + drawn,
+        position: LineColumn { line: place.first, column },
+        indent: before + marked.chars().take(room).map(columns_of).sum::<usize>() / 2,
+    }
+}
+
+/// The label's place, moved onto characters that can be seen.
+fn place(sources: &Sources, label: &Label) -> Place {
+    let file = sources.file(label.span.file);
+    let range = visible_range(&file.text, label.span.start as usize, label.span.end as usize);
+    let first = file.line_column(range.start).line;
+    let last = file.line_column(range.end).line;
+    let start = range.start - file.line_start(first);
+    if last >= first + LABEL_LINES_MAX {
+        let end = file.line(first).trim_end().len();
+        return Place { file: label.span.file, first, last: first, start, end };
+    }
+    Place { file: label.span.file, first, last, start, end: range.end - file.line_start(last) }
+}
+
+/// The range without the blanks at its end. A range without length goes to the character after it,
+/// or, where that is blank, to the last visible one before it on its line; at the end of the text,
+/// in the text. It stays empty on a line of blanks.
+fn visible_range(text: &str, start: usize, end: usize) -> Range<usize> {
+    let start = floor(text, start);
+    let end = start + text[start..floor(text, end).max(start)].trim_end().len();
+    if start < end {
+        return start..end;
+    }
+    let next = text[start..].chars().next();
+    if let Some(c) = next.filter(|c| !c.is_whitespace()) {
+        return start..start + c.len_utf8();
+    }
+    let at_end = text[start..].trim().is_empty();
+    let from = if at_end { 0 } else { text[..start].rfind('\n').map_or(0, |i| i + 1) };
+    let before = text[from..start].trim_end();
+    match before.chars().next_back() {
+        Some(c) => from + before.len() - c.len_utf8()..from + before.len(),
+        None => start..start,
+    }
+}
+
+/// The greatest character boundary that is not after `offset`.
+fn floor(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+/// Runs of lines to show: the first label's file first, then the others in order; in a file by line.
+fn blocks(sources: &Sources, places: &[Place]) -> Vec<(FileId, Range<usize>)> {
+    let mut ordered: Vec<Place> = places.to_vec();
+    let first = places.first().map(|p| p.file);
+    ordered.sort_by_key(|p| (Some(p.file) != first, p.file, p.first));
+    let mut blocks: Vec<(FileId, Range<usize>)> = Vec::new();
+    for place in ordered {
+        let file = sources.file(place.file);
+        // After the last line end there is nothing to show.
+        let count =
+            file.line_count() - usize::from(file.line_count() > place.last && file.text.ends_with('\n'));
+        let lines = place.first.saturating_sub(CONTEXT).max(1)..(place.last + CONTEXT).min(count) + 1;
+        match blocks.last_mut() {
+            Some((file, before)) if *file == place.file && lines.start <= before.end + 1 => {
+                before.end = before.end.max(lines.end);
+            }
+            _ => blocks.push((place.file, lines)),
+        }
+    }
+    blocks
+}
+
+/// A line as it is shown, and where its bytes went.
+struct CutLine {
+    text: String,
+    /// Byte in the file's line, byte in `text`; ascending, the last pair is the end.
+    bytes: Vec<(usize, usize)>,
+}
+
+impl CutLine {
+    /// Where the character at `byte` of the file's line is shown, or the nearest one that is.
+    fn byte(&self, byte: usize) -> usize {
+        let after = self.bytes.partition_point(|&(from, _)| from < byte);
+        self.bytes.get(after).or(self.bytes.last()).map_or(0, |&(_, to)| to)
+    }
+}
+
+fn cut_line(line: &str, focus: Range<usize>, columns: usize) -> CutLine {
+    let columns = columns.max(8);
+    let from = window_start(line, focus, columns);
+    let mut cut = CutLine { text: String::new(), bytes: Vec::new() };
+    let mut column = 0;
+    if from > 0 {
+        cut.text.push_str(CUT);
+        column = 1;
+    }
+    for (i, c) in line[from..].char_indices() {
+        let width = if c == '\t' { TAB - column % TAB } else { columns_of(c) };
+        let rest_fits =
+            || line[from + i..].chars().map(columns_of).take(columns + 1).sum::<usize>() + column <= columns;
+        if column + width >= columns && !rest_fits() {
+            cut.bytes.push((from + i, cut.text.len()));
+            cut.text.push_str(CUT);
+            return cut;
+        }
+        cut.bytes.push((from + i, cut.text.len()));
+        if c == '\t' {
+            cut.text.extend(std::iter::repeat_n(' ', width));
+        } else {
+            cut.text.push(visible(c));
+        }
+        column += width;
+    }
+    cut.bytes.push((line.len(), cut.text.len()));
+    if cut.text.is_empty() {
+        // An empty line must hold a mark, too.
+        cut.text.push(' ');
+    }
+    cut
+}
+
+/// Where to begin a line so that the `focus` can be seen, with some text before it and room for a
+/// label's words below it.
+fn window_start(line: &str, focus: Range<usize>, columns: usize) -> usize {
+    let start = floor(line, focus.start);
+    let count = |text: &str| text.chars().take(columns).map(columns_of).sum::<usize>();
+    let before = line[..start].chars().map(columns_of).sum::<usize>();
+    let middle = before + count(&line[start..floor(line, focus.end).max(start)]).min(columns) / 2;
+    if before + count(&line[start..]) <= columns && middle + LABEL_ROOM <= columns || before <= columns / 3 {
+        return 0;
+    }
+    let mut kept = 0;
+    let shown = line[..start].char_indices().rev().take_while(|(_, c)| {
+        kept += columns_of(*c);
+        kept <= columns / 3
+    });
+    shown.last().map_or(start, |(i, _)| i)
+}
+
+/// Columns that a character takes; East Asian wide ones take two.
+fn columns_of(c: char) -> usize {
+    match c {
+        '\t' => TAB,
+        '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' => 2,
+        '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}' => 2,
+        '\u{1f300}'..='\u{1faff}' | '\u{20000}'..='\u{3fffd}' => 2,
+        _ => 1,
+    }
+}
+
+/// A character that a terminal draws and does not obey.
+pub fn visible(c: char) -> char {
+    match c {
+        '\0'..='\u{1f}' => char::from_u32(0x2400 + c as u32).expect("control pictures follow the controls"),
+        '\u{7f}' => '\u{2421}',
+        '\u{80}'..='\u{9f}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' => {
+            char::REPLACEMENT_CHARACTER
+        }
+        '\u{2028}'..='\u{2029}' | '\u{2060}'..='\u{2069}' | '\u{feff}' => char::REPLACEMENT_CHARACTER,
+        _ => c,
+    }
+}
