@@ -1,1 +1,4 @@
+mod kinematics;
+mod mass;
 mod render;
+mod robots;

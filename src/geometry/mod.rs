@@ -2,6 +2,11 @@
 
 pub mod pose;
 pub mod shape;
+pub mod soundness;
+pub mod volume;
+
+mod hull;
 
 pub use pose::{Pose, Vec3};
 pub use shape::{Placed, Shape};
+pub use soundness::Unsound;

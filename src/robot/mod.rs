@@ -1,9 +1,17 @@
 //! Modules, what they are made of, robots composed of them, and where everything is.
+#![allow(non_snake_case)]
 
 pub mod assembly;
 pub mod library;
+pub mod mass;
+
+pub mod kinematics;
+pub mod step;
+pub mod tree;
 
 pub use assembly::{Assembly, Bond, JointId, JointOwner, ModuleInstance, PortRef, State};
+pub use kinematics::{Kinematics, Residual};
 pub use library::{
     Capture, Cell, Connector, Hinge, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Port, Strut,
 };
+pub use mass::Mass;

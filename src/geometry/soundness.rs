@@ -1,0 +1,146 @@
+//! Which shapes are solids: refusals as values.
+
+use super::{Shape, Vec3};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// The least extent of a solid, m. Thinner ones have no inside that distances in double precision
+/// could tell.
+pub const THICKNESS_MIN: f64 = 1e-6;
+
+/// The greatest coordinate or size of a shape, m: beyond it, differences of a micrometre are lost.
+pub const SIZE_MAX: f64 = 1e6;
+
+/// Why a shape is no solid.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unsound {
+    /// A number that is not finite, or larger than [`SIZE_MAX`].
+    NotFinite,
+    /// The named size is zero, negative or less than [`THICKNESS_MIN`].
+    TooThin { what: &'static str, value: f64 },
+    /// The axis has no direction.
+    NoAxis,
+    /// Fewer than four points, or all in one plane.
+    Flat,
+    /// A triangle names a vertex that there isn't.
+    NoVertex { triangle: usize },
+    /// An edge is not shared by two triangles in opposite directions.
+    Open { a: u32, b: u32 },
+    /// The triangles enclose nothing, or are turned inside out.
+    NoInside,
+    /// No shape at all.
+    Empty,
+}
+
+impl fmt::Display for Unsound {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Unsound::NotFinite => write!(f, "a size or coordinate is not a finite number below 1000 km"),
+            Unsound::TooThin { what, .. } => write!(f, "the {what} must be at least 1 um"),
+            Unsound::NoAxis => write!(f, "the axis has no direction"),
+            Unsound::Flat => {
+                write!(f, "the points span no volume; a hull needs four that are not in one plane")
+            }
+            Unsound::NoVertex { triangle } => {
+                write!(f, "triangle {triangle} names a vertex that there isn't")
+            }
+            Unsound::Open { a, b } => {
+                write!(f, "the mesh is not closed: the edge from vertex {a} to {b} lacks its other side")
+            }
+            Unsound::NoInside => write!(f, "the mesh encloses no volume, or its triangles face inwards"),
+            Unsound::Empty => write!(f, "there is no shape"),
+        }
+    }
+}
+
+/// Whether a shape is a solid that can be weighed and judged.
+pub fn check(shape: &Shape) -> Result<(), Unsound> {
+    match shape {
+        Shape::Box { size } => {
+            ["length", "width", "height"].iter().zip(size.iter()).try_for_each(|(what, v)| extent(what, *v))
+        }
+        Shape::Cylinder { radius, length, axis } => {
+            extent("radius", *radius)?;
+            extent("length", *length)?;
+            direction(axis)
+        }
+        Shape::Sphere { radius } => extent("radius", *radius),
+        Shape::Capsule { radius, length, axis } => {
+            extent("radius", *radius)?;
+            finite(*length)?;
+            if *length < 0.0 {
+                return Err(Unsound::TooThin { what: "length", value: *length });
+            }
+            direction(axis)
+        }
+        Shape::Hull { points } => hull(points),
+        Shape::Mesh { vertices, triangles, .. } => mesh(vertices, triangles),
+        Shape::Union { parts } => {
+            if parts.is_empty() {
+                return Err(Unsound::Empty);
+            }
+            parts.iter().try_for_each(|part| check(&part.shape))
+        }
+    }
+}
+
+fn finite(value: f64) -> Result<(), Unsound> {
+    if value.abs() <= SIZE_MAX { Ok(()) } else { Err(Unsound::NotFinite) }
+}
+
+fn extent(what: &'static str, value: f64) -> Result<(), Unsound> {
+    finite(value)?;
+    if value < THICKNESS_MIN { Err(Unsound::TooThin { what, value }) } else { Ok(()) }
+}
+
+fn direction(axis: &Vec3) -> Result<(), Unsound> {
+    axis.iter().try_for_each(|v| finite(*v))?;
+    if axis.norm() < THICKNESS_MIN { Err(Unsound::NoAxis) } else { Ok(()) }
+}
+
+/// The points' extent across their flattest direction must show; that direction is found among the
+/// planes through three far apart points.
+fn hull(points: &[Vec3]) -> Result<(), Unsound> {
+    points.iter().flat_map(|p| p.iter()).try_for_each(|v| finite(*v))?;
+    let first = points.first().ok_or(Unsound::Flat)?;
+    let farthest = |measure: &dyn Fn(&Vec3) -> f64| {
+        points.iter().map(|p| (measure(p), *p)).fold((0.0, *first), |m, x| if x.0 > m.0 { x } else { m })
+    };
+    let (length, a) = farthest(&|p| (p - first).norm());
+    if length < THICKNESS_MIN {
+        return Err(Unsound::Flat);
+    }
+    let along = (a - first) / length;
+    let (width, b) = farthest(&|p| (p - first).cross(&along).norm());
+    if width < THICKNESS_MIN {
+        return Err(Unsound::Flat);
+    }
+    let normal = along.cross(&(b - first)).normalize();
+    let (height, _) = farthest(&|p| (p - first).dot(&normal).abs());
+    if height < THICKNESS_MIN { Err(Unsound::Flat) } else { Ok(()) }
+}
+
+/// Closed and oriented: every directed edge has its opposite, as often.
+fn mesh(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Unsound> {
+    vertices.iter().flat_map(|p| p.iter()).try_for_each(|v| finite(*v))?;
+    let mut edges: BTreeMap<(u32, u32), i64> = BTreeMap::new();
+    for (index, &[a, b, c]) in triangles.iter().enumerate() {
+        if [a, b, c].iter().any(|&v| v as usize >= vertices.len()) {
+            return Err(Unsound::NoVertex { triangle: index });
+        }
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (key, way) = if from < to { ((from, to), 1) } else { ((to, from), -1) };
+            *edges.entry(key).or_default() += way;
+        }
+    }
+    if let Some(((a, b), _)) = edges.iter().find(|(_, ways)| **ways != 0) {
+        return Err(Unsound::Open { a: *a, b: *b });
+    }
+    let origin = *vertices.first().ok_or(Unsound::Empty)?;
+    let inside = triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|i| vertices[i as usize] - origin);
+        a.dot(&b.cross(&c)) / 6.0
+    });
+    let least = THICKNESS_MIN * THICKNESS_MIN * THICKNESS_MIN;
+    if inside.sum::<f64>() < least { Err(Unsound::NoInside) } else { hull(vertices) }
+}

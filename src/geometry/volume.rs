@@ -1,0 +1,119 @@
+//! Volume, centre and second moments of shapes.
+
+use super::soundness::{self, Unsound};
+use super::{Placed, Pose, Shape, Vec3, hull};
+use nalgebra::Matrix3;
+use std::f64::consts::PI;
+
+/// What a solid of density one weighs and how that is spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Volume {
+    /// m³
+    pub volume: f64,
+    /// m
+    pub centre: Vec3,
+    /// ∫ p pᵀ dV with p from the centre, m⁵.
+    pub second: Matrix3<f64>,
+}
+
+impl Volume {
+    /// About the centre at density one: `tr(S) 1 - S`, m⁵.
+    pub fn inertia(&self) -> Matrix3<f64> {
+        Matrix3::identity() * self.second.trace() - self.second
+    }
+
+    fn centred(volume: f64, second: Matrix3<f64>) -> Volume {
+        Volume { volume, centre: Vec3::zeros(), second }
+    }
+
+    fn moved(&self, pose: &Pose) -> Volume {
+        let r = pose.rotation.to_rotation_matrix();
+        let r = r.matrix();
+        Volume {
+            volume: self.volume,
+            centre: pose.translation.vector + r * self.centre,
+            second: r * self.second * r.transpose(),
+        }
+    }
+
+    fn sum(parts: &[Volume]) -> Volume {
+        let volume: f64 = parts.iter().map(|p| p.volume).sum();
+        let centre = parts.iter().map(|p| p.centre * p.volume).sum::<Vec3>() / volume;
+        let second = parts.iter().map(|p| {
+            let d = p.centre - centre;
+            p.second + d * d.transpose() * p.volume
+        });
+        Volume { volume, centre, second: second.sum() }
+    }
+}
+
+/// Of one shape in its own frame.
+pub fn of_shape(shape: &Shape) -> Result<Volume, Unsound> {
+    soundness::check(shape)?;
+    Ok(match shape {
+        Shape::Box { size } => {
+            let volume = size.x * size.y * size.z;
+            Volume::centred(volume, Matrix3::from_diagonal(&size.component_mul(size)) * (volume / 12.0))
+        }
+        Shape::Cylinder { radius, length, axis } => {
+            let volume = PI * radius * radius * length;
+            about_axis(axis, volume, length * length / 12.0, radius * radius / 4.0)
+        }
+        Shape::Sphere { radius } => {
+            let volume = 4.0 / 3.0 * PI * radius * radius * radius;
+            Volume::centred(volume, Matrix3::identity() * (volume * radius * radius / 5.0))
+        }
+        Shape::Capsule { radius, length, axis } => capsule(*radius, *length, axis),
+        Shape::Hull { points } => {
+            let faces = hull::faces(points).ok_or(Unsound::Flat)?;
+            of_triangles(&faces.points, &faces.triangles)
+        }
+        Shape::Mesh { vertices, triangles, .. } => of_triangles(vertices, triangles),
+        Shape::Union { parts } => of_placed(parts)?,
+    })
+}
+
+/// Of several placed shapes together; an overlap counts as often as shapes share it.
+pub fn of_placed(shapes: &[Placed]) -> Result<Volume, Unsound> {
+    if shapes.is_empty() {
+        return Err(Unsound::Empty);
+    }
+    let parts = shapes.iter().map(|placed| Ok(of_shape(&placed.shape)?.moved(&placed.pose)));
+    Ok(Volume::sum(&parts.collect::<Result<Vec<_>, Unsound>>()?))
+}
+
+/// A body of revolution with these mean squares along and across its axis.
+fn about_axis(axis: &Vec3, volume: f64, along: f64, across: f64) -> Volume {
+    let u = axis.normalize();
+    let uu = u * u.transpose();
+    Volume::centred(volume, uu * (volume * along) + (Matrix3::identity() - uu) * (volume * across))
+}
+
+/// A cylinder and two half balls; a half ball's centre is 3/8 of the radius from its flat face.
+fn capsule(radius: f64, length: f64, axis: &Vec3) -> Volume {
+    let r2 = radius * radius;
+    let (rod, ball) = (PI * r2 * length, 4.0 / 3.0 * PI * r2 * radius);
+    let caps_along = length * length / 4.0 + 3.0 / 8.0 * length * radius + r2 / 5.0;
+    let along = rod * length * length / 12.0 + ball * caps_along;
+    let across = rod * r2 / 4.0 + ball * r2 / 5.0;
+    let volume = rod + ball;
+    about_axis(axis, volume, along / volume, across / volume)
+}
+
+/// The inside of a closed surface of triangles, counter-clockwise from outside: tetrahedra with a
+/// common tip, signed.
+fn of_triangles(points: &[Vec3], triangles: &[[u32; 3]]) -> Volume {
+    let tip = points[0];
+    let (mut volume, mut first, mut second) = (0.0, Vec3::zeros(), Matrix3::zeros());
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|i| points[i as usize] - tip);
+        let v = a.dot(&b.cross(&c)) / 6.0;
+        let s = a + b + c;
+        volume += v;
+        first += s * (v / 4.0);
+        let squares = a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose();
+        second += squares * (v / 20.0);
+    }
+    let centre = first / volume;
+    Volume { volume, centre: tip + centre, second: second - centre * centre.transpose() * volume }
+}

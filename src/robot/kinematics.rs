@@ -1,0 +1,275 @@
+//! Forward kinematics: where every link is, from the positions of the joints.
+//!
+//! An [`Assembly`] is compiled once, for a root and the bonds that hold, into one [`Step`] per link,
+//! parents first. Links of all modules are numbered in order of module, then of link.
+
+use super::step::{Motion, Step, driven};
+use super::tree::{self, Tree};
+use super::{Assembly, JointOwner, PortRef};
+use crate::geometry::pose::turned;
+use crate::geometry::{Pose, Vec3};
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+#[derive(Clone, Debug)]
+pub struct Kinematics {
+    /// The module whose body carries all others.
+    pub root: usize,
+    pub tree: Tree,
+    /// One for every link that hangs on the root but the root itself, parents before children.
+    pub steps: Vec<Step>,
+    /// Index of the first link of each module, and one more at the end.
+    first_link: Vec<usize>,
+    /// Index of the first joint of each module.
+    first_joint: Vec<usize>,
+    /// The joint of each bond that has a hinge.
+    hinge_joint: Vec<Option<usize>>,
+    /// Index in `steps` of each link's own step; `None` for the root and for loose links.
+    step_of: Vec<Option<usize>>,
+}
+
+/// How far a bond that closes a loop is from closing it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    pub bond: usize,
+    /// Metres between the port where it is and where the bond wants it.
+    pub distance: f64,
+    /// Radians between the two orientations.
+    pub angle: f64,
+}
+
+impl Kinematics {
+    /// Compiles `robot` with the bonds for which `holds` says true, seen from module `root`.
+    pub fn new(robot: &Assembly, holds: &[bool], root: usize) -> Kinematics {
+        assert_eq!(holds.len(), robot.bonds.len(), "one flag for every bond");
+        let first_link = sums(robot, |module| robot.module_type(module).links.len());
+        let first_joint = sums(robot, |module| robot.module_type(module).joints.len());
+        let mut hinges = robot.joints().enumerate().filter_map(|(id, owner)| match owner {
+            JointOwner::Bond(bond) => Some((bond, id)),
+            JointOwner::Module { .. } => None,
+        });
+        let mut hinge_joint = vec![None; robot.bonds.len()];
+        hinges.by_ref().for_each(|(bond, id)| hinge_joint[bond] = Some(id));
+        let tree = tree::grow(robot, holds, root);
+        let links = first_link[robot.modules.len()];
+        let mut compiled = Kinematics {
+            root,
+            tree: Tree { order: vec![], closing: vec![], loose: vec![] },
+            steps: Vec::with_capacity(links),
+            first_link,
+            first_joint,
+            hinge_joint,
+            step_of: vec![None; links],
+        };
+        for &(module, bond) in &tree.order {
+            compiled.add_module(robot, module, bond);
+        }
+        compiled.tree = tree;
+        compiled
+    }
+
+    pub fn link_count(&self) -> usize {
+        self.step_of.len()
+    }
+
+    pub fn link(&self, module: usize, link: usize) -> usize {
+        self.first_link[module] + link
+    }
+
+    pub fn links_of(&self, module: usize) -> Range<usize> {
+        self.first_link[module]..self.first_link[module + 1]
+    }
+
+    /// The module of a link.
+    pub fn module_of(&self, link: usize) -> usize {
+        self.first_link.partition_point(|&first| first <= link) - 1
+    }
+
+    /// The joint of a module by its index there.
+    pub fn joint(&self, module: usize, joint: usize) -> usize {
+        self.first_joint[module] + joint
+    }
+
+    /// The joint of the bond's hinge, if it has one.
+    pub fn hinge(&self, bond: usize) -> Option<usize> {
+        self.hinge_joint[bond]
+    }
+
+    /// The step that places a link against its parent.
+    pub fn step(&self, link: usize) -> Option<&Step> {
+        self.step_of[link].map(|index| &self.steps[index])
+    }
+
+    /// World poses of all links (`X_WL`), with the root module's body at `X_WR`. `joints` holds one
+    /// position for each joint. Loose links' entries of `out` stay as they are.
+    pub fn link_poses(&self, joints: &[f64], X_WR: &Pose, out: &mut [Pose]) {
+        out[self.first_link[self.root]] = *X_WR;
+        for step in &self.steps {
+            out[step.link] = step.place(&out[step.parent], joints);
+        }
+    }
+
+    /// Like [`link_poses`](Self::link_poses), with the body of module `base` at `X_WB` whatever the
+    /// root is. The base must not be loose.
+    pub fn link_poses_from(&self, base: usize, joints: &[f64], X_WB: &Pose, out: &mut [Pose]) {
+        self.link_poses(joints, &Pose::identity(), out);
+        let X_WR = X_WB * out[self.link(base, 0)].inverse();
+        self.link_poses(joints, &X_WR, out);
+    }
+
+    /// The pose of a module: that of its body, the first link.
+    pub fn module_pose(&self, module: usize, poses: &[Pose]) -> Pose {
+        poses[self.link(module, 0)]
+    }
+
+    /// `X_WP`
+    pub fn port_pose(&self, robot: &Assembly, port: PortRef, poses: &[Pose]) -> Pose {
+        let declared = &robot.module_type(port.module).ports[port.port];
+        poses[self.link(port.module, declared.link)] * declared.pose
+    }
+
+    /// Links from `a` to `b` along the tree, both included; `None` if one of them is loose.
+    pub fn path(&self, a: usize, b: usize) -> Option<Vec<usize>> {
+        let to_root = |link: usize| {
+            let parents = std::iter::successors(Some(link), |&l| self.step(l).map(|step| step.parent));
+            parents.collect::<Vec<_>>()
+        };
+        let (mut up, mut down) = (to_root(a), to_root(b));
+        if up.last() != down.last() {
+            return None;
+        }
+        let mut meeting = None;
+        while let (Some(x), Some(y)) = (up.last(), down.last()) {
+            if x != y {
+                break;
+            }
+            meeting = up.pop();
+            down.pop();
+        }
+        up.extend(meeting);
+        up.extend(down.into_iter().rev());
+        Some(up)
+    }
+
+    /// Centre of mass of the links that hang on the root, in the world, and their mass in kg.
+    pub fn centre_of_mass(&self, robot: &Assembly, poses: &[Pose]) -> (Vec3, f64) {
+        let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
+        for &(module, _) in &self.tree.order {
+            for (link, declared) in self.links_of(module).zip(&robot.module_type(module).links) {
+                moment += poses[link].transform_point(&declared.com.into()).coords * declared.mass;
+                mass += declared.mass;
+            }
+        }
+        (if mass > 0.0 { moment / mass } else { moment }, mass)
+    }
+
+    /// How far the bonds that close loops are from doing so.
+    pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
+        let residual = |&bond: &usize| {
+            let Pair { p, q } = self.mated(robot, bond, joints, poses);
+            let error = p.inverse() * q;
+            Residual { bond, distance: error.translation.vector.norm(), angle: error.rotation.angle() }
+        };
+        self.tree.closing.iter().map(residual).collect()
+    }
+
+    /// Where the second port of a bond should be, and where it is.
+    fn mated(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Pair {
+        let declared = &robot.bonds[bond];
+        let hinge = robot.hinge(bond).zip(self.hinge_joint[bond]);
+        let open = hinge.map_or(Pose::identity(), |(hinge, joint)| turned(hinge.axis, joints[joint]));
+        let wanted = self.port_pose(robot, declared.a, poses) * open * mate(robot, bond);
+        Pair { p: wanted, q: self.port_pose(robot, declared.b, poses) }
+    }
+
+    /// Adds the steps of a module's links, from the link that the bond holds outwards.
+    fn add_module(&mut self, robot: &Assembly, module: usize, bond: Option<usize>) {
+        let kind = robot.module_type(module);
+        let entry = bond.map_or(0, |bond| {
+            let (parent, child) = self.across(robot, bond, module);
+            self.add_bond(robot, bond, parent, child);
+            kind.ports[child.port].link
+        });
+        let mut placed = vec![false; kind.links.len()];
+        placed[entry] = true;
+        let mut frontier = vec![entry];
+        while let Some(from) = frontier.pop() {
+            for index in 0..kind.joints.len() {
+                let joint = &kind.joints[index];
+                let (to, forward) = match (joint.parent == from, joint.child == from) {
+                    (true, _) => (joint.child, true),
+                    (_, true) => (joint.parent, false),
+                    _ => continue,
+                };
+                if !placed[to] {
+                    placed[to] = true;
+                    frontier.push(to);
+                    self.add_joint(robot, module, index, forward);
+                }
+            }
+        }
+    }
+
+    fn add_joint(&mut self, robot: &Assembly, module: usize, index: usize, forward: bool) {
+        let kind = robot.module_type(module);
+        let joint = &kind.joints[index];
+        let (from, to) = if forward { (joint.parent, joint.child) } else { (joint.child, joint.parent) };
+        let X_JM = joint.pose.inverse();
+        let sign = if forward { 1.0 } else { -1.0 };
+        let motion = Motion::new(joint.kind, joint.axis * sign);
+        let terms = driven(kind, index, self.first_joint[module]);
+        let (X_JA, X_JB) = (X_JM * kind.links[from].pose, X_JM * kind.links[to].pose);
+        self.push(Step::new(self.link(module, from), self.link(module, to), &X_JA, &X_JB, motion, terms));
+    }
+
+    /// The bond as seen from the parent side of the tree.
+    fn across(&self, robot: &Assembly, bond: usize, child: usize) -> (PortRef, PortRef) {
+        let bond = &robot.bonds[bond];
+        if bond.b.module == child { (bond.a, bond.b) } else { (bond.b, bond.a) }
+    }
+
+    /// The hinge turns the frame of port `a` of the bond, whichever side the parent is on.
+    fn add_bond(&mut self, robot: &Assembly, bond: usize, parent: PortRef, child: PortRef) {
+        let declared = robot.bonds[bond];
+        let port = |at: PortRef| &robot.module_type(at.module).ports[at.port];
+        let X_PA = port(declared.a).pose.inverse();
+        let X_PB = mate(robot, bond) * port(declared.b).pose.inverse();
+        let forward = declared.a == parent;
+        let sign = if forward { 1.0 } else { -1.0 };
+        let (X_Pparent, X_Pchild) = if forward { (X_PA, X_PB) } else { (X_PB, X_PA) };
+        let (motion, terms) = match robot.hinge(bond).zip(self.hinge_joint[bond]) {
+            Some((hinge, joint)) => (Motion::revolute(hinge.axis * sign), vec![(joint, 1.0)]),
+            None => (Motion::Fixed, vec![]),
+        };
+        let (from, to) = (port(parent).link, port(child).link);
+        let (from, to) = (self.link(parent.module, from), self.link(child.module, to));
+        self.push(Step::new(from, to, &X_Pparent, &X_Pchild, motion, terms));
+    }
+
+    fn push(&mut self, step: Step) {
+        self.step_of[step.link] = Some(self.steps.len());
+        self.steps.push(step);
+    }
+}
+
+struct Pair {
+    p: Pose,
+    q: Pose,
+}
+
+/// `X_PQ` of a bond whose hinge, if it has one, is at zero: `Rz(180°) · Rx(θ)`.
+pub fn mate(robot: &Assembly, bond: usize) -> Pose {
+    let bond = &robot.bonds[bond];
+    let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;
+    let turns = f64::from(robot.library.connectors[connector].turns);
+    turned(Vec3::z(), PI) * turned(Vec3::x(), TAU * f64::from(bond.turn) / turns)
+}
+
+/// Running sums over the modules, from 0 to the whole.
+fn sums(robot: &Assembly, count: impl Fn(usize) -> usize) -> Vec<usize> {
+    let mut sums = vec![0];
+    for module in 0..robot.modules.len() {
+        sums.push(sums[module] + count(module));
+    }
+    sums
+}

@@ -1,0 +1,185 @@
+//! One step of forward kinematics: a link placed against its parent by a joint, or by a bond.
+//!
+//! The pose of the child is `X_WB = X_WA · Trans(shift) · Turn · Rot(axis, q) · Trans(offset)`: the
+//! axis passes the child's frame at `-offset`, which is zero for most modules and then costs nothing.
+
+use super::{JointKind, ModuleType};
+use crate::geometry::{Pose, Vec3};
+use nalgebra::{Quaternion, UnitQuaternion};
+
+/// Components of axes and offsets below this are taken for the rounding of a declared zero.
+const ROUNDING: f64 = 1e-15;
+
+/// Mimics may follow mimics; deeper than this they can only be going round in circles.
+const MIMIC_DEPTH_MAX: usize = 16;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    pub parent: usize,
+    pub link: usize,
+    /// Position of the joint's axis in the parent's frame, m.
+    pub shift: Vec3,
+    /// Orientation of the child in the parent's frame with the joint at zero.
+    pub turn: UnitQuaternion<f64>,
+    pub motion: Motion,
+    /// Position of the child's origin from the axis, in the child's frame, m.
+    pub offset: Vec3,
+    /// The joint's position is the sum of these joints times factors: one, unless it mimics.
+    pub terms: Vec<(usize, f64)>,
+    turned: bool,
+    offset_from_axis: bool,
+}
+
+/// How a step moves, by the joint's position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    Fixed,
+    /// About an axis of the child's frame: +x, +y, +z, or any.
+    X(f64),
+    Y(f64),
+    Z(f64),
+    Axis(Vec3),
+    /// Along a direction of the parent's frame.
+    Along(Vec3),
+}
+
+impl Motion {
+    /// About or along a unit vector in the frame of the joint.
+    pub fn new(kind: JointKind, axis: Vec3) -> Motion {
+        match kind {
+            JointKind::Revolute => Motion::revolute(axis),
+            JointKind::Prismatic => Motion::Along(axis),
+            JointKind::Fixed => Motion::Fixed,
+        }
+    }
+
+    pub fn revolute(axis: Vec3) -> Motion {
+        let axis = axis.normalize().map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
+        match (axis.x != 0.0, axis.y != 0.0, axis.z != 0.0) {
+            (true, false, false) => Motion::X(axis.x.signum()),
+            (false, true, false) => Motion::Y(axis.y.signum()),
+            (false, false, true) => Motion::Z(axis.z.signum()),
+            _ => Motion::Axis(axis),
+        }
+    }
+
+    /// The axis of a revolute joint in the child's frame.
+    pub fn axis(&self) -> Option<Vec3> {
+        match *self {
+            Motion::X(sign) => Some(Vec3::x() * sign),
+            Motion::Y(sign) => Some(Vec3::y() * sign),
+            Motion::Z(sign) => Some(Vec3::z() * sign),
+            Motion::Axis(axis) => Some(axis),
+            Motion::Fixed | Motion::Along(_) => None,
+        }
+    }
+}
+
+impl Step {
+    /// From the poses of parent A and child B, joint at zero, in the frame J of the joint, in which
+    /// `motion` has its axis.
+    pub fn new(
+        parent: usize,
+        link: usize,
+        X_JA: &Pose,
+        X_JB: &Pose,
+        motion: Motion,
+        terms: Vec<(usize, f64)>,
+    ) -> Step {
+        let X_AJ = X_JA.inverse();
+        let turn = X_AJ.rotation * X_JB.rotation;
+        let X_AB = X_AJ * X_JB;
+        let (motion, offset) = match (motion, motion.axis()) {
+            (Motion::Along(direction), _) => (Motion::Along(X_AJ.rotation * direction), Vec3::zeros()),
+            (_, Some(axis)) => {
+                let R_BJ = X_JB.rotation.inverse();
+                let (axis, p) = (R_BJ * axis, R_BJ * X_JB.translation.vector);
+                (Motion::revolute(axis), p - axis * axis.dot(&p))
+            }
+            (motion, None) => (motion, Vec3::zeros()),
+        };
+        let offset = offset.map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
+        Step {
+            parent,
+            link,
+            shift: X_AB.translation.vector - turn * offset,
+            turn,
+            motion,
+            offset,
+            terms,
+            turned: turn.angle() > ROUNDING,
+            offset_from_axis: offset != Vec3::zeros(),
+        }
+    }
+
+    /// The joint's position: radians or metres.
+    pub fn position(&self, joints: &[f64]) -> f64 {
+        self.terms.iter().map(|&(joint, factor)| factor * joints[joint]).sum()
+    }
+
+    /// `X_WB` from `X_WA`.
+    #[inline]
+    pub fn place(&self, X_WA: &Pose, joints: &[f64]) -> Pose {
+        let mut shift = self.shift;
+        let mut rotation = if self.turned { X_WA.rotation * self.turn } else { X_WA.rotation };
+        match self.motion {
+            Motion::Fixed => {}
+            Motion::Along(direction) => shift += direction * self.position(joints),
+            _ => rotation = self.rotated(rotation, self.position(joints)),
+        }
+        let mut p = X_WA.translation.vector + X_WA.rotation * shift;
+        if self.offset_from_axis {
+            p += rotation * self.offset;
+        }
+        Pose::from_parts(p.into(), rotation)
+    }
+
+    /// `R · Rot(axis, angle)`; an axis of the frame costs half the products.
+    #[inline]
+    fn rotated(&self, R: UnitQuaternion<f64>, angle: f64) -> UnitQuaternion<f64> {
+        let (s, c) = libm::sincos(0.5 * angle);
+        let (w, x, y, z) = (R.w, R.i, R.j, R.k);
+        let product = match self.motion {
+            Motion::X(sign) => {
+                let s = sign * s;
+                Quaternion::new(w * c - x * s, x * c + w * s, y * c + z * s, z * c - y * s)
+            }
+            Motion::Y(sign) => {
+                let s = sign * s;
+                Quaternion::new(w * c - y * s, x * c - z * s, y * c + w * s, z * c + x * s)
+            }
+            Motion::Z(sign) => {
+                let s = sign * s;
+                Quaternion::new(w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s)
+            }
+            Motion::Axis(axis) => {
+                let v = axis * s;
+                R.into_inner() * Quaternion::new(c, v.x, v.y, v.z)
+            }
+            Motion::Fixed | Motion::Along(_) => R.into_inner(),
+        };
+        UnitQuaternion::new_unchecked(product)
+    }
+}
+
+/// What drives a joint of a module whose joints begin at `first`: itself, or those it mimics.
+pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)> {
+    if kind.joints[joint].kind == JointKind::Fixed {
+        return vec![];
+    }
+    let mut terms = vec![(joint, 1.0)];
+    for _ in 0..MIMIC_DEPTH_MAX {
+        let mimics = terms.iter().any(|&(j, _)| kind.joints[j].mimic.is_some());
+        if !mimics {
+            break;
+        }
+        terms = terms
+            .iter()
+            .flat_map(|&(j, factor)| match &kind.joints[j].mimic {
+                Some(followed) => followed.iter().map(|&(k, f)| (k, factor * f)).collect(),
+                None => vec![(j, factor)],
+            })
+            .collect();
+    }
+    terms.iter().map(|&(j, factor)| (first + j, factor)).collect()
+}

@@ -1,0 +1,47 @@
+//! How modules hang together: a spanning tree of the bonds that hold, breadth first.
+
+use super::Assembly;
+
+/// A spanning tree over the modules that the root's bonds reach.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    /// Reached modules, parents before children, the root first; each with the bond that leads to it.
+    pub order: Vec<(usize, Option<usize>)>,
+    /// Bonds that hold and close a loop, in order.
+    pub closing: Vec<usize>,
+    /// Modules that no bond connects with the root, in order.
+    pub loose: Vec<usize>,
+}
+
+/// Grows the tree from `root` over the bonds for which `holds` says true. Neighbours are visited in
+/// order of bond, so that the tree depends on nothing but the assembly.
+pub fn grow(robot: &Assembly, holds: &[bool], root: usize) -> Tree {
+    let mut bonds_of = vec![Vec::new(); robot.modules.len()];
+    for (index, bond) in robot.bonds.iter().enumerate().filter(|(index, _)| holds[*index]) {
+        bonds_of[bond.a.module].push(index);
+        bonds_of[bond.b.module].push(index);
+    }
+    let mut reached = vec![false; robot.modules.len()];
+    let mut used = vec![false; robot.bonds.len()];
+    let mut order = vec![(root, None)];
+    reached[root] = true;
+    let mut next = 0;
+    while next < order.len() {
+        let module = order[next].0;
+        for &index in &bonds_of[module] {
+            let bond = &robot.bonds[index];
+            let other = if bond.a.module == module { bond.b.module } else { bond.a.module };
+            if !reached[other] {
+                reached[other] = true;
+                used[index] = true;
+                order.push((other, Some(index)));
+            }
+        }
+        next += 1;
+    }
+    let closing = (0..robot.bonds.len())
+        .filter(|&b| holds[b] && !used[b] && reached[robot.bonds[b].a.module])
+        .collect();
+    let loose = (0..robot.modules.len()).filter(|&m| !reached[m]).collect();
+    Tree { order, closing, loose }
+}
