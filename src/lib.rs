@@ -16,3 +16,5 @@ pub mod plan;
 pub mod robot;
 
 pub mod interpret;
+
+pub mod cli;

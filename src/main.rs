@@ -1,1 +1,5 @@
-fn main() {}
+//! The `modl` command.
+
+fn main() -> std::process::ExitCode {
+    modl::cli::main()
+}

@@ -7,6 +7,7 @@ pub mod diagnostic;
 pub mod excerpt;
 pub mod files;
 pub mod json;
+pub mod library;
 pub mod render;
 pub mod span;
 pub mod suggest;

@@ -1,0 +1,130 @@
+//! The command line: commands, options, and their help texts.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// A language for robots that change shape.
+///
+/// Describe modules, compose robots and behaviours, and get plans that were verified before they
+/// were written.
+#[derive(Debug, Parser)]
+#[command(name = "modl", version, subcommand_required = true, arg_required_else_help = true, after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+    #[command(flatten)]
+    pub globals: Globals,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  modl new rover                   begin a project
+  modl run rover/main.mod          write its plans to out/
+  modl check --json *.mod          diagnostics for an editor
+  modl verify out/drive.plan.json  judge a plan again, from nothing but its file
+  modl explain E0301               what a code means and how to mend it
+
+Exit codes: 0 fine, 1 the program is wrong, 2 the call is wrong, 130 interrupted.";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a program: print, verify, and write its plans
+    #[command(
+        after_help = "Examples:\n  modl run walkbot.mod\n  modl run walkbot.mod --out plans --seed 7\n  \
+        modl run - < walkbot.mod\n\nFiles are written below the output folder, each whole or not at all."
+    )]
+    Run {
+        /// The program; `-` reads standard input
+        #[arg(value_name = "FILE")]
+        file: PathBuf,
+    },
+    /// Find what is wrong in programs, without planning or writing
+    #[command(after_help = "Examples:\n  modl check walkbot.mod\n  modl check --json parts/*.mod")]
+    Check {
+        /// The programs; `-` reads standard input
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Run the tests that programs contain
+    #[command(after_help = "Examples:\n  modl test walkbot.mod\n  modl test *.mod --filter order")]
+    Test {
+        /// The programs; `-` reads standard input
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+        /// Run only tests whose name contains TEXT
+        #[arg(long, value_name = "TEXT")]
+        filter: Option<String>,
+    },
+    /// Judge plan files again, from nothing but the files
+    #[command(after_help = "Prints every check with its status, and the worst values found.\n\n\
+        Example:\n  modl verify out/walkbot.plan.json")]
+    Verify {
+        /// Plan files; `-` reads standard input
+        #[arg(value_name = "PLANFILE", required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Begin a project: a folder with a program that runs, and a test
+    #[command(
+        after_help = "Example:\n  modl new rover && modl run rover/main.mod\n\nNothing is ever overwritten."
+    )]
+    New {
+        /// The folder to make
+        #[arg(value_name = "NAME")]
+        name: PathBuf,
+    },
+    /// Explain a diagnostic's code; without one, list all codes
+    #[command(after_help = "Example:\n  modl explain E0301")]
+    Explain {
+        /// Such as E0301
+        #[arg(value_name = "CODE")]
+        code: Option<String>,
+    },
+    /// Print a completion script for a shell
+    #[command(
+        after_help = "Example:\n  modl completions bash > ~/.local/share/bash-completion/completions/modl"
+    )]
+    Completions {
+        #[arg(value_name = "SHELL")]
+        shell: clap_complete::Shell,
+    },
+}
+
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Global options")]
+pub struct Globals {
+    /// Print one JSON object to standard output instead of text
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// When to colour diagnostics
+    #[arg(long, global = true, value_name = "WHEN", value_enum, default_value = "auto")]
+    pub color: Color,
+    /// Where plans are written; nothing is written anywhere else
+    #[arg(long, global = true, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// The project: nothing outside is read [default: the folder of the file]
+    #[arg(long, global = true, value_name = "DIR")]
+    pub root: Option<PathBuf>,
+    /// Use the standard library in this folder instead of the one built in
+    #[arg(long, global = true, value_name = "DIR")]
+    pub stdlib: Option<PathBuf>,
+    /// Seed of the planners
+    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Evaluation steps that a program may take
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_steps: Option<u64>,
+    /// Modules that a robot may have
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_modules: Option<u64>,
+    /// Samples that one verification may take
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_samples: Option<u64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// On terminals, unless NO_COLOR is set
+    Auto,
+    Always,
+    Never,
+}

@@ -1,0 +1,164 @@
+//! The project on disk: files below one folder, and nothing else.
+
+use super::CallError;
+use crate::source::{Files, ReadError, library};
+use std::borrow::Cow;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Component, Path, PathBuf};
+
+/// No file of a project larger than this is read, bytes.
+pub const FILE_BYTES_MAX: usize = 64 << 20;
+
+/// The name of a program that comes from standard input.
+pub const STDIN_NAME: &str = "<stdin>";
+
+/// A project folder with the program that was named on the command line.
+#[derive(Debug)]
+pub struct Project {
+    /// Absolute, without links.
+    root: PathBuf,
+    /// Read here instead of from the embedded library; absolute, without links.
+    stdlib: Option<PathBuf>,
+    /// The program's name relative to the root.
+    pub name: String,
+    bytes: Vec<u8>,
+    /// The root as the user would name it; empty for the working folder.
+    pub folder: String,
+}
+
+impl Project {
+    /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the
+    /// folder of the file (after links), or what the user says.
+    pub fn open(file: &Path, root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
+        let stdlib = stdlib.map(folder).transpose()?;
+        if file == Path::new("-") {
+            let root = root.unwrap_or(Path::new("."));
+            let bytes = read_at_most(io::stdin().lock(), FILE_BYTES_MAX)
+                .map_err(|e| CallError(format!("standard input {e}")))?;
+            let name = STDIN_NAME.to_owned();
+            return Ok(Project { root: folder(root)?, stdlib, name, bytes, folder: shown_folder(root) });
+        }
+        let cannot = |e: ReadFault| CallError(format!("the file `{}` {e}", file.display()));
+        let path = fs::canonicalize(file).map_err(|e| cannot(e.into()))?;
+        let bytes = read_regular(&path, FILE_BYTES_MAX).map_err(cannot)?;
+        let own = path.parent().ok_or_else(|| CallError(format!("`{}` is a folder", file.display())))?;
+        let shown = root.or(file.parent()).unwrap_or(Path::new(""));
+        let root = root.map_or_else(|| Ok(own.to_owned()), folder)?;
+        let inside = path.strip_prefix(&root).map_err(|_| {
+            CallError(format!("the file `{}` lies outside the project `{}`", file.display(), root.display()))
+        })?;
+        let name = relative_name(inside)
+            .ok_or_else(|| CallError(format!("the path of `{}` is not UTF-8", file.display())))?;
+        // Where a link led elsewhere, only the real folder tells the user where the file is.
+        let there = fs::canonicalize(if shown == Path::new("") { Path::new(".") } else { shown });
+        let folder = if there.is_ok_and(|there| there == root) { shown } else { &root };
+        Ok(Project { folder: shown_folder(folder), root, stdlib, name, bytes })
+    }
+}
+
+impl Files for Project {
+    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+        if path == self.name {
+            return Ok(self.bytes.clone());
+        }
+        read_below(&self.root, path)
+    }
+
+    fn library(&self, path: &str) -> Option<Cow<'static, str>> {
+        let Some(folder) = &self.stdlib else {
+            return library::text(path).map(Cow::Borrowed);
+        };
+        let bytes = read_below(folder, path).ok()?;
+        String::from_utf8(bytes).ok().map(Cow::Owned)
+    }
+}
+
+/// A file below `root`, wherever links on its path lead inside of it.
+fn read_below(root: &Path, path: &str) -> Result<Vec<u8>, ReadError> {
+    let relative = Path::new(path);
+    if !relative.components().all(|c| matches!(c, Component::Normal(_))) {
+        return Err(ReadError::Outside);
+    }
+    let real = fs::canonicalize(root.join(relative)).map_err(|e| read_error(e.into()))?;
+    if !real.starts_with(root) {
+        return Err(ReadError::Outside);
+    }
+    read_regular(&real, FILE_BYTES_MAX).map_err(read_error)
+}
+
+fn read_error(fault: ReadFault) -> ReadError {
+    match fault {
+        ReadFault::TooLarge(limit) => ReadError::TooLarge(limit),
+        ReadFault::Irregular => ReadError::Failed(fault.to_string()),
+        ReadFault::System(e) if e.kind() == io::ErrorKind::NotFound => ReadError::NotFound,
+        ReadFault::System(e) => ReadError::Failed(system_words(&e)),
+    }
+}
+
+/// Why bytes can't be had. As text it continues "the file `x` ...".
+#[derive(Debug)]
+pub enum ReadFault {
+    /// Larger than this many bytes.
+    TooLarge(usize),
+    /// A folder, pipe or device.
+    Irregular,
+    System(io::Error),
+}
+
+impl From<io::Error> for ReadFault {
+    fn from(e: io::Error) -> ReadFault {
+        ReadFault::System(e)
+    }
+}
+
+impl std::fmt::Display for ReadFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            ReadFault::TooLarge(limit) => write!(f, "is larger than {} MiB", limit >> 20),
+            ReadFault::Irregular => {
+                f.write_str("is no regular file; to read a pipe, use `-` and redirect it")
+            }
+            ReadFault::System(e) if e.kind() == io::ErrorKind::NotFound => f.write_str("does not exist"),
+            ReadFault::System(e) => write!(f, "cannot be read: {}", system_words(e)),
+        }
+    }
+}
+
+/// The bytes of a regular file. Others are not even opened: opening a pipe would wait for a writer.
+pub fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(ReadFault::Irregular);
+    }
+    read_at_most(File::open(path)?, bytes_max)
+}
+
+/// All bytes of a stream, if they are not too many. Files may be longer than they say.
+pub fn read_at_most(stream: impl Read, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
+    let mut bytes = Vec::new();
+    stream.take(bytes_max as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > bytes_max { Err(ReadFault::TooLarge(bytes_max)) } else { Ok(bytes) }
+}
+
+/// The system's words without the error number that Rust appends.
+pub fn system_words(e: &io::Error) -> String {
+    let text = e.to_string();
+    text.split(" (os error").next().unwrap_or(&text).to_owned()
+}
+
+/// The real path of a folder that the user named.
+fn folder(path: &Path) -> Result<PathBuf, CallError> {
+    let real = fs::canonicalize(path).map_err(|e| ReadFault::from(e).to_string());
+    let real = real.map_err(|e| CallError(format!("the folder `{}` {e}", path.display())))?;
+    if real.is_dir() { Ok(real) } else { Err(CallError(format!("`{}` is no folder", path.display()))) }
+}
+
+fn relative_name(path: &Path) -> Option<String> {
+    let parts: Option<Vec<&str>> = path.components().map(|c| c.as_os_str().to_str()).collect();
+    parts.map(|parts| parts.join("/"))
+}
+
+fn shown_folder(path: &Path) -> String {
+    let shown = path.to_string_lossy().into_owned();
+    if shown == "." { String::new() } else { shown }
+}

@@ -1,0 +1,43 @@
+//! `modl explain`: the pages of `docs/errors/`, embedded.
+
+use super::arguments::Globals;
+use super::pages;
+use super::terminal::print;
+use super::{CallError, Ending};
+use crate::source::{code, suggest::suggest};
+
+pub fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, CallError> {
+    let Some(wanted) = wanted else {
+        list(globals);
+        return Ok(Ending::Fine);
+    };
+    let wanted = wanted.trim().to_ascii_uppercase();
+    let found = code::ALL.iter().find(|(code, _)| code.0 == wanted);
+    let Some((code, title)) = found else {
+        return Err(CallError(unknown(&wanted)));
+    };
+    let page = pages::page(code.0).map_or_else(|| format!("# {code}: {title}\n"), str::to_owned);
+    if globals.json {
+        print(&format!("{:#}\n", serde_json::json!({ "code": code.0, "title": title, "page": page })));
+    } else {
+        print(&page);
+    }
+    Ok(Ending::Fine)
+}
+
+fn list(globals: &Globals) {
+    if globals.json {
+        let all: Vec<_> =
+            code::ALL.iter().map(|(c, title)| serde_json::json!({ "code": c.0, "title": title })).collect();
+        print(&format!("{:#}\n", serde_json::Value::from(all)));
+    } else {
+        let lines: Vec<String> = code::ALL.iter().map(|(code, title)| format!("{code}  {title}\n")).collect();
+        print(&lines.concat());
+    }
+}
+
+fn unknown(wanted: &str) -> String {
+    let near = suggest(wanted, code::ALL.iter().map(|(code, _)| code.0));
+    let near = near.map_or_else(String::new, |code| format!("; did you mean {code}?"));
+    format!("there is no code `{wanted}`{near} (`modl explain` lists them all)")
+}

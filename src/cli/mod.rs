@@ -1,0 +1,69 @@
+//! The front door: the command line, files on disk, the terminal.
+//!
+//! The only room that touches the outside. The others see it through two windows:
+//! [`Files`](crate::source::Files), opened by [`disk`], and [`Host`](crate::interpret::Host), by
+//! [`terminal`].
+
+mod arguments;
+mod disk;
+mod explain;
+mod judge;
+mod new;
+mod output;
+mod pages;
+mod program;
+mod report;
+mod stubs;
+mod terminal;
+mod verdict;
+
+use arguments::{Arguments, Command};
+use clap::{CommandFactory, Parser};
+use std::process::ExitCode;
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ending {
+    Fine,
+    /// The program (or the plan) is wrong.
+    Wrong,
+    /// The user wanted it to end.
+    Cancelled,
+}
+
+/// The call is wrong: what to tell the user.
+#[derive(Debug)]
+struct CallError(String);
+
+/// Reads the command line, does what it says, and gives the exit code: 0 when all is fine, 1 when the
+/// program is wrong, 2 when the call is wrong, 130 after Ctrl-C.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match run(&arguments) {
+        Ok(Ending::Fine) => ExitCode::SUCCESS,
+        Ok(Ending::Wrong) => ExitCode::from(1),
+        Ok(Ending::Cancelled) => ExitCode::from(130),
+        Err(CallError(message)) => {
+            report::call_error(&arguments.globals, &message);
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<Ending, CallError> {
+    let globals = &arguments.globals;
+    match &arguments.command {
+        Command::Run { file } => program::run(std::slice::from_ref(file), program::Task::Run, globals),
+        Command::Check { files } => program::run(files, program::Task::Check, globals),
+        Command::Test { files, filter } => program::run(files, program::Task::Test(filter.clone()), globals),
+        Command::Verify { files } => judge::run(files, globals),
+        Command::New { name } => new::run(name, globals),
+        Command::Explain { code } => explain::run(code.as_deref(), globals),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Arguments::command(), "modl", &mut script);
+            terminal::print(&String::from_utf8_lossy(&script));
+            Ok(Ending::Fine)
+        }
+    }
+}

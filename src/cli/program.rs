@@ -1,0 +1,127 @@
+//! `modl run`, `modl check` and `modl test`.
+
+use super::arguments::Globals;
+use super::disk::Project;
+use super::report::{self, JsonTest, Report};
+use super::terminal::{Terminal, listen_for_cancel, print, print_error};
+use super::{CallError, Ending, stubs};
+
+use crate::interpret::{Limits, Mode, Options, Outcome, TestResult};
+use crate::source::{Diagnostic, Files};
+use std::path::{Path, PathBuf};
+
+pub enum Task {
+    Run,
+    Check,
+    /// With the filter of test names.
+    Test(Option<String>),
+}
+
+/// What happened with the files of one call.
+#[derive(Default)]
+struct Tally {
+    report: Report,
+    passed: usize,
+    failed: usize,
+    cancelled: bool,
+}
+
+pub fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
+    let open = |file: &PathBuf| Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref());
+    // All files are opened first: a call that is wrong does nothing.
+    let projects = files.iter().map(open).collect::<Result<Vec<Project>, CallError>>()?;
+    listen_for_cancel();
+    let mut tally = Tally::default();
+    let mut terminal = Terminal::new(globals);
+    for (file, project) in files.iter().zip(&projects) {
+        if files.len() > 1 && matches!(task, Task::Test(_)) && !globals.json {
+            print(&format!("{}:\n", file.display()));
+        }
+        one(file, project, &task, &mut terminal, &mut tally, globals);
+    }
+    tally.report.printed = terminal.printed.take();
+    if matches!(task, Task::Test(_)) && !globals.json {
+        print(&format!("{} passed, {} failed\n", tally.passed, tally.failed));
+    }
+    let ok = tally.report.errors == 0 && tally.failed == 0 && !tally.cancelled;
+    tally.report.finish(ok, globals);
+    Ok(match (ok, tally.cancelled) {
+        (_, true) => Ending::Cancelled,
+        (true, _) => Ending::Fine,
+        (false, _) => Ending::Wrong,
+    })
+}
+
+fn one(
+    file: &Path,
+    project: &Project,
+    task: &Task,
+    terminal: &mut Terminal,
+    tally: &mut Tally,
+    globals: &Globals,
+) {
+    let checked = stubs::check(project, &project.name);
+    let mut diagnostics = checked.diagnostics.clone();
+    let mut outcome = Outcome::default();
+    if !diagnostics.iter().any(Diagnostic::is_error) {
+        outcome = stubs::run(&checked, mode(task), project as &dyn Files, terminal, &options(task, globals));
+        diagnostics.append(&mut outcome.diagnostics);
+    }
+    terminal.clear_progress();
+    let style = report::style(globals, &project.folder);
+    for test in &outcome.tests {
+        show_test(file, test, tally, globals);
+    }
+    tally.report.add(&checked.sources, &diagnostics, &style, globals);
+    show_written(outcome.written, tally, task, globals);
+    if outcome.cancelled {
+        tally.cancelled = true;
+        print_error("interrupted\n");
+    }
+}
+
+fn show_test(file: &Path, test: &TestResult, tally: &mut Tally, globals: &Globals) {
+    if test.passed {
+        tally.passed += 1
+    } else {
+        tally.failed += 1
+    }
+    if !globals.json {
+        print(&format!("test \"{}\" ... {}\n", test.name, if test.passed { "ok" } else { "FAILED" }));
+    }
+    let file = file.to_string_lossy().into_owned();
+    let json = JsonTest { file, name: test.name.clone(), passed: test.passed };
+    tally.report.tests.get_or_insert_default().push(json);
+}
+
+fn show_written(written: Vec<String>, tally: &mut Tally, task: &Task, globals: &Globals) {
+    if !globals.json {
+        written.iter().for_each(|path| print_error(&format!("wrote {path}\n")));
+    }
+    if matches!(task, Task::Run) {
+        tally.report.written.get_or_insert_default().extend(written);
+    }
+}
+
+fn mode(task: &Task) -> Mode {
+    match task {
+        Task::Run => Mode::Run,
+        Task::Check => Mode::Check,
+        Task::Test(_) => Mode::Test,
+    }
+}
+
+fn options(task: &Task, globals: &Globals) -> Options {
+    let defaults = Limits::default();
+    let or = |wish: Option<u64>, default: usize| {
+        wish.map_or(default, |n| usize::try_from(n).unwrap_or(usize::MAX))
+    };
+    let limits = Limits {
+        steps: globals.max_steps.unwrap_or(defaults.steps),
+        modules: or(globals.max_modules, defaults.modules),
+        samples: or(globals.max_samples, defaults.samples),
+        ..defaults
+    };
+    let filter = if let Task::Test(filter) = task { filter.clone() } else { None };
+    Options { filter, seed: globals.seed, limits }
+}

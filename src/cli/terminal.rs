@@ -1,0 +1,89 @@
+//! The terminal: what a program prints, progress, and the wish to end.
+
+use super::arguments::Globals;
+use super::output;
+use crate::interpret::{Host, WriteError};
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static CANCELLED: AtomicBool = AtomicBool::new(false);
+
+/// From here on Ctrl-C asks the run to end; a second one ends the process at once.
+pub fn listen_for_cancel() {
+    let on_signal = || {
+        if CANCELLED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    // Where signals can't be had, Ctrl-C ends the process, which is as good.
+    drop(ctrlc::set_handler(on_signal));
+}
+
+pub fn cancelled() -> bool {
+    CANCELLED.load(Ordering::Relaxed)
+}
+
+/// Writes to standard output. That nobody reads it any more is no mistake: `modl ... | head` is quiet.
+pub fn print(text: &str) {
+    let mut out = io::stdout().lock();
+    drop(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
+}
+
+/// Writes to standard error, as quietly.
+pub fn print_error(text: &str) {
+    drop(io::stderr().lock().write_all(text.as_bytes()));
+}
+
+/// The outside of a run as a terminal user sees it.
+#[derive(Debug)]
+pub struct Terminal {
+    folder: PathBuf,
+    /// Lines printed, where they go into a JSON object instead of to standard output.
+    pub printed: Option<Vec<String>>,
+    shows_progress: bool,
+    progress_shown: bool,
+}
+
+impl Terminal {
+    pub fn new(globals: &Globals) -> Terminal {
+        Terminal {
+            folder: globals.out.clone(),
+            printed: globals.json.then(Vec::new),
+            shows_progress: !globals.json && io::stderr().is_terminal(),
+            progress_shown: false,
+        }
+    }
+
+    /// Takes a progress line away before something else is printed.
+    pub fn clear_progress(&mut self) {
+        if std::mem::take(&mut self.progress_shown) {
+            print_error("\r\x1b[K");
+        }
+    }
+}
+
+impl Host for Terminal {
+    fn print(&mut self, line: &str) {
+        self.clear_progress();
+        match &mut self.printed {
+            Some(lines) => lines.push(line.to_owned()),
+            None => print(&format!("{line}\n")),
+        }
+    }
+
+    fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
+        output::write(&self.folder, path, bytes)
+    }
+
+    fn progress(&mut self, line: &str) {
+        if self.shows_progress {
+            print_error(&format!("\r{line}\x1b[K"));
+            self.progress_shown = true;
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        cancelled()
+    }
+}

@@ -1,0 +1,156 @@
+//! A verdict as text: every check with its status, worst values, what failed and who is to blame.
+
+use crate::plan::{
+    Cause, CheckKind, Exemption, ExemptionKind, Failure, Ground, Plan, Stability, Status, Verdict, Worst,
+};
+use crate::units::dimension::Dimension;
+use crate::units::display::{number, quantity};
+use std::fmt::Write;
+
+/// The whole verdict on a plan, several lines.
+pub fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
+    let mut out = format!("{name}: {}\n", if verdict.ok() { "verified" } else { "NOT verified" });
+    line(&mut out, &summary(verdict));
+    for world in &plan.worlds {
+        let ground = match world.world.ground {
+            Ground::Settle => "settling on the ground",
+            Ground::Fixed => "with its base held",
+            Ground::Off => "without a ground",
+        };
+        let (from, gravity) = (quantity(world.from, Dimension::TIME), number(world.world.gravity));
+        line(
+            &mut out,
+            &format!(
+                "from {from}: gravity {gravity}m/s^2, {ground}, friction x {}",
+                number(world.world.friction)
+            ),
+        );
+    }
+    line(&mut out, &settings(plan));
+    out.push('\n');
+    for check in &verdict.checks {
+        line(&mut out, &format!("{:<14} {}", check_name(check.kind), status(&check.status)));
+    }
+    out.push('\n');
+    worst_lines(&mut out, verdict);
+    for (time, words) in &verdict.events {
+        line(&mut out, &format!("at {}: {words}", quantity(*time, Dimension::TIME)));
+    }
+    verdict.notes.iter().for_each(|note| line(&mut out, &format!("note: {note}")));
+    for (i, exemption) in plan.exemptions.iter().enumerate() {
+        let unneeded = if verdict.unneeded_exemptions.contains(&i) { " (not needed)" } else { "" };
+        line(&mut out, &format!("{}{unneeded}", exemption_line(exemption, plan)));
+    }
+    verdict.failures.iter().for_each(|failure| failure_lines(&mut out, failure, plan));
+    out
+}
+
+fn line(out: &mut String, text: &str) {
+    out.push_str("  ");
+    out.push_str(text);
+    out.push('\n');
+}
+
+fn summary(verdict: &Verdict) -> String {
+    let [x, y, z] = verdict.travel.map(|v| quantity(v, Dimension::LENGTH));
+    let (duration, energy) = (quantity(verdict.duration, Dimension::TIME), number(verdict.energy));
+    let heading = quantity(verdict.heading, Dimension::ANGLE);
+    format!(
+        "lasts {duration}, travels [{x}, {y}, {z}], turns {heading}, {energy}J, {} samples",
+        verdict.samples
+    )
+}
+
+fn settings(plan: &Plan) -> String {
+    let time = |v| quantity(v, Dimension::TIME);
+    let settings = &plan.settings;
+    let rule = match settings.stability {
+        Stability::Footprint => "contacts with the ground",
+        Stability::Centres => "centres of the lowest modules",
+    };
+    let (sample, unstable) = (time(settings.sample), time(settings.unstable_for));
+    format!("sampled every {sample}, unstable for {unstable} at most, support by {rule}")
+}
+
+fn check_name(kind: CheckKind) -> &'static str {
+    match kind {
+        CheckKind::Conflict => "conflict",
+        CheckKind::Collision => "collision",
+        CheckKind::JointRange => "joint range",
+        CheckKind::Speed => "speed",
+        CheckKind::Acceleration => "acceleration",
+        CheckKind::Torque => "torque",
+        CheckKind::BondLoad => "bond load",
+        CheckKind::Docking => "docking",
+        CheckKind::Connectedness => "connectedness",
+        CheckKind::Closure => "closure",
+        CheckKind::Ground => "ground",
+        CheckKind::Stability => "stability",
+        CheckKind::Slip => "slip",
+        CheckKind::Rest => "rest",
+    }
+}
+
+fn status(status: &Status) -> String {
+    match status {
+        Status::Proved => "proved".to_owned(),
+        Status::Sampled(n) => format!("holds at {n} samples"),
+        Status::NotChecked(why) => format!("NOT CHECKED: {why}"),
+        Status::NoLimit => "no limit stated".to_owned(),
+        Status::Exempt => "exempt".to_owned(),
+        Status::Failed => "FAILED".to_owned(),
+    }
+}
+
+fn worst_lines(out: &mut String, verdict: &Verdict) {
+    let mut add = |name: &str, worst: &Option<Worst>, show: fn(f64) -> String| {
+        if let Some(worst) = worst {
+            let at = if worst.at.is_empty() { String::new() } else { format!(" at {}", worst.at.join(", ")) };
+            let time = quantity(worst.time, Dimension::TIME);
+            line(out, &format!("{name:<14} {}, worst after {time}{at}", show(worst.value)));
+        }
+    };
+    let length = |v| quantity(v, Dimension::LENGTH);
+    let percent = |v: f64| format!("{}%", number(v * 100.0));
+    add("clearance", &verdict.clearance, length);
+    add("margin", &verdict.margin, length);
+    add("torque margin", &verdict.torque_margin, percent);
+    add("bond margin", &verdict.bond_margin, percent);
+    add("speed margin", &verdict.speed_margin, percent);
+    add("slip", &verdict.slip, length);
+}
+
+fn exemption_line(exemption: &Exemption, plan: &Plan) -> String {
+    let kind = match exemption.kind {
+        ExemptionKind::Unstable => "unstable",
+        ExemptionKind::Slip => "slip",
+        ExemptionKind::Collision(_) => "collision",
+        ExemptionKind::Overload(_) => "overload",
+    };
+    let time = |v| quantity(v, Dimension::TIME);
+    let (from, to) = (time(exemption.from), time(exemption.to));
+    let cause = plan
+        .causes
+        .get(exemption.cause.0 as usize)
+        .map_or_else(String::new, |c| format!(", by {}", cause(c)));
+    format!("allows {kind} from {from} to {to}{cause}")
+}
+
+fn failure_lines(out: &mut String, failure: &Failure, plan: &Plan) {
+    let time = quantity(failure.time, Dimension::TIME);
+    line(out, &format!("failed after {time}: {}", failure.message));
+    for id in &failure.blame {
+        if let Some(found) = plan.causes.get(id.0 as usize) {
+            line(out, &format!("  because of {}", cause(found)));
+        }
+    }
+}
+
+/// "walkbot.mod:12: `leg[a].lift()` (a = 0)".
+fn cause(cause: &Cause) -> String {
+    let mut out = format!("{}:{}: `{}`", cause.file, cause.line, cause.text);
+    if !cause.instance.is_empty() {
+        write!(out, " ({})", cause.instance).expect("writing to a String cannot fail");
+    }
+    out
+}
