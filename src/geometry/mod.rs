@@ -1,5 +1,6 @@
 //! Poses, shapes and distances. The only user of parry; knows no robots.
 
+pub mod json;
 pub mod pose;
 pub mod shape;
 pub mod soundness;

@@ -2,20 +2,23 @@
 //! its centre (a hull's and a mesh's where their points say).
 
 use super::{Pose, Vec3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A solid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
     /// Edge lengths along x, y, z.
     Box {
+        #[schemars(with = "[f64; 3]")]
         size: Vec3,
     },
     /// `axis` is a unit vector; `length` along it.
     Cylinder {
         radius: f64,
         length: f64,
+        #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
     Sphere {
@@ -25,15 +28,18 @@ pub enum Shape {
     Capsule {
         radius: f64,
         length: f64,
+        #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
     /// The convex hull of at least four points that do not lie in one plane. A prism is one, too.
     Hull {
+        #[schemars(with = "Vec<[f64; 3]>")]
         points: Vec<Vec3>,
     },
     /// A closed triangle mesh; `name` is the file it was read from.
     Mesh {
         name: String,
+        #[schemars(with = "Vec<[f64; 3]>")]
         vertices: Vec<Vec3>,
         triangles: Vec<[u32; 3]>,
     },
@@ -43,9 +49,11 @@ pub enum Shape {
 }
 
 /// A shape at a pose in the frame of what it belongs to (`X_LS`, link to shape).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Placed {
+    #[serde(with = "crate::geometry::json")]
+    #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
     pub shape: Shape,
 }

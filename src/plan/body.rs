@@ -1,9 +1,9 @@
-//! The three bodies of plans: joint tracks, lattice stages, node paths.
+//! The three bodies of plans behind one interface: duration, state at a time, instants.
 
-use super::CauseId;
-use crate::robot::{Assembly, JointId, State};
-use serde::{Deserialize, Serialize};
+use super::{CellBox, NodePaths, Stages, Tracks};
+use crate::robot::State;
 
+/// The motion itself.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// Articulated robots: piecewise polynomial joint positions, docking and undocking.
@@ -14,103 +14,49 @@ pub enum Body {
     NodePaths(NodePaths),
 }
 
+/// What a plan's robot is like at an instant.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tracks {
-    pub robot: Assembly,
-    pub start: State,
-    /// At most one a joint, in order of joint. A joint without a track keeps its start position.
-    pub tracks: Vec<Track>,
-    /// In order of time.
-    pub docks: Vec<Dock>,
+pub enum Snapshot {
+    Robot(State),
+    /// In cell sizes.
+    Cells(Vec<CellBox>),
+    /// World positions, m.
+    Nodes(Vec<[f64; 3]>),
+}
+
+impl Body {
     /// Seconds.
-    pub duration: f64,
-    /// Who set the start pose: (joint, cause), and the bond at an index: (bond, cause).
-    pub start_causes: Vec<(JointId, CauseId)>,
-    pub bond_causes: Vec<(usize, CauseId)>,
-}
+    pub fn duration(&self) -> f64 {
+        match self {
+            Body::Tracks(tracks) => tracks.duration,
+            Body::Stages(stages) => stages.duration(),
+            Body::NodePaths(paths) => paths.duration(),
+        }
+    }
 
-/// The motion of one joint: segments in order of time that do not overlap. Between two segments and
-/// after the last, the joint holds where the segment before ended.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Track {
-    pub joint: JointId,
-    pub segments: Vec<Segment>,
-}
+    /// The robot at a time in seconds, held at the ends outside `0..duration`.
+    pub fn state(&self, t: f64) -> Snapshot {
+        match self {
+            Body::Tracks(tracks) => Snapshot::Robot(tracks.state(t)),
+            Body::Stages(stages) => Snapshot::Cells(stages.state(t)),
+            Body::NodePaths(paths) => Snapshot::Nodes(paths.state(t)),
+        }
+    }
 
-/// A polynomial piece in Bernstein form over `start..end`: the control points bound it, the first
-/// and last are its end positions exactly, reversing them reverses the motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Segment {
-    pub start: f64,
-    pub end: f64,
-    /// Positions (rad or m), degree = number - 1; at least 2.
-    pub control: Vec<f64>,
-    pub cause: CauseId,
-}
+    /// Every instant at which the law of motion changes, with 0 and the end, in order.
+    pub fn instants(&self) -> Vec<f64> {
+        match self {
+            Body::Tracks(tracks) => tracks.instants(),
+            Body::Stages(stages) => stages.instants(),
+            Body::NodePaths(paths) => paths.knots.iter().map(|k| k.time).collect(),
+        }
+    }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DockKind {
-    Dock,
-    Undock,
-}
-
-/// A bond begins or ends to hold.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Dock {
-    pub time: f64,
-    pub kind: DockKind,
-    /// Index in the assembly's bonds.
-    pub bond: usize,
-    pub cause: CauseId,
-}
-
-/// Cells on a line of stages; lengths in cell sizes, times in the model's unit (see the planner).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Stages {
-    /// Index in [`Library::cells`](crate::robot::Library).
-    pub cell: usize,
-    /// Position of each cell at the start, in cell sizes.
-    pub start: Vec<[i64; 3]>,
-    pub stages: Vec<Stage>,
-}
-
-/// One stage: every cell moves along one axis by the same time law scaled by its own displacement.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Stage {
-    /// Seconds.
-    pub duration: f64,
-    pub axis: u8,
-    /// Displacement of each cell in half cell sizes.
-    pub shift: Vec<i64>,
-    /// Size of each cell along the axis at the end of the stage, in half cell sizes.
-    pub size: Vec<i64>,
-    pub cause: CauseId,
-}
-
-/// A truss whose nodes move on straight lines between knots.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct NodePaths {
-    /// Index in [`Library::struts`](crate::robot::Library).
-    pub strut: usize,
-    pub node_names: Vec<String>,
-    /// Pairs of nodes.
-    pub struts: Vec<(usize, usize)>,
-    /// In order of time; the first at 0.
-    pub knots: Vec<Knot>,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Knot {
-    pub time: f64,
-    /// World position of each node, m.
-    pub nodes: Vec<[f64; 3]>,
-    pub cause: CauseId,
+    /// The tracks of an articulated robot's plan.
+    pub fn tracks(&self) -> Option<&Tracks> {
+        match self {
+            Body::Tracks(tracks) => Some(tracks),
+            Body::Stages(_) | Body::NodePaths(_) => None,
+        }
+    }
 }

@@ -4,27 +4,37 @@
 //! interface), its program, its events and causes, and the world it is judged under. The judge,
 //! [`verify`](crate::plan), knows no planner.
 
+pub mod polynomial;
+pub mod time;
+
 pub mod body;
+pub mod node_paths;
 pub mod program;
+pub mod stages;
+pub mod tracks;
 pub mod verdict;
 pub mod world;
 
 use crate::robot::Library;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-pub use body::{Body, Dock, DockKind, NodePaths, Segment, Stages, Track, Tracks};
+pub use body::{Body, Snapshot};
+pub use node_paths::{Knot, NodePaths, Way};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
+pub use stages::{CellBox, Counter, Law, Model, Ratio, Run, Stage, Stages};
+pub use tracks::{Dock, DockKind, Segment, Track, Tracks};
 pub use verdict::{Check, CheckKind, Failure, Status, Verdict, Worst};
 pub use world::{Exemption, ExemptionKind, Ground, Settings, Stability, World};
 
 /// Names a cause in [`Plan::causes`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct CauseId(pub u32);
 
 /// What in the source commands a piece of motion, or sets a piece of the start pose.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cause {
     /// Relative to the project root; `std/smores.mod` in the standard library.
@@ -61,7 +71,7 @@ pub struct Plan {
 }
 
 /// From when on which world holds; the first begins at 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldFrom {
     pub from: f64,
@@ -69,7 +79,7 @@ pub struct WorldFrom {
 }
 
 /// What made the plan.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// `behavior`, or the planner's name.
@@ -78,4 +88,30 @@ pub struct Provenance {
     pub sources: Vec<(String, String)>,
     pub seed: Option<u64>,
     pub budget: Option<u64>,
+    /// The tool that planned it, with its version: `modl 0.1.0`.
+    pub tool: String,
+    /// What was done to the plan since, in order.
+    pub history: Vec<Change>,
+}
+
+/// A change of a whole plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Change {
+    Reversed,
+    /// Only what lay between these times (s) was kept.
+    Sliced {
+        from: f64,
+        to: f64,
+    },
+    /// Another plan was appended at a time (s).
+    Joined {
+        at: f64,
+        /// What of the other plan's modules had another name here: (its name there, its name here).
+        renamed: Vec<(String, String)>,
+        /// How the other plan had been changed before.
+        appended: Vec<Change>,
+    },
+    /// The program was given up, and why.
+    ProgramDropped(String),
 }

@@ -1,20 +1,19 @@
 //! The program: a series-parallel graph of actions, the paper's (J, X, ξ, T), as a position-servo
-//! robot executes it.
+//! robot executes it. In a plan file it is a table of nodes, so that what is shared stays shared.
 
 use super::{CauseId, ExemptionKind};
 use crate::robot::{JointId, PortRef};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     pub root: Arc<Node>,
 }
 
 /// Series (`Sc`) and parallel (`Pc`) composition. Nodes are shared where a behaviour is used twice.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Node {
     Action(Action),
     Series(Vec<Arc<Node>>),
@@ -25,6 +24,12 @@ pub enum Node {
     },
     /// A cyclic behaviour begun at `shift` (0..1) of its cycle.
     Phase {
+        body: Arc<Node>,
+        shift: f64,
+        cause: CauseId,
+    },
+    /// The joints move together to where `Phase` of the same body and shift begins, in least time.
+    Approach {
         body: Arc<Node>,
         shift: f64,
         cause: CauseId,
@@ -43,8 +48,7 @@ pub enum Node {
     },
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Action {
     pub command: Command,
     /// ξ: ends the action when it holds.
@@ -55,7 +59,7 @@ pub struct Action {
     pub cause: CauseId,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
     /// `duration: None` is the least time that the limits allow.
@@ -90,14 +94,14 @@ pub enum Command {
     },
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Target {
     To(f64),
     By(f64),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
     /// Quintic, at rest at both ends.
@@ -107,8 +111,7 @@ pub enum Profile {
 }
 
 /// What follows a timeout before `until` held.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Otherwise {
     /// The next action begins: the paper's meaning.
     Proceed,
@@ -116,7 +119,7 @@ pub enum Otherwise {
     Node(Arc<Node>),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Signal {
     Angle(JointId),
@@ -125,7 +128,7 @@ pub enum Signal {
     Elapsed,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Compare {
     Less,
@@ -134,7 +137,7 @@ pub enum Compare {
     GreaterEqual,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Condition {
     Compare { signal: Signal, compare: Compare, value: f64 },

@@ -5,10 +5,11 @@
 
 use super::Library;
 use crate::geometry::Pose;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Assembly {
     pub name: String,
@@ -22,7 +23,7 @@ pub struct Assembly {
     pub closed: bool,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModuleInstance {
     /// Path name, such as `leg[2].m[0]`; unique in the assembly.
@@ -32,7 +33,7 @@ pub struct ModuleInstance {
 }
 
 /// A port of a module of the assembly.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PortRef {
     pub module: usize,
@@ -40,7 +41,7 @@ pub struct PortRef {
 }
 
 /// Port `b` docked to port `a` with a turn: `X_PQ = Rz(180°) · Rx(turn · 360° / turns)`, P at `a`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bond {
     pub a: PortRef,
@@ -49,7 +50,7 @@ pub struct Bond {
 }
 
 /// A joint of the assembly: an index into [`Assembly::joints`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct JointId(pub u32);
 
@@ -64,7 +65,7 @@ pub enum JointOwner {
 }
 
 /// Positions of all joints, which bonds hold, and where the base is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct State {
     /// One position for every [`JointId`], radians or metres.
@@ -72,6 +73,8 @@ pub struct State {
     /// One flag for every bond of the assembly.
     pub bonds: Vec<bool>,
     /// World pose of the base module's body (`X_WB`).
+    #[serde(with = "crate::geometry::json")]
+    #[schemars(with = "crate::geometry::json::PoseText")]
     pub base: Pose,
 }
 

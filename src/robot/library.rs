@@ -2,10 +2,11 @@
 //! compositional-design paper, (D, X, A, K), with shapes, masses and limits. SI throughout.
 
 use crate::geometry::{Placed, Pose, Vec3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Everything that a robot or a plan refers to by index. Self-contained: it goes into plan files.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Library {
     pub connectors: Vec<Connector>,
@@ -14,7 +15,7 @@ pub struct Library {
     pub struts: Vec<Strut>,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Connector {
     pub name: String,
@@ -32,7 +33,7 @@ pub struct Connector {
 }
 
 /// How far two ports may be from a perfect mate when they dock.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Capture {
     /// Metres between the port origins.
@@ -42,15 +43,16 @@ pub struct Capture {
 }
 
 /// A joint in a bond: `X_PQ = Rot(axis, q) · Rz(180°) · Rx(θ)`, axis in the frame of port P.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hinge {
+    #[schemars(with = "[f64; 3]")]
     pub axis: Vec3,
     pub limits: Limits,
 }
 
 /// A module type; instances differ in nothing but their joint positions.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModuleType {
     /// With its arguments where they differ from the defaults: `Hinge(length: 50mm)`.
@@ -68,11 +70,13 @@ pub struct ModuleType {
     pub contact: f64,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
     pub name: String,
     /// The link's frame in the module's frame, all joints at zero (`X_ML`).
+    #[serde(with = "crate::geometry::json")]
+    #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
     /// To draw, in the link's frame.
     pub shape: Vec<Placed>,
@@ -80,6 +84,7 @@ pub struct Link {
     pub collides: Vec<Placed>,
     pub mass: f64,
     /// Centre of mass in the link's frame.
+    #[schemars(with = "[f64; 3]")]
     pub com: Vec3,
     /// About the centre of mass in the link's frame, symmetric, kg·m²: xx, yy, zz, xy, xz, yz.
     pub inertia: [f64; 6],
@@ -87,7 +92,7 @@ pub struct Link {
     pub friction: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
     Revolute,
@@ -98,7 +103,7 @@ pub enum JointKind {
 /// A joint carries `child` against `parent`. With the joint frame J placed in the module's frame
 /// (`X_MJ`, all joints at zero), the child moves by `X_MJ · Rot(axis, q) · X_MJ⁻¹` (revolute) or
 /// `X_MJ · Trans(axis·q) · X_MJ⁻¹` (prismatic) in the frame of the module as drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
     pub name: String,
@@ -106,8 +111,11 @@ pub struct Joint {
     pub child: usize,
     pub kind: JointKind,
     /// `X_MJ`
+    #[serde(with = "crate::geometry::json")]
+    #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
     /// Unit vector in the joint's frame.
+    #[schemars(with = "[f64; 3]")]
     pub axis: Vec3,
     pub limits: Limits,
     /// No motor: it can't be commanded.
@@ -117,7 +125,7 @@ pub struct Joint {
 }
 
 /// What a joint or a motor can do. Radians or metres; `None`: no limit stated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
     /// Lowest and highest position; `None` is a continuous joint.
@@ -129,7 +137,7 @@ pub struct Limits {
 }
 
 /// Limits at a motor that drives several joints: `motor = Σ factor · joint`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motor {
     pub name: String,
@@ -137,19 +145,21 @@ pub struct Motor {
     pub limits: Limits,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Port {
     pub name: String,
     pub link: usize,
     /// Origin on the mating face, +x outward, +z up, in the frame of its link (`X_LP`).
+    #[serde(with = "crate::geometry::json")]
+    #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
     /// Index in [`Library::connectors`].
     pub connector: usize,
 }
 
 /// An expanding cube (`cell`).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cell {
     pub name: String,
@@ -161,7 +171,7 @@ pub struct Cell {
 }
 
 /// A linear actuator (`strut`).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Strut {
     pub name: String,

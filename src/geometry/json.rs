@@ -1,0 +1,38 @@
+//! How poses stand in plan files: `{"p": [x, y, z], "q": [w, x, y, z]}`, metres and a unit quaternion,
+//! to the bit. For `#[serde(with = "crate::geometry::json")]`.
+
+use super::{Pose, Vec3};
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+/// A pose as written in a plan file.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Pose", deny_unknown_fields)]
+pub struct PoseText {
+    /// Position of the frame's origin: x, y, z in metres.
+    p: [f64; 3],
+    /// Rotation as a unit quaternion: w, x, y, z.
+    q: [f64; 4],
+}
+
+/// How far from 1 the norm of a written quaternion may be: what rounding can explain after many
+/// products, and nothing more.
+const NORM_TOLERANCE: f64 = 1e-6;
+
+/// Writes the numbers as they are.
+pub fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
+    let (t, q) = (&pose.translation.vector, &pose.rotation);
+    PoseText { p: [t.x, t.y, t.z], q: [q.w, q.i, q.j, q.k] }.serialize(to)
+}
+
+/// Takes the numbers as they are; a quaternion that is not of unit length is refused.
+pub fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Pose, D::Error> {
+    let PoseText { p, q } = PoseText::deserialize(from)?;
+    let q = Quaternion::new(q[0], q[1], q[2], q[3]);
+    if (q.norm() - 1.0).abs() > NORM_TOLERANCE {
+        return Err(D::Error::custom("a pose's quaternion `q` must be of unit length"));
+    }
+    let rotation = UnitQuaternion::new_unchecked(q);
+    Ok(Pose::from_parts(Translation3::from(Vec3::from(p)), rotation))
+}

@@ -1,0 +1,130 @@
+//! Polynomials over 0..1 in Bernstein form: the control points bound the values, the first and the
+//! last are the values at the ends, and reversing them reverses the argument.
+
+/// Highest degree of a segment in a plan.
+pub const DEGREE_MAX: usize = 15;
+
+/// The value at `u`, by de Casteljau's rule: exact at both ends.
+pub fn value(control: &[f64], u: f64) -> f64 {
+    if u <= 0.0 {
+        return control[0];
+    }
+    if u >= 1.0 {
+        return control[control.len() - 1];
+    }
+    let mut stack = [0.0; DEGREE_MAX + 1];
+    let points = &mut stack[..control.len()];
+    points.copy_from_slice(control);
+    for last in (1..points.len()).rev() {
+        for i in 0..last {
+            points[i] = mix(points[i], points[i + 1], u);
+        }
+    }
+    points[0]
+}
+
+/// The parts before and after `u`, each over 0..1. They share the value at `u` to the bit.
+pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
+    let mut right = control.to_vec();
+    let mut left = Vec::with_capacity(control.len());
+    for last in (0..right.len()).rev() {
+        left.push(right[0]);
+        for i in 0..last {
+            right[i] = mix(right[i], right[i + 1], u);
+        }
+    }
+    (left, right)
+}
+
+/// The part between `u0` and `u1`, over 0..1.
+pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
+    let mut points = control.to_vec();
+    if u1 < 1.0 {
+        points = split(&points, u1).0;
+    }
+    if u0 > 0.0 {
+        points = split(&points, u0 / u1.min(1.0)).1;
+    }
+    points
+}
+
+/// The derivative by the argument; a constant has the derivative `[0]`.
+pub fn derivative(control: &[f64]) -> Vec<f64> {
+    let degree = control.len() - 1;
+    if degree == 0 {
+        return vec![0.0];
+    }
+    control.windows(2).map(|w| degree as f64 * (w[1] - w[0])).collect()
+}
+
+/// Lowest and highest control point: they bound every value.
+pub fn hull(control: &[f64]) -> (f64, f64) {
+    control.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
+}
+
+/// How often roots are halved into: to the last bit of the argument.
+const HALVINGS_MAX: usize = 60;
+
+/// The arguments in 0..1 where the polynomial passes through zero, in order: the control points are
+/// halved until they change sign once or not at all. Roots at the ends, and instants where it
+/// touches zero without passing through, may be missing.
+pub fn roots(control: &[f64]) -> Vec<f64> {
+    let mut found = Vec::new();
+    // The part furthest left is on top.
+    let mut parts = vec![(control.to_vec(), 0.0, 1.0, 0)];
+    while let Some((points, from, to, depth)) = parts.pop() {
+        match sign_changes(&points) {
+            0 => {}
+            1 if passes(&points) => found.push(from + (to - from) * bisect(&points)),
+            _ if depth == HALVINGS_MAX => found.push((from + to) / 2.0),
+            _ => {
+                let (left, right) = split(&points, 0.5);
+                let middle = (from + to) / 2.0;
+                // A root exactly in the middle belongs to neither part's inside.
+                let zero = right[0] == 0.0;
+                parts.push((right, middle, to, depth + 1));
+                if zero {
+                    parts.push((vec![-1.0, 1.0], middle, middle, depth + 1));
+                }
+                parts.push((left, from, middle, depth + 1));
+            }
+        }
+    }
+    found
+}
+
+fn sign_changes(points: &[f64]) -> usize {
+    let mut signs = points.iter().filter(|p| **p != 0.0).map(|p| *p > 0.0);
+    let Some(mut last) = signs.next() else { return 0 };
+    let mut changes = 0;
+    for sign in signs {
+        changes += usize::from(sign != last);
+        last = sign;
+    }
+    changes
+}
+
+/// Whether the values at the ends have different signs.
+fn passes(points: &[f64]) -> bool {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    first != 0.0 && last != 0.0 && (first < 0.0) != (last < 0.0)
+}
+
+/// The root between two ends of different sign.
+fn bisect(points: &[f64]) -> f64 {
+    let rising = points[0] < 0.0;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS_MAX {
+        let middle = (low + high) / 2.0;
+        if (value(points, middle) < 0.0) == rising {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
+fn mix(a: f64, b: f64, u: f64) -> f64 {
+    a + (b - a) * u
+}

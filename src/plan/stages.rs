@@ -1,0 +1,206 @@
+//! The body of plans of lattices of expanding cubes: stages in closed form, exact.
+//!
+//! In a stage every cell moves on a straight line, and its size changes linearly, by one time law
+//! that all share; so the two end configurations say everything about it. Configurations are given
+//! by runs of cells whose places are affine in the run's indices, with rational numbers: a million
+//! cells take a few lines, and nothing is rounded.
+
+use super::CauseId;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A lattice in motion. Lengths are in cell sizes; times in [`Stages::time_unit`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stages {
+    /// Index in [`Library::cells`](crate::robot::Library).
+    pub cell: usize,
+    /// How many cells there are.
+    pub count: u64,
+    /// Seconds of one unit of time: that in which one cell shrinks to half its size at its greatest
+    /// force.
+    pub time_unit: f64,
+    /// What the cells' forces are bound to.
+    pub model: Model,
+    /// Where every cell is at the start: together the runs hold each cell once.
+    pub start: Vec<Run>,
+    pub stages: Vec<Stage>,
+}
+
+/// The conditions beside those that every plan of the family meets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Model {
+    /// No outer torque: the angular momentum about the centre of mass stays 0.
+    pub balanced: bool,
+    /// Greatest force over one contact, in units of a cell's own; `None`: no bound, as in the paper.
+    pub contact_force: Option<Ratio>,
+}
+
+/// One stage: from where the one before ended to `end`. Cells that no run names stay.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// What it does, in the planner's words, such as `x-squeeze`.
+    pub name: String,
+    /// Square of its duration in units of time: a rational number, where the duration is its root.
+    pub time_squared: Ratio,
+    pub law: Law,
+    pub end: Vec<Run>,
+    pub cause: CauseId,
+}
+
+/// How far between its ends a stage is, `σ(u)` for `u` in 0..1 of its duration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Law {
+    /// Speeding up at a constant rate for half the time, slowing down for the other: `σ = 2u²`, then
+    /// `1 - 2(1-u)²`.
+    BangBang,
+    /// The same with a stretch of constant speed between; each ramp takes this part (of 1) of the
+    /// duration, at most 1/2.
+    Trapezoid(Ratio),
+}
+
+/// A rational number: `[numerator, denominator]`, the denominator positive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Ratio(pub i64, pub i64);
+
+/// Cells in the order of up to three nested counters `k`: the cell is `first + Σ stride·k`, its
+/// centre `Σ` of affine functions of the same counters.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    pub first: u64,
+    /// Outermost first; none for a single cell.
+    pub counters: Vec<Counter>,
+    /// Centre along x, y, z, all counters at 0.
+    pub center: [Ratio; 3],
+    /// Size along x, y, z.
+    pub size: [Ratio; 3],
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Counter {
+    /// `k` runs through 0..count; at least 1.
+    pub count: u64,
+    pub stride: i64,
+    /// What one step of `k` adds to the centre along x, y, z.
+    pub step: [Ratio; 3],
+}
+
+/// A cell at an instant, in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellBox {
+    pub center: [f64; 3],
+    pub size: [f64; 3],
+}
+
+impl Ratio {
+    pub const ZERO: Ratio = Ratio(0, 1);
+    pub const ONE: Ratio = Ratio(1, 1);
+
+    pub fn to_f64(self) -> f64 {
+        self.0 as f64 / self.1 as f64
+    }
+}
+
+impl Law {
+    /// `σ(u)`; 0 and 1 outside 0..1.
+    pub fn progress(self, u: f64) -> f64 {
+        let u = u.clamp(0.0, 1.0);
+        let ramp = match self {
+            Law::BangBang => 0.5,
+            Law::Trapezoid(part) => part.to_f64(),
+        };
+        let speed = 1.0 / (1.0 - ramp);
+        if u < ramp {
+            speed * u * u / (2.0 * ramp)
+        } else if u <= 1.0 - ramp {
+            speed * (u - ramp / 2.0)
+        } else {
+            1.0 - speed * (1.0 - u) * (1.0 - u) / (2.0 * ramp)
+        }
+    }
+}
+
+impl Stage {
+    /// In units of time.
+    pub fn duration(&self) -> f64 {
+        libm::sqrt(self.time_squared.to_f64())
+    }
+}
+
+impl Run {
+    /// Every cell of the run with its centre and size, in cell sizes.
+    pub fn cells(&self) -> impl Iterator<Item = (usize, CellBox)> + '_ {
+        let total: u64 = self.counters.iter().map(|c| c.count).product();
+        (0..total).map(|n| self.cell(n))
+    }
+
+    fn cell(&self, mut n: u64) -> (usize, CellBox) {
+        let mut index = self.first as i64;
+        let mut center = self.center.map(Ratio::to_f64);
+        for counter in self.counters.iter().rev() {
+            let k = n % counter.count;
+            n /= counter.count;
+            index += counter.stride * k as i64;
+            for (c, step) in center.iter_mut().zip(counter.step) {
+                *c += step.to_f64() * k as f64;
+            }
+        }
+        (index as usize, CellBox { center, size: self.size.map(Ratio::to_f64) })
+    }
+}
+
+impl Stages {
+    /// Seconds.
+    pub fn duration(&self) -> f64 {
+        self.stages.iter().map(Stage::duration).sum::<f64>() * self.time_unit
+    }
+
+    /// When each stage begins, and the end, in seconds.
+    pub fn instants(&self) -> Vec<f64> {
+        let mut now = 0.0;
+        let ends = self.stages.iter().map(|s| {
+            now += s.duration();
+            now * self.time_unit
+        });
+        std::iter::once(0.0).chain(ends).collect()
+    }
+
+    /// Every cell at a time in seconds, in cell sizes.
+    pub fn state(&self, t: f64) -> Vec<CellBox> {
+        let mut cells = vec![CellBox { center: [0.0; 3], size: [1.0; 3] }; self.count as usize];
+        place(&mut cells, &self.start);
+        let mut now = t / self.time_unit;
+        for stage in &self.stages {
+            let duration = stage.duration();
+            if now < duration {
+                let before = cells.clone();
+                place(&mut cells, &stage.end);
+                blend(&before, &mut cells, stage.law.progress(now / duration));
+                break;
+            }
+            place(&mut cells, &stage.end);
+            now -= duration;
+        }
+        cells
+    }
+}
+
+fn place(cells: &mut [CellBox], runs: &[Run]) {
+    for (index, cell) in runs.iter().flat_map(Run::cells) {
+        cells[index] = cell;
+    }
+}
+
+fn blend(before: &[CellBox], after: &mut [CellBox], progress: f64) {
+    for (a, b) in before.iter().zip(after) {
+        for axis in 0..3 {
+            b.center[axis] = a.center[axis] + (b.center[axis] - a.center[axis]) * progress;
+            b.size[axis] = a.size[axis] + (b.size[axis] - a.size[axis]) * progress;
+        }
+    }
+}

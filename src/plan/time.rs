@@ -1,0 +1,19 @@
+//! Time in plans is counted in ticks of 2⁻³⁶ s (15 ps), so that adding and subtracting times up to
+//! [`DURATION_MAX`] is exact in floating point: a plan reversed twice is the plan, to the bit, and
+//! the parts of a plan fit together without gaps.
+
+/// One tick, s: a power of two.
+pub const TICK: f64 = 1.0 / (1u64 << 36) as f64;
+
+/// Longest plan, s (18 h): 2⁵² ticks, beyond which ticks would be lost.
+pub const DURATION_MAX: f64 = (1u64 << 16) as f64;
+
+/// The first tick that is not before `t`. Infinite times stay as they are.
+pub fn tick_after(t: f64) -> f64 {
+    libm::ceil(t / TICK) * TICK
+}
+
+/// The tick nearest to `t`.
+pub fn tick_near(t: f64) -> f64 {
+    libm::round(t / TICK) * TICK
+}

@@ -1,0 +1,176 @@
+//! The body of plans of articulated robots: piecewise polynomial joint positions, docking and
+//! undocking.
+
+use super::{CauseId, polynomial};
+use crate::robot::{Assembly, JointId, State};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Joint motions over time, and which bonds hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tracks {
+    pub robot: Assembly,
+    pub start: State,
+    /// At most one a joint, in order of joint. A joint without a track keeps its start position.
+    pub tracks: Vec<Track>,
+    /// In order of time.
+    pub docks: Vec<Dock>,
+    /// Seconds.
+    pub duration: f64,
+    /// Who set the start pose: (joint, cause), and the bond at an index: (bond, cause).
+    pub start_causes: Vec<(JointId, CauseId)>,
+    pub bond_causes: Vec<(usize, CauseId)>,
+}
+
+/// The motion of one joint: segments in order of time that do not overlap. Between two segments and
+/// after the last, the joint holds where the segment before ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Track {
+    pub joint: JointId,
+    pub segments: Vec<Segment>,
+}
+
+/// A polynomial piece in Bernstein form over `start..end`: the control points bound it, the first
+/// and last are its end positions exactly, reversing them reverses the motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Segment {
+    /// Seconds.
+    pub start: f64,
+    /// Seconds, after `start`.
+    pub end: f64,
+    /// Positions (rad or m), degree = number - 1; 2 to 16 of them.
+    pub control: Vec<f64>,
+    pub cause: CauseId,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DockKind {
+    Dock,
+    Undock,
+}
+
+/// A bond begins or ends to hold.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Dock {
+    /// Seconds.
+    pub time: f64,
+    pub kind: DockKind,
+    /// Index in the assembly's bonds.
+    pub bond: usize,
+    pub cause: CauseId,
+}
+
+impl Segment {
+    /// Where in 0..1 of the segment a time lies; held at the ends outside.
+    pub fn argument(&self, t: f64) -> f64 {
+        ((t - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
+    }
+
+    /// Position at a time, rad or m; the end positions outside the segment.
+    pub fn position(&self, t: f64) -> f64 {
+        if t >= self.end { self.last() } else { polynomial::value(&self.control, self.argument(t)) }
+    }
+
+    /// Rate of the position at a time within the segment, per second.
+    pub fn velocity(&self, t: f64) -> f64 {
+        let rates = polynomial::derivative(&self.control);
+        polynomial::value(&rates, self.argument(t)) / (self.end - self.start)
+    }
+
+    /// Position at the end.
+    pub fn last(&self) -> f64 {
+        self.control[self.control.len() - 1]
+    }
+
+    /// The piece between two times, which are clipped to the segment; `None` where nothing is left.
+    pub fn between(&self, t0: f64, t1: f64) -> Option<Segment> {
+        let (start, end) = (t0.max(self.start), t1.min(self.end));
+        if start >= end {
+            return None;
+        }
+        let control = if start == self.start && end == self.end {
+            self.control.clone()
+        } else {
+            polynomial::part(&self.control, self.argument(start), self.argument(end))
+        };
+        Some(Segment { start, end, control, cause: self.cause })
+    }
+}
+
+impl Track {
+    /// Index of the last segment that has begun at `t`.
+    fn begun(&self, t: f64) -> Option<usize> {
+        self.segments.partition_point(|s| s.start <= t).checked_sub(1)
+    }
+
+    /// Position at a time; `start` is the joint's position at the start of the plan.
+    pub fn position(&self, start: f64, t: f64) -> f64 {
+        self.begun(t).map_or(start, |i| self.segments[i].position(t))
+    }
+
+    /// Rate just after a time, per second: 0 between segments.
+    pub fn velocity(&self, t: f64) -> f64 {
+        let segment = self.begun(t).map(|i| &self.segments[i]).filter(|s| t < s.end);
+        segment.map_or(0.0, |s| s.velocity(t))
+    }
+
+    /// Lowest and highest position over a stretch of time, or a little beyond: from the control
+    /// points of the pieces.
+    pub fn bounds(&self, start: f64, t0: f64, t1: f64) -> (f64, f64) {
+        let at = self.position(start, t0);
+        let first = self.begun(t0).unwrap_or(0);
+        let within = self.segments[first..].iter().take_while(|s| s.start < t1);
+        within.filter_map(|s| s.between(t0, t1)).fold((at, at), |(low, high), piece| {
+            let (l, h) = polynomial::hull(&piece.control);
+            (low.min(l), high.max(h))
+        })
+    }
+}
+
+impl Tracks {
+    /// The track of a joint, if it ever moves.
+    pub fn track(&self, joint: JointId) -> Option<&Track> {
+        let at = self.tracks.binary_search_by_key(&joint, |t| t.joint).ok()?;
+        Some(&self.tracks[at])
+    }
+
+    /// Joint positions and bonds at a time, docks at that very instant included. The base keeps its
+    /// pose: where it goes is for the judge to find.
+    pub fn state(&self, t: f64) -> State {
+        let mut state = self.start.clone();
+        for track in &self.tracks {
+            let joint = &mut state.joints[track.joint.0 as usize];
+            *joint = track.position(*joint, t);
+        }
+        for dock in self.docks.iter().take_while(|d| d.time <= t) {
+            state.bonds[dock.bond] = dock.kind == DockKind::Dock;
+        }
+        state
+    }
+
+    /// The state that the plan ends in.
+    pub fn end(&self) -> State {
+        self.state(self.duration)
+    }
+
+    /// Lowest and highest position of a joint over a stretch of time; see [`Track::bounds`].
+    pub fn bounds(&self, joint: JointId, t0: f64, t1: f64) -> (f64, f64) {
+        let start = self.start.joints[joint.0 as usize];
+        self.track(joint).map_or((start, start), |track| track.bounds(start, t0, t1))
+    }
+
+    /// Every instant at which a segment begins or ends or a bond changes, with 0 and the end, in
+    /// order and without repetition.
+    pub fn instants(&self) -> Vec<f64> {
+        let segments = self.tracks.iter().flat_map(|t| t.segments.iter().flat_map(|s| [s.start, s.end]));
+        let mut all: Vec<f64> =
+            segments.chain(self.docks.iter().map(|d| d.time)).chain([0.0, self.duration]).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+}
