@@ -1,0 +1,1505 @@
+//! What every file sees without a `use`: the built-in functions and the records that they give.
+//!
+//! Rust supplies the bodies. This file is the only place where a built-in is declared: the type
+//! checker, completion, the reference pages and the tests read it. A declaration whose
+//! documentation says "Not yet available." can be checked but not run.
+//!
+//! Three things are particular here. `T: Quantity` stands for `Int` or any quantity (an `Int` among
+//! numbers becomes a `Number`). `Any` takes a value of any type. A variadic parameter (`...`) takes
+//! its values one by one, or as one list.
+
+// Numbers.
+
+/// The distance of a number from zero.
+///
+/// Example:
+/// ```modl
+/// print(abs(-3), abs(-2.5mm))
+/// ```
+extern fn abs<T: Quantity>(x: T) -> T
+
+/// -1, 0 or 1: the sign of a number.
+///
+/// Example:
+/// ```modl
+/// print(sign(-30deg))
+/// ```
+extern fn sign<D: Dimension>(x: Quantity<D>) -> Int
+
+/// The least of one or more numbers.
+///
+/// An empty list is refused.
+///
+/// Example:
+/// ```modl
+/// print(min(3, 1, 2), min([40mm, 3cm]))
+/// ```
+extern fn min<T: Quantity>(values: T...) -> T
+
+/// The greatest of one or more numbers.
+///
+/// An empty list is refused.
+///
+/// Example:
+/// ```modl
+/// print(max(3, 1, 2), max([40mm, 3cm]))
+/// ```
+extern fn max<T: Quantity>(values: T...) -> T
+
+/// The number of a range that is nearest to `x`.
+///
+/// Example:
+/// ```modl
+/// print(clamp(120deg, to: -90deg..90deg))
+/// ```
+extern fn clamp<D: Dimension>(x: Quantity<D>, to: Range<Quantity<D>>) -> Quantity<D>
+
+/// The square root; of an area it is a length.
+///
+/// A negative number is refused.
+///
+/// Example:
+/// ```modl
+/// print(sqrt(2), sqrt(3m * 12m))
+/// ```
+extern fn sqrt<D: Dimension>(x: Quantity<D^2>) -> Quantity<D>
+
+/// The sine of an angle.
+///
+/// Example:
+/// ```modl
+/// print(sin(30deg))
+/// ```
+extern fn sin(x: Angle) -> Number
+
+/// The cosine of an angle.
+///
+/// Example:
+/// ```modl
+/// print(cos(60deg))
+/// ```
+extern fn cos(x: Angle) -> Number
+
+/// The tangent of an angle.
+///
+/// Example:
+/// ```modl
+/// print(tan(45deg))
+/// ```
+extern fn tan(x: Angle) -> Number
+
+/// The angle in -90deg..90deg whose sine is `x`.
+///
+/// A number outside -1..1 is refused.
+///
+/// Example:
+/// ```modl
+/// print(asin(0.5))
+/// ```
+extern fn asin(x: Number) -> Angle
+
+/// The angle in 0deg..180deg whose cosine is `x`.
+///
+/// A number outside -1..1 is refused.
+///
+/// Example:
+/// ```modl
+/// print(acos(0.5))
+/// ```
+extern fn acos(x: Number) -> Angle
+
+/// The angle in -90deg..90deg whose tangent is `x`.
+///
+/// Example:
+/// ```modl
+/// print(atan(1))
+/// ```
+extern fn atan(x: Number) -> Angle
+
+/// The angle in -180deg..180deg from the x axis to the point (x, y).
+///
+/// Example:
+/// ```modl
+/// print(atan2(1mm, -1mm))
+/// ```
+extern fn atan2<D: Dimension>(y: Quantity<D>, x: Quantity<D>) -> Angle
+
+/// e to the power of `x`.
+///
+/// Example:
+/// ```modl
+/// print(exp(1))
+/// ```
+extern fn exp(x: Number) -> Number
+
+/// The natural logarithm.
+///
+/// A number that is not positive is refused.
+///
+/// Example:
+/// ```modl
+/// print(ln(exp(2)))
+/// ```
+extern fn ln(x: Number) -> Number
+
+/// The greatest whole number that is not above `x`.
+///
+/// Example:
+/// ```modl
+/// print(floor(-1.5))
+/// ```
+extern fn floor(x: Number) -> Int
+
+/// The least whole number that is not below `x`.
+///
+/// Example:
+/// ```modl
+/// print(ceil(1.2))
+/// ```
+extern fn ceil(x: Number) -> Int
+
+/// The whole number nearest to `x`; halves go away from zero.
+///
+/// Example:
+/// ```modl
+/// print(round(2.5), round(90deg / 7deg))
+/// ```
+extern fn round(x: Number) -> Int
+
+/// The Euclidean quotient of whole numbers: `a` is `div(a, b) * b + a % b`, and `a % b` is not negative.
+///
+/// A division by zero is refused.
+///
+/// Example:
+/// ```modl
+/// print(div(-7, 2), -7 % 2)
+/// ```
+extern fn div(a: Int, b: Int) -> Int
+
+/// The sum of a list; of an empty one it is zero.
+///
+/// Example:
+/// ```modl
+/// print(sum([100g, 0.4kg]))
+/// ```
+extern fn sum<T: Quantity>(list: List<T>) -> T
+
+// Vectors and poses.
+
+/// The length of a vector.
+///
+/// Example:
+/// ```modl
+/// print(norm([3m, 4m, 0m]))
+/// ```
+extern fn norm<D: Dimension>(v: Vec3<Quantity<D>>) -> Quantity<D>
+
+/// The scalar product of two vectors.
+///
+/// Example:
+/// ```modl
+/// print(dot([1m, 2m, 3m], [3m, 2m, 1m]))
+/// ```
+extern fn dot<D: Dimension>(a: Vec3<Quantity<D>>, b: Vec3<Quantity<D>>) -> Quantity<D^2>
+
+/// The vector product of two vectors.
+///
+/// Example:
+/// ```modl
+/// print(cross([1m, 0m, 0m], [0m, 1m, 0m]))
+/// ```
+extern fn cross<D: Dimension>(a: Vec3<Quantity<D>>, b: Vec3<Quantity<D>>) -> Vec3<Quantity<D^2>>
+
+/// Where the origin of a pose is.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// print(position(pose(Smores().top)))
+/// ```
+extern fn position(pose: Pose) -> Vec3<Length>
+
+/// Where an axis points after it was turned by a pose.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// print(direction(pose(Smores().left), X))
+/// ```
+extern fn direction(pose: Pose, axis: Vec3<Number>) -> Vec3<Number>
+
+// Lists and text.
+
+/// How many elements a list has.
+///
+/// Example:
+/// ```modl
+/// print(len([1, 2, 3]))
+/// ```
+extern fn len<T>(list: List<T>) -> Int
+
+/// The first element, missing if there is none.
+///
+/// Example:
+/// ```modl
+/// print(first([1mm, 2mm]) else 0mm)
+/// ```
+extern fn first<T>(list: List<T>) -> T?
+
+/// The last element, missing if there is none.
+///
+/// Example:
+/// ```modl
+/// print(last([1mm, 2mm]) else 0mm)
+/// ```
+extern fn last<T>(list: List<T>) -> T?
+
+/// The elements whose places lie in a range.
+///
+/// A range that leads out of the list is refused.
+///
+/// Example:
+/// ```modl
+/// print(slice([1, 2, 3, 4], 1..3))
+/// ```
+extern fn slice<T>(list: List<T>, places: Range<Int>) -> List<T>
+
+/// The list from its end to its beginning. (`reverse` is for plans.)
+///
+/// Example:
+/// ```modl
+/// print(reversed([1, 2, 3]))
+/// ```
+extern fn reversed<T>(list: List<T>) -> List<T>
+
+/// The numbers of a list in rising order.
+///
+/// Example:
+/// ```modl
+/// print(sorted([3mm, 1mm, 2mm]))
+/// ```
+extern fn sorted<T: Quantity>(list: List<T>) -> List<T>
+
+/// The elements of the lists of a list, in order.
+///
+/// Example:
+/// ```modl
+/// print(flatten([[1, 2], [3]]))
+/// ```
+extern fn flatten<T>(lists: List<List<T>>) -> List<T>
+
+/// Whether an element of the list equals `item`.
+///
+/// Example:
+/// ```modl
+/// print(contains([1, 2, 3], 2))
+/// ```
+extern fn contains<T>(list: List<T>, item: T) -> Bool
+
+/// Whether any of the statements is true; of none, no.
+///
+/// Example:
+/// ```modl
+/// print(any([x > 2 for x in [1, 2, 3]]))
+/// ```
+extern fn any(list: List<Bool>) -> Bool
+
+/// Whether all of the statements are true; of none, yes.
+///
+/// Example:
+/// ```modl
+/// print(all([x > 2 for x in [1, 2, 3]]))
+/// ```
+extern fn all(list: List<Bool>) -> Bool
+
+/// The texts of a list, one after another, with `with` between them.
+///
+/// Example:
+/// ```modl
+/// print(join(["{i}" for i in 0..4], with: ", "))
+/// ```
+extern fn join(list: List<Text>, with: Text = "") -> Text
+
+/// The pieces of a text between the places where `on` stands.
+///
+/// An empty `on` is refused.
+///
+/// Example:
+/// ```modl
+/// print(split("a,b,c", on: ","))
+/// ```
+extern fn split(text: Text, on: Text) -> List<Text>
+
+/// The characters of a text, one by one.
+///
+/// Example:
+/// ```modl
+/// print(len(characters("modl")))
+/// ```
+extern fn characters(text: Text) -> List<Text>
+
+// Output.
+
+/// Prints values on one line, with a blank between them, as `{...}` in a text shows them.
+///
+/// Quantities are shown with a unit that suits their size. A list is one value.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Car
+/// print("the car has", count(Car), "modules")
+/// ```
+extern fn print(values: Any...)
+
+/// Verifies a plan and writes it as a plan file into the output folder.
+///
+/// A behaviour is planned first. Nothing is written unless the verifier accepts the plan; the
+/// options are those of `verify`, and one that is looser than its default is recorded in the file.
+/// A path that leads out of the output folder is refused.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// emit(Driver1().drive(t: 1s), "drive.plan.json")
+/// ```
+extern fn emit(
+  what: Plan | Behavior,
+  file: Text,
+  sample: Time = 10ms,
+  unstable_for: Time = 0s,
+  stability: footprint | centres = footprint,
+)
+
+/// Draws a plan, a robot or a flat pattern as a page, with the verdict stamped on it.
+///
+/// The end of the file name says how: `.html` or `.svg`. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.smores.Walk4
+/// show(Walk4().walk(), "walk.html")
+/// ```
+extern fn show(
+  what: Plan | Behavior | Config | Lattice | Truss | Layout,
+  file: Text,
+  sample: Time = 10ms,
+  unstable_for: Time = 0s,
+  stability: footprint | centres = footprint,
+)
+
+/// Writes a robot of RoFI modules as a `.rofi` file into the output folder. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.rofi.Snake
+/// save(Snake(n: 4), "snake.rofi")
+/// ```
+extern fn save(what: Config, file: Text)
+
+/// Reads a robot from a `.rofi` file of this project; its modules are `modules(c, Rofi)`. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.rofi.Rofi
+/// print(len(modules(load("tangled.rofi"), Rofi)))
+/// ```
+extern fn load(file: Text) -> Config
+
+// Questions about robots.
+
+/// How many compositions deep a robot is: 0 for a module, else one more than the largest order of its parts.
+///
+/// Example:
+/// ```modl
+/// use std.smores.{Smores, Chain3, Walk4}
+/// print(order(Smores), order(Chain3), order(Walk4))
+/// ```
+extern fn order(of: Config) -> Int
+
+/// How many modules (or cells) a robot has.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Walk4
+/// print(count(Walk4))
+/// ```
+extern fn count(of: Config | Lattice) -> Int
+
+/// The mass of a robot: the sum of its modules' (cells', struts') masses.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Walk4
+/// print(mass(Walk4))
+/// ```
+extern fn mass(of: Config | Lattice | Truss) -> Mass
+
+/// The centre of mass of a robot in its start pose, in the frame of its base module.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// print(com(Chain3))
+/// ```
+extern fn com(of: Config) -> Vec3<Length>
+
+/// The corners of the area that a robot stands on in its start pose, counterclockwise.
+///
+/// They lie on the ground, in the frame of the base module as it rests.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Car
+/// print(footprint(Car))
+/// ```
+extern fn footprint(of: Config) -> List<Vec3<Length>>
+
+/// The ports of a robot that are still free, in the order of its modules.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// print(len(ports(Chain3)))
+/// ```
+extern fn ports(of: Config) -> List<Port>
+
+/// The modules of one kind in a robot, in the order of its parts.
+///
+/// Example:
+/// ```modl
+/// use std.smores.{Smores, Car}
+/// print(len(modules(Car, Smores)))
+/// ```
+extern fn modules<M: Module>(of: Config, kind: M) -> List<M>
+
+/// Where a port or a module's body is in the start pose, in the frame of the base module.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// print(pose(Chain3().head))
+/// ```
+extern fn pose(of: Port | Module) -> Pose
+
+/// How far two ports or modules are apart in the start pose, from origin to origin.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Body3
+/// let b = Body3()
+/// print(distance(b.side[0], b.side[1]))
+/// ```
+extern fn distance(a: Port | Module, b: Port | Module) -> Length
+
+/// How many nodes a truss has.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// truss Pyramid of PneumaticReel = octet(edge: 2m, divisions: 2)
+/// print(nodes(Pyramid), struts(Pyramid))
+/// ```
+extern fn nodes(of: Truss) -> Int
+
+/// How many struts a truss has.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// truss Tetra of PneumaticReel = octet(edge: 1m, divisions: 1)
+/// print(struts(Tetra))
+/// ```
+extern fn struts(of: Truss) -> Int
+
+/// How rigid a truss is in its start pose.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// truss Tetra of PneumaticReel = octet(edge: 1m, divisions: 1)
+/// print(rigidity(Tetra).rank)
+/// ```
+extern fn rigidity(of: Truss) -> Rigidity
+
+/// The infinitesimal rigidity of a truss: its matrix of struts by node coordinates.
+extern type Rigidity {
+  /// Whether every infinitesimal motion is one of the whole: rank 3n - 6.
+  rigid: Bool
+  /// Rank of the rigidity matrix.
+  rank: Int
+  /// Independent states of stress without load: struts - rank.
+  self_stresses: Int
+  /// The least singular value that is not zero, for a truss of mean strut length 1.
+  weakest: Number
+  /// Struts without any of which the truss stays rigid.
+  redundant: List<Text>
+  /// Free motions beside those of the whole, each with the nodes that move.
+  free_motions: List<Text>
+}
+
+// Shapes of links.
+
+/// A box, centred at the origin of its link, with edges along its axes.
+///
+/// The options are the same for all shapes. `mass` is the link's (without it the module's mass is
+/// split by volume), `com` its centre of mass and `inertia` its moments xx, yy, zz about that, both
+/// in the link's frame (without them those of the solid), `friction` Coulomb's coefficient on the
+/// ground.
+///
+/// Example:
+/// ```modl
+/// module Brick {
+///   mass 1kg
+///   link body = box(200mm, 100mm, 50mm, friction: 0.6)
+/// }
+/// print(mass(Brick))
+/// ```
+extern fn box(
+  x: Length,
+  y: Length,
+  z: Length,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// A cylinder, centred at the origin of its link. Options as for `box`.
+///
+/// It is round: it rolls without bumps.
+///
+/// Example:
+/// ```modl
+/// module Can {
+///   mass 300g
+///   link body = cylinder(radius: 33mm, length: 115mm, axis: Y)
+/// }
+/// print(com(Can))
+/// ```
+extern fn cylinder(
+  radius: Length,
+  length: Length,
+  axis: Vec3<Number> = Z,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// A ball, centred at the origin of its link. Options as for `box`.
+///
+/// Example:
+/// ```modl
+/// module Ball {
+///   mass 100g
+///   link body = sphere(radius: 40mm)
+/// }
+/// print(mass(Ball))
+/// ```
+extern fn sphere(
+  radius: Length,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// A cylinder with round caps; `length` lies between the centres of the caps. Options as for `box`.
+///
+/// Example:
+/// ```modl
+/// module Pill {
+///   mass 100g
+///   link body = capsule(radius: 20mm, length: 60mm, axis: X)
+/// }
+/// print(mass(Pill))
+/// ```
+extern fn capsule(
+  radius: Length,
+  length: Length,
+  axis: Vec3<Number> = Z,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// A prism over a convex outline in the xy plane, from z = -height/2 to height/2. Options as for `box`.
+///
+/// The corners' z is not used. Fewer than three corners, or corners on one line, are refused.
+///
+/// Example:
+/// ```modl
+/// module Wedge {
+///   mass 100g
+///   link body = prism([[0mm, 0mm, 0mm], [60mm, 0mm, 0mm], [0mm, 30mm, 0mm]], height: 20mm)
+/// }
+/// print(com(Wedge))
+/// ```
+extern fn prism(
+  outline: List<Vec3<Length>>,
+  height: Length,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// The convex hull of points in the link's frame. Options as for `box`.
+///
+/// Fewer than four points, or points in one plane, are refused.
+///
+/// Example:
+/// ```modl
+/// module Tip {
+///   mass 50g
+///   link body = hull([[0mm, 0mm, 0mm], [40mm, 0mm, 0mm], [0mm, 40mm, 0mm], [0mm, 0mm, 40mm]])
+/// }
+/// print(com(Tip))
+/// ```
+extern fn hull(
+  points: List<Vec3<Length>>,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// A closed triangle mesh from an STL file of this project. Options as for `box`.
+///
+/// `scale` is the length of one unit of the file.
+///
+/// Example:
+/// ```modl check
+/// module Claw {
+///   mass 50g
+///   link body = mesh("claw.stl", scale: 1mm) collides box(40mm, 20mm, 20mm)
+/// }
+/// ```
+extern fn mesh(
+  file: Text,
+  scale: Length = 1mm,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// Several shapes as one. Options as for `box`; those of the parts count for nothing.
+///
+/// Without `mass` and the rest the solid is taken as the sum of its parts.
+///
+/// Example:
+/// ```modl
+/// module Tee {
+///   mass 200g
+///   link body = union(box(20mm, 20mm, 80mm), placed(box(60mm, 20mm, 20mm), at: [0mm, 0mm, 50mm]))
+/// }
+/// print(com(Tee))
+/// ```
+extern fn union(
+  shapes: Shape...,
+  mass: Mass?,
+  com: Vec3<Length>?,
+  inertia: Vec3<Quantity<kg*m^2>>?,
+  friction: Number = 0.5,
+) -> Shape
+
+/// A shape turned about an axis through its origin, then moved: for the parts of a `union`.
+///
+/// Example:
+/// ```modl
+/// module Cross {
+///   mass 100g
+///   link body = union(box(90mm, 10mm, 10mm), placed(box(90mm, 10mm, 10mm), axis: Z, turn: 90deg))
+/// }
+/// print(com(Cross))
+/// ```
+extern fn placed(
+  shape: Shape,
+  at: Vec3<Length> = [0mm, 0mm, 0mm],
+  axis: Vec3<Number> = Z,
+  turn: Angle = 0deg,
+) -> Shape
+
+// Kinds of joints.
+
+/// A joint that turns about an axis; without a `range` it turns for ever.
+///
+/// A `passive` joint has no motor: it takes no commands.
+///
+/// Example:
+/// ```modl
+/// module Wheel {
+///   mass 100g
+///   link fork = box(20mm, 20mm, 20mm)
+///   link rim  = cylinder(radius: 30mm, length: 10mm, axis: Y) at [0mm, 20mm, 0mm]
+///   joint roll : fork -> rim = revolute(axis: Y, max_speed: 1turn/s)
+/// }
+/// print(count(Wheel))
+/// ```
+extern fn revolute(
+  axis: Vec3<Number>,
+  range: Range<Angle>?,
+  max_speed: AngularSpeed?,
+  max_accel: AngularAcceleration?,
+  max_torque: Torque?,
+  passive: Bool = false,
+) -> JointKind
+
+/// A joint that slides along an axis.
+///
+/// Example:
+/// ```modl
+/// module Slider {
+///   mass 200g
+///   link rail = box(200mm, 20mm, 20mm)
+///   link cart = box(30mm, 30mm, 10mm) at [0mm, 0mm, 20mm]
+///   joint slide : rail -> cart = prismatic(axis: X, range: -80mm..80mm, max_speed: 50mm/s)
+/// }
+/// print(count(Slider))
+/// ```
+extern fn prismatic(
+  axis: Vec3<Number>,
+  range: Range<Length>?,
+  max_speed: Speed?,
+  max_accel: Acceleration?,
+  max_force: Force?,
+  passive: Bool = false,
+) -> JointKind
+
+/// A joint that does not move: two links, each with its own shape and friction, as one body.
+///
+/// Example:
+/// ```modl
+/// module Shoe {
+///   mass 100g
+///   link leg  = box(20mm, 20mm, 80mm)
+///   link sole = box(40mm, 30mm, 5mm, friction: 1.0) at [0mm, 0mm, -42.5mm]
+///   joint glue : leg -> sole = fixed()
+/// }
+/// print(mass(Shoe))
+/// ```
+extern fn fixed() -> JointKind
+
+// Lattices and trusses, meshes and clouds.
+
+/// `n` cells along x.
+///
+/// Example:
+/// ```modl
+/// use std.crystal.ExpandingCube
+/// lattice Bar of ExpandingCube = row(8)
+/// print(count(Bar))
+/// ```
+extern fn row(n: Int) -> Cells
+
+/// `n` cells along y.
+///
+/// Example:
+/// ```modl
+/// use std.crystal.ExpandingCube
+/// lattice Pole of ExpandingCube = column(8)
+/// print(count(Pole))
+/// ```
+extern fn column(n: Int) -> Cells
+
+/// A block of cells along x, y and z. (`box` is the shape of a link.)
+///
+/// Example:
+/// ```modl
+/// use std.crystal.ExpandingCube
+/// lattice Slab of ExpandingCube = block(4, 4)
+/// print(count(Slab))
+/// ```
+extern fn block(x: Int, y: Int, z: Int = 1) -> Cells
+
+/// Cells drawn as text: `#` is a cell, `.` and a blank are not.
+///
+/// The first line is the top, x runs to the right, cells are numbered in reading order. Another
+/// character, or no cell at all, is refused.
+///
+/// Example:
+/// ```modl
+/// use std.crystal.ExpandingCube
+/// lattice Ell of ExpandingCube = cells("""
+///   #..
+///   ###
+/// """)
+/// print(count(Ell))
+/// ```
+extern fn cells(text: Text) -> Cells
+
+/// Layers of cells drawn as texts, the lowest first.
+///
+/// Example:
+/// ```modl
+/// use std.crystal.ExpandingCube
+/// lattice Stool of ExpandingCube = layers("#.#", "###")
+/// print(count(Stool))
+/// ```
+extern fn layers(texts: Text...) -> Cells
+
+/// The nodes and struts of a truss.
+extern type Frame {
+  /// Where the nodes are.
+  nodes: List<Vec3<Length>>
+  /// Which nodes each strut joins: pairs of places in `nodes`.
+  struts: List<List<Int>>
+}
+
+/// A tetrahedron of the octet lattice, resting on a face: `divisions` struts along an edge.
+///
+/// Without the `interior` only what lies on the surface is kept, and every node that has all of its
+/// twelve neighbours goes.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
+/// print(nodes(Pyramid), struts(Pyramid))
+/// ```
+extern fn octet(edge: Length, divisions: Int, interior: Bool = true) -> Frame
+
+/// `n` regular tetrahedra, face on face along a helix.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// truss Mast of PneumaticReel = tetrahelix(5, edge: 1m)
+/// print(nodes(Mast))
+/// ```
+extern fn tetrahelix(n: Int, edge: Length) -> Frame
+
+/// The vertices and edges of a mesh as nodes and struts.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.octahedron
+/// use std.truss.PneumaticReel
+/// truss Octa of PneumaticReel = from_mesh(octahedron(edge: 1m))
+/// print(rigidity(Octa).rigid)
+/// ```
+extern fn from_mesh(mesh: Mesh) -> Frame
+
+/// A mesh from its vertices and faces; a face is a list of places in `vertices`, counterclockwise from outside.
+///
+/// A place that does not exist, or a face of fewer than three, is refused.
+///
+/// Example:
+/// ```modl
+/// let wedge = polyhedron(
+///   [[0m, 0m, 0m], [1m, 0m, 0m], [0m, 1m, 0m], [0m, 0m, 1m]],
+///   [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+/// )
+/// print(faces(wedge))
+/// ```
+extern fn polyhedron(vertices: List<Vec3<Length>>, faces: List<List<Int>>) -> Mesh
+
+/// How many faces a mesh has.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.cube
+/// print(faces(cube(edge: 1m)))
+/// ```
+extern fn faces(of: Mesh) -> Int
+
+/// A mesh from an STL or OBJ file of this project; `scale` is the length of one unit. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// print(faces(load_mesh("bunny.stl", scale: 1mm)))
+/// ```
+extern fn load_mesh(file: Text, scale: Length = 1mm) -> Mesh
+
+/// A cloud of points, a target for `morph`.
+///
+/// Example:
+/// ```modl
+/// let points = cloud([[0m, 0m, 0m], [1m, 0m, 0m]])
+/// ```
+extern fn cloud(points: List<Vec3<Length>>) -> Cloud
+
+// Actions: the paper's (J, X, xi, T).
+
+/// Moves a joint to a position, or by an amount.
+///
+/// Give `to` or `by`. `in` is how long it takes; without it, as long as the limits of the joint and
+/// of the motors behind it need. `profile` is the law of time: `smooth` (a quintic at rest at both
+/// ends), `trapezoid` or `linear`. `until` ends the motion early; after `timeout` the next action
+/// begins, or what stands after `else`. A position outside the joint's range, a time that its speed
+/// does not allow and a `passive` joint are refused.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Nod {
+///   part m: Smores
+///   behavior nod = Sc(move(m.tilt, to: 30deg), move(m.tilt, by: -30deg, in: 1s))
+/// }
+/// print(plan(Nod().nod()).duration)
+/// ```
+extern fn move<D: Dimension>(
+  joint: Joint<D>,
+  to: Quantity<D>?,
+  by: Quantity<D>?,
+  in: Time?,
+  profile: smooth | trapezoid | linear = smooth,
+  until: Condition?,
+  timeout: Time?,
+) -> Behavior
+
+/// Turns a joint at a steady speed.
+///
+/// With `for` it ends by holding; without, it lasts until the next command to the joint (a plan that
+/// ends before is refused). `until` ends it early; `timeout` as for `move`. A speed above the
+/// joint's is refused.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Roll {
+///   part m: Smores
+///   behavior roll = Pc(spin(m.left, 2rad/s, for: 1s), spin(m.right, 2rad/s, for: 1s))
+/// }
+/// print(verify(Roll().roll()).travel)
+/// ```
+extern fn spin(
+  joint: Joint<Angle>,
+  speed: AngularSpeed,
+  for: Time?,
+  until: Condition?,
+  timeout: Time?,
+) -> Behavior
+
+/// Moves a joint along a function of the time since the action began.
+///
+/// The function must begin where the joint is; it may end in motion only where another follows.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Wave {
+///   part m: Smores
+///   behavior wave = follow(m.tilt, t => 20deg * (1 - cos(360deg * (t / 2s))), for: 2s)
+/// }
+/// print(plan(Wave().wave()).duration)
+/// ```
+extern fn follow<D: Dimension>(joint: Joint<D>, path: fn(Time) -> Quantity<D>, for: Time) -> Behavior
+
+/// Waits for some time, or until a condition holds, whichever comes first.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Nod {
+///   part m: Smores
+///   behavior nod = Sc(move(m.tilt, to: 30deg), wait(1s), move(m.tilt, to: 0deg))
+/// }
+/// print(plan(Nod().nod()).duration)
+/// ```
+extern fn wait(time: Time, until: Condition?) -> Behavior
+
+/// Docks port `b` to port `a`, where the motion has brought them together.
+///
+/// Ports that are taken, do not mate, or are farther apart than their connectors' `capture` are
+/// refused.
+///
+/// Example:
+/// ```modl
+/// use std.smores.{Smores, Ring12}
+/// let ring = Ring12()
+/// print(plan(Sc(undock(ring.m[0].top), dock(ring.m[0].top, ring.m[11].bottom))).actions)
+/// ```
+extern fn dock(a: Port, b: Port) -> Behavior
+
+/// Lets go of the bond at a port.
+///
+/// A port that is free is refused.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Ring12
+/// print(plan(undock(Ring12().m[0].top)).actions)
+/// ```
+extern fn undock(port: Port) -> Behavior
+
+/// Stops with a message: for after `else`.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Bump {
+///   part m: Smores
+///   behavior bump = move(m.tilt, by: 40deg, until: angle(m.tilt) > 20deg, timeout: 9s) else abort("blocked")
+/// }
+/// print(plan(Bump().bump()).duration)
+/// ```
+extern fn abort(message: Text) -> Behavior
+
+// Signals and conditions.
+
+/// The position of a joint as the robot senses it.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Bump {
+///   part m: Smores
+///   behavior bump = move(m.tilt, by: 40deg, until: angle(m.tilt) > 20deg)
+/// }
+/// print(plan(Bump().bump()).duration)
+/// ```
+extern fn angle(joint: Joint<Angle>) -> Signal<Angle>
+
+/// The speed of a joint as the robot senses it.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Bump {
+///   part m: Smores
+///   behavior bump = move(m.tilt, by: 40deg, until: speed(m.tilt) > 30deg/s)
+/// }
+/// print(plan(Bump().bump()).duration)
+/// ```
+extern fn speed(joint: Joint<Angle>) -> Signal<AngularSpeed>
+
+/// The time since the action began.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Bump {
+///   part m: Smores
+///   behavior bump = move(m.tilt, by: 40deg, until: elapsed() > 500ms)
+/// }
+/// print(plan(Bump().bump()).duration)
+/// ```
+extern fn elapsed() -> Signal<Time>
+
+/// That something is docked at a port.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// print(plan(wait(1s, until: docked(c.m[0].bottom))).duration)
+/// ```
+extern fn docked(port: Port) -> Condition
+
+// Composing behaviours.
+
+/// Series: each behaviour begins when the one before it has ended.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// let d = Driver1()
+/// print(plan(Sc(d.drive(t: 1s), d.turn())).duration)
+/// ```
+extern fn Sc(behaviors: Behavior...) -> Behavior
+
+/// Parallel: all begin together; what follows waits for the last to end.
+///
+/// Two that command one joint to different things are refused, wherever they are nested.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// print(plan(Pc([move(x.tilt, to: 10deg) for x in c.m])).actions)
+/// ```
+extern fn Pc(behaviors: Behavior...) -> Behavior
+
+/// Does nothing; after `else` it lets the next action begin, which is also what happens without.
+let proceed = Sc()
+
+/// A behaviour several times in series.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// print(plan(repeat(Driver1().drive(t: 1s), 3)).duration)
+/// ```
+extern fn repeat(behavior: Behavior, times: Int) -> Behavior
+
+/// A cyclic behaviour begun in the middle: at `shift`, 0 to 1, of its cycle.
+///
+/// It must end where it began; the robot is brought to the place where the shifted cycle starts
+/// first.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// print(plan(phase(c.sine(), 0.5)).duration)
+/// ```
+extern fn phase(behavior: Behavior, shift: Number) -> Behavior
+
+/// A behaviour slowed down or sped up so that it lasts as long as given.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// print(plan(stretch(Driver1().drive(t: 1s), to: 3s)).duration)
+/// ```
+extern fn stretch(behavior: Behavior, to: Time) -> Behavior
+
+/// Cyclic behaviours in parallel, each at its own phase, stretched to one period, several times.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// config Two {
+///   part a: Chain3  part b: Chain3
+///   connect a.tail -- b.head
+///   behavior ripple allows unstable = cycle([a.sine(), b.sine()], phases: [0, 0.5], period: 4s, times: 2)
+/// }
+/// print(plan(Two().ripple()).duration)
+/// ```
+extern fn cycle(behaviors: List<Behavior>, phases: List<Number>, period: Time, times: Int = 1) -> Behavior
+
+/// A behaviour as seen in a mirror: what the left did, the right does.
+///
+/// The plane lies in the frame of the robot's base module. A robot that has no mirror image of
+/// itself across it is refused. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.smores.Walk4
+/// let w = Walk4()
+/// print(plan(mirror(w.stride(0, 3), across: XZ)).duration)
+/// ```
+extern fn mirror(behavior: Behavior, across: XY | XZ | YZ) -> Behavior
+
+/// A gait table: every `step` the joints go to the positions of the next row.
+///
+/// `_` in a row leaves the joint where it is. Every row has one number for every joint, in `unit`.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// let gait = table(joints: [x.tilt for x in c.m], step: 1s, unit: deg, rows: [[10, -10, _], [0, 0, _]])
+/// print(plan(gait).duration)
+/// ```
+extern fn table(
+  joints: List<Joint<Angle>>,
+  step: Time,
+  unit: deg | rad | turn = deg,
+  rows: List<List<Number?>>,
+) -> Behavior
+
+// Plans and their verification.
+
+/// What a plan assumes of its surroundings.
+extern type World {
+  /// Downwards; zero where gravity is off.
+  gravity: Acceleration
+  /// `settle`, `fixed` or `off`.
+  ground: Text
+  /// A factor on the friction of every link.
+  friction: Number
+}
+
+/// Surroundings for `plan` and `verify`.
+///
+/// On ground that is `settle`, the robot rests on what it touches, rolls, travels and tips. `fixed`
+/// holds the base where it is. `off` lets the robot float.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// print(verify(Chain3(), world: world(ground: off, gravity: off)).ok)
+/// ```
+extern fn world(
+  ground: settle | fixed | off = settle,
+  gravity: off | Acceleration = 9.80665m/s^2,
+  friction: Number = 1,
+) -> World
+
+/// The positions of all joints, the bonds, and where the robot is.
+extern type State {
+  /// When, in the plan that it was taken from.
+  time: Time
+  /// The pose of the base module's body in the world.
+  base: Pose
+  /// The centre of mass in the world.
+  com: Vec3<Length>
+  /// The position of a joint.
+  fn angle(joint: Joint<Angle>) -> Angle
+  /// The pose of a module's body in the world.
+  fn pose(module: Module) -> Pose
+}
+
+/// A motion of a robot from beginning to end, whatever made it.
+extern type Plan {
+  /// From beginning to end.
+  duration: Time
+  /// How many actions it carries out, repetitions counted.
+  actions: Int
+  /// How many stretches there are between one change of commands and the next.
+  steps: Int
+  /// The state at the beginning.
+  start: State
+  /// The state at the end.
+  end: State
+  /// The surroundings that it is judged under (of its first part).
+  assumes: World
+  /// The state at a time.
+  fn at(time: Time) -> State
+  /// The part of the plan within a range of times.
+  fn slice(times: Range<Time>) -> Plan
+}
+
+/// What the verifier found.
+///
+/// A margin or clearance is the worst one found; it is infinite where nothing limits it.
+extern type Report {
+  /// Whether nothing failed.
+  ok: Bool
+  /// The least distance between links that may not touch; negative where they overlap.
+  clearance: Length
+  /// How far the centre of mass stays inside the area that the robot stands on; negative outside.
+  margin: Length
+  /// What the joints' torque limits leave: 1 - load / limit.
+  torque_margin: Number
+  /// What the connections leave of the load that they hold: 1 - load / limit.
+  bond_margin: Number
+  /// What the speed limits leave: 1 - speed / limit.
+  speed_margin: Number
+  /// How far the base is from where it began, along the ground.
+  travel: Length
+  /// From where the base began to where it ends.
+  displacement: Vec3<Length>
+  /// How far the base has turned about the vertical.
+  heading: Angle
+  /// The most that a loaded link has slipped over the ground in all.
+  slip: Length
+  /// From beginning to end.
+  duration: Time
+  /// The least mechanical work that the motors do.
+  energy: Energy
+  /// How many states were judged.
+  samples: Int
+  /// What failed, in words, in order of time.
+  failures: List<Text>
+  /// Every check with its status: proved, sampled, not checked (why), no limit stated, failed.
+  checks: List<Text>
+  /// The worst values with their times and modules.
+  worst: List<Text>
+  /// What is worth saying although nothing failed.
+  notes: List<Text>
+}
+
+/// Turns a behaviour into a plan: when each joint is where.
+///
+/// `from` is the state that it begins in; without it, the start pose of the robot. Two commands to
+/// one joint at one time, a limit that is not kept and a robot that would still move at the end are
+/// refused.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// let d = Driver1()
+/// let there = plan(d.drive(t: 1s))
+/// let back = plan(d.drive(-2rad/s, t: 1s), from: there.end)
+/// print((there ++ back).duration)
+/// ```
+extern fn plan(behavior: Behavior, from: State?, world: World?) -> Plan
+
+/// The plan run backwards, from its end to its beginning.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// print(reverse(plan(Chain3().half_wave())).duration)
+/// ```
+extern fn reverse(plan: Plan) -> Plan
+
+/// Judges a plan, or the start pose of a robot, and reports.
+///
+/// A behaviour is planned first. `sample` is the longest time between two states that are looked at;
+/// what happens between them is bounded, and looked at more closely where the bound does not
+/// suffice. `unstable_for` is how long support may be missing at a stretch. `stability` is the rule:
+/// the `footprint` of the ground contacts, or the paper's, the `centres` of the lowest modules.
+/// `world` judges under other surroundings than the plan's own.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Car
+/// let r = verify(Car().drive(t: 1s))
+/// print(r.ok, r.travel, r.clearance)
+/// ```
+extern fn verify(
+  what: Plan | Behavior | Config,
+  sample: Time = 10ms,
+  unstable_for: Time = 0s,
+  stability: footprint | centres = footprint,
+  world: World?,
+) -> Report
+
+// Planners. `seed` makes another choice among equals, `budget` bounds the work in steps of search,
+// `timeout` can only turn a result into a refusal.
+
+/// A flat pattern: panels side by side, joined along the hinges that will fold.
+extern type Layout {
+  /// How many panels.
+  panels: Int
+  /// The hinges that fold: pairs of faces of the target.
+  hinges: List<List<Int>>
+}
+
+/// What `fold` found: the layout, the order of folding, and the motion.
+extern type Folding is Plan {
+  /// The motion from flat to folded.
+  plan: Plan
+  /// The flat pattern that was chosen.
+  layout: Layout
+  /// How many flat patterns there are: spanning trees of the target's faces.
+  layouts: Int
+  /// What the motors spend.
+  energy: Energy
+  /// Whether it is proved that no layout and no order spends less.
+  optimal: Bool
+  /// The face that stays on the ground.
+  root: Int
+  /// The folded robot.
+  robot: Config
+}
+
+/// Finds the flat pattern for a shape and the order in which to fold it. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.mori.Mori
+/// use std.shapes.octahedron
+/// print(fold(octahedron(edge: 80mm), module: Mori).layouts)
+/// ```
+extern fn fold(
+  target: Mesh,
+  module: Module,
+  root: auto | Int = auto,
+  method: exact | heuristic | enumerate = exact,
+  seed: Int = 0,
+  budget: Int = 100_000_000,
+  timeout: Time?,
+) -> Folding
+
+/// What `squeeze` found.
+extern type Squeezing is Plan {
+  /// No motion under the same limits takes less.
+  lower_bound: Time
+  /// The greatest force that a cell passes on.
+  peak_force: Force
+  /// The most kinetic energy on the way.
+  peak_energy: Energy
+}
+
+/// Moves expanding cubes from one shape to another as fast as their forces allow. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.crystal.ExpandingCube
+/// lattice Bar of ExpandingCube = row(8)
+/// lattice Pole of ExpandingCube = column(8)
+/// print(squeeze(Bar, Pole).duration)
+/// ```
+extern fn squeeze(
+  from: Lattice,
+  to: Lattice,
+  seed: Int = 0,
+  budget: Int = 100_000_000,
+  timeout: Time?,
+) -> Squeezing
+
+/// What `tosnake` and `reconfigure` found.
+extern type Unwinding is Plan {
+  /// How many connections are made on the way.
+  docks: Int
+  /// How many connections are let go on the way.
+  undocks: Int
+}
+
+/// Unwinds a robot to a snake: one chain of all its modules. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.rofi.Snake
+/// print(tosnake(Snake(n: 4)).steps)
+/// ```
+extern fn tosnake(
+  robot: Config,
+  gravity: off | Acceleration = off,
+  seed: Int = 0,
+  budget: Int = 1_000_000,
+  timeout: Time?,
+) -> Unwinding
+
+/// Turns one robot into another of as many modules. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.rofi.{Snake, Ring}
+/// print(reconfigure(Snake(n: 8), Ring(n: 8), seed: 1).steps)
+/// ```
+extern fn reconfigure(
+  from: Config,
+  to: Config,
+  gravity: off | Acceleration = off,
+  seed: Int = 0,
+  budget: Int = 1_000_000,
+  timeout: Time?,
+) -> Unwinding
+
+/// What `morph` found.
+extern type Morphing is Plan {
+  /// Root mean square distance between the truss and its target, both ways.
+  rms: Length
+  /// The least length that is left between struts.
+  clearance: Length
+}
+
+/// Morphs a truss into a shape. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.shapes.cube
+/// use std.truss.PneumaticReel
+/// truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
+/// print(morph(Pyramid, cube(edge: 2m)).rms)
+/// ```
+extern fn morph(
+  truss: Truss,
+  target: Mesh | Cloud,
+  tolerance: Length = 20mm,
+  seed: Int = 0,
+  budget: Int = 100_000,
+  timeout: Time?,
+) -> Morphing
+
+/// What `locomote` found.
+extern type Travel is Plan {
+  /// The length of the way that the centre of mass took over the ground.
+  distance: Length
+  /// How often the truss has rolled on.
+  rolls: Int
+}
+
+/// Rolls a truss along a path on the ground. Not yet available.
+///
+/// Example:
+/// ```modl check
+/// use std.truss.PneumaticReel
+/// truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
+/// print(locomote(Pyramid, path: [[0m, 0m, 0m], [8m, 0m, 0m]]).distance)
+/// ```
+extern fn locomote(
+  truss: Truss,
+  path: List<Vec3<Length>>,
+  seed: Int = 0,
+  budget: Int = 100_000,
+  timeout: Time?,
+) -> Travel
