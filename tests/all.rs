@@ -2,3 +2,4 @@ mod kinematics;
 mod mass;
 mod render;
 mod robots;
+mod syntax;

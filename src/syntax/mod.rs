@@ -1,3 +1,20 @@
 //! Text to tree. Parsing never fails: it returns a tree, the comments and diagnostics.
 
 pub mod ast;
+mod build;
+mod build_config;
+mod build_expr;
+mod build_items;
+mod build_module;
+mod build_statements;
+mod build_text;
+mod build_truss;
+mod build_types;
+mod characters;
+mod explain;
+mod lex;
+mod parse;
+mod scan;
+mod words;
+
+pub use parse::{HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, parse};

@@ -1,0 +1,253 @@
+//! Tokens, as far as they are needed to find brackets, comments and line beginnings and to say what
+//! stands at a place. The grammar does not use them; it reads the text itself.
+
+/// A token without its text: bytes `start..end`. White space yields none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Token {
+    pub kind: TokenKind,
+    pub start: usize,
+    pub end: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TokenKind {
+    LineBreak,
+    LineComment,
+    BlockComment {
+        /// How deep comments nest in it.
+        depth: usize,
+    },
+    Word,
+    Number,
+    /// `"..."` or `"""..."""`, with everything in its `{ }`.
+    Text {
+        /// How deep brackets nest in its `{ }`.
+        depth: usize,
+    },
+    /// `(`, `[` or `{`
+    Open,
+    /// `)`, `]` or `}`
+    Close,
+    Operator,
+    UnclosedText,
+    UnclosedRawText,
+    UnclosedComment,
+    /// A character that no token begins with.
+    Stray,
+}
+
+/// Yields the tokens of a text; every byte that is no white space belongs to one.
+#[derive(Clone)]
+pub struct Lexer<'t> {
+    bytes: &'t [u8],
+    text: &'t str,
+    at: usize,
+    /// Whether the word `use` or `test` comes just before: its text has no `{expr}`.
+    plain_text: bool,
+}
+
+impl<'t> Lexer<'t> {
+    /// Tokens from `start` on, which must not lie within a token.
+    pub fn new(text: &'t str, start: usize) -> Lexer<'t> {
+        Lexer { bytes: text.as_bytes(), text, at: start, plain_text: false }
+    }
+
+    fn peek(&self, ahead: usize) -> u8 {
+        self.bytes.get(self.at + ahead).copied().unwrap_or(0)
+    }
+
+    fn slash(&mut self) -> TokenKind {
+        match self.peek(1) {
+            b'/' => {
+                self.at = line_end(self.bytes, self.at);
+                TokenKind::LineComment
+            }
+            b'*' => self.block_comment(),
+            _ => self.operator(),
+        }
+    }
+
+    fn block_comment(&mut self) -> TokenKind {
+        let mut open = 1;
+        let mut depth = 1;
+        self.at += 2;
+        while self.at < self.bytes.len() {
+            match (self.bytes[self.at], self.peek(1)) {
+                (b'/', b'*') => {
+                    open += 1;
+                    depth = depth.max(open);
+                    self.at += 2;
+                }
+                (b'*', b'/') => {
+                    open -= 1;
+                    self.at += 2;
+                    if open == 0 {
+                        return TokenKind::BlockComment { depth };
+                    }
+                }
+                _ => self.at += 1,
+            }
+        }
+        TokenKind::UnclosedComment
+    }
+
+    fn word(&mut self) -> TokenKind {
+        let start = self.at;
+        self.skip_word();
+        self.plain_text = matches!(&self.bytes[start..self.at], b"use" | b"test");
+        TokenKind::Word
+    }
+
+    fn skip_word(&mut self) {
+        while self.at < self.bytes.len() && is_word_byte(self.bytes[self.at]) {
+            self.at += 1;
+        }
+    }
+
+    /// Digits with a fraction, an exponent and a simple unit; a unit such as `m/s` goes on in
+    /// further tokens.
+    fn number(&mut self) -> TokenKind {
+        self.skip_word();
+        if matches!(self.bytes[self.at - 1], b'e' | b'E')
+            && matches!(self.peek(0), b'+' | b'-')
+            && self.peek(1).is_ascii_digit()
+        {
+            self.at += 1;
+            self.skip_word();
+        }
+        if self.peek(0) == b'.' && self.peek(1).is_ascii_digit() {
+            self.at += 1;
+            return self.number();
+        }
+        TokenKind::Number
+    }
+
+    fn quoted(&mut self) -> TokenKind {
+        if self.bytes[self.at..].starts_with(b"\"\"\"") {
+            return self.raw_text();
+        }
+        let (end, depth) = text_end(self.bytes, self.at, self.plain_text);
+        self.at = end;
+        match depth {
+            Some(depth) => TokenKind::Text { depth },
+            None => TokenKind::UnclosedText,
+        }
+    }
+
+    fn raw_text(&mut self) -> TokenKind {
+        let inside = self.at + 3;
+        match self.text[inside..].find("\"\"\"") {
+            Some(length) => {
+                self.at = inside + length + 3;
+                TokenKind::Text { depth: 0 }
+            }
+            None => {
+                self.at = self.bytes.len();
+                TokenKind::UnclosedRawText
+            }
+        }
+    }
+
+    fn operator(&mut self) -> TokenKind {
+        const LONG: [&[u8]; 14] = [
+            b"<->", b"...", b"--", b"->", b"++", b"..", b"=>", b"==", b"!=", b"<=", b">=", b"&&", b"||", b"^",
+        ];
+        let rest = &self.bytes[self.at..];
+        self.at += LONG.iter().find(|long| rest.starts_with(long)).map_or(1, |long| long.len());
+        TokenKind::Operator
+    }
+}
+
+impl Iterator for Lexer<'_> {
+    type Item = Token;
+
+    fn next(&mut self) -> Option<Token> {
+        while matches!(self.bytes.get(self.at), Some(b' ' | b'\t' | b'\r')) {
+            self.at += 1;
+        }
+        let byte = *self.bytes.get(self.at)?;
+        let start = self.at;
+        let plain_text = std::mem::take(&mut self.plain_text);
+        let kind = match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'_' => self.word(),
+            b'0'..=b'9' => self.number(),
+            b'\n' => {
+                self.at += 1;
+                TokenKind::LineBreak
+            }
+            b'/' => self.slash(),
+            b'"' => {
+                self.plain_text = plain_text;
+                let kind = self.quoted();
+                self.plain_text = false;
+                kind
+            }
+            b'(' | b'[' | b'{' => {
+                self.at += 1;
+                TokenKind::Open
+            }
+            b')' | b']' | b'}' => {
+                self.at += 1;
+                TokenKind::Close
+            }
+            b'&' if self.peek(1) != b'&' => self.stray(),
+            b'+' | b'-' | b'*' | b'%' | b'^' | b'<' | b'>' | b'=' | b'!' | b'.' | b',' | b':' | b'|'
+            | b'&' | b'?' => self.operator(),
+            _ => self.stray(),
+        };
+        Some(Token { kind, start, end: self.at })
+    }
+}
+
+impl Lexer<'_> {
+    fn stray(&mut self) -> TokenKind {
+        self.at += self.text[self.at..].chars().next().map_or(1, char::len_utf8);
+        TokenKind::Stray
+    }
+}
+
+pub fn is_word_byte(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+/// Where the line that holds this place ends: at its line break, or at the end of the text.
+pub fn line_end(bytes: &[u8], start: usize) -> usize {
+    bytes[start..].iter().position(|b| *b == b'\n').map_or(bytes.len(), |length| start + length)
+}
+
+/// Where the text that begins at `start` ends, and how deep brackets nest in its `{ }`; no depth
+/// where its line ends first.
+fn text_end(bytes: &[u8], start: usize, plain: bool) -> (usize, Option<usize>) {
+    // What is open, innermost last: a quote, or a bracket within `{ }`.
+    let mut open = vec![b'"'];
+    let mut depth = 0;
+    let mut at = start + 1;
+    while let Some(&byte) = bytes.get(at) {
+        let in_text = open.last() == Some(&b'"');
+        at += 1;
+        match byte {
+            b'\n' => return (at - 1, None),
+            b'\\' if in_text && bytes.get(at).is_some_and(|b| *b != b'\n') => at += 1,
+            b'"' if in_text => {
+                open.pop();
+                if open.is_empty() {
+                    return (at, Some(depth));
+                }
+            }
+            b'"' => open.push(b'"'),
+            b'{' if in_text && plain => {}
+            b'{' => open.push(byte),
+            b'(' | b'[' if !in_text => open.push(byte),
+            b'}' if !in_text => {
+                // The end of the `{ }`, whatever is unclosed in it.
+                while open.pop().is_some_and(|b| b != b'{') {}
+            }
+            b')' | b']' if !in_text && open.last() != Some(&b'{') => {
+                open.pop();
+            }
+            _ => {}
+        }
+        depth = depth.max(open.len() - 1);
+    }
+    (bytes.len(), None)
+}

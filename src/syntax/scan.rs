@@ -1,0 +1,364 @@
+//! The first walk over a text: comments, brackets, characters, and where items begin.
+//!
+//! What is found wrong here is told here, and the places are noted, so that the parser keeps silent
+//! about what follows from it. The parser gets a text of the same length in which characters that
+//! have no place in a program are replaced by what was probably meant.
+
+use super::ast::{Comment, CommentKind};
+use super::characters;
+use super::explain;
+use super::lex::{Lexer, Token, TokenKind};
+use super::parse::{DIAGNOSTICS_MAX, NESTING_MAX};
+use super::words;
+use crate::source::{Diagnostic, FileId, Span};
+use std::borrow::Cow;
+
+/// How far back on its line a wrong bracket looks for what it closes, in bytes.
+const LINE_LENGTH: usize = 500;
+
+pub(super) struct Scan<'t> {
+    /// What the grammar reads.
+    pub(super) text: Cow<'t, str>,
+    pub(super) comments: Vec<Comment>,
+    /// Where the chunks of the file begin: at item keywords outside all brackets.
+    pub(super) chunks: Vec<usize>,
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// Places of mistakes that were told already, in order.
+    pub(super) faults: Vec<Fault>,
+    /// Opening brackets that nothing closes, in order.
+    pub(super) unclosed: Vec<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fault {
+    pub(super) at: usize,
+    /// The grammar must not see this place: recursion would be too deep, or the meaning is lost.
+    pub(super) fatal: bool,
+}
+
+pub(super) fn scan(file: FileId, text: &str) -> Scan<'_> {
+    let scan = Scanner::new(file, text, Resync::SureItems).run();
+    match scan.unclosed.is_empty() {
+        true => scan,
+        // Something is never closed: any item keyword in the first column then begins an item.
+        false => Scanner::new(file, text, Resync::AllItems).run(),
+    }
+}
+
+/// Which words in the first column begin an item although brackets are open.
+#[derive(Clone, Copy, PartialEq)]
+enum Resync {
+    /// Those that can stand in no brackets at all.
+    SureItems,
+    AllItems,
+}
+
+struct Scanner<'t> {
+    file: FileId,
+    source: &'t str,
+    resync: Resync,
+    open: Vec<usize>,
+    /// How many of the open brackets are `(`, `[` and `{`.
+    open_of_kind: [usize; 3],
+    /// The text for the grammar, once it differs from what was written.
+    masked: Option<Vec<u8>>,
+    scan: Scan<'t>,
+    /// Whether deep nesting was told for the current chunk.
+    deep_told: bool,
+    /// The previous token, on the same line.
+    previous: Option<Token>,
+}
+
+impl<'t> Scanner<'t> {
+    fn new(file: FileId, source: &'t str, resync: Resync) -> Scanner<'t> {
+        let scan = Scan {
+            text: Cow::Borrowed(source),
+            comments: Vec::new(),
+            chunks: Vec::new(),
+            diagnostics: Vec::new(),
+            faults: Vec::new(),
+            unclosed: Vec::new(),
+        };
+        Scanner {
+            file,
+            source,
+            resync,
+            open: Vec::new(),
+            open_of_kind: [0; 3],
+            masked: None,
+            scan,
+            deep_told: false,
+            previous: None,
+        }
+    }
+
+    fn run(mut self) -> Scan<'t> {
+        let start = if self.source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+        self.scan.chunks.push(start);
+        let mut lexer = Lexer::new(self.source, start);
+        while let Some(token) = lexer.next() {
+            self.token(token, &lexer);
+        }
+        self.close_all(self.source.len());
+        if let Some(bytes) = self.masked {
+            let text = String::from_utf8(bytes).expect("whole characters were replaced by ASCII");
+            self.scan.text = Cow::Owned(text);
+        }
+        self.scan.unclosed.sort_unstable();
+        self.scan.faults.sort_by_key(|fault| fault.at);
+        self.scan
+    }
+
+    fn token(&mut self, token: Token, rest: &Lexer) {
+        match token.kind {
+            TokenKind::LineBreak => {
+                self.previous = None;
+                return;
+            }
+            TokenKind::LineComment => self.line_comment(token),
+            TokenKind::BlockComment { depth } => self.block_comment(token, depth),
+            TokenKind::Word if self.previous.is_none() => self.first_word(token, rest),
+            TokenKind::Text { depth } => self.text(token, depth),
+            TokenKind::Open => self.open(token.start),
+            TokenKind::Close => self.close(token.start),
+            TokenKind::UnclosedText | TokenKind::UnclosedRawText | TokenKind::UnclosedComment => {
+                self.unclosed_token(token);
+            }
+            TokenKind::Stray => self.stray(token),
+            TokenKind::Word | TokenKind::Number | TokenKind::Operator => {}
+        }
+        self.previous = Some(token);
+    }
+
+    fn span(&self, start: usize, end: usize) -> Span {
+        Span::new(self.file, start, end)
+    }
+
+    fn tell(&mut self, diagnostic: Diagnostic, at: usize, fatal: bool) {
+        self.scan.faults.push(Fault { at, fatal });
+        self.report(diagnostic);
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) {
+        if self.scan.diagnostics.len() < DIAGNOSTICS_MAX {
+            self.scan.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn first_word(&mut self, token: Token, rest: &Lexer) {
+        let word = &self.source[token.start..token.end];
+        if !words::ITEMS.contains(&word) || !begins_item(self.source, token, rest) {
+            return;
+        }
+        if !self.open.is_empty() {
+            let first_column = token.start == 0 || self.source.as_bytes()[token.start - 1] == b'\n';
+            let sure = !matches!(word, "let" | "fn" | "strut" | "cell");
+            if !first_column || !(sure || self.resync == Resync::AllItems) {
+                return;
+            }
+            self.close_all(token.start);
+        }
+        self.scan.chunks.push(token.start);
+        self.deep_told = false;
+    }
+
+    fn line_comment(&mut self, token: Token) {
+        let text = &self.source[token.start..token.end];
+        let kind = match text.as_bytes().get(2..) {
+            Some([b'/', b'/', ..]) => CommentKind::Line,
+            Some([b'/', ..]) => CommentKind::ItemDoc,
+            Some([b'!', ..]) => CommentKind::FileDoc,
+            _ => CommentKind::Line,
+        };
+        let end = token.start + text.trim_end_matches('\r').len();
+        self.scan.comments.push(Comment { span: self.span(token.start, end), kind });
+        self.hidden_characters(token);
+    }
+
+    fn block_comment(&mut self, token: Token, depth: usize) {
+        let span = self.span(token.start, token.end);
+        self.scan.comments.push(Comment { span, kind: CommentKind::Block });
+        self.hidden_characters(token);
+        if depth > NESTING_MAX {
+            let opener = self.span(token.start, token.start + 2);
+            self.report(explain::too_deep(opener, "this comment"));
+            // The comment says nothing to the grammar, so nothing is lost with it.
+            self.replace(token.start, token.end, ' ');
+        }
+    }
+
+    fn text(&mut self, token: Token, depth: usize) {
+        self.hidden_characters(token);
+        if self.open.len() + depth > NESTING_MAX {
+            self.too_deep(token.start, token.start + 1);
+        }
+    }
+
+    fn open(&mut self, at: usize) {
+        self.open.push(at);
+        self.open_of_kind[self.kind(at)] += 1;
+        if self.open.len() > NESTING_MAX {
+            self.too_deep(at, at + 1);
+        }
+    }
+
+    /// Which of the three kinds of brackets stands here.
+    fn kind(&self, at: usize) -> usize {
+        match self.source.as_bytes()[at] {
+            b'(' | b')' => 0,
+            b'[' | b']' => 1,
+            _ => 2,
+        }
+    }
+
+    /// The open brackets from this one on, which are open no longer.
+    fn pop_from(&mut self, index: usize) -> Vec<usize> {
+        let popped = self.open.split_off(index);
+        for &at in &popped {
+            self.open_of_kind[self.kind(at)] -= 1;
+        }
+        popped
+    }
+
+    fn too_deep(&mut self, at: usize, end: usize) {
+        self.scan.faults.push(Fault { at, fatal: true });
+        if !std::mem::replace(&mut self.deep_told, true) {
+            let span = self.span(at, end);
+            self.report(explain::too_deep(span, "the program"));
+        }
+    }
+
+    fn close(&mut self, at: usize) {
+        let kind = self.kind(at);
+        if self.open_of_kind[kind] == 0 {
+            return self.stray_closer(at);
+        }
+        let matching = self.open.iter().rposition(|open| self.kind(*open) == kind);
+        let mut unclosed = self.pop_from(matching.expect("one of this kind is open"));
+        unclosed.remove(0);
+        self.unclosed(&unclosed, at);
+    }
+
+    fn stray_closer(&mut self, at: usize) {
+        let span = self.span(at, at + 1);
+        let innermost = self.open.last().copied();
+        let innermost_span = innermost.map(|open| self.span(open, open + 1));
+        let closer = self.source.as_bytes()[at] as char;
+        self.tell(explain::stray_closer(closer, span, innermost_span), at, false);
+        // `(a]`: the wrong bracket closes what is open on its line.
+        match innermost {
+            Some(open) if at - open < LINE_LENGTH && !self.source[open..at].contains('\n') => {
+                self.pop_from(self.open.len() - 1);
+                self.scan.faults.push(Fault { at: open, fatal: false });
+            }
+            _ => self.replace(at, at + 1, ' '),
+        }
+    }
+
+    /// At the end of the file, or where an item begins although brackets are open.
+    fn close_all(&mut self, at: usize) {
+        let open = self.pop_from(0);
+        self.unclosed(&open, at);
+    }
+
+    /// Brackets that should have been closed before `at`; one diagnostic tells of all.
+    fn unclosed(&mut self, open: &[usize], at: usize) {
+        if open.is_empty() {
+            return;
+        }
+        let spans: Vec<(char, Span)> = open
+            .iter()
+            .map(|&open| (self.source.as_bytes()[open] as char, self.span(open, open + 1)))
+            .collect();
+        if !self.deep_told {
+            self.report(explain::unclosed(&spans, self.found_at(at)));
+        }
+        for &open in open {
+            self.scan.unclosed.push(open);
+            self.scan.faults.push(Fault { at: open, fatal: false });
+        }
+    }
+
+    /// The bracket or word at which it shows that something was not closed.
+    fn found_at(&self, at: usize) -> Option<Span> {
+        let token = Lexer::new(self.source, at).next()?;
+        Some(self.span(token.start, token.end))
+    }
+
+    fn unclosed_token(&mut self, token: Token) {
+        if token.kind == TokenKind::UnclosedComment {
+            let span = self.span(token.start, token.end);
+            self.scan.comments.push(Comment { span, kind: CommentKind::Block });
+        }
+        self.hidden_characters(token);
+        let (length, what) = match token.kind {
+            TokenKind::UnclosedText => (1, "text"),
+            TokenKind::UnclosedRawText => (3, "text"),
+            _ => (2, "comment"),
+        };
+        let opener = self.span(token.start, token.start + length);
+        self.tell(explain::unclosed_token(opener, what, length), token.start, false);
+        if token.kind == TokenKind::UnclosedComment {
+            self.replace(token.start, token.end, ' ');
+        }
+    }
+
+    /// Characters in a comment or text that a reader does not see or sees in another order.
+    fn hidden_characters(&mut self, token: Token) {
+        let text = &self.source[token.start..token.end];
+        if text.bytes().all(|b| (b' '..0x7f).contains(&b) || matches!(b, b'\n' | b'\t' | b'\r')) {
+            return;
+        }
+        for (at, c) in text.char_indices().filter(|(_, c)| characters::is_forbidden_anywhere(*c)) {
+            let at = token.start + at;
+            let span = self.span(at, at + c.len_utf8());
+            self.report(characters::forbidden(c, span));
+        }
+    }
+
+    fn stray(&mut self, token: Token) {
+        let c = self.source[token.start..].chars().next().expect("a token is not empty");
+        let span = self.span(token.start, token.end);
+        let meant = characters::meant(c);
+        // One word with several odd letters is one mistake.
+        let goes_on = self.previous.is_some_and(|before| before.end == token.start)
+            && meant.replacement == Some('_')
+            && self.scan.faults.last().is_some_and(|fault| touches(self.source, fault.at, token.start));
+        if goes_on {
+            self.scan.faults.push(Fault { at: token.start, fatal: false });
+        } else {
+            self.tell(characters::stray(c, span), token.start, meant.replacement.is_none());
+        }
+        self.replace(token.start, token.end, meant.replacement.unwrap_or(' '));
+    }
+
+    /// Puts `with` and spaces (or a word of `_`) in the place of some bytes.
+    fn replace(&mut self, start: usize, end: usize, with: char) {
+        let bytes = self.masked.get_or_insert_with(|| self.source.as_bytes().to_vec());
+        let fill = if with == '_' { b'_' } else { b' ' };
+        for byte in bytes[start..end].iter_mut().filter(|byte| **byte != b'\n') {
+            *byte = fill;
+        }
+        if with != ' ' {
+            bytes[start] = with as u8;
+        }
+    }
+}
+
+/// Whether everything between two places belongs to one word.
+fn touches(text: &str, start: usize, end: usize) -> bool {
+    text[start..end].chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
+/// Whether what follows a keyword shows that it begins an item: a name or a text on its line. Two
+/// words side by side stand in no expression, so an item is never cut in two here.
+fn begins_item(text: &str, token: Token, rest: &Lexer) -> bool {
+    let next = rest.clone().find(|token| token.kind != TokenKind::LineBreak);
+    next.is_some_and(|next| match next.kind {
+        TokenKind::Word => {
+            !matches!(&text[next.start..next.end], "and" | "or" | "else" | "in" | "if" | "for")
+        }
+        TokenKind::Text { .. } => matches!(&text[token.start..token.end], "use" | "test"),
+        _ => false,
+    })
+}
