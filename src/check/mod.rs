@@ -2,11 +2,28 @@
 //!
 //! Knows no robots. What depends on values (which port is taken, which joint is out of range) is
 //! found later, when `interpret` elaborates the declarations.
+//!
+//! The way through this room: [`load`] reads files, [`checker`] holds what is known, [`items`]
+//! drives; [`members`], [`module`], [`config`] and [`families`] are the declarations, [`expr`],
+//! [`call`] and [`operators`] the expressions, [`type_expr`] the types as written.
 
+mod call;
+mod checker;
+mod config;
+mod describe;
+mod expr;
+mod families;
+mod items;
+mod lint;
+mod load;
+mod members;
+mod module;
+mod operators;
+mod type_expr;
 pub mod typed;
 pub mod types;
 
-use crate::source::{Diagnostic, Sources};
+use crate::source::{Diagnostic, Files, Sources};
 
 pub use typed::Program;
 pub use types::Type;
@@ -17,4 +34,27 @@ pub struct Checked {
     pub sources: Sources,
     pub program: Program,
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Checked {
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(|d| d.is_error())
+    }
+}
+
+/// Checks the file `root` with all that it imports. The program holds what could be understood;
+/// where something could not, there is an error node and a diagnostic.
+pub fn check(files: &dyn Files, root: &str) -> Checked {
+    let (loaded, sources, diagnostics) = load::load(files, root);
+    let mut checker = checker::Checker::new(&loaded, &sources, diagnostics);
+    checker.declare();
+    for index in 0..checker.defs.len() {
+        checker.check_def(typed::DefId(index as u32));
+    }
+    let (statements, tests) = match loaded.root {
+        Some(root) => checker.check_root(root),
+        None => Default::default(),
+    };
+    let (program, diagnostics) = checker.finish(statements, tests);
+    Checked { sources, program, diagnostics }
 }

@@ -20,7 +20,7 @@ pub struct DefId(pub u32);
 pub struct Local(pub u32);
 
 /// A member of a declaration with a body, an index into its `members`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MemberId(pub u32);
 
 #[derive(Clone, Debug, Default)]
@@ -240,33 +240,26 @@ pub struct Placement {
 
 #[derive(Clone, Debug)]
 pub enum ModuleClause {
-    Port {
-        /// Index in [`ModuleDef::ports`].
-        group: usize,
-        index: Option<Expr>,
-        connector: DefId,
-        link: usize,
-        at: Option<Placement>,
-        facing: Expr,
-        up: Option<Expr>,
-        span: Span,
-    },
+    Port(Box<PortClause>),
     Touching(usize, usize, Span),
-    Let {
-        local: Local,
-        value: Expr,
-    },
+    Let { local: Local, value: Expr },
     Require(Require),
-    If {
-        condition: Expr,
-        then: Vec<ModuleClause>,
-        otherwise: Vec<ModuleClause>,
-    },
-    For {
-        binder: Local,
-        iterable: Expr,
-        body: Vec<ModuleClause>,
-    },
+    If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
+    For { binder: Local, iterable: Expr, body: Vec<ModuleClause> },
+}
+
+/// A port, or one element of a port array.
+#[derive(Clone, Debug)]
+pub struct PortClause {
+    /// Index in [`ModuleDef::ports`].
+    pub group: usize,
+    pub index: Option<Expr>,
+    pub connector: DefId,
+    pub link: usize,
+    pub at: Option<Placement>,
+    pub facing: Expr,
+    pub up: Option<Expr>,
+    pub span: Span,
 }
 
 #[derive(Clone, Debug)]
@@ -552,9 +545,10 @@ pub enum ExprKind {
         statements: Vec<Stmt>,
         value: Option<Box<Expr>>,
     },
-    /// The locals in `captures` are copied to the first slots of a new frame, then the parameters.
+    /// Runs in a frame of its own: the parameters are its first slots, and each capture copies a
+    /// local of the frame where the lambda stands (first) to a slot of the new one (second).
     Lambda {
-        captures: Vec<Local>,
+        captures: Vec<(Local, Local)>,
         params: usize,
         body: Arc<Expr>,
         frame: usize,

@@ -5,5 +5,5 @@ pub mod display;
 pub mod table;
 
 pub use dimension::Dimension;
-pub use display::quantity;
+pub use display::{is_unit, quantity};
 pub use table::{Unit, unit};

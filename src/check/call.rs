@@ -1,0 +1,550 @@
+//! Calls: what is called, and which argument goes to which parameter.
+
+use super::checker::{Checker, DefItem, Entity, ParamInfo, Scope, Signature};
+use super::expr::{Role, error_expr, expr_of, has_params, list_element};
+use super::typed::{DefId, Expr, ExprKind};
+use super::types::{FnType, Type};
+use crate::source::suggest::suggest;
+use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::syntax::ast;
+use crate::units::Dimension;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// What a callee turned out to be.
+enum Callee {
+    /// A function, or a declaration with instances.
+    Def(DefId),
+    /// A method of a record, with its object.
+    Method(DefId, Expr),
+    /// A behaviour of a configuration, with its object.
+    Behavior(Expr, DefId, usize),
+    Value(Expr),
+    /// Reported already.
+    Error,
+}
+
+/// What the type parameters of a built-in stand for in one call.
+#[derive(Default)]
+struct Bindings {
+    types: Vec<Option<Type>>,
+    dimensions: Vec<Option<Dimension>>,
+}
+
+impl<'a> Checker<'a> {
+    pub fn call(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        callee: &'a ast::Expr,
+        args: &'a [ast::Arg],
+        want: Option<&Type>,
+    ) -> Expr {
+        match self.callee(scope, callee) {
+            Callee::Def(id) if self.family(id).is_some() => {
+                let signature = self.signature(id);
+                let name = self.def(id).name;
+                let args = self.arguments(scope, span, name, &signature, None, args);
+                expr_of(span, Type::Instance(id), ExprKind::Instance { def: id, args: args.0 })
+            }
+            Callee::Def(id) => self.call_def(scope, span, id, None, args, want),
+            Callee::Method(id, object) => self.call_def(scope, span, id, Some(object), args, want),
+            Callee::Behavior(object, config, behavior) => {
+                let members = self.members(config);
+                let signature = members.behaviors[behavior].signature.clone();
+                let name = members.behaviors[behavior].ast.name.text;
+                let (args, _) = self.arguments(scope, span, name, &signature, None, args);
+                let kind = ExprKind::CallBehavior { object: Box::new(object), behavior, args };
+                expr_of(span, Type::Behavior, kind)
+            }
+            Callee::Value(value) => self.call_value(scope, span, value, args),
+            Callee::Error => {
+                for arg in args {
+                    self.expr(scope, &arg.value, None);
+                }
+                error_expr(span)
+            }
+        }
+    }
+
+    fn callee(&mut self, scope: &mut Scope, callee: &'a ast::Expr) -> Callee {
+        match &callee.kind {
+            ast::ExprKind::Name(name) => self.named_callee(scope, callee.span, *name),
+            ast::ExprKind::Field { object, field } => self.field_callee(scope, callee.span, object, *field),
+            _ => match self.expr(scope, callee, None) {
+                e if e.ty.is_error() => Callee::Error,
+                e => Callee::Value(e),
+            },
+        }
+    }
+
+    fn named_callee(&mut self, scope: &mut Scope, span: Span, name: Symbol) -> Callee {
+        if let Some((local, ty)) = scope.local(name) {
+            return Callee::Value(expr_of(span, ty, ExprKind::Local(local)));
+        }
+        if let Some(this) = scope.this {
+            let object = expr_of(span, Type::Instance(this), ExprKind::This);
+            if let Some(behavior) = self.behavior_index(this, name) {
+                return Callee::Behavior(object, this, behavior);
+            }
+            if let Some(found) = self.own_member(this, span, name, None) {
+                return Callee::Value(found);
+            }
+        }
+        match self.entity(scope.file, name) {
+            Some(Entity::Def(id)) => self.def_callee(id, span),
+            Some(Entity::Error) => Callee::Error,
+            Some(Entity::File(_)) | None => {
+                self.name_expr(scope, span, name, None);
+                Callee::Error
+            }
+        }
+    }
+
+    fn def_callee(&mut self, id: DefId, span: Span) -> Callee {
+        match self.def(id).item {
+            DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) => Callee::Def(id),
+            _ if self.family(id).is_some() => Callee::Def(id),
+            _ => match self.def_value(id, span) {
+                e if e.ty.is_error() => Callee::Error,
+                e => Callee::Value(e),
+            },
+        }
+    }
+
+    fn field_callee(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        object: &'a ast::Expr,
+        field: ast::Name,
+    ) -> Callee {
+        if let Some(entity) = self.file_item(scope, object, field) {
+            return match entity {
+                Some(Entity::Def(id)) => self.def_callee(id, span),
+                _ => Callee::Error,
+            };
+        }
+        let object = self.expr(scope, object, None);
+        match &object.ty {
+            Type::Instance(id) => {
+                let id = *id;
+                if let Some(behavior) = self.behavior_index(id, field.text) {
+                    return Callee::Behavior(object, id, behavior);
+                }
+            }
+            Type::Record(id) => {
+                if let Some(method) = self.method(*id, field.text) {
+                    return Callee::Method(method, object);
+                }
+            }
+            _ => {}
+        }
+        match self.field_of(span, object, field, None) {
+            e if e.ty.is_error() => Callee::Error,
+            e => Callee::Value(e),
+        }
+    }
+
+    /// `gaits.caterpillar`: the item of an imported file. `None` when the object is no file name;
+    /// `Some(None)` when the file has no such item (reported).
+    pub fn file_item(
+        &mut self,
+        scope: &mut Scope,
+        object: &ast::Expr,
+        field: ast::Name,
+    ) -> Option<Option<Entity>> {
+        let ast::ExprKind::Name(name) = &object.kind else { return None };
+        if scope.has_local(*name) || scope.this.is_some_and(|t| self.members(t).index.contains_key(name)) {
+            return None;
+        }
+        let file = match self.entity(scope.file, *name)? {
+            Entity::File(file) => file,
+            _ => return None,
+        };
+        let path = [ast::Name { text: *name, span: object.span }, field];
+        let found = self.path_entity(scope.file, &path);
+        if found.is_none() {
+            let names: Vec<&str> = self.scopes[file].keys().map(|s| s.as_str()).collect();
+            let mut d = Diagnostic::error(code::UNKNOWN_NAME, format!("`{name}` has no `{}`", field.text))
+                .label(field.span, "no such item in this file");
+            if let Some(near) = suggest(field.text.as_str(), names) {
+                d = d.hint(format!("`{near}`?"));
+            }
+            self.report(d);
+        }
+        Some(found)
+    }
+
+    fn behavior_index(&mut self, id: DefId, name: Symbol) -> Option<usize> {
+        let DefItem::Config(_) = self.def(id).item else { return None };
+        let members = self.members(id);
+        members.behaviors.iter().position(|b| b.ast.name.text == name)
+    }
+
+    fn method(&self, record: DefId, name: Symbol) -> Option<DefId> {
+        let line = self.record_line(record);
+        let found = self.defs.iter().position(|info| {
+            info.name == name && matches!(info.item, DefItem::Method(_, owner) if line.contains(&owner))
+        });
+        found.map(|i| DefId(i as u32))
+    }
+
+    fn call_def(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        id: DefId,
+        object: Option<Expr>,
+        args: &'a [ast::Arg],
+        want: Option<&Type>,
+    ) -> Expr {
+        let signature = self.signature(id);
+        let name = self.def(id).name;
+        let (args, bindings) = self.arguments(scope, span, name, &signature, object, args);
+        let result = match &signature.result {
+            Some(ty) => bindings.apply(ty),
+            None => self.result_type(id, Some(span)),
+        };
+        // A type parameter that no argument has bound is what is wanted of the result.
+        let result = if has_params(&result) { want.cloned().unwrap_or(Type::Error) } else { result };
+        expr_of(span, result, ExprKind::Call { def: id, args })
+    }
+
+    fn call_value(&mut self, scope: &mut Scope, span: Span, callee: Expr, args: &'a [ast::Arg]) -> Expr {
+        let Type::Fn(f) = callee.ty.clone() else {
+            if !callee.ty.is_error() {
+                let words = self.words(&callee.ty);
+                self.report(
+                    Diagnostic::error(code::NOT_CALLABLE, format!("{words} can't be called"))
+                        .label(callee.span, "this is no function"),
+                );
+            }
+            for arg in args {
+                self.expr(scope, &arg.value, None);
+            }
+            return error_expr(span);
+        };
+        let mut typed = Vec::new();
+        for (i, arg) in args.iter().enumerate() {
+            if let Some(name) = arg.name {
+                self.report(
+                    Diagnostic::error(code::ARGUMENTS, "the parameters of a function value have no names")
+                        .label(name.span, "write the argument without its name"),
+                );
+            }
+            typed.push(match f.params.get(i) {
+                Some(ty) => self.expect(scope, &arg.value, ty, Role::Place("this argument")),
+                None => self.expr(scope, &arg.value, None),
+            });
+        }
+        if args.len() != f.params.len() {
+            let need = f.params.len();
+            self.report(
+                Diagnostic::error(
+                    code::ARGUMENTS,
+                    format!("this function takes {need} arguments, not {}", args.len()),
+                )
+                .label(span, format!("{need} arguments are wanted")),
+            );
+            return error_expr(span);
+        }
+        expr_of(span, f.result.clone(), ExprKind::CallValue { callee: Box::new(callee), args: typed })
+    }
+
+    /// Arguments in the order of the parameters.
+    pub fn arguments_of(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        name: Symbol,
+        signature: &Rc<Signature>,
+        args: &'a [ast::Arg],
+    ) -> Vec<Option<Expr>> {
+        self.arguments(scope, span, name, signature, None, args).0
+    }
+
+    /// Arguments in the order of the parameters, and what the type parameters stand for.
+    fn arguments(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        name: Symbol,
+        signature: &Rc<Signature>,
+        object: Option<Expr>,
+        args: &'a [ast::Arg],
+    ) -> (Vec<Option<Expr>>, Bindings) {
+        let params = &signature.params;
+        let mut bindings = Bindings::new(signature.type_params.len());
+        let mut out: Vec<Option<Expr>> = vec![None; params.len()];
+        let mut filled = vec![false; params.len()];
+        let mut next = 0;
+        if let Some(object) = object {
+            out[0] = Some(object);
+            filled[0] = true;
+            next = 1;
+        }
+        let mut rest: Vec<&'a ast::Expr> = Vec::new();
+        let mut named = false;
+        for arg in args {
+            let index = match arg.name {
+                Some(n) => {
+                    named = true;
+                    match params.iter().position(|p| p.name == n.text) {
+                        Some(index) => index,
+                        None => {
+                            self.no_parameter(name, n, params);
+                            self.expr(scope, &arg.value, None);
+                            continue;
+                        }
+                    }
+                }
+                None if next < params.len() && params[next].variadic => {
+                    rest.push(&arg.value);
+                    filled[next] = true;
+                    continue;
+                }
+                None if named || next >= params.len() => {
+                    self.too_many(name, arg, params, named);
+                    self.expr(scope, &arg.value, None);
+                    continue;
+                }
+                None => {
+                    next += 1;
+                    next - 1
+                }
+            };
+            if filled[index] {
+                self.report(
+                    Diagnostic::error(code::ARGUMENTS, format!("`{}` is given twice", params[index].name))
+                        .label(arg.value.span, "given again here"),
+                );
+                self.expr(scope, &arg.value, None);
+                continue;
+            }
+            filled[index] = true;
+            out[index] = Some(self.argument(scope, &arg.value, &params[index], &mut bindings));
+        }
+        if let Some(variadic) = params.iter().position(|p| p.variadic)
+            && out[variadic].is_none()
+        {
+            out[variadic] = Some(self.variadic(scope, span, &rest, &params[variadic], &mut bindings));
+            filled[variadic] = true;
+        }
+        let missing: Vec<String> = params
+            .iter()
+            .zip(&filled)
+            .filter(|(p, filled)| !**filled && !p.has_default)
+            .map(|(p, _)| format!("`{}`", p.name))
+            .collect();
+        if !missing.is_empty() {
+            self.report(
+                Diagnostic::error(code::ARGUMENTS, format!("`{name}` also needs {}", missing.join(", ")))
+                    .label(
+                        span,
+                        format!(
+                            "{} not given",
+                            if missing.len() == 1 { "one argument is" } else { "arguments are" }
+                        ),
+                    ),
+            );
+        }
+        (out, bindings)
+    }
+
+    fn no_parameter(&mut self, function: Symbol, name: ast::Name, params: &[ParamInfo]) {
+        let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
+        let mut d =
+            Diagnostic::error(code::ARGUMENTS, format!("`{function}` has no parameter `{}`", name.text))
+                .label(name.span, "no such parameter");
+        d = match suggest(name.text.as_str(), names.iter().copied()) {
+            Some(near) => d.hint(format!("`{near}`?")),
+            None if names.is_empty() => d.hint(format!("`{function}` takes no arguments")),
+            None => d.hint(format!("it takes {}", names.join(", "))),
+        };
+        self.report(d);
+    }
+
+    fn too_many(&mut self, function: Symbol, arg: &ast::Arg, params: &[ParamInfo], named: bool) {
+        let d = if named {
+            Diagnostic::error(code::ARGUMENTS, "an argument without a name stands behind a named one")
+                .label(arg.value.span, "name this one too")
+        } else {
+            let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
+            let d = Diagnostic::error(code::ARGUMENTS, format!("too many arguments for `{function}`"))
+                .label(arg.value.span, "there is no parameter for this one");
+            if names.is_empty() { d } else { d.hint(format!("it takes {}", names.join(", "))) }
+        };
+        self.report(d);
+    }
+
+    fn argument(
+        &mut self,
+        scope: &mut Scope,
+        e: &'a ast::Expr,
+        param: &ParamInfo,
+        bindings: &mut Bindings,
+    ) -> Expr {
+        if !has_params(&param.ty) {
+            return self.expect(scope, e, &param.ty, Role::Param(param.name));
+        }
+        let want = bindings.apply(&param.ty);
+        let got = self.expr(scope, e, Some(&want));
+        self.bind_argument(got, &param.ty, param.name, bindings)
+    }
+
+    fn bind_argument(&mut self, got: Expr, pattern: &Type, name: Symbol, bindings: &mut Bindings) -> Expr {
+        if got.ty.is_error() {
+            return got;
+        }
+        if !self.unify(pattern, &got.ty, bindings) {
+            let want = bindings.apply(pattern);
+            if has_params(&want) {
+                let (need, have) = (self.words(&want), self.words(&got.ty));
+                self.report(
+                    Diagnostic::error(code::TYPE_MISMATCH, format!("`{name}` wants {need}; this is {have}"))
+                        .label(got.span, format!("this is {have}")),
+                );
+                return error_expr(got.span);
+            }
+            return self.coerce(got, &want, Role::Param(name));
+        }
+        let want = bindings.apply(pattern);
+        if has_params(&want) { got } else { self.coerce(got, &want, Role::Param(name)) }
+    }
+
+    /// The list of a variadic parameter: of the arguments, or the one list that was given.
+    fn variadic(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        rest: &[&'a ast::Expr],
+        param: &ParamInfo,
+        bindings: &mut Bindings,
+    ) -> Expr {
+        let element = &param.ty;
+        if let [one] = rest {
+            let list = bindings.apply(&Type::list(element.clone()));
+            let written_list =
+                matches!(one.kind, ast::ExprKind::List(_) | ast::ExprKind::Comprehension { .. });
+            let want = if written_list { list } else { bindings.apply(element) };
+            let got = self.expr(scope, one, Some(&want));
+            let takes_any = matches!(element, Type::Param(_));
+            if got.ty.is_error() {
+                return got;
+            }
+            if let Type::List(_) = &got.ty
+                && !takes_any
+                && list_element(element).is_none()
+            {
+                return self.bind_argument(got, &Type::list(element.clone()), param.name, bindings);
+            }
+            let got = self.bind_argument(got, element, param.name, bindings);
+            let ty = Type::list(got.ty.clone());
+            return expr_of(span, ty, ExprKind::List(vec![got]));
+        }
+        let items: Vec<Expr> = rest
+            .iter()
+            .map(|e| {
+                if matches!(element, Type::Param(_)) {
+                    // `print(1, "a")`: arguments of a variadic type parameter need not be alike.
+                    self.expr(scope, e, None)
+                } else {
+                    let want = bindings.apply(element);
+                    let got = self.expr(scope, e, Some(&want));
+                    self.bind_argument(got, element, param.name, bindings)
+                }
+            })
+            .collect();
+        let ty = bindings.apply(element);
+        let ty = if has_params(&ty) { Type::Error } else { ty };
+        expr_of(span, Type::List(Arc::new(ty)), ExprKind::List(items))
+    }
+
+    /// Binds the type parameters in `pattern` so that `got` fits it, if that can be.
+    fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
+        match (pattern, got) {
+            (_, Type::Error) => true,
+            (Type::Param(i), _) => {
+                let joined = match &bindings.types[*i as usize] {
+                    None => Some(got.clone()),
+                    Some(bound) => self.join(bound, got),
+                };
+                let Some(joined) = joined else { return false };
+                bindings.types[*i as usize] = Some(joined);
+                true
+            }
+            (Type::QuantityParam { param, power }, _) => {
+                let Some(d) = got.dimension() else { return false };
+                let base = if *power == 2 { d.root() } else { Some(d) };
+                let slot = &mut bindings.dimensions[*param as usize];
+                match (base, &*slot) {
+                    (None, _) => false,
+                    (Some(base), None) => {
+                        *slot = Some(base);
+                        true
+                    }
+                    (Some(base), Some(bound)) => match base.common(*bound) {
+                        Some(common) => {
+                            *slot = Some(common);
+                            true
+                        }
+                        None => false,
+                    },
+                }
+            }
+            (Type::List(p), Type::List(g))
+            | (Type::Vec3(p), Type::Vec3(g))
+            | (Type::Range(p), Type::Range(g))
+            | (Type::Signal(p), Type::Signal(g))
+            | (Type::Optional(p), Type::Optional(g)) => self.unify(p, g, bindings),
+            (Type::Optional(p), _) => self.unify(p, got, bindings),
+            (Type::Fn(p), Type::Fn(g)) => self.unify_fn(p, g, bindings),
+            (Type::Choice(c), _) => {
+                self.fits(got, pattern) || c.types.iter().any(|t| self.unify(t, got, bindings))
+            }
+            _ => self.fits(got, pattern),
+        }
+    }
+
+    fn unify_fn(&self, pattern: &FnType, got: &FnType, bindings: &mut Bindings) -> bool {
+        if pattern.params.len() != got.params.len() {
+            return false;
+        }
+        let params = pattern.params.iter().zip(&got.params);
+        let bound = params.map(|(p, g)| has_params(g) || self.unify(p, g, bindings)).fold(true, |a, b| a & b);
+        bound && self.unify(&pattern.result, &got.result, bindings)
+    }
+}
+
+impl Bindings {
+    fn new(n: usize) -> Bindings {
+        Bindings { types: vec![None; n], dimensions: vec![None; n] }
+    }
+
+    /// A type with what is bound put in.
+    fn apply(&self, ty: &Type) -> Type {
+        let inner = |t: &Arc<Type>| Arc::new(self.apply(t));
+        match ty {
+            Type::Param(i) => self.types[*i as usize].clone().unwrap_or_else(|| ty.clone()),
+            Type::QuantityParam { param, power } => match self.dimensions[*param as usize] {
+                Some(d) => d.power(i32::from(*power)).map_or(Type::Error, Type::Quantity),
+                None => ty.clone(),
+            },
+            Type::List(t) => Type::List(inner(t)),
+            Type::Vec3(t) => Type::Vec3(inner(t)),
+            Type::Range(t) => Type::Range(inner(t)),
+            Type::Optional(t) => Type::Optional(inner(t)),
+            Type::Signal(t) => Type::Signal(inner(t)),
+            Type::Fn(f) => Type::Fn(Arc::new(FnType {
+                params: f.params.iter().map(|p| self.apply(p)).collect(),
+                result: self.apply(&f.result),
+            })),
+            Type::Choice(c) => {
+                let types = c.types.iter().map(|t| self.apply(t)).collect();
+                Type::Choice(Arc::new(super::types::Choice { words: c.words.clone(), types }))
+            }
+            _ => ty.clone(),
+        }
+    }
+}

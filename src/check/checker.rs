@@ -1,0 +1,467 @@
+//! The state of checking: declarations, what is known of them, and what has been said.
+//!
+//! Declarations see each other in any order, so everything about one is found when first needed:
+//! its signature (from what is written), its members, and its typed body (the only thing that can
+//! wait for another body, through inferred types; a circle of those is an error).
+
+use super::load::{ImportTarget, Loaded};
+use super::typed::{self, DefId, DefKind, Local, MemberId, Program};
+use super::types::{Family, Type};
+use crate::source::suggest::suggest;
+use crate::source::{Diagnostic, FileId, Sources, Span, Symbol, code};
+use crate::syntax::ast;
+use std::collections::HashMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// What a name at the top of a file means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Entity {
+    Def(DefId),
+    /// `use std.gaits`: a file whose items are reached by `gaits.name`.
+    File(usize),
+    /// Reported already.
+    Error,
+}
+
+/// A declaration as it stands in the tree.
+#[derive(Clone, Copy)]
+pub enum DefItem<'a> {
+    Let(&'a ast::Let),
+    Fn(&'a ast::Fn),
+    Native(&'a ast::ExternFn),
+    /// A method of the record.
+    Method(&'a ast::ExternFn, DefId),
+    Record(&'a ast::ExternType),
+    Connector(&'a ast::Connector),
+    Module(&'a ast::Module),
+    Cell(&'a ast::Facts),
+    Strut(&'a ast::Facts),
+    Config(&'a ast::Config),
+    Lattice(&'a ast::Lattice),
+    Truss(&'a ast::Truss),
+}
+
+pub struct DefInfo<'a> {
+    pub name: Symbol,
+    pub span: Span,
+    /// Index among the loaded files.
+    pub file: usize,
+    pub doc: Option<Arc<str>>,
+    pub item: DefItem<'a>,
+    pub signature: Option<Rc<Signature>>,
+    pub members: Option<Rc<Members<'a>>>,
+    pub typed: Option<DefKind>,
+    /// The type of a `let`, or the inferred result of a `fn`.
+    pub inferred: Option<Type>,
+    pub busy: bool,
+}
+
+/// Parameters and result of what can be called.
+#[derive(Clone, Debug, Default)]
+pub struct Signature {
+    pub params: Vec<ParamInfo>,
+    /// `None`: inferred from the body.
+    pub result: Option<Type>,
+    /// Names of type parameters, and whether each is a dimension.
+    pub type_params: Vec<(Symbol, bool)>,
+}
+
+#[derive(Clone, Debug)]
+pub struct ParamInfo {
+    pub name: Symbol,
+    pub span: Span,
+    pub ty: Type,
+    pub has_default: bool,
+    pub variadic: bool,
+}
+
+/// The names in the body of a declaration with instances.
+#[derive(Default)]
+pub struct Members<'a> {
+    pub list: Vec<MemberInfo<'a>>,
+    pub index: HashMap<Symbol, MemberId>,
+    /// Modules only.
+    pub joints: Vec<JointInfo<'a>>,
+    pub joint_index: HashMap<Symbol, usize>,
+    pub ports: Vec<PortInfo>,
+    pub port_index: HashMap<Symbol, usize>,
+    /// Configurations only.
+    pub behaviors: Vec<BehaviorInfo<'a>>,
+}
+
+pub struct MemberInfo<'a> {
+    pub name: Symbol,
+    pub span: Span,
+    pub kind: MemberInfoKind<'a>,
+}
+
+#[derive(Clone, Copy)]
+pub enum MemberInfoKind<'a> {
+    Param(usize),
+    Let(&'a ast::Let),
+    Part(&'a ast::Part, usize),
+    /// Whether it is an array.
+    Port(&'a ast::ConfigClauseKind, bool),
+    Behavior(usize),
+    Node {
+        array: bool,
+    },
+}
+
+pub struct JointInfo<'a> {
+    pub name: Symbol,
+    pub span: Span,
+    pub doc: Option<Arc<str>>,
+    pub clause: &'a ast::ModuleClauseKind,
+    pub dimension: crate::units::Dimension,
+}
+
+pub struct PortInfo {
+    pub name: Symbol,
+    pub span: Span,
+    pub doc: Option<Arc<str>>,
+    pub array: bool,
+}
+
+pub struct BehaviorInfo<'a> {
+    pub ast: &'a ast::Behavior,
+    pub doc: Option<Arc<str>>,
+    pub signature: Rc<Signature>,
+}
+
+pub struct Checker<'a> {
+    pub loaded: &'a Loaded,
+    pub sources: &'a Sources,
+    pub defs: Vec<DefInfo<'a>>,
+    pub scopes: Vec<HashMap<Symbol, Entity>>,
+    /// Values of members' `let`s, checked when first needed; `None` while that is going on.
+    pub member_lets: HashMap<(DefId, MemberId), Option<typed::Expr>>,
+    /// Slots that the expressions of a declaration's members need.
+    pub member_frames: HashMap<DefId, usize>,
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// The surroundings of an expression: its file, its locals, the instance whose body it stands in.
+pub struct Scope {
+    pub file: usize,
+    pub this: Option<DefId>,
+    /// Type parameters of the `extern fn` at hand.
+    pub type_params: Vec<(Symbol, bool)>,
+    frame: Frame,
+    /// Frames around a lambda, innermost last.
+    outer: Vec<Frame>,
+}
+
+/// The locals of one body; a lambda has a frame of its own.
+#[derive(Default)]
+struct Frame {
+    locals: Vec<Binding>,
+    /// Locals of the frames outside, copied in, and where from.
+    captured: Vec<(Binding, Local)>,
+    next: u32,
+    size: u32,
+}
+
+#[derive(Clone)]
+struct Binding {
+    name: Symbol,
+    local: Local,
+    ty: Type,
+}
+
+impl Frame {
+    fn slot(&mut self) -> Local {
+        let local = Local(self.next);
+        self.next += 1;
+        self.size = self.size.max(self.next);
+        local
+    }
+
+    fn find(&self, name: Symbol) -> Option<&Binding> {
+        let own = self.locals.iter().rev().find(|b| b.name == name);
+        own.or_else(|| self.captured.iter().map(|(b, _)| b).find(|b| b.name == name))
+    }
+}
+
+impl Scope {
+    pub fn new(file: usize, this: Option<DefId>) -> Scope {
+        Scope { file, this, type_params: Vec::new(), frame: Frame::default(), outer: Vec::new() }
+    }
+
+    pub fn bind(&mut self, name: Symbol, ty: Type) -> Local {
+        let local = self.frame.slot();
+        self.frame.locals.push(Binding { name, local, ty });
+        local
+    }
+
+    /// Where the inner scope that begins now ends: give it to [`Scope::close`].
+    pub fn open(&self) -> (usize, u32) {
+        (self.frame.locals.len(), self.frame.next)
+    }
+
+    pub fn close(&mut self, mark: (usize, u32)) {
+        self.frame.locals.truncate(mark.0);
+        // In a lambda, captures made since may lie above the mark: their slots stay taken.
+        if self.outer.is_empty() {
+            self.frame.next = mark.1;
+        }
+    }
+
+    /// Slots that the body needs.
+    pub fn frame(&self) -> usize {
+        self.frame.size as usize
+    }
+
+    /// Whether a local of this name was bound since the mark.
+    pub fn bound_since(&self, mark: (usize, u32), name: Symbol) -> bool {
+        self.frame.locals[mark.0..].iter().any(|b| b.name == name)
+    }
+
+    pub fn enter_lambda(&mut self) {
+        self.outer.push(std::mem::take(&mut self.frame));
+    }
+
+    /// Ends the lambda's frame: its size and what it captures, (outside, inside).
+    pub fn leave_lambda(&mut self) -> (usize, Vec<(Local, Local)>) {
+        let outer = self.outer.pop().expect("a lambda was entered");
+        let frame = std::mem::replace(&mut self.frame, outer);
+        let captures = frame.captured.iter().map(|(b, from)| (*from, b.local)).collect();
+        (frame.size as usize, captures)
+    }
+
+    pub fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
+        self.local_at(name, self.outer.len()).map(|b| (b.local, b.ty))
+    }
+
+    /// A local as seen from the frame at this depth, captured from the frames outside if need be.
+    fn local_at(&mut self, name: Symbol, depth: usize) -> Option<Binding> {
+        if let Some(binding) = self.frame_at(depth).find(name) {
+            return Some(binding.clone());
+        }
+        let outside = self.local_at(name, depth.checked_sub(1)?)?;
+        let frame = self.frame_at(depth);
+        let inside = Binding { local: frame.slot(), ..outside.clone() };
+        frame.captured.push((inside.clone(), outside.local));
+        Some(inside)
+    }
+
+    fn frame_at(&mut self, depth: usize) -> &mut Frame {
+        if depth == self.outer.len() { &mut self.frame } else { &mut self.outer[depth] }
+    }
+
+    pub fn has_local(&self, name: Symbol) -> bool {
+        std::iter::once(&self.frame).chain(&self.outer).any(|f| f.find(name).is_some())
+    }
+
+    pub fn local_names(&self) -> impl Iterator<Item = &'static str> + '_ {
+        let frames = std::iter::once(&self.frame).chain(&self.outer);
+        frames.flat_map(|frame| &frame.locals).map(|b| b.name.as_str())
+    }
+}
+
+impl<'a> Checker<'a> {
+    pub fn new(loaded: &'a Loaded, sources: &'a Sources, diagnostics: Vec<Diagnostic>) -> Checker<'a> {
+        Checker {
+            loaded,
+            sources,
+            defs: Vec::new(),
+            scopes: Vec::new(),
+            member_lets: HashMap::new(),
+            member_frames: HashMap::new(),
+            diagnostics,
+        }
+    }
+
+    pub fn def(&self, id: DefId) -> &DefInfo<'a> {
+        &self.defs[id.0 as usize]
+    }
+
+    pub fn def_mut(&mut self, id: DefId) -> &mut DefInfo<'a> {
+        &mut self.defs[id.0 as usize]
+    }
+
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// What a name means at the top of a file, the prelude included.
+    pub fn entity(&self, file: usize, name: Symbol) -> Option<Entity> {
+        let own = self.scopes[file].get(&name).copied();
+        own.or_else(|| self.loaded.prelude.and_then(|p| self.scopes[p].get(&name).copied()))
+    }
+
+    /// A built-in by its name in the prelude.
+    pub fn prelude_def(&self, name: &str) -> Option<DefId> {
+        match self.scopes[self.loaded.prelude?].get(&Symbol::new(name)) {
+            Some(Entity::Def(id)) => Some(*id),
+            _ => None,
+        }
+    }
+
+    /// The names that can be seen from the top of a file.
+    pub fn visible_names(&self, file: usize) -> Vec<&'static str> {
+        let mut names: Vec<&str> = self.scopes[file].keys().map(|s| s.as_str()).collect();
+        if let Some(prelude) = self.loaded.prelude {
+            names.extend(self.scopes[prelude].keys().map(|s| s.as_str()));
+        }
+        names
+    }
+
+    /// Fills the scopes: the items of every file, then what each imports.
+    pub fn declare(&mut self) {
+        for (index, file) in self.loaded.files.iter().enumerate() {
+            self.scopes.push(HashMap::new());
+            for item in &file.ast.items {
+                self.declare_item(index, item);
+            }
+        }
+        for (index, file) in self.loaded.files.iter().enumerate() {
+            for import in &file.imports {
+                self.declare_import(index, import);
+            }
+        }
+    }
+
+    fn declare_item(&mut self, file: usize, item: &'a ast::Item) {
+        use ast::ItemKind as K;
+        let (name, def) = match &item.kind {
+            K::Let(x) => (x.name, DefItem::Let(x)),
+            K::Fn(x) => (x.name, DefItem::Fn(x)),
+            K::ExternFn(x) => (x.name, DefItem::Native(x)),
+            K::ExternType(x) => (x.name, DefItem::Record(x)),
+            K::Connector(x) => (x.name, DefItem::Connector(x)),
+            K::Module(x) => (x.name, DefItem::Module(x)),
+            K::Cell(x) => (x.name, DefItem::Cell(x)),
+            K::Strut(x) => (x.name, DefItem::Strut(x)),
+            K::Config(x) => (x.name, DefItem::Config(x)),
+            K::Lattice(x) => (x.name, DefItem::Lattice(x)),
+            K::Truss(x) => (x.name, DefItem::Truss(x)),
+            K::Use(_) | K::Test(_) | K::Statement(_) | K::Error => return,
+        };
+        let id = self.add_def(file, name, item.doc.as_deref(), def);
+        if let DefItem::Record(record) = def {
+            for (doc, method) in &record.methods {
+                self.add_def(file, method.name, doc.as_deref(), DefItem::Method(method, id));
+            }
+        }
+        if let Some(Entity::Def(first)) = self.scopes[file].get(&name.text).copied() {
+            let first = self.def(first).span;
+            return self.declared_twice(name.text, first, name.span);
+        }
+        self.scopes[file].insert(name.text, Entity::Def(id));
+    }
+
+    fn add_def(&mut self, file: usize, name: ast::Name, doc: Option<&str>, item: DefItem<'a>) -> DefId {
+        self.defs.push(DefInfo {
+            name: name.text,
+            span: name.span,
+            file,
+            doc: doc.map(Arc::from),
+            item,
+            signature: None,
+            members: None,
+            typed: None,
+            inferred: None,
+            busy: false,
+        });
+        DefId(self.defs.len() as u32 - 1)
+    }
+
+    pub fn declared_twice(&mut self, name: Symbol, first: Span, second: Span) {
+        self.report(
+            Diagnostic::error(code::DECLARED_TWICE, format!("`{name}` is declared twice"))
+                .label(second, "declared again here")
+                .label(first, "first declared here")
+                .hint("give one of them another name"),
+        );
+    }
+
+    fn declare_import(&mut self, file: usize, import: &super::load::Import) {
+        let entity = match import.target {
+            ImportTarget::Error => Entity::Error,
+            ImportTarget::File(target) => Entity::File(target),
+            ImportTarget::Item { file: target, item, span } => self.imported(target, item, span),
+        };
+        if let Some(Entity::Def(first)) = self.scopes[file].get(&import.name).copied()
+            && entity != Entity::Error
+        {
+            if entity != Entity::Def(first) {
+                let first = self.def(first).span;
+                if first.file == import.span.file {
+                    self.declared_twice(import.name, first, import.span);
+                } else {
+                    self.report(
+                        Diagnostic::error(
+                            code::DECLARED_TWICE,
+                            format!("`{}` is imported twice", import.name),
+                        )
+                        .label(import.span, "two items of this name are imported")
+                        .hint(format!("rename one: `{{{} as Other}}`", import.name)),
+                    );
+                }
+            }
+            return;
+        }
+        self.scopes[file].insert(import.name, entity);
+    }
+
+    fn imported(&mut self, target: usize, item: Symbol, span: Span) -> Entity {
+        let id = self.loaded.files[target].ast.id;
+        let shown = self.sources.file(id).name.clone();
+        // Only what a file declares itself can be imported from it.
+        let own = self.scopes[target].get(&item).copied();
+        let declared = own.filter(|e| matches!(e, Entity::Def(id) if self.def(*id).file == target));
+        match declared {
+            Some(entity) if item.as_str().starts_with('_') => {
+                self.report(
+                    Diagnostic::error(code::PRIVATE_NAME, format!("`{item}` is private to `{shown}`"))
+                        .label(span, "names that begin with `_` can't be imported"),
+                );
+                let _ = entity;
+                Entity::Error
+            }
+            Some(entity) => entity,
+            None => {
+                let names = self.scopes[target].keys().map(|s| s.as_str());
+                let near = suggest(item.as_str(), names);
+                let mut diagnostic =
+                    Diagnostic::error(code::UNKNOWN_IMPORT, format!("`{shown}` has no `{item}`"))
+                        .label(span, "no such item");
+                if let Some(near) = near {
+                    diagnostic = diagnostic.hint(format!("`{near}`?"));
+                }
+                self.report(diagnostic);
+                Entity::Error
+            }
+        }
+    }
+
+    /// Which family of instances a declaration has, if it has instances.
+    pub fn family(&self, id: DefId) -> Option<Family> {
+        Some(match self.def(id).item {
+            DefItem::Module(_) => Family::Module,
+            DefItem::Config(_) => Family::Config,
+            DefItem::Cell(_) => Family::Cell,
+            DefItem::Strut(_) => Family::Strut,
+            DefItem::Lattice(_) => Family::Lattice,
+            DefItem::Truss(_) => Family::Truss,
+            _ => return None,
+        })
+    }
+
+    /// The whole program, once everything has been checked.
+    pub fn finish(self, statements: typed::Body, tests: Vec<typed::Test>) -> (Program, Vec<Diagnostic>) {
+        let mut own = Vec::new();
+        let mut defs = Vec::with_capacity(self.defs.len());
+        for (index, info) in self.defs.into_iter().enumerate() {
+            let file: FileId = self.loaded.files[info.file].ast.id;
+            if !self.sources.file(file).library {
+                own.push(DefId(index as u32));
+            }
+            let kind = info.typed.unwrap_or(DefKind::Error);
+            defs.push(typed::Def { name: info.name, span: info.span, file, doc: info.doc, kind });
+        }
+        (Program { defs, statements, tests, own }, self.diagnostics)
+    }
+}

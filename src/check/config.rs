@@ -1,0 +1,349 @@
+//! Configurations: parts, ports, behaviours, and the clauses that connect them.
+
+use super::checker::{Checker, Entity, Scope};
+use super::expr::{Role, expr_of};
+use super::typed::{
+    BehaviorDef, ConfigClause, ConfigDef, DefId, DefKind, Exemption, ExemptionKind, Expr, ExprKind,
+    MemberKind, PartCount, PartDef,
+};
+use super::types::{Family, Type};
+use crate::source::suggest::suggest;
+use crate::source::{Diagnostic, code};
+use crate::syntax::ast::{self, ConfigClauseKind};
+use crate::units::Dimension;
+
+impl<'a> Checker<'a> {
+    pub fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
+        let signature = self.signature(id);
+        let mut scope = Scope::new(self.def(id).file, Some(id));
+        let params = self.typed_params(&mut scope, &config.params, &signature.params, false);
+        let members = self.typed_members(id);
+        let mut def = ConfigDef {
+            params,
+            closed: config.closed,
+            members,
+            parts: Vec::new(),
+            behaviors: Vec::new(),
+            clauses: Vec::new(),
+            base: None,
+            frame: 0,
+        };
+        for clause in &config.clauses {
+            match &clause.kind {
+                ConfigClauseKind::Part(part) => def.parts.push(self.part(&mut scope, id, part)),
+                ConfigClauseKind::Base(path) => {
+                    if def.base.is_some() {
+                        self.report(
+                            Diagnostic::error(code::DECLARED_TWICE, "a configuration has one `base`")
+                                .label(clause.span, "given again here"),
+                        );
+                    }
+                    def.base = self.base(&mut scope, path);
+                }
+                ConfigClauseKind::Behavior(_) | ConfigClauseKind::Port { .. } | ConfigClauseKind::Let(_) => {}
+                _ => {
+                    let clause = self.config_clause(&mut scope, clause);
+                    def.clauses.extend(clause);
+                }
+            }
+        }
+        let behaviors = self.members(id);
+        for behavior in &behaviors.behaviors {
+            def.behaviors.push(self.behavior(id, behavior));
+        }
+        // Expressions of members were checked in scopes of their own.
+        def.frame = scope.frame().max(self.member_frame(id));
+        DefKind::Config(def)
+    }
+
+    fn part(&mut self, scope: &mut Scope, id: DefId, part: &'a ast::Part) -> PartDef {
+        self.lint_snake(part.name.text, part.name.span, "parts");
+        let mark = scope.open();
+        let count = part.count.as_ref().map(|count| match count {
+            ast::PartCount::Number(e) => {
+                PartCount::Number(self.expect(scope, e, &Type::Int, Role::Place("the number of parts")))
+            }
+            ast::PartCount::Each { binder, range } => {
+                let (range, element) = self.iterable(scope, range);
+                PartCount::Each { binder: scope.bind(binder.text, element), range }
+            }
+        });
+        let of = self.part_type(scope, part);
+        let args = match (of, &part.args) {
+            (Some(of), args) => {
+                let signature = self.signature(of);
+                let name = self.def(of).name;
+                let args = args.as_deref().unwrap_or(&[]);
+                self.arguments_of(scope, part.ty_span, name, &signature, args)
+            }
+            (None, _) => Vec::new(),
+        };
+        scope.close(mark);
+        let member = self.members(id).index[&part.name.text];
+        // An unknown type was reported; `DefId(u32::MAX)` would be a trap, so the configuration
+        // itself stands in, and elaboration sees the error type of the member first.
+        let of = of.unwrap_or(id);
+        PartDef { member, name: part.name.text, span: part.name.span, of, count, args, ty_span: part.ty_span }
+    }
+
+    fn part_type(&mut self, scope: &Scope, part: &'a ast::Part) -> Option<DefId> {
+        let path = &part.ty;
+        let last = path[path.len() - 1];
+        let span = path[0].span.to(last.span);
+        match self.path_entity(scope.file, path) {
+            Some(Entity::Def(id)) if self.is_part_type(id) => return Some(id),
+            Some(Entity::Error) => return None,
+            Some(Entity::Def(id)) => {
+                let what = match self.family(id) {
+                    Some(Family::Cell) => "a cell: it goes into a `lattice`",
+                    Some(Family::Strut) => "a strut: it goes into a `truss`",
+                    Some(_) => "of another family of robots",
+                    None => "no module or configuration",
+                };
+                self.report(
+                    Diagnostic::error(code::NOT_A_TYPE, format!("`{}` is {what}", last.text))
+                        .label(span, "a module or configuration is wanted here"),
+                );
+            }
+            Some(Entity::File(_)) | None => {
+                let names = self.visible_names(scope.file).into_iter();
+                let types: Vec<&str> =
+                    names.filter(|n| n.starts_with(|c: char| c.is_ascii_uppercase())).collect();
+                let mut d = Diagnostic::error(code::NOT_A_TYPE, format!("`{}` is not known here", last.text))
+                    .label(span, "a module or configuration is wanted here");
+                d = match suggest(last.text.as_str(), types) {
+                    Some(near) => d.hint(format!("`{near}`?")),
+                    None => match self.library_home(last.text.as_str()) {
+                        Some(file) => {
+                            d.hint(format!("`use {file}.{{{}}}` at the top of the file", last.text))
+                        }
+                        None => d,
+                    },
+                };
+                self.report(d);
+            }
+        }
+        None
+    }
+
+    /// The loaded library file that declares a name, as it is imported.
+    fn library_home(&self, name: &str) -> Option<String> {
+        let info = self.defs.iter().find(|d| d.name == name && self.sources.file(d.span.file).library)?;
+        let file = &self.sources.file(info.span.file).name;
+        Some(file.trim_end_matches(".mod").replace('/', "."))
+    }
+
+    fn base(&mut self, scope: &mut Scope, path: &'a ast::Path) -> Option<Expr> {
+        let base = self.path(scope, path, None);
+        match &base.ty {
+            Type::Instance(id) if self.is_part_type(*id) => Some(base),
+            Type::Error => None,
+            other => {
+                let words = self.words(other);
+                self.report(
+                    Diagnostic::error(code::TYPE_MISMATCH, format!("`base` names a module; this is {words}"))
+                        .label(base.span, "a part is wanted here"),
+                );
+                None
+            }
+        }
+    }
+
+    fn behavior(&mut self, id: DefId, info: &super::checker::BehaviorInfo<'a>) -> BehaviorDef {
+        let mut scope = Scope::new(self.def(id).file, Some(id));
+        let ast = info.ast;
+        self.lint_snake(ast.name.text, ast.name.span, "behaviors");
+        let params = self.typed_params(&mut scope, &ast.params, &info.signature.params, true);
+        let allows = ast.allows.iter().filter_map(|e| self.exemption(&mut scope, e)).collect();
+        let body = self.expect(&mut scope, &ast.body, &Type::Behavior, Role::Place("a behavior"));
+        BehaviorDef {
+            name: ast.name.text,
+            span: ast.name.span,
+            doc: info.doc.clone(),
+            params,
+            allows,
+            body,
+            frame: scope.frame(),
+        }
+    }
+
+    fn exemption(&mut self, scope: &mut Scope, e: &'a ast::Exemption) -> Option<Exemption> {
+        let known = ["unstable", "slip", "collision", "overload"];
+        let part = Type::Any(Family::Config);
+        let kind = match (e.name.text.as_str(), e.args.as_slice()) {
+            ("unstable", []) => ExemptionKind::Unstable,
+            ("slip", []) => ExemptionKind::Slip,
+            ("collision", []) => ExemptionKind::Collision(None),
+            ("collision", [a, b]) => {
+                let role = Role::Place("`collision`");
+                let pair = (self.expect(scope, a, &part, role), self.expect(scope, b, &part, role));
+                ExemptionKind::Collision(Some(pair))
+            }
+            ("overload", []) => ExemptionKind::Overload(None),
+            ("overload", [joint]) => {
+                let joint =
+                    self.expect(scope, joint, &Type::Joint(Dimension::ANGLE), Role::Place("`overload`"));
+                ExemptionKind::Overload(Some(joint))
+            }
+            (name, _) => {
+                let mut d = if known.contains(&name) {
+                    Diagnostic::error(code::ARGUMENTS, format!("`{name}` does not take these")).label(
+                        e.span,
+                        "`collision(a, b)` names two parts, `overload(j)` a joint, the others nothing",
+                    )
+                } else {
+                    Diagnostic::error(code::UNKNOWN_CHOICE, format!("`{name}` can't be allowed"))
+                        .label(e.name.span, "one of unstable, slip, collision, overload is wanted")
+                };
+                if let Some(near) = suggest(name, known) {
+                    d = d.hint(format!("`{near}`?"));
+                }
+                self.report(d);
+                return None;
+            }
+        };
+        Some(Exemption { kind, span: e.span })
+    }
+
+    fn config_clause(&mut self, scope: &mut Scope, clause: &'a ast::ConfigClause) -> Option<ConfigClause> {
+        Some(match &clause.kind {
+            ConfigClauseKind::Connect { a, b, turn } => {
+                let angle = Type::Quantity(Dimension::ANGLE);
+                ConfigClause::Connect {
+                    a: self.port_path(scope, a),
+                    b: self.port_path(scope, b),
+                    turn: turn.as_ref().map(|e| self.expect(scope, e, &angle, Role::Place("`turn`"))),
+                    span: clause.span,
+                }
+            }
+            ConfigClauseKind::Set { joint, value } => {
+                let joint = self.path(scope, joint, Some(&Type::Joint(Dimension::ANGLE)));
+                let want = match &joint.ty {
+                    Type::Joint(d) => Type::Quantity(*d),
+                    Type::Error => Type::Error,
+                    other => {
+                        let words = self.words(other);
+                        self.report(
+                            Diagnostic::error(
+                                code::TYPE_MISMATCH,
+                                format!("`set` takes a joint; this is {words}"),
+                            )
+                            .label(joint.span, "a joint is wanted here"),
+                        );
+                        Type::Error
+                    }
+                };
+                let value = self.expect(scope, value, &want, Role::Place("the joint's position"));
+                ConfigClause::Set { joint, value, span: clause.span }
+            }
+            ConfigClauseKind::Let(x) => {
+                let value = self.let_value(scope, x);
+                ConfigClause::Let { local: scope.bind(x.name.text, value.ty.clone()), value }
+            }
+            ConfigClauseKind::Require(r) => ConfigClause::Require(self.require(scope, r)),
+            ConfigClauseKind::If { condition, then, otherwise } => ConfigClause::If {
+                condition: self.expect(scope, condition, &Type::Bool, Role::Place("the condition")),
+                then: self.config_clauses(scope, then),
+                otherwise: self.config_clauses(scope, otherwise),
+            },
+            ConfigClauseKind::For { binder, iterable, body } => {
+                let (iterable, element) = self.iterable(scope, iterable);
+                let mark = scope.open();
+                let binder = scope.bind(binder.text, element);
+                let body = self.config_clauses(scope, body);
+                scope.close(mark);
+                ConfigClause::For { binder, iterable, body }
+            }
+            ConfigClauseKind::Error => return None,
+            ConfigClauseKind::Part(_)
+            | ConfigClauseKind::Port { .. }
+            | ConfigClauseKind::Base(_)
+            | ConfigClauseKind::Behavior(_) => {
+                self.report(
+                    Diagnostic::error(
+                        code::SYNTAX,
+                        "parts, ports, `base` and behaviors stand at the top of the body",
+                    )
+                    .label(clause.span, "not in `if` or `for`")
+                    .hint("`part leg[i in 0..4]: Leg(left: i < 2)` gives each part its arguments"),
+                );
+                return None;
+            }
+        })
+    }
+
+    fn config_clauses(&mut self, scope: &mut Scope, clauses: &'a [ast::ConfigClause]) -> Vec<ConfigClause> {
+        let mark = scope.open();
+        let out = clauses.iter().filter_map(|c| self.config_clause(scope, c)).collect();
+        scope.close(mark);
+        out
+    }
+
+    fn port_path(&mut self, scope: &mut Scope, path: &'a ast::Path) -> Expr {
+        let port = self.path(scope, path, Some(&Type::Port));
+        self.coerce(port, &Type::Port, Role::Place("`connect`"))
+    }
+
+    /// `body.side[i]` as an expression; every prefix has its own span.
+    pub fn path(&mut self, scope: &mut Scope, path: &'a ast::Path, want: Option<&Type>) -> Expr {
+        let last = path.steps.len();
+        let root_want = if last == 0 { want } else { None };
+        let mut object = self.name_expr(scope, path.root.span, path.root.text, root_want);
+        for (i, step) in path.steps.iter().enumerate() {
+            object = match step {
+                ast::PathStep::Field(name) => {
+                    // `m.left.port`, `m.side[i]`: what is wanted of the whole is wanted of the name.
+                    let rest = &path.steps[i + 1..];
+                    let ends = rest.iter().all(|s| matches!(s, ast::PathStep::Index { .. }));
+                    let span = path.root.span.to(name.span);
+                    let want = if ends { want } else { None };
+                    self.path_field(span, object, *name, want, rest.first())
+                }
+                ast::PathStep::Index { index, span } => {
+                    let index = self.expect(scope, index, &Type::Int, Role::Place("an index"));
+                    self.index_of(path.root.span.to(*span), object, index)
+                }
+            };
+        }
+        object
+    }
+
+    fn path_field(
+        &mut self,
+        span: crate::source::Span,
+        object: Expr,
+        name: ast::Name,
+        want: Option<&Type>,
+        next: Option<&ast::PathStep>,
+    ) -> Expr {
+        // The step `.joint` or `.port` behind a name of both name spaces chooses one.
+        let is_module = self.instance_family(&object.ty) == Some(Family::Module);
+        let chosen = match next {
+            Some(ast::PathStep::Field(n)) if is_module && n.text == "joint" => {
+                Some(Type::Joint(Dimension::ANGLE))
+            }
+            Some(ast::PathStep::Field(n)) if is_module && n.text == "port" => Some(Type::Port),
+            _ => None,
+        };
+        let choice_step = ["joint", "port"].contains(&name.text.as_str());
+        if choice_step && matches!(object.kind, ExprKind::Joint { .. } | ExprKind::Port { .. }) {
+            return expr_of(span, object.ty.clone(), object.kind);
+        }
+        self.field_of(span, object, name, chosen.as_ref().or(want))
+    }
+
+    /// A `port` clause of a configuration as a member.
+    pub fn config_port(&mut self, id: DefId, clause: &'a ConfigClauseKind, array: bool) -> MemberKind {
+        let ConfigClauseKind::Port { name, count, value } = clause else {
+            unreachable!("only port clauses are ports")
+        };
+        let mut scope = Scope::new(self.def(id).file, Some(id));
+        let count = count
+            .as_ref()
+            .map(|e| self.expect(&mut scope, e, &Type::Int, Role::Place("the number of ports")));
+        let want = if array { Type::list(Type::Port) } else { Type::Port };
+        let value = self.expect(&mut scope, value, &want, Role::Param(name.text));
+        self.note_frame(id, scope.frame());
+        MemberKind::Port { count, value }
+    }
+}

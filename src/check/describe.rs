@@ -1,0 +1,110 @@
+//! Types in the user's words.
+
+use super::checker::Checker;
+use super::types::{Family, Type};
+use crate::units::{Dimension, display};
+
+/// What a quantity of this dimension is called in a sentence: `an angular speed`.
+pub fn dimension_words(d: Dimension) -> String {
+    let words = match d.name() {
+        Some("Number") => "a number",
+        Some("Length") => "a length",
+        Some("Angle") => "an angle",
+        Some("Time") => "a time",
+        Some("Mass") => "a mass",
+        Some("Speed") => "a speed",
+        Some("AngularSpeed") => "an angular speed",
+        Some("Acceleration") => "an acceleration",
+        Some("AngularAcceleration") => "an angular acceleration",
+        Some("Force") => "a force",
+        Some("Torque") => "a torque or energy",
+        Some("Power") => "a power",
+        Some("Area") => "an area",
+        Some("Volume") => "a volume",
+        Some("Frequency") => "a frequency",
+        _ => return format!("a quantity in {}", display::base_units(d)),
+    };
+    words.to_string()
+}
+
+/// With its usual unit: `an angular speed (rad/s)`.
+pub fn dimension_with_unit(d: Dimension) -> String {
+    let unit = display::usual_unit(d);
+    let words = dimension_words(d);
+    if unit.is_empty() || d.name().is_none() { words } else { format!("{words} ({unit})") }
+}
+
+impl Checker<'_> {
+    /// A type in a sentence: `an angle`, `a list of lengths`, ``a `Smores` ``.
+    pub fn words(&self, ty: &Type) -> String {
+        match ty {
+            Type::Quantity(d) => dimension_words(*d),
+            Type::Int => "a whole number".into(),
+            Type::Bool => "true or false".into(),
+            Type::Nothing => "nothing".into(),
+            Type::Optional(inner) => format!("{}, or nothing", self.words(inner)),
+            Type::Choice(choice) => {
+                let words = choice.words.iter().map(|w| format!("`{w}`"));
+                let types = choice.types.iter().map(|t| self.words(t));
+                words.chain(types).collect::<Vec<_>>().join(" or ")
+            }
+            Type::Error => "something unknown".into(),
+            Type::Instance(id) => format!("a `{}`", self.def(*id).name),
+            _ => format!("a `{}`", self.name(ty)),
+        }
+    }
+
+    /// A type as it is written.
+    pub fn name(&self, ty: &Type) -> String {
+        let args = |name: &str, t: &Type| format!("{name}<{}>", self.name(t));
+        match ty {
+            Type::Error => "?".into(),
+            Type::Nothing => "nothing".into(),
+            Type::Quantity(d) => match d.name() {
+                Some(name) => name.into(),
+                None => format!("Quantity<{}>", display::base_units(*d)),
+            },
+            Type::Int => "Int".into(),
+            Type::Bool => "Bool".into(),
+            Type::Text => "Text".into(),
+            Type::List(t) => args("List", t),
+            Type::Vec3(t) => args("Vec3", t),
+            Type::Pose => "Pose".into(),
+            Type::Range(t) => args("Range", t),
+            Type::Optional(t) => format!("{}?", self.name(t)),
+            Type::Fn(f) => {
+                let params: Vec<String> = f.params.iter().map(|p| self.name(p)).collect();
+                format!("fn({}) -> {}", params.join(", "), self.name(&f.result))
+            }
+            Type::Choice(choice) => {
+                let words = choice.words.iter().map(|w| w.to_string());
+                words.chain(choice.types.iter().map(|t| self.name(t))).collect::<Vec<_>>().join(" | ")
+            }
+            Type::Joint(d) => args("Joint", &Type::Quantity(*d)),
+            Type::Port => "Port".into(),
+            Type::Behavior => "Behavior".into(),
+            Type::Signal(t) => args("Signal", t),
+            Type::Condition => "Condition".into(),
+            Type::Shape => "Shape".into(),
+            Type::JointKind => "JointKind".into(),
+            Type::Cells => "Cells".into(),
+            Type::Mesh => "Mesh".into(),
+            Type::Cloud => "Cloud".into(),
+            Type::Instance(id) | Type::Record(id) => self.def(*id).name.to_string(),
+            Type::Any(family) => family_name(*family).into(),
+            Type::Param(_) => "any type".into(),
+            Type::QuantityParam { .. } => "Quantity".into(),
+        }
+    }
+}
+
+pub fn family_name(family: Family) -> &'static str {
+    match family {
+        Family::Module => "Module",
+        Family::Config => "Config",
+        Family::Cell => "Cell",
+        Family::Strut => "Strut",
+        Family::Lattice => "Lattice",
+        Family::Truss => "Truss",
+    }
+}

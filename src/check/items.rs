@@ -1,0 +1,402 @@
+//! Items and statements: signatures, bodies, and the order in which they are worked out.
+
+use super::checker::{Checker, DefItem, ParamInfo, Scope, Signature};
+use super::expr::{Role, error_expr};
+use super::typed::{
+    Body, DefId, DefKind, Expr, FnDef, LetDef, MemberId, NativeDef, Param, RecordDef, RecordField, Stmt,
+    StmtKind, Test,
+};
+use super::types::Type;
+use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::syntax::ast;
+use std::rc::Rc;
+use std::sync::Arc;
+
+impl<'a> Checker<'a> {
+    pub fn signature(&mut self, id: DefId) -> Rc<Signature> {
+        if let Some(signature) = &self.def(id).signature {
+            return signature.clone();
+        }
+        let mut scope = Scope::new(self.def(id).file, None);
+        let signature = match self.def(id).item {
+            DefItem::Fn(f) => Signature {
+                params: self.params(&scope, &f.params),
+                result: f.result.as_ref().map(|ty| self.type_expr(&scope, ty)),
+                type_params: Vec::new(),
+            },
+            DefItem::Native(f) => self.native_signature(&mut scope, f, None),
+            DefItem::Method(f, record) => self.native_signature(&mut scope, f, Some(record)),
+            item => {
+                let params: &'a [ast::Param] = match item {
+                    DefItem::Module(x) => &x.params,
+                    DefItem::Cell(x) | DefItem::Strut(x) => &x.params,
+                    DefItem::Config(x) => &x.params,
+                    DefItem::Lattice(x) => &x.params,
+                    DefItem::Truss(x) => &x.params,
+                    _ => &[],
+                };
+                Signature { params: self.params(&scope, params), ..Signature::default() }
+            }
+        };
+        let signature = Rc::new(signature);
+        self.def_mut(id).signature = Some(signature.clone());
+        signature
+    }
+
+    fn native_signature(
+        &mut self,
+        scope: &mut Scope,
+        f: &'a ast::ExternFn,
+        record: Option<DefId>,
+    ) -> Signature {
+        scope.type_params = type_params(f);
+        let mut params = Vec::new();
+        if let Some(record) = record {
+            params.push(ParamInfo {
+                name: Symbol::new("self"),
+                span: f.name.span,
+                ty: Type::Record(record),
+                has_default: false,
+                variadic: false,
+            });
+        }
+        params.extend(self.params(scope, &f.params));
+        let result = f.result.as_ref().map_or(Type::Nothing, |ty| self.type_expr(scope, ty));
+        Signature { params, result: Some(result), type_params: scope.type_params.clone() }
+    }
+
+    pub fn params(&mut self, scope: &Scope, params: &'a [ast::Param]) -> Vec<ParamInfo> {
+        let mut seen: Vec<(Symbol, Span)> = Vec::new();
+        params
+            .iter()
+            .map(|p| {
+                if let Some((_, first)) = seen.iter().find(|(name, _)| *name == p.name.text) {
+                    let first = *first;
+                    self.declared_twice(p.name.text, first, p.name.span);
+                }
+                seen.push((p.name.text, p.name.span));
+                ParamInfo {
+                    name: p.name.text,
+                    span: p.name.span,
+                    ty: self.type_expr(scope, &p.ty),
+                    has_default: p.default.is_some(),
+                    variadic: p.variadic,
+                }
+            })
+            .collect()
+    }
+
+    /// The parameters with their defaults; binds each as a local where the body has no members.
+    pub fn typed_params(
+        &mut self,
+        scope: &mut Scope,
+        asts: &'a [ast::Param],
+        infos: &[ParamInfo],
+        bind: bool,
+    ) -> Vec<Param> {
+        let own = infos.len() - asts.len();
+        let mut out = Vec::with_capacity(infos.len());
+        for (i, info) in infos.iter().enumerate() {
+            let default = i.checked_sub(own).and_then(|i| asts[i].default.as_ref());
+            let default = default.map(|e| self.expect(scope, e, &info.ty, Role::Param(info.name)));
+            if bind {
+                let ty = if info.variadic { Type::list(info.ty.clone()) } else { info.ty.clone() };
+                scope.bind(info.name, ty);
+            }
+            self.lint_snake(info.name, info.span, "parameters");
+            let (name, span, ty, variadic) = (info.name, info.span, info.ty.clone(), info.variadic);
+            out.push(Param { name, span, ty, default, variadic });
+        }
+        out
+    }
+
+    /// The type of a top-level `let`.
+    pub fn inferred_type(&mut self, id: DefId, at: Option<Span>) -> Type {
+        if let DefItem::Let(ast::Let { ty: Some(ty), .. }) = self.def(id).item {
+            let scope = Scope::new(self.def(id).file, None);
+            if self.def(id).inferred.is_none() {
+                let ty = self.type_expr(&scope, ty);
+                self.def_mut(id).inferred = Some(ty);
+            }
+            return self.def(id).inferred.clone().expect("just set");
+        }
+        self.inferred_by_body(id, at)
+    }
+
+    /// The result of a function.
+    pub fn result_type(&mut self, id: DefId, at: Option<Span>) -> Type {
+        match self.signature(id).result.clone() {
+            Some(ty) => ty,
+            None => self.inferred_by_body(id, at),
+        }
+    }
+
+    fn inferred_by_body(&mut self, id: DefId, at: Option<Span>) -> Type {
+        if let Some(ty) = &self.def(id).inferred {
+            return ty.clone();
+        }
+        if self.def(id).busy {
+            let (name, span) = (self.def(id).name, self.def(id).span);
+            if let DefItem::Fn(_) = self.def(id).item {
+                self.report(
+                    Diagnostic::error(
+                        code::CANNOT_INFER,
+                        format!("the result of `{name}` can't be told from itself"),
+                    )
+                    .label(at.unwrap_or(span), "called here while its result is being worked out")
+                    .label(span, "declared here")
+                    .hint("write its result: `-> Type` behind the parameters"),
+                );
+            } else {
+                self.declaration_cycle(name, span, at);
+            }
+            // Said once; whoever else is on the circle stays silent.
+            self.def_mut(id).inferred = Some(Type::Error);
+            return Type::Error;
+        }
+        self.check_def(id);
+        self.def(id).inferred.clone().unwrap_or(Type::Error)
+    }
+
+    /// Works out a declaration, once.
+    pub fn check_def(&mut self, id: DefId) {
+        if self.def(id).typed.is_some() || self.def(id).busy {
+            return;
+        }
+        self.def_mut(id).busy = true;
+        let item = self.def(id).item;
+        let kind = match item {
+            DefItem::Let(x) => self.check_let(id, x),
+            DefItem::Fn(x) => self.check_fn(id, x),
+            DefItem::Native(x) => self.check_native(id, x, None),
+            DefItem::Method(x, record) => self.check_native(id, x, Some(record)),
+            DefItem::Record(x) => self.check_record(id, x),
+            DefItem::Connector(x) => self.check_connector(id, x),
+            DefItem::Module(x) => self.check_module(id, x),
+            DefItem::Cell(x) => self.check_facts(id, x),
+            DefItem::Strut(x) => self.check_facts(id, x),
+            DefItem::Config(x) => self.check_config(id, x),
+            DefItem::Lattice(x) => self.check_lattice(id, x),
+            DefItem::Truss(x) => self.check_truss(id, x),
+        };
+        self.lint_def(id);
+        let info = self.def_mut(id);
+        info.typed = Some(kind);
+        info.busy = false;
+    }
+
+    fn check_let(&mut self, id: DefId, x: &'a ast::Let) -> DefKind {
+        let mut scope = Scope::new(self.def(id).file, None);
+        let value = self.let_value(&mut scope, x);
+        let ty = if x.ty.is_some() { self.inferred_type(id, None) } else { value.ty.clone() };
+        let info = self.def_mut(id);
+        info.inferred.get_or_insert_with(|| ty.clone());
+        DefKind::Let(LetDef { ty, value, frame: scope.frame() })
+    }
+
+    /// The value of a `let`, of the type written if one is.
+    pub fn let_value(&mut self, scope: &mut Scope, x: &'a ast::Let) -> Expr {
+        let value = match &x.ty {
+            Some(ty) => {
+                let ty = self.type_expr(scope, ty);
+                let mut value = self.expect(scope, &x.value, &ty, Role::Param(x.name.text));
+                if !value.ty.is_error() {
+                    value.ty = ty;
+                }
+                value
+            }
+            None => self.expr(scope, &x.value, None),
+        };
+        if value.ty == Type::Nothing {
+            self.report(
+                Diagnostic::error(code::TYPE_MISMATCH, format!("`{}` would have no value", x.name.text))
+                    .label(value.span, "this gives nothing"),
+            );
+            return error_expr(value.span);
+        }
+        value
+    }
+
+    fn check_fn(&mut self, id: DefId, f: &'a ast::Fn) -> DefKind {
+        let signature = self.signature(id);
+        let mut scope = Scope::new(self.def(id).file, None);
+        let params = self.typed_params(&mut scope, &f.params, &signature.params, true);
+        let body = match &signature.result {
+            Some(ty) => self.expect(&mut scope, &f.body, ty, Role::Place("the result")),
+            None => self.expr(&mut scope, &f.body, None),
+        };
+        let result = signature.result.clone().unwrap_or_else(|| body.ty.clone());
+        let inferred = &mut self.def_mut(id).inferred;
+        inferred.get_or_insert_with(|| result.clone());
+        DefKind::Fn(FnDef { params, result, body, frame: scope.frame() })
+    }
+
+    fn check_native(&mut self, id: DefId, f: &'a ast::ExternFn, record: Option<DefId>) -> DefKind {
+        self.only_in_library(id, "extern fn");
+        let signature = self.signature(id);
+        let mut scope = Scope::new(self.def(id).file, None);
+        scope.type_params = signature.type_params.clone();
+        let params = self.typed_params(&mut scope, &f.params, &signature.params, true);
+        let key = match record {
+            Some(record) => Symbol::new(&format!("{}.{}", self.def(record).name, f.name.text)),
+            None => f.name.text,
+        };
+        DefKind::Native(NativeDef {
+            key,
+            params,
+            result: signature.result.clone().expect("declared"),
+            type_params: signature.type_params.iter().map(|(name, _)| *name).collect(),
+            frame: scope.frame(),
+        })
+    }
+
+    fn check_record(&mut self, id: DefId, record: &'a ast::ExternType) -> DefKind {
+        self.only_in_library(id, "extern type");
+        let scope = Scope::new(self.def(id).file, None);
+        let fields = record
+            .fields
+            .iter()
+            .map(|f| RecordField {
+                name: f.name.text,
+                ty: self.type_expr(&scope, &f.ty),
+                doc: f.doc.as_deref().map(Arc::from),
+            })
+            .collect();
+        let owned = |(i, info): (usize, &super::checker::DefInfo)| {
+            matches!(info.item, DefItem::Method(_, owner) if owner == id).then_some(DefId(i as u32))
+        };
+        let methods = self.defs.iter().enumerate().filter_map(owned).collect();
+        let is = self.record_line(id).get(1).copied();
+        DefKind::Record(RecordDef { is, fields, methods })
+    }
+
+    fn only_in_library(&mut self, id: DefId, what: &str) {
+        let info = self.def(id);
+        let span = info.span;
+        if !self.sources.file(span.file).library {
+            self.report(
+                Diagnostic::error(code::SYNTAX, format!("`{what}` is for the standard library"))
+                    .label(span, "nothing supplies this one")
+                    .hint("a function of your own has a body: `fn name(...) = ...`"),
+            );
+        }
+    }
+
+    pub fn statements(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
+        let mark = scope.open();
+        statements.iter().filter_map(|s| self.statement(scope, mark, s)).collect()
+    }
+
+    fn statement(&mut self, scope: &mut Scope, mark: (usize, u32), s: &'a ast::Stmt) -> Option<Stmt> {
+        use ast::StmtKind as K;
+        let kind = match &s.kind {
+            K::Error => return None,
+            K::Let(x) => {
+                let value = self.let_value(scope, x);
+                if scope.bound_since(mark, x.name.text) {
+                    self.report(
+                        Diagnostic::error(
+                            code::DECLARED_TWICE,
+                            format!("`{}` is declared twice", x.name.text),
+                        )
+                        .label(x.name.span, "declared again in the same block"),
+                    );
+                }
+                self.lint_snake(x.name.text, x.name.span, "variables");
+                StmtKind::Let { local: scope.bind(x.name.text, value.ty.clone()), value }
+            }
+            K::Expr(e) => StmtKind::Expr(self.expr(scope, e, None)),
+            K::Expect { condition, message } => StmtKind::Expect {
+                condition: self.expect(scope, condition, &Type::Bool, Role::Place("`expect`")),
+                message: message
+                    .as_ref()
+                    .map(|m| self.expect(scope, m, &Type::Text, Role::Place("the message"))),
+            },
+            K::Require(r) => {
+                let r = self.require(scope, r);
+                StmtKind::Expect { condition: r.condition, message: r.message }
+            }
+            K::If { condition, then, otherwise } => {
+                let condition = self.expect(scope, condition, &Type::Bool, Role::Place("the condition"));
+                let (then, otherwise) = (self.inner(scope, then), self.inner(scope, otherwise));
+                StmtKind::If { condition, then, otherwise }
+            }
+            K::For { binder, iterable, body } => {
+                let (iterable, element) = self.iterable(scope, iterable);
+                let outer = scope.open();
+                let local = scope.bind(binder.text, element);
+                let body = self.inner(scope, body);
+                scope.close(outer);
+                StmtKind::For { binder: local, iterable, body }
+            }
+        };
+        Some(Stmt { span: s.span, kind })
+    }
+
+    fn inner(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
+        let mark = scope.open();
+        let out = self.statements(scope, statements);
+        scope.close(mark);
+        out
+    }
+
+    pub fn require(&mut self, scope: &mut Scope, r: &'a ast::Require) -> super::typed::Require {
+        super::typed::Require {
+            span: r.span,
+            condition: self.expect(scope, &r.condition, &Type::Bool, Role::Place("`require`")),
+            message: r
+                .message
+                .as_ref()
+                .map(|m| self.expect(scope, m, &Type::Text, Role::Place("the message"))),
+        }
+    }
+
+    /// The statements and tests of the file that is run.
+    pub fn check_root(&mut self, file: usize) -> (Body, Vec<Test>) {
+        let mut scope = Scope::new(file, None);
+        let mut statements = Vec::new();
+        let mut tests = Vec::new();
+        for item in &self.loaded.files[file].ast.items {
+            match &item.kind {
+                ast::ItemKind::Statement(s) => {
+                    let mark = scope.open();
+                    statements.extend(self.statement(&mut scope, mark, s));
+                }
+                ast::ItemKind::Test(test) => {
+                    let mut scope = Scope::new(file, None);
+                    let statements = self.statements(&mut scope, &test.body);
+                    let body = Body { statements, frame: scope.frame() };
+                    tests.push(Test { name: test.name.clone(), span: test.name_span, body });
+                }
+                _ => {}
+            }
+        }
+        (Body { statements, frame: scope.frame() }, tests)
+    }
+
+    /// Typed members of a body.
+    pub fn typed_members(&mut self, id: DefId) -> Vec<super::typed::Member> {
+        use super::checker::MemberInfoKind as I;
+        use super::typed::MemberKind as M;
+        let members = self.members(id);
+        let mut out = Vec::with_capacity(members.list.len());
+        for (i, info) in members.list.iter().enumerate() {
+            let member = MemberId(i as u32);
+            let kind = match info.kind {
+                I::Param(i) => M::Param(i),
+                I::Let(_) => M::Let(self.member_let(id, member, None)),
+                I::Part(_, part) => M::Part(part),
+                I::Port(clause, array) => self.config_port(id, clause, array),
+                I::Behavior(i) => M::Behavior(i),
+                I::Node { .. } => M::Node,
+            };
+            let ty = self.member_type(id, member, None);
+            out.push(super::typed::Member { name: info.name, span: info.span, ty, kind, doc: None });
+        }
+        out
+    }
+}
+
+fn type_params(f: &ast::ExternFn) -> Vec<(Symbol, bool)> {
+    f.type_params.iter().map(|p| (p.name.text, p.bound.is_some_and(|b| b.text == "Dimension"))).collect()
+}

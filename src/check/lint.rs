@@ -1,0 +1,63 @@
+//! How names are written: types and configurations in CamelCase, the rest in snake_case.
+
+use super::checker::{Checker, DefItem};
+use super::typed::DefId;
+use crate::source::{Diagnostic, Span, Symbol, code};
+
+impl Checker<'_> {
+    pub fn lint_def(&mut self, id: DefId) {
+        let info = self.def(id);
+        let (name, span) = (info.name, info.span);
+        match info.item {
+            DefItem::Let(_) => self.lint_snake(name, span, "variables"),
+            DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) => {}
+            _ if is_camel(name.as_str()) => {}
+            _ => self.style(span, name, "types and configurations", &camel(name.as_str())),
+        }
+    }
+
+    pub fn lint_snake(&mut self, name: Symbol, span: Span, what: &str) {
+        if name.as_str().len() > 1 && name.as_str().contains(|c: char| c.is_ascii_uppercase()) {
+            self.style(span, name, what, &snake(name.as_str()));
+        }
+    }
+
+    fn style(&mut self, span: Span, name: Symbol, what: &str, mended: &str) {
+        if self.sources.file(span.file).library || mended == name.as_str() {
+            return;
+        }
+        self.report(
+            Diagnostic::warning(code::NAME_STYLE, format!("{what} are written like `{mended}`"))
+                .label(span, format!("`{name}`")),
+        );
+    }
+}
+
+fn is_camel(name: &str) -> bool {
+    let name = name.trim_start_matches('_');
+    name.starts_with(|c: char| c.is_ascii_uppercase()) && !name.contains('_')
+}
+
+fn camel(name: &str) -> String {
+    let mut out = String::new();
+    for word in name.split('_').filter(|w| !w.is_empty()) {
+        let (first, rest) = word.split_at(1);
+        out.push_str(&first.to_ascii_uppercase());
+        out.push_str(rest);
+    }
+    out
+}
+
+/// `maxSpeed` and `MaxSpeed` to `max_speed`; runs of capitals stay together: `com_WB` to `com_wb`.
+fn snake(name: &str) -> String {
+    let mut out = String::new();
+    let mut last = '_';
+    for c in name.chars() {
+        if c.is_ascii_uppercase() && last.is_ascii_lowercase() {
+            out.push('_');
+        }
+        out.push(c.to_ascii_lowercase());
+        last = c;
+    }
+    out
+}

@@ -1,0 +1,314 @@
+//! Reads the file to check and everything that it imports, and finds import cycles.
+
+use crate::source::files::join;
+use crate::source::suggest::suggest;
+use crate::source::{Diagnostic, FileId, Files, ReadError, Sources, Span, Symbol, code};
+use crate::syntax::{self, ast};
+use std::collections::HashMap;
+
+/// A file of the program with what it imports.
+pub struct LoadedFile {
+    pub ast: ast::File,
+    pub imports: Vec<Import>,
+}
+
+/// A name that a `use` brings into a file.
+#[derive(Clone, Copy)]
+pub struct Import {
+    pub name: Symbol,
+    pub span: Span,
+    pub target: ImportTarget,
+}
+
+#[derive(Clone, Copy)]
+pub enum ImportTarget {
+    /// Everything in a file, by `name.item`.
+    File(usize),
+    /// One item of a file; the span is that of the item's name in the `use`.
+    Item { file: usize, item: Symbol, span: Span },
+    /// What is wrong has been reported.
+    Error,
+}
+
+/// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read.
+#[derive(Default)]
+pub struct Loaded {
+    pub files: Vec<LoadedFile>,
+    pub root: Option<usize>,
+    pub prelude: Option<usize>,
+}
+
+pub struct Loader<'a> {
+    files: &'a dyn Files,
+    pub sources: Sources,
+    pub diagnostics: Vec<Diagnostic>,
+    loaded: Vec<Option<LoadedFile>>,
+    by_name: HashMap<String, Option<usize>>,
+    /// Files being read, outermost first: an import of one of them is a cycle.
+    open: Vec<Open>,
+}
+
+struct Open {
+    name: String,
+    /// The import of this file that is being followed.
+    via: Option<Span>,
+}
+
+/// A file among those of the project or of the standard library.
+#[derive(Clone)]
+enum Place {
+    Project(String),
+    Library(String),
+}
+
+impl Place {
+    /// As diagnostics and plans show it.
+    fn shown(&self) -> String {
+        match self {
+            Place::Project(path) => path.clone(),
+            Place::Library(path) => format!("std/{path}"),
+        }
+    }
+}
+
+/// Loads `root` with all that it imports, and the prelude.
+pub fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>) {
+    let mut loader = Loader {
+        files,
+        sources: Sources::default(),
+        diagnostics: Vec::new(),
+        loaded: Vec::new(),
+        by_name: HashMap::new(),
+        open: Vec::new(),
+    };
+    let prelude = loader.load(Place::Library("prelude.mod".into())).ok();
+    let root = match loader.load(Place::Project(root.into())) {
+        Ok(index) => Some(index),
+        Err(error) => {
+            let text = format!("can't read `{root}`: {}", describe(&error));
+            loader.diagnostics.push(Diagnostic::error(code::CANNOT_READ, text));
+            None
+        }
+    };
+    let files = loader.loaded.into_iter().map(|f| f.expect("every opened file is closed")).collect();
+    (Loaded { files, root, prelude }, loader.sources, loader.diagnostics)
+}
+
+fn describe(error: &ReadError) -> String {
+    match error {
+        ReadError::NotFound => "there is no such file".into(),
+        ReadError::Outside => "it leads out of the project".into(),
+        ReadError::TooLarge(limit) => format!("it is larger than {limit} bytes"),
+        ReadError::Failed(why) => why.clone(),
+    }
+}
+
+impl Loader<'_> {
+    fn load(&mut self, place: Place) -> Result<usize, ReadError> {
+        let shown = place.shown();
+        if let Some(known) = self.by_name.get(&shown) {
+            return known.ok_or(ReadError::NotFound);
+        }
+        self.by_name.insert(shown.clone(), None);
+        let (id, text) = self.read(&place, &shown)?;
+        let parsed = syntax::parse(id, &text);
+        self.diagnostics.extend(parsed.diagnostics);
+        let index = self.loaded.len();
+        self.loaded.push(None);
+        self.by_name.insert(shown.clone(), Some(index));
+        self.open.push(Open { name: shown, via: None });
+        let mut imports = Vec::new();
+        for item in &parsed.file.items {
+            if let ast::ItemKind::Use(u) = &item.kind {
+                self.import(&place, u, &mut imports);
+            }
+        }
+        self.open.pop();
+        self.loaded[index] = Some(LoadedFile { ast: parsed.file, imports });
+        Ok(index)
+    }
+
+    fn read(&mut self, place: &Place, shown: &str) -> Result<(FileId, String), ReadError> {
+        let bytes = match place {
+            Place::Library(path) => {
+                let text = self.files.library(path).ok_or(ReadError::NotFound)?;
+                return Ok((self.sources.add(shown, &text, true), text.into_owned()));
+            }
+            Place::Project(path) => self.files.read(path)?,
+        };
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok((self.sources.add(shown, &text, false), text)),
+            Err(error) => {
+                let offset = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+                let id = self.sources.add(shown, &text, false);
+                let replaced = '\u{FFFD}'.len_utf8();
+                self.diagnostics.push(
+                    Diagnostic::error(code::NOT_UTF8, format!("`{shown}` is not UTF-8 text"))
+                        .label(
+                            Span::new(id, offset, offset + replaced),
+                            format!("byte {offset} is wrong here"),
+                        )
+                        .hint("save the file as UTF-8"),
+                );
+                // What follows from a text of another encoding is not worth saying.
+                Ok((id, String::new()))
+            }
+        }
+    }
+
+    fn import(&mut self, from: &Place, u: &ast::Use, imports: &mut Vec<Import>) {
+        match &u.source {
+            ast::UseSource::File { path, span } => self.import_file(from, u, path, *span, imports),
+            ast::UseSource::Path(path) => self.import_path(u, path, imports),
+        }
+    }
+
+    fn import_file(&mut self, from: &Place, u: &ast::Use, path: &str, span: Span, imports: &mut Vec<Import>) {
+        let place = match from {
+            Place::Project(own) => join(own, path).map(Place::Project),
+            Place::Library(own) => join(own, path).map(Place::Library),
+        };
+        let Some(place) = place else {
+            self.diagnostics.push(
+                Diagnostic::error(code::OUTSIDE_PROJECT, format!("`{path}` leads out of the project"))
+                    .label(span, "imports stay under the project's folder")
+                    .hint("write a path relative to this file, with forward slashes; `--root DIR` names a larger project"),
+            );
+            return unknown_names(u, imports);
+        };
+        match self.open_import(place, path, span) {
+            Some(file) => match &u.names {
+                Some(names) => import_names(names, file, imports),
+                None => self.diagnostics.push(
+                    Diagnostic::error(code::UNKNOWN_IMPORT, "this import names nothing")
+                        .label(span, "which names of the file are wanted?")
+                        .hint(format!("`use \"{path}\".{{Name}}`")),
+                ),
+            },
+            None => unknown_names(u, imports),
+        }
+    }
+
+    fn import_path(&mut self, u: &ast::Use, path: &[ast::Name], imports: &mut Vec<Import>) {
+        let span = path[0].span.to(path[path.len() - 1].span);
+        let words: Vec<&str> = path.iter().map(|n| n.text.as_str()).collect();
+        if words[0] != "std" {
+            self.diagnostics.push(
+                Diagnostic::error(code::UNKNOWN_IMPORT, format!("there is no library `{}`", words[0]))
+                    .label(path[0].span, "only `std` is a library")
+                    .hint("a file of the project is imported by its path: `use \"parts/claw.mod\".{Claw}`"),
+            );
+            return unknown_names(u, imports);
+        }
+        let whole = format!("{}.mod", words[1..].join("/"));
+        if words.len() > 1 && self.files.library(&whole).is_some() {
+            let Some(file) = self.open_import(Place::Library(whole), &words.join("."), span) else {
+                return unknown_names(u, imports);
+            };
+            return match &u.names {
+                Some(names) => import_names(names, file, imports),
+                None => {
+                    let last = path[path.len() - 1];
+                    imports.push(Import {
+                        name: last.text,
+                        span: last.span,
+                        target: ImportTarget::File(file),
+                    });
+                }
+            };
+        }
+        let (last, rest) = (path[path.len() - 1], &words[1..words.len().max(2) - 1]);
+        let file = format!("{}.mod", rest.join("/"));
+        if u.names.is_none() && words.len() > 2 && self.files.library(&file).is_some() {
+            let target = match self.open_import(Place::Library(file), &words.join("."), span) {
+                Some(file) => ImportTarget::Item { file, item: last.text, span: last.span },
+                None => ImportTarget::Error,
+            };
+            imports.push(Import { name: last.text, span: last.span, target });
+            return;
+        }
+        let known = ["smores", "gaits", "shapes", "rofi", "mori", "crystal", "truss"];
+        let mut diagnostic = Diagnostic::error(
+            code::UNKNOWN_IMPORT,
+            format!("the standard library has no `{}`", words.join(".")),
+        )
+        .label(span, "no such file of the library");
+        if let Some(near) = suggest(words.get(1).unwrap_or(&""), known) {
+            diagnostic = diagnostic.hint(format!("`std.{near}`?"));
+        } else {
+            diagnostic = diagnostic.hint(format!("it has std.{}", known.join(", std.")));
+        }
+        self.diagnostics.push(diagnostic);
+        unknown_names(u, imports);
+    }
+
+    /// The file behind an import; `None` (and a diagnostic) when it can't be had or closes a cycle.
+    fn open_import(&mut self, place: Place, written: &str, span: Span) -> Option<usize> {
+        let shown = place.shown();
+        if let Some(open) = self.open.last_mut() {
+            open.via = Some(span);
+        }
+        if let Some(start) = self.open.iter().position(|open| open.name == shown) {
+            self.cycle(start, &shown);
+            return None;
+        }
+        match self.load(place) {
+            Ok(index) => Some(index),
+            Err(ReadError::Outside) => {
+                self.diagnostics.push(
+                    Diagnostic::error(code::OUTSIDE_PROJECT, format!("`{written}` leads out of the project"))
+                        .label(span, "imports stay under the project's folder"),
+                );
+                None
+            }
+            Err(error) => {
+                self.diagnostics.push(
+                    Diagnostic::error(
+                        code::UNKNOWN_IMPORT,
+                        format!("can't read `{written}`: {}", describe(&error)),
+                    )
+                    .label(span, "imported here"),
+                );
+                None
+            }
+        }
+    }
+
+    /// Reports a cycle at the import with which its first file enters it.
+    fn cycle(&mut self, start: usize, shown: &str) {
+        let mut names: Vec<&str> = self.open[start..].iter().map(|open| open.name.as_str()).collect();
+        names.push(shown);
+        let mut diagnostic =
+            Diagnostic::error(code::IMPORT_CYCLE, format!("import cycle: {}", names.join(", ")))
+                .hint("move what both files need into a third file that both import");
+        for (i, open) in self.open[start..].iter().enumerate() {
+            let via = open.via.expect("an open file is left through an import");
+            diagnostic = diagnostic.label(via, format!("imports {}", names[i + 1]));
+        }
+        self.diagnostics.push(diagnostic);
+    }
+}
+
+fn import_names(names: &[ast::UseName], file: usize, imports: &mut Vec<Import>) {
+    for n in names {
+        let shown = n.rename.unwrap_or(n.name);
+        imports.push(Import {
+            name: shown.text,
+            span: shown.span,
+            target: ImportTarget::Item { file, item: n.name.text, span: n.name.span },
+        });
+    }
+}
+
+/// The names of an import that failed are known, but nothing is known about them.
+fn unknown_names(u: &ast::Use, imports: &mut Vec<Import>) {
+    let mut push = |name: ast::Name| {
+        imports.push(Import { name: name.text, span: name.span, target: ImportTarget::Error });
+    };
+    match (&u.names, &u.source) {
+        (Some(names), _) => names.iter().for_each(|n| push(n.rename.unwrap_or(n.name))),
+        (None, ast::UseSource::Path(path)) => push(path[path.len() - 1]),
+        (None, ast::UseSource::File { .. }) => {}
+    }
+}

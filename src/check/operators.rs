@@ -1,0 +1,265 @@
+//! Operators: which operands they take, and the dimension of what they give.
+
+use super::checker::{Checker, Scope};
+use super::expr::{Role, error_expr, expr_of};
+use super::typed::{BinaryOp, Expr, ExprKind, UnaryOp};
+use super::types::Type;
+use crate::source::{Diagnostic, Span, code};
+use crate::syntax::ast;
+use crate::units::Dimension;
+use std::sync::Arc;
+
+impl<'a> Checker<'a> {
+    pub fn unary(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        op: UnaryOp,
+        operand: &'a ast::Expr,
+        want: Option<&Type>,
+    ) -> Expr {
+        if op == UnaryOp::Not {
+            let operand = self.expr(scope, operand, None);
+            return match &operand.ty {
+                Type::Bool | Type::Condition => {
+                    expr_of(span, operand.ty.clone(), ExprKind::Unary { op, operand: Box::new(operand) })
+                }
+                _ => {
+                    self.coerce(operand, &Type::Bool, Role::Place("`not`"));
+                    error_expr(span)
+                }
+            };
+        }
+        let operand = self.expr(scope, operand, want);
+        match &operand.ty {
+            Type::Error => error_expr(span),
+            Type::Quantity(_) | Type::Int | Type::Vec3(_) => {
+                expr_of(span, operand.ty.clone(), ExprKind::Unary { op, operand: Box::new(operand) })
+            }
+            other => {
+                let words = self.words(other);
+                self.report(
+                    Diagnostic::error(code::OPERANDS, format!("{words} has no sign"))
+                        .label(operand.span, "a quantity is wanted behind a sign"),
+                );
+                error_expr(span)
+            }
+        }
+    }
+
+    pub fn binary(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        op: BinaryOp,
+        op_span: Span,
+        (left, right): (&'a ast::Expr, &'a ast::Expr),
+        want: Option<&Type>,
+    ) -> Expr {
+        let side = self.wanted_of_operands(op, want);
+        let left = self.expr(scope, left, side.as_ref());
+        let right_want = match (op, &left.ty) {
+            // `p == auto`, `[] == xs`: the left side tells what the right one may be.
+            (BinaryOp::Eq | BinaryOp::Ne, ty) if !ty.is_error() => Some(left.ty.clone()),
+            _ => side,
+        };
+        let right = self.expr(scope, right, right_want.as_ref());
+        if left.ty.is_error() || right.ty.is_error() {
+            return error_expr(span);
+        }
+        if op == BinaryOp::Pow {
+            return self.power(span, left, right);
+        }
+        match self.binary_type(op, &left.ty, &right.ty) {
+            Some(ty) => {
+                expr_of(span, ty, ExprKind::Binary { op, left: Box::new(left), right: Box::new(right) })
+            }
+            None => {
+                self.bad_operands(op, op_span, &left, &right);
+                error_expr(span)
+            }
+        }
+    }
+
+    /// What the operands are wanted to be, where the operator tells: the sides of `a <-> b` are
+    /// ports, those of `a ++ b` and `a + b` what is wanted of the whole.
+    fn wanted_of_operands(&self, op: BinaryOp, want: Option<&Type>) -> Option<Type> {
+        match op {
+            BinaryOp::Mated => Some(Type::Port),
+            BinaryOp::Join | BinaryOp::Add | BinaryOp::Sub => {
+                want.filter(|w| matches!(w, Type::List(_) | Type::Vec3(_))).cloned()
+            }
+            _ => None,
+        }
+    }
+
+    fn binary_type(&self, op: BinaryOp, a: &Type, b: &Type) -> Option<Type> {
+        use BinaryOp as O;
+        match op {
+            O::Or | O::And => match (a, b) {
+                (Type::Bool, Type::Bool) => Some(Type::Bool),
+                (Type::Condition, Type::Condition) => Some(Type::Condition),
+                _ => None,
+            },
+            O::Eq | O::Ne => self.join(a, b).filter(comparable).map(|_| Type::Bool),
+            O::Lt | O::Le | O::Gt | O::Ge => self.order_type(a, b),
+            O::Mated => (*a == Type::Port && *b == Type::Port).then_some(Type::Condition),
+            O::Join => self.join_type(a, b),
+            O::Add | O::Sub => self.sum_type(a, b),
+            O::Mul => product_type(a, b),
+            O::Div => quotient_type(a, b),
+            O::Rem => match (a, b) {
+                (Type::Int, Type::Int) => Some(Type::Int),
+                _ => a.dimension()?.common(b.dimension()?).map(Type::Quantity),
+            },
+            O::Pow => None,
+        }
+    }
+
+    fn order_type(&self, a: &Type, b: &Type) -> Option<Type> {
+        match (a, b) {
+            (Type::Signal(s), other) | (other, Type::Signal(s)) => {
+                s.dimension()?.common(other.dimension()?).map(|_| Type::Condition)
+            }
+            (Type::Text, Type::Text) => Some(Type::Bool),
+            _ => a.dimension()?.common(b.dimension()?).map(|_| Type::Bool),
+        }
+    }
+
+    fn join_type(&self, a: &Type, b: &Type) -> Option<Type> {
+        match (a, b) {
+            (Type::Text, Type::Text) => Some(Type::Text),
+            (Type::List(_), Type::List(_)) => self.join(a, b),
+            (Type::Record(_), Type::Record(_) | Type::Behavior) => {
+                let plan = Type::Record(self.prelude_def("Plan")?);
+                let both = self.fits(a, &plan) && (*b == Type::Behavior || self.fits(b, &plan));
+                both.then_some(plan)
+            }
+            _ => None,
+        }
+    }
+
+    fn sum_type(&self, a: &Type, b: &Type) -> Option<Type> {
+        match (a, b) {
+            (Type::Int, Type::Int) => Some(Type::Int),
+            (Type::Vec3(x), Type::Vec3(y)) => {
+                let d = x.dimension()?.common(y.dimension()?)?;
+                Some(Type::vec3(d))
+            }
+            _ => a.dimension()?.common(b.dimension()?).map(Type::Quantity),
+        }
+    }
+
+    /// `x^n`: the dimension of the result must be known, so `n` is written out unless `x` is plain.
+    fn power(&mut self, span: Span, left: Expr, right: Expr) -> Expr {
+        let ty = match (&left.ty, &right.ty) {
+            (Type::Int, Type::Int) => Some(if is_negative(&right) { Type::NUMBER } else { Type::Int }),
+            (Type::Quantity(Dimension::NUMBER), Type::Int) => Some(Type::NUMBER),
+            (Type::Quantity(d), Type::Int) => literal(&right).and_then(|n| d.power(n)).map(Type::Quantity),
+            _ => None,
+        };
+        let Some(ty) = ty else {
+            let quantity = left.ty.dimension().is_some();
+            let mut d = Diagnostic::error(code::OPERANDS, "`^` takes a quantity and a whole number")
+                .label(
+                    right.span,
+                    if quantity { "a whole number, written out, is wanted here" } else { "the exponent" },
+                )
+                .label(left.span, format!("this is {}", self.words(&left.ty)));
+            if quantity {
+                d = d.hint("`sqrt(x)` takes a root");
+            }
+            self.report(d);
+            return error_expr(span);
+        };
+        expr_of(
+            span,
+            ty,
+            ExprKind::Binary { op: BinaryOp::Pow, left: Box::new(left), right: Box::new(right) },
+        )
+    }
+
+    fn bad_operands(&mut self, op: BinaryOp, op_span: Span, left: &Expr, right: &Expr) {
+        let (a, b) = (self.words(&left.ty), self.words(&right.ty));
+        let sign = op_text(op);
+        let dimensions = left.ty.dimension().is_some() && right.ty.dimension().is_some();
+        let (code, message) = if dimensions {
+            (code::DIMENSION_MISMATCH, format!("{a} and {b} do not go together in `{sign}`"))
+        } else {
+            (code::OPERANDS, format!("`{sign}` does not take {a} and {b}"))
+        };
+        let mut d = Diagnostic::error(code, message)
+            .label(op_span, format!("`{sign}` stands between them"))
+            .label(left.span, format!("this is {a}"))
+            .label(right.span, format!("this is {b}"));
+        if op == BinaryOp::Add && (left.ty == Type::Text || right.ty == Type::Text) {
+            d = d.hint("texts are joined by `++`, and values put into them by `\"... {value}\"`");
+        } else if op == BinaryOp::Add && matches!(left.ty, Type::List(_)) {
+            d = d.hint("lists are joined by `++`");
+        } else if matches!(
+            (&left.ty, &right.ty),
+            (Type::Bool, Type::Condition) | (Type::Condition, Type::Bool)
+        ) {
+            d = d.hint("a condition is watched while the robot moves; true and false are known before");
+        }
+        self.report(d);
+    }
+}
+
+fn comparable(ty: &Type) -> bool {
+    !matches!(ty, Type::Fn(_) | Type::Behavior | Type::Condition | Type::Signal(_) | Type::Nothing)
+}
+
+fn product_type(a: &Type, b: &Type) -> Option<Type> {
+    match (a, b) {
+        (Type::Int, Type::Int) => Some(Type::Int),
+        (Type::Pose, Type::Pose) => Some(Type::Pose),
+        (Type::Pose, Type::Vec3(_)) => Some(b.clone()),
+        (Type::Vec3(v), s) | (s, Type::Vec3(v)) => v.dimension()?.times(s.dimension()?).map(Type::vec3),
+        _ => a.dimension()?.times(b.dimension()?).map(Type::Quantity),
+    }
+}
+
+fn quotient_type(a: &Type, b: &Type) -> Option<Type> {
+    match (a, b) {
+        (Type::Vec3(v), s) => {
+            let d = v.dimension()?.over(s.dimension()?)?;
+            Some(Type::Vec3(Arc::new(Type::Quantity(d))))
+        }
+        _ => a.dimension()?.over(b.dimension()?).map(Type::Quantity),
+    }
+}
+
+fn literal(e: &Expr) -> Option<i32> {
+    match &e.kind {
+        ExprKind::Int(n) => i32::try_from(*n).ok(),
+        ExprKind::Unary { op: UnaryOp::Neg, operand } => literal(operand)?.checked_neg(),
+        ExprKind::Unary { op: UnaryOp::Plus, operand } => literal(operand),
+        _ => None,
+    }
+}
+
+fn is_negative(e: &Expr) -> bool {
+    literal(e).is_some_and(|n| n < 0)
+}
+
+fn op_text(op: BinaryOp) -> &'static str {
+    match op {
+        BinaryOp::Or => "or",
+        BinaryOp::And => "and",
+        BinaryOp::Eq => "==",
+        BinaryOp::Ne => "!=",
+        BinaryOp::Lt => "<",
+        BinaryOp::Le => "<=",
+        BinaryOp::Gt => ">",
+        BinaryOp::Ge => ">=",
+        BinaryOp::Mated => "<->",
+        BinaryOp::Join => "++",
+        BinaryOp::Add => "+",
+        BinaryOp::Sub => "-",
+        BinaryOp::Mul => "*",
+        BinaryOp::Div => "/",
+        BinaryOp::Rem => "%",
+        BinaryOp::Pow => "^",
+    }
+}

@@ -1,0 +1,295 @@
+//! Types as they are written, and when one type may stand for another.
+
+use super::checker::{Checker, DefItem, Entity, Scope};
+use super::typed::DefId;
+use super::types::{Choice, Family, FnType, Type};
+use crate::source::suggest::suggest;
+use crate::source::{Diagnostic, Symbol, code};
+use crate::syntax::ast::{self, TypeKind};
+use crate::units::{self, Dimension, dimension};
+use std::sync::Arc;
+
+/// Built-in type names without arguments, the named dimensions apart.
+const PLAIN: &[(&str, Type)] = &[
+    ("Int", Type::Int),
+    ("Bool", Type::Bool),
+    ("Text", Type::Text),
+    ("Pose", Type::Pose),
+    ("Port", Type::Port),
+    ("Behavior", Type::Behavior),
+    ("Condition", Type::Condition),
+    ("Shape", Type::Shape),
+    ("JointKind", Type::JointKind),
+    ("Cells", Type::Cells),
+    ("Mesh", Type::Mesh),
+    ("Cloud", Type::Cloud),
+    ("Module", Type::Any(Family::Module)),
+    ("Config", Type::Any(Family::Config)),
+    ("Cell", Type::Any(Family::Cell)),
+    ("Strut", Type::Any(Family::Strut)),
+    ("Lattice", Type::Any(Family::Lattice)),
+    ("Truss", Type::Any(Family::Truss)),
+];
+
+const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
+
+impl<'a> Checker<'a> {
+    pub fn type_expr(&mut self, scope: &Scope, ty: &ast::TypeExpr) -> Type {
+        match &ty.kind {
+            TypeKind::Error => Type::Error,
+            TypeKind::Optional(inner) => Type::optional(self.type_expr(scope, inner)),
+            TypeKind::Fn { params, result } => {
+                let params = params.iter().map(|p| self.type_expr(scope, p)).collect();
+                Type::Fn(Arc::new(FnType { params, result: self.type_expr(scope, result) }))
+            }
+            TypeKind::Choice(alternatives) => self.choice_type(scope, alternatives),
+            TypeKind::Quantity(unit) => self.quantity_type(scope, unit),
+            TypeKind::Named { path, args } if args.is_empty() => self.plain_type(scope, path),
+            TypeKind::Named { path, args } => self.generic_type(scope, path, args),
+        }
+    }
+
+    fn choice_type(&mut self, scope: &Scope, alternatives: &[ast::TypeExpr]) -> Type {
+        let mut choice = Choice { words: Vec::new(), types: Vec::new() };
+        for alternative in alternatives {
+            match self.choice_word(scope, alternative) {
+                Some(word) => choice.words.push(word),
+                None => choice.types.push(self.type_expr(scope, alternative)),
+            }
+        }
+        Type::Choice(Arc::new(choice))
+    }
+
+    /// A bare name in a choice that names no type is a word of it.
+    fn choice_word(&self, scope: &Scope, ty: &ast::TypeExpr) -> Option<Symbol> {
+        let TypeKind::Named { path, args } = &ty.kind else { return None };
+        let [name] = path.as_slice() else { return None };
+        let lowercase = name.text.as_str().starts_with(|c: char| c.is_ascii_lowercase());
+        let declared = scope.type_params.iter().any(|(n, _)| *n == name.text);
+        (args.is_empty() && lowercase && !declared).then_some(name.text)
+    }
+
+    fn quantity_type(&mut self, scope: &Scope, unit: &ast::UnitExpr) -> Type {
+        if let [(name, power)] = unit.factors.as_slice()
+            && let Some(param) = scope.type_params.iter().position(|(n, _)| *n == name.text)
+        {
+            return Type::QuantityParam { param: param as u8, power: *power as i8 };
+        }
+        match self.unit(unit) {
+            Some((dimension, _)) => Type::Quantity(dimension),
+            None => Type::Error,
+        }
+    }
+
+    /// Dimension and factor to SI of a unit as written; reports a name that is no unit.
+    pub fn unit(&mut self, unit: &ast::UnitExpr) -> Option<(Dimension, Vec<(f64, i32)>)> {
+        let mut dimension = Dimension::NUMBER;
+        let mut factors = Vec::new();
+        for (name, power) in &unit.factors {
+            let Some(known) = units::unit(name.text.as_str()) else {
+                self.unknown_unit(name);
+                return None;
+            };
+            let Some(sum) = known.dimension.power(*power).and_then(|d| dimension.times(d)) else {
+                self.report(
+                    Diagnostic::error(code::UNKNOWN_UNIT, "this unit has too large a power")
+                        .label(unit.span, "too large a power"),
+                );
+                return None;
+            };
+            dimension = sum;
+            factors.push((known.factor, *power));
+        }
+        Some((dimension, factors))
+    }
+
+    fn unknown_unit(&mut self, name: &ast::Name) {
+        let names = units::table::UNITS.iter().map(|u| u.name);
+        let mut diagnostic = Diagnostic::error(code::UNKNOWN_UNIT, format!("`{}` is no unit", name.text))
+            .label(name.span, "a unit sticks to its number");
+        if let Some(near) = suggest(name.text.as_str(), names) {
+            diagnostic = diagnostic.hint(format!("`{near}`?"));
+        }
+        self.report(
+            diagnostic.hint(format!("with spaces it is a variable: `90deg / {0}`, `2 * {0}`", name.text)),
+        );
+    }
+
+    fn plain_type(&mut self, scope: &Scope, path: &[ast::Name]) -> Type {
+        if let [name] = path {
+            if let Some(index) = scope.type_params.iter().position(|(n, _)| *n == name.text) {
+                return Type::Param(index as u8);
+            }
+            if let Some((_, ty)) = PLAIN.iter().find(|(n, _)| *n == name.text.as_str()) {
+                return ty.clone();
+            }
+            if let Some(d) = Dimension::named(name.text.as_str()) {
+                return Type::Quantity(d);
+            }
+        }
+        match self.path_entity(scope.file, path) {
+            Some(Entity::Def(id)) => match self.def(id).item {
+                DefItem::Record(_) => Type::Record(id),
+                _ if self.family(id).is_some() => Type::Instance(id),
+                _ => self.no_type(scope, path, "is no type"),
+            },
+            Some(Entity::File(_)) => self.no_type(scope, path, "is a file, no type"),
+            Some(Entity::Error) => Type::Error,
+            None => self.no_type(scope, path, "is no type that is known here"),
+        }
+    }
+
+    fn no_type(&mut self, scope: &Scope, path: &[ast::Name], why: &str) -> Type {
+        let last = path[path.len() - 1];
+        let span = path[0].span.to(last.span);
+        let mut known: Vec<&str> = self.visible_names(scope.file);
+        known.extend(PLAIN.iter().map(|(n, _)| *n));
+        known.extend(dimension::NAMED.iter().map(|(n, _)| *n));
+        known.extend(WITH_ARGUMENT);
+        let types = known.into_iter().filter(|n| n.starts_with(|c: char| c.is_ascii_uppercase()));
+        let mut diagnostic = Diagnostic::error(code::NOT_A_TYPE, format!("`{}` {why}", last.text))
+            .label(span, "a type is wanted here");
+        if let Some(near) = suggest(last.text.as_str(), types) {
+            diagnostic = diagnostic.hint(format!("`{near}`?"));
+        }
+        self.report(diagnostic);
+        Type::Error
+    }
+
+    /// What a dotted path means at the top of a file; `None`: no such thing (not reported).
+    pub fn path_entity(&self, file: usize, path: &[ast::Name]) -> Option<Entity> {
+        let mut entity = self.entity(file, path[0].text)?;
+        for name in &path[1..] {
+            entity = match entity {
+                Entity::File(target) => {
+                    let inner = self.scopes[target].get(&name.text).copied()?;
+                    match inner {
+                        Entity::Def(id) if self.def(id).file != target => return None,
+                        Entity::Def(_) if name.text.as_str().starts_with('_') => return None,
+                        other => other,
+                    }
+                }
+                Entity::Error => return Some(Entity::Error),
+                Entity::Def(_) => return None,
+            };
+        }
+        Some(entity)
+    }
+
+    fn generic_type(&mut self, scope: &Scope, path: &[ast::Name], args: &[ast::TypeExpr]) -> Type {
+        let name = path[path.len() - 1];
+        let known = path.len() == 1 && WITH_ARGUMENT.contains(&name.text.as_str());
+        let ([arg], true) = (args, known) else {
+            return self.no_type(scope, path, "takes no type in `<...>`");
+        };
+        let inner = self.type_expr(scope, arg);
+        match (name.text.as_str(), &inner) {
+            (_, Type::Error) => Type::Error,
+            ("List", _) => Type::List(Arc::new(inner)),
+            ("Range", Type::Int | Type::Quantity(_) | Type::QuantityParam { .. } | Type::Param(_)) => {
+                Type::Range(Arc::new(inner))
+            }
+            ("Vec3", Type::Quantity(_) | Type::QuantityParam { .. }) => Type::Vec3(Arc::new(inner)),
+            ("Joint", Type::Quantity(d)) if [Dimension::ANGLE, Dimension::LENGTH].contains(d) => {
+                Type::Joint(*d)
+            }
+            ("Signal", Type::Quantity(_) | Type::QuantityParam { .. } | Type::Bool) => {
+                Type::Signal(Arc::new(inner))
+            }
+            ("Quantity", Type::Quantity(_)) => inner,
+            _ => {
+                let message = format!("`{}` takes no {}", name.text, self.name(&inner));
+                self.report(
+                    Diagnostic::error(code::NOT_A_TYPE, message)
+                        .label(arg.span, "another type is wanted here"),
+                );
+                Type::Error
+            }
+        }
+    }
+
+    /// Whether a value of type `got` may stand where `want` is wanted (perhaps dropping radians).
+    pub fn fits(&self, got: &Type, want: &Type) -> bool {
+        match (got, want) {
+            (Type::Error, _) | (_, Type::Error) => true,
+            _ if got == want => true,
+            (Type::Int, Type::Quantity(d)) => *d == Dimension::NUMBER,
+            (Type::Quantity(a), Type::Quantity(b)) => a.fits(*b),
+            (Type::Optional(a), Type::Optional(b)) => self.fits(a, b),
+            (_, Type::Optional(b)) => self.fits(got, b),
+            (Type::Choice(a), Type::Choice(b)) => {
+                a.words.iter().all(|w| b.words.contains(w)) && a.types.iter().all(|t| self.fits(t, want))
+            }
+            (Type::Choice(a), _) => a.words.is_empty() && a.types.iter().all(|t| self.fits(t, want)),
+            (_, Type::Choice(b)) => b.types.iter().any(|t| self.fits(got, t)),
+            (Type::List(a), Type::List(b)) | (Type::Vec3(a), Type::Vec3(b)) => self.fits(a, b),
+            (Type::Range(a), Type::Range(b)) | (Type::Signal(a), Type::Signal(b)) => self.fits(a, b),
+            (Type::Fn(a), Type::Fn(b)) => {
+                a.params.len() == b.params.len()
+                    && a.params.iter().zip(&b.params).all(|(x, y)| self.fits(y, x))
+                    && self.fits(&a.result, &b.result)
+            }
+            (Type::Instance(id), Type::Any(family)) => self.family(*id).is_some_and(|f| is_a(f, *family)),
+            (Type::Any(f), Type::Any(family)) => is_a(*f, *family),
+            (Type::Record(id), Type::Record(wanted)) => self.record_line(*id).contains(wanted),
+            _ => false,
+        }
+    }
+
+    /// A record and those that it *is a*, nearest first: `Folding`, `Plan`.
+    pub fn record_line(&self, id: DefId) -> Vec<DefId> {
+        let mut line = vec![id];
+        let mut last = id;
+        while let DefItem::Record(ast::ExternType { is: Some(parent), .. }) = self.def(last).item
+            && let Some(Entity::Def(parent)) = self.entity(self.def(last).file, parent.text)
+            && !line.contains(&parent)
+        {
+            line.push(parent);
+            last = parent;
+        }
+        line
+    }
+
+    /// The type that two values have in common, as in the elements of a list.
+    pub fn join(&self, a: &Type, b: &Type) -> Option<Type> {
+        if a.is_error() || b.is_error() {
+            return Some(if a.is_error() { b.clone() } else { a.clone() });
+        }
+        if self.fits(a, b) {
+            return Some(b.clone());
+        }
+        if self.fits(b, a) {
+            return Some(a.clone());
+        }
+        match (a, b) {
+            (Type::Optional(x), y) | (y, Type::Optional(x)) => {
+                let y = if let Type::Optional(y) = y { y } else { y };
+                self.join(x, y).map(Type::optional)
+            }
+            (Type::List(x), Type::List(y)) => self.join(x, y).map(Type::list),
+            _ => {
+                let (f, g) = (self.family_of(a)?, self.family_of(b)?);
+                if f == g {
+                    Some(Type::Any(f))
+                } else if is_a(f, Family::Config) && is_a(g, Family::Config) {
+                    Some(Type::Any(Family::Config))
+                } else {
+                    None
+                }
+            }
+        }
+    }
+
+    fn family_of(&self, ty: &Type) -> Option<Family> {
+        match ty {
+            Type::Instance(id) => self.family(*id),
+            Type::Any(family) => Some(*family),
+            _ => None,
+        }
+    }
+}
+
+/// A module is the smallest configuration.
+fn is_a(family: Family, wanted: Family) -> bool {
+    family == wanted || (family == Family::Module && wanted == Family::Config)
+}
