@@ -1,6 +1,6 @@
 //! Calls: what is called, and which argument goes to which parameter.
 
-use super::checker::{Checker, DefItem, Entity, ParamInfo, Scope, Signature};
+use super::checker::{Bound, Checker, DefItem, Entity, ParamInfo, Scope, Signature, TypeParam};
 use super::expr::{Role, error_expr, expr_of, has_params, list_element};
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
@@ -29,6 +29,7 @@ enum Callee {
 struct Bindings {
     types: Vec<Option<Type>>,
     dimensions: Vec<Option<Dimension>>,
+    bounds: Vec<Bound>,
 }
 
 impl<'a> Checker<'a> {
@@ -131,6 +132,11 @@ impl<'a> Checker<'a> {
                 let id = *id;
                 if let Some(behavior) = self.behavior_index(id, field.text) {
                     return Callee::Behavior(object, id, behavior);
+                }
+            }
+            Type::Behavior => {
+                if let Some(method) = self.plan_record().and_then(|plan| self.method(plan, field.text)) {
+                    return Callee::Method(method, self.planned(object));
                 }
             }
             Type::Record(id) => {
@@ -275,7 +281,7 @@ impl<'a> Checker<'a> {
         args: &'a [ast::Arg],
     ) -> (Vec<Option<Expr>>, Bindings) {
         let params = &signature.params;
-        let mut bindings = Bindings::new(signature.type_params.len());
+        let mut bindings = Bindings::new(&signature.type_params);
         let mut out: Vec<Option<Expr>> = vec![None; params.len()];
         let mut filled = vec![false; params.len()];
         let mut next = 0;
@@ -334,7 +340,7 @@ impl<'a> Checker<'a> {
         let missing: Vec<String> = params
             .iter()
             .zip(&filled)
-            .filter(|(p, filled)| !**filled && !p.has_default)
+            .filter(|(p, filled)| !**filled && !p.may_be_left_out())
             .map(|(p, _)| format!("`{}`", p.name))
             .collect();
         if !missing.is_empty() {
@@ -429,7 +435,7 @@ impl<'a> Checker<'a> {
                 matches!(one.kind, ast::ExprKind::List(_) | ast::ExprKind::Comprehension { .. });
             let want = if written_list { list } else { bindings.apply(element) };
             let got = self.expr(scope, one, Some(&want));
-            let takes_any = matches!(element, Type::Param(_));
+            let takes_any = *element == Type::Any;
             if got.ty.is_error() {
                 return got;
             }
@@ -446,14 +452,9 @@ impl<'a> Checker<'a> {
         let items: Vec<Expr> = rest
             .iter()
             .map(|e| {
-                if matches!(element, Type::Param(_)) {
-                    // `print(1, "a")`: arguments of a variadic type parameter need not be alike.
-                    self.expr(scope, e, None)
-                } else {
-                    let want = bindings.apply(element);
-                    let got = self.expr(scope, e, Some(&want));
-                    self.bind_argument(got, element, param.name, bindings)
-                }
+                let want = bindings.apply(element);
+                let got = self.expr(scope, e, Some(&want));
+                self.bind_argument(got, element, param.name, bindings)
             })
             .collect();
         let ty = bindings.apply(element);
@@ -471,6 +472,14 @@ impl<'a> Checker<'a> {
                     Some(bound) => self.join(bound, got),
                 };
                 let Some(joined) = joined else { return false };
+                let within = match bindings.bounds[*i as usize] {
+                    Bound::Quantity => joined.dimension().is_some(),
+                    Bound::Family(family) => self.fits(&joined, &Type::AnyOf(family)),
+                    Bound::Anything | Bound::Dimension => true,
+                };
+                if !within {
+                    return false;
+                }
                 bindings.types[*i as usize] = Some(joined);
                 true
             }
@@ -497,6 +506,7 @@ impl<'a> Checker<'a> {
             | (Type::Vec3(p), Type::Vec3(g))
             | (Type::Range(p), Type::Range(g))
             | (Type::Signal(p), Type::Signal(g))
+            | (Type::Joint(p), Type::Joint(g))
             | (Type::Optional(p), Type::Optional(g)) => self.unify(p, g, bindings),
             (Type::Optional(p), _) => self.unify(p, got, bindings),
             (Type::Fn(p), Type::Fn(g)) => self.unify_fn(p, g, bindings),
@@ -518,8 +528,10 @@ impl<'a> Checker<'a> {
 }
 
 impl Bindings {
-    fn new(n: usize) -> Bindings {
-        Bindings { types: vec![None; n], dimensions: vec![None; n] }
+    fn new(params: &[TypeParam]) -> Bindings {
+        let n = params.len();
+        let bounds = params.iter().map(|p| p.bound).collect();
+        Bindings { types: vec![None; n], dimensions: vec![None; n], bounds }
     }
 
     /// A type with what is bound put in.
@@ -536,6 +548,7 @@ impl Bindings {
             Type::Range(t) => Type::Range(inner(t)),
             Type::Optional(t) => Type::Optional(inner(t)),
             Type::Signal(t) => Type::Signal(inner(t)),
+            Type::Joint(t) => Type::Joint(inner(t)),
             Type::Fn(f) => Type::Fn(Arc::new(FnType {
                 params: f.params.iter().map(|p| self.apply(p)).collect(),
                 result: self.apply(&f.result),

@@ -63,8 +63,25 @@ pub struct Signature {
     pub params: Vec<ParamInfo>,
     /// `None`: inferred from the body.
     pub result: Option<Type>,
-    /// Names of type parameters, and whether each is a dimension.
-    pub type_params: Vec<(Symbol, bool)>,
+    pub type_params: Vec<TypeParam>,
+}
+
+/// A type parameter of an `extern fn`.
+#[derive(Clone, Copy, Debug)]
+pub struct TypeParam {
+    pub name: Symbol,
+    pub bound: Bound,
+}
+
+/// What a type parameter may stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    Anything,
+    /// It is the dimension of quantities, no type of its own.
+    Dimension,
+    /// An `Int` or any quantity.
+    Quantity,
+    Family(Family),
 }
 
 #[derive(Clone, Debug)]
@@ -74,6 +91,13 @@ pub struct ParamInfo {
     pub ty: Type,
     pub has_default: bool,
     pub variadic: bool,
+}
+
+impl ParamInfo {
+    /// What has a default, or may be missing, need not be given.
+    pub fn may_be_left_out(&self) -> bool {
+        self.has_default || self.variadic || matches!(self.ty, Type::Optional(_))
+    }
 }
 
 /// The names in the body of a declaration with instances.
@@ -147,7 +171,7 @@ pub struct Scope {
     pub file: usize,
     pub this: Option<DefId>,
     /// Type parameters of the `extern fn` at hand.
-    pub type_params: Vec<(Symbol, bool)>,
+    pub type_params: Vec<TypeParam>,
     frame: Frame,
     /// Frames around a lambda, innermost last.
     outer: Vec<Frame>,

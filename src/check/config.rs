@@ -169,7 +169,7 @@ impl<'a> Checker<'a> {
 
     fn exemption(&mut self, scope: &mut Scope, e: &'a ast::Exemption) -> Option<Exemption> {
         let known = ["unstable", "slip", "collision", "overload"];
-        let part = Type::Any(Family::Config);
+        let part = Type::AnyOf(Family::Config);
         let kind = match (e.name.text.as_str(), e.args.as_slice()) {
             ("unstable", []) => ExemptionKind::Unstable,
             ("slip", []) => ExemptionKind::Slip,
@@ -182,7 +182,7 @@ impl<'a> Checker<'a> {
             ("overload", []) => ExemptionKind::Overload(None),
             ("overload", [joint]) => {
                 let joint =
-                    self.expect(scope, joint, &Type::Joint(Dimension::ANGLE), Role::Place("`overload`"));
+                    self.expect(scope, joint, &Type::joint(Dimension::ANGLE), Role::Place("`overload`"));
                 ExemptionKind::Overload(Some(joint))
             }
             (name, _) => {
@@ -217,9 +217,9 @@ impl<'a> Checker<'a> {
                 }
             }
             ConfigClauseKind::Set { joint, value } => {
-                let joint = self.path(scope, joint, Some(&Type::Joint(Dimension::ANGLE)));
+                let joint = self.path(scope, joint, Some(&Type::joint(Dimension::ANGLE)));
                 let want = match &joint.ty {
-                    Type::Joint(d) => Type::Quantity(*d),
+                    Type::Joint(t) => (**t).clone(),
                     Type::Error => Type::Error,
                     other => {
                         let words = self.words(other);
@@ -320,7 +320,7 @@ impl<'a> Checker<'a> {
         let is_module = self.instance_family(&object.ty) == Some(Family::Module);
         let chosen = match next {
             Some(ast::PathStep::Field(n)) if is_module && n.text == "joint" => {
-                Some(Type::Joint(Dimension::ANGLE))
+                Some(Type::joint(Dimension::ANGLE))
             }
             Some(ast::PathStep::Field(n)) if is_module && n.text == "port" => Some(Type::Port),
             _ => None,

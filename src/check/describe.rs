@@ -60,6 +60,7 @@ impl Checker<'_> {
         match ty {
             Type::Error => "?".into(),
             Type::Nothing => "nothing".into(),
+            Type::Any => "Any".into(),
             Type::Quantity(d) => match d.name() {
                 Some(name) => name.into(),
                 None => format!("Quantity<{}>", display::base_units(*d)),
@@ -80,7 +81,7 @@ impl Checker<'_> {
                 let words = choice.words.iter().map(|w| w.to_string());
                 words.chain(choice.types.iter().map(|t| self.name(t))).collect::<Vec<_>>().join(" | ")
             }
-            Type::Joint(d) => args("Joint", &Type::Quantity(*d)),
+            Type::Joint(t) => args("Joint", t),
             Type::Port => "Port".into(),
             Type::Behavior => "Behavior".into(),
             Type::Signal(t) => args("Signal", t),
@@ -91,7 +92,7 @@ impl Checker<'_> {
             Type::Mesh => "Mesh".into(),
             Type::Cloud => "Cloud".into(),
             Type::Instance(id) | Type::Record(id) => self.def(*id).name.to_string(),
-            Type::Any(family) => family_name(*family).into(),
+            Type::AnyOf(family) => family_name(*family).into(),
             Type::Param(_) => "any type".into(),
             Type::QuantityParam { .. } => "Quantity".into(),
         }

@@ -302,8 +302,12 @@ impl<'a> Checker<'a> {
     /// A type name where an instance is wanted means its instance with all defaults.
     fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
         let signature = self.signature(id);
-        let missing: Vec<String> =
-            signature.params.iter().filter(|p| !p.has_default).map(|p| format!("`{}`", p.name)).collect();
+        let missing: Vec<String> = signature
+            .params
+            .iter()
+            .filter(|p| !p.may_be_left_out())
+            .map(|p| format!("`{}`", p.name))
+            .collect();
         if !missing.is_empty() {
             let name = self.def(id).name;
             self.report(
@@ -721,7 +725,12 @@ fn hole_type(want: Option<&Type>) -> Type {
 pub fn has_params(ty: &Type) -> bool {
     match ty {
         Type::Param(_) | Type::QuantityParam { .. } => true,
-        Type::List(t) | Type::Vec3(t) | Type::Range(t) | Type::Optional(t) | Type::Signal(t) => has_params(t),
+        Type::List(t)
+        | Type::Vec3(t)
+        | Type::Range(t)
+        | Type::Optional(t)
+        | Type::Signal(t)
+        | Type::Joint(t) => has_params(t),
         Type::Fn(f) => f.params.iter().any(has_params) || has_params(&f.result),
         Type::Choice(c) => c.types.iter().any(has_params),
         _ => false,

@@ -1,12 +1,12 @@
 //! Items and statements: signatures, bodies, and the order in which they are worked out.
 
-use super::checker::{Checker, DefItem, ParamInfo, Scope, Signature};
+use super::checker::{Bound, Checker, DefItem, ParamInfo, Scope, Signature, TypeParam};
 use super::expr::{Role, error_expr};
 use super::typed::{
     Body, DefId, DefKind, Expr, FnDef, LetDef, MemberId, NativeDef, Param, RecordDef, RecordField, Stmt,
     StmtKind, Test,
 };
-use super::types::Type;
+use super::types::{Family, Type};
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast;
 use std::rc::Rc;
@@ -49,7 +49,7 @@ impl<'a> Checker<'a> {
         f: &'a ast::ExternFn,
         record: Option<DefId>,
     ) -> Signature {
-        scope.type_params = type_params(f);
+        scope.type_params = self.type_params(f);
         let mut params = Vec::new();
         if let Some(record) = record {
             params.push(ParamInfo {
@@ -245,7 +245,7 @@ impl<'a> Checker<'a> {
             key,
             params,
             result: signature.result.clone().expect("declared"),
-            type_params: signature.type_params.iter().map(|(name, _)| *name).collect(),
+            type_params: signature.type_params.iter().map(|p| p.name).collect(),
             frame: scope.frame(),
         })
     }
@@ -395,8 +395,27 @@ impl<'a> Checker<'a> {
         }
         out
     }
-}
 
-fn type_params(f: &ast::ExternFn) -> Vec<(Symbol, bool)> {
-    f.type_params.iter().map(|p| (p.name.text, p.bound.is_some_and(|b| b.text == "Dimension"))).collect()
+    fn type_params(&mut self, f: &'a ast::ExternFn) -> Vec<TypeParam> {
+        let bound = |checker: &mut Checker<'a>, name: ast::Name| match name.text.as_str() {
+            "Dimension" => Bound::Dimension,
+            "Quantity" => Bound::Quantity,
+            "Module" => Bound::Family(Family::Module),
+            "Config" => Bound::Family(Family::Config),
+            _ => {
+                checker.report(
+                    Diagnostic::error(code::NOT_A_TYPE, format!("`{}` bounds no type parameter", name.text))
+                        .label(name.span, "one of Dimension, Quantity, Module, Config is wanted"),
+                );
+                Bound::Anything
+            }
+        };
+        let params = f.type_params.iter();
+        params
+            .map(|p| TypeParam {
+                name: p.name.text,
+                bound: p.bound.map_or(Bound::Anything, |b| bound(self, b)),
+            })
+            .collect()
+    }
 }

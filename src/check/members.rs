@@ -252,7 +252,7 @@ impl<'a> Checker<'a> {
         }
         // `m.left.joint` and `m.left.port` choose between the two name spaces.
         let chosen = match field.text.as_str() {
-            "joint" => Some(Type::Joint(Dimension::ANGLE)),
+            "joint" => Some(Type::joint(Dimension::ANGLE)),
             "port" => Some(Type::Port),
             _ => None,
         };
@@ -275,6 +275,12 @@ impl<'a> Checker<'a> {
             Type::Error => error_expr(span),
             Type::Instance(id) => self.instance_field(span, object, id, field, want),
             Type::Record(id) => self.record_field(span, object, id, field),
+            // A behaviour is planned when something is asked of its plan.
+            Type::Behavior if self.plan_record().is_some() => {
+                let plan = self.planned(object);
+                let record = self.plan_record().expect("just asked");
+                self.record_field(span, plan, record, field)
+            }
             Type::Vec3(element) if ["x", "y", "z"].contains(&field.text.as_str()) => {
                 let kind = ExprKind::Field { object: Box::new(object), field: field.text };
                 expr_of(span, (*element).clone(), kind)
@@ -294,7 +300,7 @@ impl<'a> Checker<'a> {
                         .label(field.span, "no such field");
                 if let Type::List(_) = other {
                     d = d.hint("name one element: `[0]`");
-                } else if let Type::Any(_) = other {
+                } else if let Type::AnyOf(_) = other {
                     d = d.hint("which declaration it is an instance of is not known here");
                 }
                 self.report(d);
@@ -336,7 +342,7 @@ impl<'a> Checker<'a> {
                 error_expr(span)
             }
             (Some(joint), port) if port.is_none() || wants_joint => {
-                let ty = Type::Joint(members.joints[joint].dimension);
+                let ty = Type::joint(members.joints[joint].dimension);
                 expr_of(span, ty, ExprKind::Joint { object, joint })
             }
             (_, Some(port)) => {
@@ -398,6 +404,20 @@ impl<'a> Checker<'a> {
         }
         self.report(d);
         error_expr(span)
+    }
+
+    pub fn plan_record(&self) -> Option<DefId> {
+        self.prelude_def("plan").and(self.prelude_def("Plan"))
+    }
+
+    /// `plan(behavior)`, as it could have been written.
+    pub fn planned(&mut self, behavior: Expr) -> Expr {
+        let def = self.prelude_def("plan").expect("the prelude declares what its record comes from");
+        let record = self.prelude_def("Plan").expect("the prelude declares what `plan` gives");
+        let mut args = vec![None; self.signature(def).params.len()];
+        let span = behavior.span;
+        args[0] = Some(behavior);
+        expr_of(span, Type::Record(record), ExprKind::Call { def, args })
     }
 
     fn record_names(&self, id: DefId) -> Vec<&'static str> {

@@ -1,6 +1,6 @@
 //! Types as they are written, and when one type may stand for another.
 
-use super::checker::{Checker, DefItem, Entity, Scope};
+use super::checker::{Bound, Checker, DefItem, Entity, Scope};
 use super::typed::DefId;
 use super::types::{Choice, Family, FnType, Type};
 use crate::source::suggest::suggest;
@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 /// Built-in type names without arguments, the named dimensions apart.
 const PLAIN: &[(&str, Type)] = &[
+    ("Any", Type::Any),
     ("Int", Type::Int),
     ("Bool", Type::Bool),
     ("Text", Type::Text),
@@ -23,12 +24,12 @@ const PLAIN: &[(&str, Type)] = &[
     ("Cells", Type::Cells),
     ("Mesh", Type::Mesh),
     ("Cloud", Type::Cloud),
-    ("Module", Type::Any(Family::Module)),
-    ("Config", Type::Any(Family::Config)),
-    ("Cell", Type::Any(Family::Cell)),
-    ("Strut", Type::Any(Family::Strut)),
-    ("Lattice", Type::Any(Family::Lattice)),
-    ("Truss", Type::Any(Family::Truss)),
+    ("Module", Type::AnyOf(Family::Module)),
+    ("Config", Type::AnyOf(Family::Config)),
+    ("Cell", Type::AnyOf(Family::Cell)),
+    ("Strut", Type::AnyOf(Family::Strut)),
+    ("Lattice", Type::AnyOf(Family::Lattice)),
+    ("Truss", Type::AnyOf(Family::Truss)),
 ];
 
 const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
@@ -64,14 +65,21 @@ impl<'a> Checker<'a> {
     fn choice_word(&self, scope: &Scope, ty: &ast::TypeExpr) -> Option<Symbol> {
         let TypeKind::Named { path, args } = &ty.kind else { return None };
         let [name] = path.as_slice() else { return None };
-        let lowercase = name.text.as_str().starts_with(|c: char| c.is_ascii_lowercase());
-        let declared = scope.type_params.iter().any(|(n, _)| *n == name.text);
-        (args.is_empty() && lowercase && !declared).then_some(name.text)
+        let text = name.text.as_str();
+        let known = scope.type_params.iter().any(|p| p.name == name.text)
+            || PLAIN.iter().any(|(n, _)| *n == text)
+            || Dimension::named(text).is_some()
+            || matches!(self.entity(scope.file, name.text), Some(Entity::Def(id)) if self.is_type(id));
+        (args.is_empty() && !known).then_some(name.text)
+    }
+
+    fn is_type(&self, id: DefId) -> bool {
+        self.family(id).is_some() || matches!(self.def(id).item, DefItem::Record(_))
     }
 
     fn quantity_type(&mut self, scope: &Scope, unit: &ast::UnitExpr) -> Type {
         if let [(name, power)] = unit.factors.as_slice()
-            && let Some(param) = scope.type_params.iter().position(|(n, _)| *n == name.text)
+            && let Some(param) = scope.type_params.iter().position(|p| p.name == name.text)
         {
             return Type::QuantityParam { param: param as u8, power: *power as i8 };
         }
@@ -117,8 +125,11 @@ impl<'a> Checker<'a> {
 
     fn plain_type(&mut self, scope: &Scope, path: &[ast::Name]) -> Type {
         if let [name] = path {
-            if let Some(index) = scope.type_params.iter().position(|(n, _)| *n == name.text) {
-                return Type::Param(index as u8);
+            if let Some(index) = scope.type_params.iter().position(|p| p.name == name.text) {
+                return match scope.type_params[index].bound {
+                    Bound::Dimension => Type::QuantityParam { param: index as u8, power: 1 },
+                    _ => Type::Param(index as u8),
+                };
             }
             if let Some((_, ty)) = PLAIN.iter().find(|(n, _)| *n == name.text.as_str()) {
                 return ty.clone();
@@ -190,8 +201,8 @@ impl<'a> Checker<'a> {
                 Type::Range(Arc::new(inner))
             }
             ("Vec3", Type::Quantity(_) | Type::QuantityParam { .. }) => Type::Vec3(Arc::new(inner)),
-            ("Joint", Type::Quantity(d)) if [Dimension::ANGLE, Dimension::LENGTH].contains(d) => {
-                Type::Joint(*d)
+            ("Joint", Type::Quantity(Dimension::ANGLE | Dimension::LENGTH) | Type::QuantityParam { .. }) => {
+                Type::Joint(Arc::new(inner))
             }
             ("Signal", Type::Quantity(_) | Type::QuantityParam { .. } | Type::Bool) => {
                 Type::Signal(Arc::new(inner))
@@ -212,6 +223,8 @@ impl<'a> Checker<'a> {
     pub fn fits(&self, got: &Type, want: &Type) -> bool {
         match (got, want) {
             (Type::Error, _) | (_, Type::Error) => true,
+            (Type::Nothing, Type::Any) => false,
+            (_, Type::Any) => true,
             _ if got == want => true,
             (Type::Int, Type::Quantity(d)) => *d == Dimension::NUMBER,
             (Type::Quantity(a), Type::Quantity(b)) => a.fits(*b),
@@ -224,13 +237,14 @@ impl<'a> Checker<'a> {
             (_, Type::Choice(b)) => b.types.iter().any(|t| self.fits(got, t)),
             (Type::List(a), Type::List(b)) | (Type::Vec3(a), Type::Vec3(b)) => self.fits(a, b),
             (Type::Range(a), Type::Range(b)) | (Type::Signal(a), Type::Signal(b)) => self.fits(a, b),
+            (Type::Joint(a), Type::Joint(b)) => self.fits(a, b),
             (Type::Fn(a), Type::Fn(b)) => {
                 a.params.len() == b.params.len()
                     && a.params.iter().zip(&b.params).all(|(x, y)| self.fits(y, x))
                     && self.fits(&a.result, &b.result)
             }
-            (Type::Instance(id), Type::Any(family)) => self.family(*id).is_some_and(|f| is_a(f, *family)),
-            (Type::Any(f), Type::Any(family)) => is_a(*f, *family),
+            (Type::Instance(id), Type::AnyOf(family)) => self.family(*id).is_some_and(|f| is_a(f, *family)),
+            (Type::AnyOf(f), Type::AnyOf(family)) => is_a(*f, *family),
             (Type::Record(id), Type::Record(wanted)) => self.record_line(*id).contains(wanted),
             _ => false,
         }
@@ -270,9 +284,9 @@ impl<'a> Checker<'a> {
             _ => {
                 let (f, g) = (self.family_of(a)?, self.family_of(b)?);
                 if f == g {
-                    Some(Type::Any(f))
+                    Some(Type::AnyOf(f))
                 } else if is_a(f, Family::Config) && is_a(g, Family::Config) {
-                    Some(Type::Any(Family::Config))
+                    Some(Type::AnyOf(Family::Config))
                 } else {
                     None
                 }
@@ -283,7 +297,7 @@ impl<'a> Checker<'a> {
     fn family_of(&self, ty: &Type) -> Option<Family> {
         match ty {
             Type::Instance(id) => self.family(*id),
-            Type::Any(family) => Some(*family),
+            Type::AnyOf(family) => Some(*family),
             _ => None,
         }
     }

@@ -13,6 +13,8 @@ pub enum Type {
     Error,
     /// No value: `print(...)`.
     Nothing,
+    /// A parameter of a built-in that takes any value.
+    Any,
     /// `Number` is the quantity without dimension.
     Quantity(Dimension),
     /// A whole number; it is a `Number`.
@@ -28,7 +30,7 @@ pub enum Type {
     Fn(Arc<FnType>),
     Choice(Arc<Choice>),
     /// `Joint<Angle>`, `Joint<Length>`
-    Joint(Dimension),
+    Joint(Arc<Type>),
     Port,
     Behavior,
     Signal(Arc<Type>),
@@ -42,7 +44,7 @@ pub enum Type {
     /// The instances of a `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
     Instance(DefId),
     /// The supertypes: `Module`, `Config` (a module is the smallest one), `Lattice`, ...
-    Any(Family),
+    AnyOf(Family),
     /// An `extern type`.
     Record(DefId),
     /// A type parameter of the `extern fn` at hand.
@@ -93,6 +95,10 @@ impl Type {
 
     pub fn vec3(dimension: Dimension) -> Type {
         Type::Vec3(Arc::new(Type::Quantity(dimension)))
+    }
+
+    pub fn joint(dimension: Dimension) -> Type {
+        Type::Joint(Arc::new(Type::Quantity(dimension)))
     }
 
     /// The dimension of a number: `Int` and quantities.
