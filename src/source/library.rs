@@ -8,7 +8,7 @@ macro_rules! embed {
 }
 
 /// Name and text of each file, in order of name.
-pub const FILES: &[(&str, &str)] = embed![];
+pub const FILES: &[(&str, &str)] = embed!["prelude.mod"];
 
 /// The text of a library file, such as `smores.mod` for `std.smores`.
 pub fn text(name: &str) -> Option<&'static str> {

@@ -1,0 +1,280 @@
+//! The command as its users meet it: exit codes, pipes, terminals, files that are odd or hostile.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
+
+/// A folder of its own, and the command run in it.
+struct Sandbox(TempDir);
+
+struct Ran {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+impl Sandbox {
+    fn new(files: &[(&str, &[u8])]) -> Sandbox {
+        let sandbox = Sandbox(TempDir::new().expect("a temporary folder"));
+        for (name, bytes) in files {
+            let path = sandbox.path(name);
+            fs::create_dir_all(path.parent().expect("below the folder")).expect("a folder can be made");
+            fs::write(path, bytes).expect("a file can be written");
+        }
+        sandbox
+    }
+
+    fn path(&self, name: &str) -> std::path::PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_modl"));
+        command.args(arguments).current_dir(self.0.path()).stdin(Stdio::null());
+        command.env_remove("NO_COLOR").env_remove("COLUMNS");
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Ran {
+        ran(self.command(arguments).output().expect("the command runs"))
+    }
+
+    fn run_with_input(&self, arguments: &[&str], input: &[u8]) -> Ran {
+        let mut command = self.command(arguments);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("the command runs");
+        child.stdin.take().expect("piped").write_all(input).expect("the command reads all of it");
+        ran(child.wait_with_output().expect("the command ends"))
+    }
+}
+
+fn ran(output: std::process::Output) -> Ran {
+    let text = |bytes| String::from_utf8(bytes).expect("the command prints UTF-8");
+    Ran { code: output.status.code().unwrap_or(-1), out: text(output.stdout), err: text(output.stderr) }
+}
+
+fn json(ran: &Ran) -> serde_json::Value {
+    serde_json::from_str(&ran.out).unwrap_or_else(|e| panic!("{e} in\n{}", ran.out))
+}
+
+const FINE: &[u8] = b"let a = 1\n";
+
+#[test]
+fn a_wrong_call_ends_with_2_and_says_why() {
+    let s = Sandbox::new(&[("a.mod", FINE), ("sub/b.mod", FINE)]);
+    for (arguments, words) in [
+        (&["frobnicate"][..], "frobnicate"),
+        (&["check"], "FILE"),
+        (&["check", "nothing.mod"], "`nothing.mod` does not exist"),
+        (&["check", "a.mod", "nothing.mod"], "`nothing.mod` does not exist"),
+        (&["check", "sub"], "no regular file"),
+        (&["check", "a.mod", "--root", "sub"], "outside the project"),
+        (&["check", "a.mod", "--root", "a.mod"], "no folder"),
+        (&["check", "a.mod", "--stdlib", "nowhere"], "`nowhere` does not exist"),
+        (&["run", "a.mod", "--seed", "many"], "many"),
+        (&["run", "a.mod", "--max-steps", "0"], "0"),
+        (&["verify", "nothing.json"], "`nothing.json` does not exist"),
+        (&["explain", "E03o1"], "did you mean E0301?"),
+        (&["completions", "dos"], "dos"),
+    ] {
+        let ran = s.run(arguments);
+        assert_eq!(ran.code, 2, "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(words), "{arguments:?}: {}", ran.err);
+    }
+    let ran = s.run(&["check", "nothing.mod", "--json"]);
+    assert_eq!((ran.code, json(&ran)["ok"].as_bool()), (2, Some(false)));
+}
+
+#[test]
+fn a_fine_program_ends_with_0_and_a_wrong_one_with_1() {
+    let s = Sandbox::new(&[("a.mod", FINE), ("bad.mod", b"let a = \xff\n")]);
+    assert_eq!(s.run(&["check", "a.mod"]).code, 0);
+    assert_eq!(s.run(&["check", "a.mod"]).err, "");
+    assert_eq!(s.run(&["run", "a.mod"]).code, 0);
+    assert_eq!(s.run(&["test", "a.mod"]).code, 0);
+    assert_eq!(s.run(&["check", "a.mod", "bad.mod"]).code, 1);
+    assert_eq!(s.run(&["run", "bad.mod"]).code, 1);
+    assert_eq!(s.run(&["test", "bad.mod"]).code, 1);
+}
+
+#[test]
+fn help_shows_examples_and_every_command_has_its_own() {
+    let s = Sandbox::new(&[]);
+    let help = s.run(&["--help"]);
+    assert_eq!(help.code, 0);
+    assert!(help.out.contains("Examples:") && help.out.contains("Exit codes:"), "{}", help.out);
+    for command in ["run", "check", "test", "verify", "new", "explain", "completions"] {
+        let own = s.run(&[command, "--help"]);
+        assert!(own.code == 0 && own.out.contains("modl "), "{command}: {}", own.out);
+    }
+}
+
+#[test]
+fn bytes_that_are_no_text_are_pointed_at() {
+    let s = Sandbox::new(&[("a.mod", b"let a = 1\nlet b = \"\xe4\"\n")]);
+    let ran = s.run(&["check", "a.mod"]);
+    assert!(ran.code == 1 && ran.err.contains("E0002") && ran.err.contains("a.mod:2:10"), "{}", ran.err);
+    let label = &json(&s.run(&["check", "a.mod", "--json"]))["diagnostics"][0]["labels"][0];
+    assert_eq!(label["offset"], 19);
+}
+
+#[test]
+fn byte_order_marks_and_windows_line_ends_are_no_mistakes() {
+    let s = Sandbox::new(&[("a.mod", b"\xef\xbb\xbflet a = 1\r\nlet b = a\r\n"), ("empty.mod", b"")]);
+    let ran = s.run(&["check", "a.mod", "empty.mod"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+}
+
+#[test]
+fn a_huge_file_is_refused_without_being_read() {
+    let s = Sandbox::new(&[("huge.mod", b"")]);
+    let file = fs::File::create(s.path("huge.mod")).expect("a file can be made");
+    file.set_len(1 << 40).expect("a file may have a hole");
+    let ran = s.run(&["check", "huge.mod"]);
+    assert!(ran.code == 2 && ran.err.contains("larger than 64 MiB"), "{}", ran.err);
+}
+
+#[test]
+fn standard_input_is_a_program_too() {
+    let s = Sandbox::new(&[]);
+    assert_eq!(s.run_with_input(&["check", "-"], FINE).code, 0);
+    let ran = s.run_with_input(&["check", "-"], b"let \xff\n");
+    assert!(ran.code == 1 && ran.err.contains("<stdin>:1:5"), "{}", ran.err);
+}
+
+#[test]
+fn diagnostics_name_files_as_the_user_would() {
+    let s = Sandbox::new(&[("robots/parts/a.mod", b"let \xff\n")]);
+    for (arguments, name) in [
+        (&["check", "robots/parts/a.mod"][..], "[robots/parts/a.mod:1:5]"),
+        (&["check", "./robots/parts/a.mod"], "[./robots/parts/a.mod:1:5]"),
+        (&["check", "robots/parts/a.mod", "--root", "."], "[robots/parts/a.mod:1:5]"),
+        (&["check", "robots/parts/a.mod", "--root", "robots"], "[robots/parts/a.mod:1:5]"),
+    ] {
+        let ran = s.run(arguments);
+        assert!(ran.err.contains(name), "{arguments:?}: {}", ran.err);
+    }
+}
+
+#[test]
+fn json_is_one_object_on_standard_output() {
+    let s = Sandbox::new(&[("a.mod", b"let \xff\n"), ("b.mod", b"let \xff\n")]);
+    let ran = s.run(&["check", "--json", "a.mod", "b.mod"]);
+    assert_eq!((ran.code, ran.err.as_str()), (1, ""));
+    let object = json(&ran);
+    assert_eq!(object["ok"], false);
+    assert_eq!(object["errors"], 2);
+    let files: Vec<_> =
+        object["diagnostics"].as_array().expect("a list").iter().map(|d| &d["labels"][0]["file"]).collect();
+    assert_eq!(files, ["a.mod", "b.mod"]);
+}
+
+#[test]
+fn colour_is_for_terminals_and_for_those_who_ask() {
+    let s = Sandbox::new(&[("a.mod", b"let \xff\n")]);
+    let colored = |arguments: &[&str]| s.run(arguments).err.contains('\u{1b}');
+    assert!(!colored(&["check", "a.mod"]), "no terminal, no colour");
+    assert!(colored(&["check", "a.mod", "--color", "always"]));
+    assert!(!colored(&["check", "a.mod", "--color", "never"]));
+    let links = s.run(&["check", "a.mod", "--color", "always"]).err;
+    assert!(!links.contains("\u{1b}]8"), "no terminal links");
+}
+
+#[test]
+fn a_narrow_terminal_is_kept_to() {
+    let s = Sandbox::new(&[("a.mod", &[b"let a = ".as_slice(), &b"1 + ".repeat(100), b"\xff\n"].concat())]);
+    for columns in ["30", "40", "60"] {
+        let output =
+            s.command(&["check", "a.mod"]).env("COLUMNS", columns).output().expect("the command runs");
+        let ran = ran(output);
+        let widest = ran.err.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+        assert!(widest <= columns.parse().expect("a number"), "{widest} > {columns}\n{}", ran.err);
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_mistake() {
+    let s = Sandbox::new(&[]);
+    let mut child =
+        s.command(&["explain"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("runs");
+    drop(child.stdout.take());
+    let ran = ran(child.wait_with_output().expect("the command ends"));
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+}
+
+#[test]
+fn every_code_is_explained() {
+    let s = Sandbox::new(&[]);
+    let list = s.run(&["explain"]).out;
+    for (code, title) in modl::source::code::ALL {
+        assert!(list.contains(&format!("{code}  {title}\n")), "{code}");
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("docs/errors/{code}.md"));
+        let page = fs::read_to_string(page).expect("every code has a page");
+        assert_eq!(s.run(&["explain", code.0]).out, page, "src/cli/pages.rs lists every page");
+        assert!(page.starts_with(&format!("# {code}: {title}\n")), "{code}: the page has the code's title");
+    }
+    assert_eq!(s.run(&["explain", "e0301"]).code, 0);
+    assert_eq!(json(&s.run(&["explain", "E0301", "--json"]))["code"], "E0301");
+}
+
+#[test]
+fn completions_know_the_commands() {
+    let s = Sandbox::new(&[]);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let ran = s.run(&["completions", shell]);
+        assert!(ran.code == 0 && ran.out.contains("verify") && ran.out.contains("max-steps"), "{shell}");
+    }
+}
+
+#[test]
+fn new_overwrites_nothing() {
+    let s = Sandbox::new(&[("taken/keep.txt", b"mine")]);
+    assert_eq!(s.run(&["new", "taken"]).code, 2);
+    assert_eq!(fs::read_dir(s.path("taken")).expect("still there").count(), 1);
+    assert_eq!(s.run(&["new", "robots/rover"]).code, 0);
+    assert!(s.path("robots/rover/main.mod").exists());
+    let again = s.run(&["new", "robots/rover"]);
+    assert!(again.code == 2 && again.err.contains("exists"), "{}", again.err);
+}
+
+#[test]
+fn what_is_no_plan_file_is_told_so() {
+    let s = Sandbox::new(&[("no.json", b"{\"plan\": 1}"), ("bytes.json", b"\xff\x00")]);
+    for file in ["no.json", "bytes.json"] {
+        let ran = s.run(&["verify", file]);
+        assert!(ran.code == 1 && ran.err.contains("E0704"), "{}", ran.err);
+    }
+    assert_eq!(json(&s.run(&["verify", "--json", "no.json"]))["diagnostics"][0]["code"], "E0704");
+}
+
+#[cfg(unix)]
+mod unix {
+    use super::*;
+    use std::os::unix::fs::symlink;
+
+    #[test]
+    fn pipes_and_devices_are_not_waited_for() {
+        let s = Sandbox::new(&[]);
+        let made = Command::new("mkfifo").arg(s.path("pipe.mod")).status();
+        if !made.is_ok_and(|status| status.success()) {
+            println!("skipped: there is no mkfifo");
+            return;
+        }
+        for file in ["pipe.mod", "/dev/zero", "."] {
+            let ran = s.run(&["check", file]);
+            assert!(ran.code == 2 && ran.err.contains("no regular file"), "{file}: {}", ran.err);
+        }
+        assert_eq!(s.run(&["verify", "pipe.mod"]).code, 2);
+    }
+
+    #[test]
+    fn a_project_named_by_a_link_is_where_the_file_is() {
+        let s = Sandbox::new(&[("real/a.mod", FINE), ("project/b.mod", FINE)]);
+        symlink(s.path("real/a.mod"), s.path("project/link.mod")).expect("a link");
+        assert_eq!(s.run(&["check", "project/link.mod"]).code, 0);
+        let ran = s.run(&["check", "project/link.mod", "--root", "project"]);
+        assert!(ran.code == 2 && ran.err.contains("outside the project"), "{}", ran.err);
+    }
+}

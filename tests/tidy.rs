@@ -1,0 +1,307 @@
+//! The rules of the house, as far as a test can see them. What a rule is for: `docs/architecture.md`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file longer than this has a second subject.
+const LINES_MAX: usize = 600;
+
+/// Files that may be longer, each with its reason.
+const LONG_FILES: &[(&str, &str)] =
+    &[("src/syntax/ast.rs", "one type for each form of the grammar, and nothing else")];
+
+/// Each room with the rooms that it may know.
+const ROOMS: &[(&str, &[&str])] = &[
+    ("source", &[]),
+    ("units", &[]),
+    ("syntax", &["source"]),
+    ("check", &["source", "units", "syntax"]),
+    ("geometry", &["units"]),
+    ("optimize", &[]),
+    ("robot", &["units", "geometry"]),
+    ("plan", &["units", "geometry", "optimize", "robot"]),
+    ("behavior", &["units", "geometry", "robot", "plan"]),
+    ("planners", &["units", "geometry", "optimize", "robot", "plan"]),
+    (
+        "interpret",
+        &["source", "units", "syntax", "check", "geometry", "robot", "plan", "behavior", "planners"],
+    ),
+    ("serve", &["source", "units", "syntax", "check", "robot", "plan", "interpret"]),
+    ("cli", &["source", "units", "check", "plan", "interpret", "serve"]),
+];
+
+/// Crates and parts of the standard library that belong to one room, or to a few.
+const OWNERS: &[(&str, &[&str])] = &[
+    ("parry3d_f64", &["geometry"]),
+    ("glamx", &["geometry"]),
+    ("clarabel", &["optimize"]),
+    ("pest", &["syntax"]),
+    ("pest_derive", &["syntax"]),
+    ("miette", &["source"]),
+    ("strsim", &["source"]),
+    ("serde_json", &["source", "plan", "cli"]),
+    ("clap", &["cli"]),
+    ("clap_complete", &["cli"]),
+    ("ctrlc", &["cli"]),
+    ("tempfile", &["cli"]),
+    ("terminal_size", &["cli"]),
+    ("std::env", &["cli"]),
+    ("std::fs", &["cli"]),
+    ("std::io", &["cli"]),
+    ("std::net", &[]),
+    ("std::process", &["cli"]),
+    ("std::thread", &[]),
+    ("std::time", &[]),
+];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Every file of the repository with its path from the root, in order.
+fn files() -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![root().to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("the repository can be read") {
+            let path: PathBuf = entry.expect("the repository can be read").path();
+            let name =
+                path.strip_prefix(root()).expect("below the root").to_string_lossy().replace('\\', "/");
+            if [".git", "target", "out"].contains(&name.as_str()) {
+                continue;
+            }
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.is_file() {
+                found.insert(name, fs::read(&path).expect("the file can be read"));
+            }
+        }
+    }
+    found
+}
+
+/// The Rust files below a folder, as text.
+fn rust(folder: &str) -> BTreeMap<String, String> {
+    let prefix = format!("{folder}/");
+    let chosen = files().into_iter().filter(|(name, _)| name.starts_with(&prefix) && name.ends_with(".rs"));
+    chosen.map(|(name, bytes)| (name, String::from_utf8(bytes).expect("Rust is UTF-8"))).collect()
+}
+
+/// The lines that are no comments, with their numbers.
+fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line))
+        .filter(|(_, line)| !line.trim_start().starts_with("//"))
+}
+
+fn fail_if_any(what: &str, faults: Vec<String>) {
+    assert!(faults.is_empty(), "{what}:\n  {}", faults.join("\n  "));
+}
+
+/// The names that follow `path::` in a line, also in `path::{a, b::c}`.
+fn names_after<'a>(line: &'a str, path: &str) -> Vec<&'a str> {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let first_name = |text: &'a str| text.split(|c| !is_name(c)).next().unwrap_or("");
+    let mut names = Vec::new();
+    for (at, _) in line.match_indices(path) {
+        if line[..at].ends_with(|c: char| is_name(c) || c == ':') {
+            continue;
+        }
+        let rest = &line[at + path.len()..];
+        match rest.strip_prefix('{') {
+            Some(list) => names.extend(list.split(',').map(|item| first_name(item.trim()))),
+            None => names.push(first_name(rest)),
+        }
+    }
+    names
+}
+
+#[test]
+fn rooms_know_only_the_rooms_above_them() {
+    let mut faults = Vec::new();
+    for (file, text) in rust("src") {
+        let parts: Vec<&str> = file.split('/').collect();
+        let [_, room, _] = parts[..] else { continue };
+        let Some((_, known)) = ROOMS.iter().find(|(name, _)| *name == room) else {
+            faults.push(format!("{file}: the room `{room}` is not on the list"));
+            continue;
+        };
+        for (number, line) in code_lines(&text) {
+            for other in names_after(line, "crate::") {
+                let is_room = ROOMS.iter().any(|(name, _)| *name == other);
+                if is_room && other != room && !known.contains(&other) {
+                    faults.push(format!("{file}:{number}: `{room}` may not know `{other}`"));
+                }
+            }
+        }
+    }
+    fail_if_any("rooms that know too much", faults);
+}
+
+#[test]
+fn crates_and_the_outside_stay_in_their_rooms() {
+    let mut faults = Vec::new();
+    for (file, text) in rust("src") {
+        let room = file.split('/').nth(1).expect("below src");
+        for (number, line) in code_lines(&text) {
+            for (owned, rooms) in OWNERS {
+                let used = line.match_indices(owned).any(|(at, _)| {
+                    let after = line[at + owned.len()..].chars().next();
+                    let is_path = matches!(after, Some(':' | ';'));
+                    is_path && !line[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':')
+                });
+                if used && !rooms.contains(&room) && room != "main.rs" {
+                    faults.push(format!("{file}:{number}: `{owned}` is for {rooms:?}"));
+                }
+            }
+        }
+    }
+    fail_if_any("outside of their rooms", faults);
+}
+
+#[test]
+fn files_have_one_subject_and_say_it_first() {
+    let mut faults = Vec::new();
+    for (file, text) in ["src", "tests", "benches"].into_iter().flat_map(rust) {
+        if !text.starts_with("//!") {
+            faults.push(format!("{file}: begins without `//!`"));
+        }
+        let lines = text.lines().count();
+        if lines > LINES_MAX && !LONG_FILES.iter().any(|(name, _)| *name == file) {
+            faults.push(format!("{file}: {lines} lines; what is its second subject?"));
+        }
+    }
+    fail_if_any("files", faults);
+    let long = |file: &str| rust("src").get(file).is_some_and(|text| text.lines().count() > LINES_MAX);
+    let stale: Vec<String> =
+        LONG_FILES.iter().filter(|(f, _)| !long(f)).map(|(f, _)| (*f).to_owned()).collect();
+    fail_if_any("no longer long; take them off the list", stale);
+}
+
+#[test]
+fn folders_are_one_level_deep_and_have_names_that_say_something() {
+    let empty_names = ["util", "utils", "common", "misc", "core", "helper", "helpers", "prelude"];
+    let mut faults = Vec::new();
+    for file in rust("src").keys() {
+        let parts: Vec<&str> = file.split('/').collect();
+        if parts.len() > 3 {
+            faults.push(format!("{file}: too deep"));
+        }
+        if parts.iter().any(|part| empty_names.contains(&part.trim_end_matches(".rs"))) {
+            faults.push(format!("{file}: a name that says nothing"));
+        }
+    }
+    fail_if_any("folders and names", faults);
+}
+
+#[test]
+fn no_file_is_left_out_of_the_build() {
+    let mut faults = Vec::new();
+    let (src, tests) = (rust("src"), rust("tests"));
+    for file in src.keys().chain(tests.keys()) {
+        let (folder, name) = file.rsplit_once('/').expect("in a folder");
+        let stem = name.trim_end_matches(".rs");
+        let (parent, module) = match (folder, stem) {
+            ("src", "lib" | "main") | ("tests", "all") => continue,
+            ("src", _) => ("src/lib.rs".to_owned(), stem),
+            ("tests", _) => ("tests/all.rs".to_owned(), stem),
+            (_, "mod") => {
+                let (above, module) = folder.rsplit_once('/').expect("below src or tests");
+                (if above == "src" { "src/lib.rs".to_owned() } else { "tests/all.rs".to_owned() }, module)
+            }
+            _ => (format!("{folder}/mod.rs"), stem),
+        };
+        let text = src.get(&parent).or(tests.get(&parent)).map_or("", String::as_str);
+        if !text.lines().any(|line| line.trim_end().ends_with(&format!("mod {module};"))) {
+            faults.push(format!("{file}: {parent} does not say `mod {module};`"));
+        }
+    }
+    fail_if_any("dead files", faults);
+}
+
+#[test]
+fn words_that_do_not_stay() {
+    let in_src = [".unwr~ap()", "to~do!", "unimpl~emented!", "db~g!", "print~ln!", "eprint~ln!"];
+    let in_rust = ["#[ign~ore", "#[should_pa~nic", "thread::sle~ep"];
+    let anywhere = ["TO~DO", "FIX~ME", "XX~X", "/ho~me/", "/ro~ot/", "/wo~rk/", "/Us~ers/"];
+    let mut faults = Vec::new();
+    for (file, bytes) in files() {
+        let Ok(text) = String::from_utf8(bytes) else { continue };
+        let mut banned: Vec<&str> = anywhere.to_vec();
+        if file.ends_with(".rs") {
+            banned.extend(in_rust);
+        }
+        if file.starts_with("src/") {
+            banned.extend(in_src);
+        }
+        // The words are written in two halves, or this file would find itself.
+        for word in banned.iter().map(|word| word.replace('~', "")) {
+            for (i, _) in text.lines().enumerate().filter(|(_, line)| line.contains(&word)) {
+                faults.push(format!("{file}:{}: `{word}`", i + 1));
+            }
+        }
+    }
+    fail_if_any("words that do not stay", faults);
+}
+
+#[test]
+fn every_code_has_its_page_and_every_page_its_code() {
+    let codes: BTreeSet<String> = modl::source::code::ALL.iter().map(|(code, _)| code.to_string()).collect();
+    let pages = files().into_keys().filter_map(|name| {
+        Some(name.strip_prefix("docs/errors/")?.strip_suffix(".md")?.to_owned())
+            .filter(|name| name != "README")
+    });
+    let pages: BTreeSet<String> = pages.collect();
+    fail_if_any("codes without a page in docs/errors", codes.difference(&pages).cloned().collect());
+    fail_if_any("pages in docs/errors without a code", pages.difference(&codes).cloned().collect());
+}
+
+#[test]
+fn codes_are_in_order() {
+    let codes: Vec<&str> = modl::source::code::ALL.iter().map(|(code, _)| code.0).collect();
+    let group = |code: &&str| ["E", "W", "N"].iter().position(|c| code.starts_with(c));
+    let mut sorted = codes.clone();
+    sorted.sort_by_key(|code| (group(code), code.to_string()));
+    sorted.dedup();
+    assert_eq!(codes, sorted);
+}
+
+#[test]
+fn the_binary_holds_every_file_of_the_library() {
+    let on_disk: Vec<(String, String)> = files()
+        .into_iter()
+        .filter_map(|(name, bytes)| {
+            let text = String::from_utf8(bytes).ok()?;
+            Some((name.strip_prefix("stdlib/")?.to_owned(), text))
+        })
+        .collect();
+    let embedded: Vec<(String, String)> =
+        modl::source::library::FILES.iter().map(|(n, t)| ((*n).to_owned(), (*t).to_owned())).collect();
+    let names = |files: &[(String, String)]| files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    assert_eq!(
+        names(&embedded),
+        names(&on_disk),
+        "src/source/library.rs lists every file of stdlib/, in order"
+    );
+    assert!(embedded == on_disk, "the texts are the same");
+}
+
+#[test]
+fn links_between_pages_lead_somewhere() {
+    let all = files();
+    let mut faults = Vec::new();
+    for (file, bytes) in all.iter().filter(|(name, _)| name.ends_with(".md")) {
+        let text = String::from_utf8_lossy(bytes);
+        let folder = Path::new(file).parent().expect("a file has a folder");
+        for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let target = target.split('#').next().unwrap_or("");
+            let outside = target.is_empty() || target.contains("://") || target.contains(' ');
+            if !outside && !root().join(folder).join(target).exists() {
+                faults.push(format!("{file}: {target}"));
+            }
+        }
+    }
+    fail_if_any("links that lead nowhere", faults);
+}
