@@ -128,6 +128,35 @@ fn byte_order_marks_and_windows_line_ends_are_no_mistakes() {
 }
 
 #[test]
+fn characters_that_hide_are_refused_and_never_reach_the_terminal() {
+    let odd = "let a = 1 \0\nlet b = 2 \u{202e}\nlet c\u{200b} = \u{1b}[31m\n";
+    let s = Sandbox::new(&[("a.mod", odd.as_bytes())]);
+    let ran = s.run(&["check", "a.mod"]);
+    assert_eq!(ran.code, 1);
+    assert!(ran.err.matches("E0003").count() >= 3, "{}", ran.err);
+    assert!(!ran.err.contains(['\0', '\u{202e}', '\u{200b}', '\u{1b}']), "{:?}", ran.err);
+}
+
+#[test]
+fn imports_stay_in_the_project() {
+    let s = Sandbox::new(&[
+        ("outside.mod", FINE),
+        ("project/a.mod", b"use \"../outside.mod\".{a}\n"),
+        ("project/b.mod", b"use \"/etc/passwd\".{a}\n"),
+        ("project/sub/c.mod", b"use \"../fine.mod\".{a}\nlet b = a\n"),
+        ("project/fine.mod", FINE),
+    ]);
+    for file in ["project/a.mod", "project/b.mod", "project/sub/c.mod"] {
+        let ran = s.run(&["check", file]);
+        assert!(ran.code == 1 && ran.err.contains("E0105"), "{file}: {}", ran.err);
+    }
+    for (file, root) in [("project/a.mod", "."), ("project/sub/c.mod", "project")] {
+        let ran = s.run(&["check", file, "--root", root]);
+        assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{file} in {root}");
+    }
+}
+
+#[test]
 fn a_huge_file_is_refused_without_being_read() {
     let s = Sandbox::new(&[("huge.mod", b"")]);
     let file = fs::File::create(s.path("huge.mod")).expect("a file can be made");
@@ -267,6 +296,38 @@ mod unix {
             assert!(ran.code == 2 && ran.err.contains("no regular file"), "{file}: {}", ran.err);
         }
         assert_eq!(s.run(&["verify", "pipe.mod"]).code, 2);
+    }
+
+    #[test]
+    fn links_do_not_lead_out_of_the_project() {
+        let s = Sandbox::new(&[
+            ("outside/a.mod", FINE),
+            ("project/b.mod", b"use \"link.mod\".{a}\n"),
+            ("project/c.mod", b"use \"folder/a.mod\".{a}\n"),
+            ("project/d.mod", b"use \"inside.mod\".{a}\n"),
+            ("project/e.mod", b"use \"pipe.mod\".{a}\n"),
+            ("project/real.mod", FINE),
+        ]);
+        symlink("../outside/a.mod", s.path("project/link.mod")).expect("a link");
+        symlink("../outside", s.path("project/folder")).expect("a link");
+        symlink("real.mod", s.path("project/inside.mod")).expect("a link");
+        symlink("/dev/zero", s.path("project/pipe.mod")).expect("a link");
+        for file in ["project/b.mod", "project/c.mod", "project/e.mod"] {
+            let ran = s.run(&["check", file]);
+            assert!(ran.code == 1 && ran.err.contains("E0105"), "{file}: {}", ran.err);
+        }
+        assert_eq!(s.run(&["check", "project/d.mod"]).err, "", "a link inside is fine");
+    }
+
+    #[test]
+    fn an_import_that_is_a_pipe_is_not_waited_for() {
+        let s = Sandbox::new(&[("a.mod", b"use \"pipe.mod\".{b}\n")]);
+        if !Command::new("mkfifo").arg(s.path("pipe.mod")).status().is_ok_and(|status| status.success()) {
+            println!("skipped: there is no mkfifo");
+            return;
+        }
+        let ran = s.run(&["check", "a.mod"]);
+        assert!(ran.code == 1 && ran.err.contains("E0703"), "{}", ran.err);
     }
 
     #[test]

@@ -263,13 +263,10 @@ impl Loader<'_> {
                 None
             }
             Err(error) => {
-                self.diagnostics.push(
-                    Diagnostic::error(
-                        code::UNKNOWN_IMPORT,
-                        format!("can't read `{written}`: {}", describe(&error)),
-                    )
-                    .label(span, "imported here"),
-                );
+                let code =
+                    if error == ReadError::NotFound { code::UNKNOWN_IMPORT } else { code::CANNOT_READ };
+                let text = format!("can't read `{written}`: {}", describe(&error));
+                self.diagnostics.push(Diagnostic::error(code, text).label(span, "imported here"));
                 None
             }
         }

@@ -90,7 +90,7 @@ fn read_below(root: &Path, path: &str) -> Result<Vec<u8>, ReadError> {
 fn read_error(fault: ReadFault) -> ReadError {
     match fault {
         ReadFault::TooLarge(limit) => ReadError::TooLarge(limit),
-        ReadFault::Irregular => ReadError::Failed(fault.to_string()),
+        ReadFault::Irregular => ReadError::Failed("it is no regular file".to_owned()),
         ReadFault::System(e) if e.kind() == io::ErrorKind::NotFound => ReadError::NotFound,
         ReadFault::System(e) => ReadError::Failed(system_words(&e)),
     }

@@ -6,6 +6,7 @@ use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
 use super::{CallError, Ending, stubs};
 
+use crate::check;
 use crate::interpret::{Limits, Mode, Options, Outcome, TestResult};
 use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
@@ -60,7 +61,7 @@ fn one(
     tally: &mut Tally,
     globals: &Globals,
 ) {
-    let checked = stubs::check(project, &project.name);
+    let checked = check::check(project, &project.name);
     let mut diagnostics = checked.diagnostics.clone();
     let mut outcome = Outcome::default();
     if !diagnostics.iter().any(Diagnostic::is_error) {
