@@ -11,6 +11,7 @@ pub mod syntax;
 
 pub mod check;
 
+pub mod behavior;
 pub mod geometry;
 pub mod plan;
 pub mod robot;

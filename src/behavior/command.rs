@@ -1,0 +1,239 @@
+//! What each command does to the joints at the instant it is given.
+
+use super::docking;
+use super::joints;
+use super::law::{self, Ability, Piece};
+use super::limits::{Issue, IssueKind, Part};
+use super::motion::Motion;
+use super::refusal::{Reason, Refusal};
+use super::run::Run;
+use crate::plan::time::tick_after;
+use crate::plan::{Action, CauseId, Command, Dock, DockKind, Profile, Target};
+use crate::robot::{JointId, PortRef};
+use std::sync::Arc;
+
+/// When the action ends by itself, and the joint to hold if it ends before.
+type Begun = (Option<f64>, Option<(JointId, CauseId)>);
+
+impl Run<'_> {
+    /// Carries out an action's command.
+    pub(super) fn command(&mut self, action: &Action) -> Result<Begun, Refusal> {
+        self.judge(action).map_err(|reason| Refusal::at(action.cause, reason))
+    }
+
+    fn judge(&mut self, action: &Action) -> Result<Begun, Reason> {
+        let cause = action.cause;
+        match &action.command {
+            Command::Move { joint, target, duration, profile } => {
+                let end = self.begin_move(action, *joint, *target, *duration, *profile)?;
+                // A condition takes the place of "has arrived".
+                Ok((Some(end).filter(|_| action.until.is_none()), None))
+            }
+            Command::Spin { joint, speed, duration: Some(duration) } => {
+                let end = self.begin_spin_for(action, *joint, *speed, *duration)?;
+                Ok((Some(end), Some((*joint, cause))))
+            }
+            Command::Spin { joint, speed, duration: None } => {
+                self.begin_spin(action, *joint, *speed)?;
+                let endless = action.until.is_some() || action.timeout.is_some();
+                Ok((Some(self.now).filter(|_| !endless), None))
+            }
+            Command::Follow { joint, knots } => {
+                let end = self.begin_follow(action, *joint, knots)?;
+                Ok((Some(end), Some((*joint, cause))))
+            }
+            Command::Wait { duration } => {
+                at_least_zero("a wait", *duration)?;
+                Ok((Some(self.now + tick_after(*duration)), None))
+            }
+            Command::Dock { a, b } => {
+                self.dock(*a, *b, cause)?;
+                Ok((Some(self.now), None))
+            }
+            Command::Undock { port } => {
+                self.undock(*port, cause)?;
+                Ok((Some(self.now), None))
+            }
+        }
+    }
+
+    fn begin_move(
+        &mut self,
+        action: &Action,
+        joint: JointId,
+        target: Target,
+        duration: Option<f64>,
+        profile: Profile,
+    ) -> Result<f64, Reason> {
+        let able = self.able(joint)?;
+        let motion = &self.motions[joint.0 as usize];
+        let same = matches!(target, Target::To(_))
+            && motion.command.as_ref().is_some_and(|(command, _)| *command == action.command);
+        if let Some(end) = motion.ends().filter(|end| same && *end > self.now) {
+            // The joint is on its way already.
+            return Ok(end);
+        }
+        let (at, speed) = self.take_over(joint);
+        let target = match target {
+            Target::To(position) => position,
+            Target::By(change) => at + change,
+        };
+        finite("a target", target)?;
+        let braking = law::changed_speed(at, speed, 0.0, able);
+        let stopped = braking.as_ref().map_or(at, |piece| piece.control[2]);
+        let spent = braking.as_ref().map_or(0.0, |piece| piece.duration);
+        let least = law::least(profile, target - stopped, able);
+        let lasting = match duration {
+            Some(given) => self.given_duration(action, joint, given, spent, least)?,
+            None => tick_after(least.ok_or_else(|| Reason::NoSpeed { joint: self.name(joint) })?),
+        };
+        if lasting <= 0.0 && target != stopped {
+            return Err(Reason::NoTimeToStop {
+                joint: self.name(joint),
+                needed: spent,
+                given: duration.unwrap_or(0.0),
+            });
+        }
+        let mut pieces: Vec<Piece> = braking.into_iter().collect();
+        pieces.extend(law::moved(profile, stopped, target, lasting, able));
+        self.give(action, joint, pieces)
+    }
+
+    /// The time that is left of a stated duration after braking; too little time for the joint's
+    /// limits is noted, not refused: the judge of plans sees it, too.
+    fn given_duration(
+        &mut self,
+        action: &Action,
+        joint: JointId,
+        given: f64,
+        spent: f64,
+        least: Option<f64>,
+    ) -> Result<f64, Reason> {
+        at_least_zero("a duration", given)?;
+        let needed = spent + least.unwrap_or(0.0);
+        if given < needed * (1.0 - self.settings.tol_duration) {
+            let kind = IssueKind::TooShort { joint: self.name(joint), given, needed };
+            let issue = Issue { cause: action.cause, part: Part::Duration, kind };
+            if !self.issues.iter().any(|i| i.cause == issue.cause) {
+                self.issues.push(issue);
+            }
+        }
+        Ok(tick_after(given) - spent)
+    }
+
+    fn begin_spin_for(
+        &mut self,
+        action: &Action,
+        joint: JointId,
+        speed: f64,
+        duration: f64,
+    ) -> Result<f64, Reason> {
+        let able = self.able(joint)?;
+        finite("a speed", speed)?;
+        at_least_zero("a duration", duration)?;
+        let (at, at_speed) = self.take_over(joint);
+        let pieces = law::spun(at, at_speed, speed, tick_after(duration), able);
+        self.give(action, joint, pieces)
+    }
+
+    fn begin_spin(&mut self, action: &Action, joint: JointId, speed: f64) -> Result<(), Reason> {
+        let able = self.able(joint)?;
+        finite("a speed", speed)?;
+        let (at, at_speed) = self.take_over(joint);
+        let ramp = law::changed_speed(at, at_speed, speed, able);
+        let since = self.give(action, joint, ramp.into_iter().collect())?;
+        if speed != 0.0 {
+            self.motions[joint.0 as usize].turn(since, speed, action.cause);
+        }
+        Ok(())
+    }
+
+    fn begin_follow(&mut self, action: &Action, joint: JointId, knots: &[[f64; 3]]) -> Result<f64, Reason> {
+        self.able(joint)?;
+        knots.iter().flatten().try_for_each(|&n| finite("a knot", n))?;
+        let begins = knots.first().ok_or(Reason::BadNumber { what: "the number of knots", value: 0.0 })?;
+        if begins[0] != 0.0 {
+            return Err(Reason::BadNumber { what: "the time of the first knot", value: begins[0] });
+        }
+        let late = knots.windows(2).find(|w| crate::plan::time::tick_near(w[1][0] - w[0][0]) <= 0.0);
+        if let Some(w) = late {
+            return Err(Reason::BadNumber { what: "the time between two knots", value: w[1][0] - w[0][0] });
+        }
+        let at = self.take_over(joint).0;
+        if (at - begins[1]).abs() > self.settings.tol_begin {
+            return Err(Reason::Jump { joint: self.name(joint), at, begins: begins[1] });
+        }
+        self.give(action, joint, law::followed(knots))
+    }
+
+    /// Brings a joint to rest as fast as it can: at once where no acceleration limit is stated.
+    pub(super) fn stop(&mut self, joint: JointId, cause: CauseId) {
+        let (at, speed) = self.take_over(joint);
+        let facts = &self.facts[joint.0 as usize];
+        let able = Ability { speed: facts.speed, acceleration: facts.acceleration };
+        let braking = law::changed_speed(at, speed, 0.0, able).into_iter().collect();
+        self.motions[joint.0 as usize].append(self.now, braking, cause);
+    }
+
+    /// Gives a joint new pieces of motion; returns when they end.
+    fn give(&mut self, action: &Action, joint: JointId, pieces: Vec<Piece>) -> Result<f64, Reason> {
+        self.count_segments(pieces.len()).map_err(|refusal| refusal.reason)?;
+        let motion = &mut self.motions[joint.0 as usize];
+        motion.command = Some((action.command.clone(), action.cause));
+        Ok(motion.append(self.now, pieces, action.cause))
+    }
+
+    /// Ends what the joint was doing. Position and speed that it has.
+    fn take_over(&mut self, joint: JointId) -> (f64, f64) {
+        self.motions[joint.0 as usize].cut(self.now)
+    }
+
+    /// What a joint can do, if it takes commands.
+    fn able(&self, joint: JointId) -> Result<Ability, Reason> {
+        let facts = &self.facts[joint.0 as usize];
+        match facts.mute {
+            Some(why) => Err(Reason::Mute { joint: facts.name.clone(), why }),
+            None => Ok(Ability { speed: facts.speed, acceleration: facts.acceleration }),
+        }
+    }
+
+    fn name(&self, joint: JointId) -> String {
+        self.facts[joint.0 as usize].name.clone()
+    }
+
+    fn dock(&mut self, a: PortRef, b: PortRef, cause: CauseId) -> Result<(), Reason> {
+        let joints: Vec<f64> = self.motions.iter().map(|m| m.position(self.now)).collect();
+        let (bond, hinge) = docking::docked(&self.robot, &self.holds, &joints, a, b)?;
+        // A bond whose hinge may have turned since is a new one.
+        let known = self.robot.bonds.iter().position(|known| *known == bond && hinge.is_none());
+        let index = known.unwrap_or_else(|| {
+            Arc::make_mut(&mut self.robot).bonds.push(bond);
+            self.holds.push(false);
+            if let Some(position) = hinge {
+                self.motions.push(Motion::at_rest(position));
+                self.start.push(position);
+                self.facts.extend(joints::facts(&self.robot).pop());
+            }
+            self.robot.bonds.len() - 1
+        });
+        self.holds[index] = true;
+        self.docks.push(Dock { time: self.now, kind: DockKind::Dock, bond: index, cause });
+        Ok(())
+    }
+
+    fn undock(&mut self, port: PortRef, cause: CauseId) -> Result<(), Reason> {
+        let bond = docking::bond_at(&self.robot, &self.holds, port)
+            .ok_or_else(|| Reason::PortFree { port: self.robot.port_name(port) })?;
+        self.holds[bond] = false;
+        self.docks.push(Dock { time: self.now, kind: DockKind::Undock, bond, cause });
+        Ok(())
+    }
+}
+
+fn finite(what: &'static str, value: f64) -> Result<(), Reason> {
+    if value.is_finite() { Ok(()) } else { Err(Reason::BadNumber { what, value }) }
+}
+
+fn at_least_zero(what: &'static str, value: f64) -> Result<(), Reason> {
+    if value >= 0.0 && value.is_finite() { Ok(()) } else { Err(Reason::BadNumber { what, value }) }
+}

@@ -1,0 +1,155 @@
+//! When a condition begins to hold along the nominal motion: exact crossings of polynomials.
+//!
+//! Conditions are judged on open stretches of time and at the instants where a piece of motion
+//! begins; a signal that only touches a value inside a piece does not reach it.
+
+use super::motion::{Motion, Stretch};
+use crate::plan::time::tick_after;
+use crate::plan::{Compare, Condition, Signal, polynomial};
+use crate::robot::{Assembly, PortRef};
+
+/// Deepest nesting of a condition.
+pub const DEPTH_MAX: usize = 64;
+
+/// What a condition can see.
+pub struct View<'a> {
+    pub robot: &'a Assembly,
+    pub motions: &'a [Motion],
+    /// Which bonds hold.
+    pub holds: &'a [bool],
+    /// When the action began.
+    pub began: f64,
+}
+
+/// The first tick in `t0..=t1` (`t1` may be infinite) from which on the condition holds.
+pub fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Option<f64> {
+    if holds(condition, view, t0) {
+        return Some(t0);
+    }
+    let mut breaks = vec![t0];
+    add_breaks(condition, view, t0, t1, &mut breaks);
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
+    // After the last break nothing changes any more: one second later stands for all time.
+    let last = breaks[breaks.len() - 1];
+    breaks.push(if t1.is_finite() { t1 } else { last + 1.0 });
+    for pair in breaks.windows(2) {
+        if pair[0] > t0 && holds(condition, view, pair[0])
+            || holds(condition, view, (pair[0] + pair[1]) / 2.0)
+        {
+            return Some(tick_after(pair[0])).filter(|t| *t <= t1);
+        }
+    }
+    (t1.is_finite() && holds(condition, view, t1)).then_some(t1)
+}
+
+/// How deeply a condition is nested, up to one more than [`DEPTH_MAX`].
+pub fn depth(condition: &Condition) -> usize {
+    let mut deepest = 0;
+    let mut stack = vec![(condition, 1)];
+    while let Some((c, depth)) = stack.pop() {
+        deepest = deepest.max(depth);
+        if depth <= DEPTH_MAX {
+            stack.extend(parts(c).map(|part| (part, depth + 1)));
+        }
+    }
+    deepest
+}
+
+/// The conditions that a condition is made of.
+fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
+    let (a, b) = match condition {
+        Condition::And(a, b) | Condition::Or(a, b) => (Some(&**a), Some(&**b)),
+        Condition::Not(a) => (Some(&**a), None),
+        Condition::Compare { .. } | Condition::Docked(_) | Condition::Mated(..) => (None, None),
+    };
+    a.into_iter().chain(b)
+}
+
+/// Whether any part of a condition reads a sensor: anything but the time since the action began.
+pub fn senses(condition: &Condition) -> bool {
+    match condition {
+        Condition::Compare { signal, .. } => *signal != Signal::Elapsed,
+        Condition::Docked(_) | Condition::Mated(..) => true,
+        Condition::And(..) | Condition::Or(..) | Condition::Not(_) => parts(condition).any(senses),
+    }
+}
+
+/// Whether it holds at an instant; rates are those just after it.
+fn holds(condition: &Condition, view: &View, t: f64) -> bool {
+    match condition {
+        Condition::Compare { signal, compare, value } => {
+            let at = value_at(*signal, view, t);
+            match compare {
+                Compare::Less => at < *value,
+                Compare::LessEqual => at <= *value,
+                Compare::Greater => at > *value,
+                Compare::GreaterEqual => at >= *value,
+            }
+        }
+        Condition::Docked(port) => bonds_of(view, *port).next().is_some(),
+        Condition::Mated(a, b) => bonds_of(view, *a).any(|other| other == *b),
+        Condition::And(a, b) => holds(a, view, t) && holds(b, view, t),
+        Condition::Or(a, b) => holds(a, view, t) || holds(b, view, t),
+        Condition::Not(a) => !holds(a, view, t),
+    }
+}
+
+/// The ports docked to a port.
+fn bonds_of<'a>(view: &'a View, port: PortRef) -> impl Iterator<Item = PortRef> + 'a {
+    let holding = view.robot.bonds.iter().zip(view.holds).filter(|(_, holds)| **holds);
+    holding.filter_map(move |(bond, _)| match port {
+        p if p == bond.a => Some(bond.b),
+        p if p == bond.b => Some(bond.a),
+        _ => None,
+    })
+}
+
+fn value_at(signal: Signal, view: &View, t: f64) -> f64 {
+    match signal {
+        Signal::Elapsed => t - view.began,
+        Signal::Angle(joint) => view.motions[joint.0 as usize].position(t),
+        Signal::Speed(joint) => {
+            let piece = view.motions[joint.0 as usize].pieces(t, f64::INFINITY).into_iter().next();
+            piece.map_or(0.0, |p| p.rate().control[0])
+        }
+    }
+}
+
+/// Collects the instants in `t0..t1` at which a part of the condition may change.
+fn add_breaks(condition: &Condition, view: &View, t0: f64, t1: f64, breaks: &mut Vec<f64>) {
+    if let Condition::Compare { signal, value, .. } = condition {
+        for stretch in stretches(*signal, view, t0, t1) {
+            breaks.push(stretch.start);
+            breaks.extend(crossings(&stretch, *value));
+        }
+    }
+    parts(condition).for_each(|part| add_breaks(part, view, t0, t1, breaks));
+}
+
+fn stretches(signal: Signal, view: &View, t0: f64, t1: f64) -> Vec<Stretch> {
+    let pieces = |joint: crate::robot::JointId| view.motions[joint.0 as usize].pieces(t0, t1);
+    match signal {
+        Signal::Angle(joint) => pieces(joint),
+        Signal::Speed(joint) => pieces(joint).iter().map(Stretch::rate).collect(),
+        Signal::Elapsed => {
+            let elapsed = t0 - view.began;
+            let span = if t1.is_finite() { t1 - t0 } else { 1.0 };
+            vec![Stretch { start: t0, end: t1, control: vec![elapsed, elapsed + span] }]
+        }
+    }
+}
+
+/// When a piece of a signal crosses a value.
+fn crossings(stretch: &Stretch, value: f64) -> Vec<f64> {
+    let control: Vec<f64> = stretch.control.iter().map(|c| c - value).collect();
+    if control.len() == 2 {
+        let u = control[0] / (control[0] - control[1]);
+        let t = stretch.start + u * stretch.span();
+        return if u > 0.0 && t < stretch.end { vec![t] } else { vec![] };
+    }
+    if control.len() < 2 || stretch.start == stretch.end {
+        return vec![];
+    }
+    polynomial::roots(&control).into_iter().map(|u| stretch.start + u * stretch.span()).collect()
+}

@@ -1,0 +1,91 @@
+//! Docking and undocking: which bond, and with which turn.
+
+use super::refusal::Reason;
+use crate::geometry::Pose;
+use crate::geometry::pose::turned;
+use crate::robot::{Assembly, Bond, Kinematics, PortRef};
+use std::f64::consts::{PI, TAU};
+
+/// The bond that holds at a port.
+pub fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option<usize> {
+    (0..robot.bonds.len()).find(|&b| holds[b] && (robot.bonds[b].a == port || robot.bonds[b].b == port))
+}
+
+/// A new bond of port `b` to port `a`, with the allowed turn nearest to where they are, and the
+/// position of its hinge, if the connector has one.
+pub fn docked(
+    robot: &Assembly,
+    holds: &[bool],
+    joints: &[f64],
+    a: PortRef,
+    b: PortRef,
+) -> Result<(Bond, Option<f64>), Reason> {
+    let name = |port| robot.port_name(port);
+    for port in [a, b] {
+        if let Some(bond) = bond_at(robot, holds, port).map(|i| robot.bonds[i]) {
+            let other = if bond.a == port { bond.b } else { bond.a };
+            return Err(Reason::PortTaken { port: name(port), by: name(other) });
+        }
+    }
+    if !mate(robot, a, b) {
+        return Err(Reason::NoMate { a: name(a), b: name(b) });
+    }
+    let X_PQ = between(robot, holds, joints, a, b).ok_or(Reason::Apart { a: name(a), b: name(b) })?;
+    Ok(nearest(robot, a, b, &X_PQ))
+}
+
+/// Whether the connectors of two ports of different modules mate.
+pub fn mate(robot: &Assembly, a: PortRef, b: PortRef) -> bool {
+    let connector = |p: PortRef| robot.module_type(p.module).ports[p.port].connector;
+    a.module != b.module && robot.library.connectors[connector(a)].mates.contains(&connector(b))
+}
+
+/// Where port `b` is as seen from port `a`; `None` where no bonds connect them.
+fn between(robot: &Assembly, holds: &[bool], joints: &[f64], a: PortRef, b: PortRef) -> Option<Pose> {
+    let kinematics = Kinematics::new(robot, holds, a.module);
+    if kinematics.tree.loose.contains(&b.module) {
+        return None;
+    }
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(joints, &Pose::identity(), &mut poses);
+    let X_RP = kinematics.port_pose(robot, a, &poses);
+    Some(X_RP.inverse() * kinematics.port_pose(robot, b, &poses))
+}
+
+fn nearest(robot: &Assembly, a: PortRef, b: PortRef, X_PQ: &Pose) -> (Bond, Option<f64>) {
+    let connector = robot.module_type(a.module).ports[a.port].connector;
+    let connector = &robot.library.connectors[connector];
+    // The least angle wins; of equals the smallest turn.
+    let mut best = (f64::INFINITY, 0, None);
+    for turn in 0..connector.turns {
+        let angle = f64::from(turn) * TAU / f64::from(connector.turns);
+        let mated = turned(nalgebra::Vector3::z(), PI) * turned(nalgebra::Vector3::x(), angle);
+        let left = X_PQ * mated.inverse();
+        let hinge = connector.hinge.as_ref().map(|h| twist(&left, &h.axis));
+        let rest = match (&connector.hinge, hinge) {
+            (Some(h), Some(q)) => turned(h.axis, q).inverse() * left,
+            _ => left,
+        };
+        let off = rest.rotation.angle();
+        if off < best.0 - TURN_TIE {
+            best = (off, turn, hinge);
+        }
+    }
+    (Bond { a, b, turn: best.1 }, best.2)
+}
+
+/// Turns whose fit differs by less than this (rad) count as equally near: rounding must not choose.
+const TURN_TIE: f64 = 1e-9;
+
+/// The angle of the turn about an axis that comes nearest to a rotation, rad.
+fn twist(pose: &Pose, axis: &crate::geometry::Vec3) -> f64 {
+    let along = pose.rotation.imag().dot(axis) / axis.norm();
+    let angle = 2.0 * libm::atan2(along, pose.rotation.w);
+    if angle > PI {
+        angle - TAU
+    } else if angle <= -PI {
+        angle + TAU
+    } else {
+        angle
+    }
+}

@@ -1,0 +1,82 @@
+//! What each joint of a robot can be commanded to do.
+
+use crate::robot::{Assembly, JointKind, JointOwner, Limits, ModuleType};
+
+/// A joint as a behaviour sees it. Radians or metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Path name, such as `leg[2].m[0].tilt`.
+    pub name: String,
+    pub owner: JointOwner,
+    /// Why it takes no commands, if it takes none.
+    pub mute: Option<Mute>,
+    pub prismatic: bool,
+    /// Lowest and highest position; `None` is a continuous joint.
+    pub range: Option<(f64, f64)>,
+    /// Greatest speed when it moves alone: its own limit and those of the motors that drive it.
+    pub speed: Option<f64>,
+    /// Greatest acceleration when it moves alone.
+    pub acceleration: Option<f64>,
+}
+
+/// Why a joint takes no commands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mute {
+    /// It has no motor.
+    Passive,
+    /// It follows other joints.
+    Mimic,
+    /// It does not move.
+    Fixed,
+}
+
+/// The facts of every joint, by [`JointId`](crate::robot::JointId).
+pub fn facts(robot: &Assembly) -> Vec<Facts> {
+    let of = |owner| match owner {
+        JointOwner::Module { module, joint } => of_module(robot, module, joint),
+        JointOwner::Bond(bond) => {
+            let limits = robot.hinge(bond).expect("joints() lists bonds with a hinge").limits;
+            made(robot.joint_name(owner), owner, None, false, limits)
+        }
+    };
+    robot.joints().map(of).collect()
+}
+
+fn of_module(robot: &Assembly, module: usize, joint: usize) -> Facts {
+    let owner = JointOwner::Module { module, joint };
+    let kind = robot.module_type(module);
+    let declared = &kind.joints[joint];
+    let mute = match declared.kind {
+        JointKind::Fixed => Some(Mute::Fixed),
+        _ if declared.mimic.is_some() => Some(Mute::Mimic),
+        _ if declared.passive => Some(Mute::Passive),
+        _ => None,
+    };
+    let limits = with_motors(kind, joint);
+    made(robot.joint_name(owner), owner, mute, declared.kind == JointKind::Prismatic, limits)
+}
+
+fn made(name: String, owner: JointOwner, mute: Option<Mute>, prismatic: bool, limits: Limits) -> Facts {
+    let Limits { range, speed, acceleration, .. } = limits;
+    Facts { name, owner, mute, prismatic, range, speed, acceleration }
+}
+
+/// A joint's own limits, tightened by every motor that drives it.
+fn with_motors(kind: &ModuleType, joint: usize) -> Limits {
+    let mut limits = kind.joints[joint].limits;
+    for motor in &kind.motors {
+        for &(_, factor) in motor.joints.iter().filter(|(j, factor)| *j == joint && *factor != 0.0) {
+            limits.speed = tighter(limits.speed, motor.limits.speed, factor);
+            limits.acceleration = tighter(limits.acceleration, motor.limits.acceleration, factor);
+        }
+    }
+    limits
+}
+
+fn tighter(own: Option<f64>, motor: Option<f64>, factor: f64) -> Option<f64> {
+    let motor = motor.map(|limit| limit / factor.abs());
+    match (own, motor) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}

@@ -1,0 +1,131 @@
+//! Time laws: how a joint goes from rest to rest, and how it takes up and gives up speed. Least
+//! durations follow from the greatest speed and acceleration of the joint.
+
+use crate::plan::Profile;
+use crate::plan::time::{tick_after, tick_near};
+
+/// A piece of motion that lasts `duration` seconds; control points are positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    pub duration: f64,
+    pub control: Vec<f64>,
+}
+
+/// What a joint can do: greatest speed and acceleration, rad or m per s and s².
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ability {
+    pub speed: Option<f64>,
+    pub acceleration: Option<f64>,
+}
+
+/// Peak speed of the smooth law over one unit in one second.
+pub const SMOOTH_SPEED: f64 = 1.875;
+/// Peak acceleration of the smooth law over one unit in one second: 10/√3.
+pub const SMOOTH_ACCELERATION: f64 = 5.773_502_691_896_258;
+/// What part of a trapezoid each ramp takes where no acceleration limit says it.
+pub const RAMP: f64 = 0.25;
+
+/// Least time to go `distance` from rest to rest, s; `None` where no limit bounds it.
+pub fn least(profile: Profile, distance: f64, able: Ability) -> Option<f64> {
+    let distance = distance.abs();
+    if distance == 0.0 {
+        return Some(0.0);
+    }
+    match profile {
+        Profile::Smooth => {
+            let by_speed = able.speed.map(|v| SMOOTH_SPEED * distance / v);
+            let by_acceleration = able.acceleration.map(|a| libm::sqrt(SMOOTH_ACCELERATION * distance / a));
+            longer(by_speed, by_acceleration)
+        }
+        Profile::Trapezoid => match (able.speed, able.acceleration) {
+            (Some(v), Some(a)) if distance * a > v * v => Some(distance / v + v / a),
+            (_, Some(a)) => Some(2.0 * libm::sqrt(distance / a)),
+            (Some(v), None) => Some(distance / (v * (1.0 - RAMP))),
+            (None, None) => None,
+        },
+        Profile::Linear => able.speed.map(|v| distance / v),
+    }
+}
+
+fn longer(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.max(b)),
+        _ => a.or(b),
+    }
+}
+
+/// The motion from rest at `from` to rest at `to` in `duration` seconds, a whole number of ticks.
+/// The ramps of a trapezoid are as short as the acceleration allows.
+pub fn moved(profile: Profile, from: f64, to: f64, duration: f64, able: Ability) -> Vec<Piece> {
+    match profile {
+        Profile::Smooth => vec![Piece { duration, control: vec![from, from, from, to, to, to] }],
+        Profile::Linear => vec![Piece { duration, control: vec![from, to] }],
+        Profile::Trapezoid => trapezoid(from, to, duration, able),
+    }
+}
+
+fn trapezoid(from: f64, to: f64, duration: f64, able: Ability) -> Vec<Piece> {
+    let ramp = tick_near(ramp((to - from).abs(), duration, able));
+    let cruise = duration - 2.0 * ramp;
+    // The speed that covers the distance with the ramps as they are after rounding to ticks.
+    let half = (to - from) / (cruise + ramp) * ramp / 2.0;
+    let (up, down) = (from + half, to - half);
+    let mut pieces = vec![Piece { duration: ramp, control: vec![from, from, up] }];
+    if cruise > 0.0 {
+        pieces.push(Piece { duration: cruise, control: vec![up, down] });
+    }
+    pieces.push(Piece { duration: ramp, control: vec![down, to, to] });
+    pieces
+}
+
+/// How long each ramp of a trapezoid lasts: `a·r·(T-r) = distance`, or a fixed part of the time.
+fn ramp(distance: f64, duration: f64, able: Ability) -> f64 {
+    let Some(a) = able.acceleration else { return duration * RAMP };
+    let square = duration * duration - 4.0 * distance / a;
+    // Below zero the duration is too short for the acceleration: ramps all the way come nearest.
+    (duration - libm::sqrt(square.max(0.0))) / 2.0
+}
+
+/// The change from one speed to another as fast as the joint can, from a position; nothing where no
+/// acceleration limit is stated: then speed may jump.
+pub fn changed_speed(from: f64, speed: f64, to_speed: f64, able: Ability) -> Option<Piece> {
+    let duration = tick_after((to_speed - speed).abs() / able.acceleration?);
+    let middle = from + speed * duration / 2.0;
+    (duration > 0.0)
+        .then(|| Piece { duration, control: vec![from, middle, middle + to_speed * duration / 2.0] })
+}
+
+/// Turning at `speed` for `duration` seconds, then rest: with ramps within that time where an
+/// acceleration limit is stated, beginning at the speed that the joint has.
+pub fn spun(from: f64, at_speed: f64, speed: f64, duration: f64, able: Ability) -> Vec<Piece> {
+    let Some(a) = able.acceleration else {
+        return vec![Piece { duration, control: vec![from, from + speed * duration] }];
+    };
+    // Too short to come up to speed: half the time up, half down.
+    let speed = speed.signum() * speed.abs().min(a * duration / 2.0);
+    let up = changed_speed(from, at_speed, speed, able);
+    let down = tick_near(speed.abs() / a).min(duration / 2.0);
+    let cruise = duration - down - up.as_ref().map_or(0.0, |p| p.duration);
+    let mut pieces: Vec<Piece> = up.into_iter().collect();
+    let mut at = pieces.last().map_or(from, |p| p.control[2]);
+    if cruise > 0.0 {
+        pieces.push(Piece { duration: cruise, control: vec![at, at + speed * cruise] });
+        at += speed * cruise;
+    }
+    if down > 0.0 {
+        let end = at + speed * down / 2.0;
+        pieces.push(Piece { duration: down, control: vec![at, end, end] });
+    }
+    pieces
+}
+
+/// The cubic pieces through knots (time, position, velocity).
+pub fn followed(knots: &[[f64; 3]]) -> Vec<Piece> {
+    let piece = |w: &[[f64; 3]]| {
+        let duration = tick_near(w[1][0]) - tick_near(w[0][0]);
+        let third = duration / 3.0;
+        let control = vec![w[0][1], w[0][1] + w[0][2] * third, w[1][1] - w[1][2] * third, w[1][1]];
+        Piece { duration, control }
+    };
+    knots.windows(2).map(piece).collect()
+}

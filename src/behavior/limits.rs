@@ -1,0 +1,201 @@
+//! What can be told of a program's commands without running it: targets outside ranges, speeds that
+//! no motor reaches, joints that take no commands, ports that do not mate.
+
+use super::condition;
+use super::docking::mate;
+use super::joints::{Facts, Mute, facts};
+use super::law::{self, Ability};
+use crate::plan::visit::Graph;
+use crate::plan::{Action, CauseId, Command, Node, Target, polynomial};
+use crate::robot::{Assembly, JointId};
+use std::sync::Arc;
+
+/// A command that asks for what the robot can't do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Issue {
+    pub cause: CauseId,
+    /// Which of the command's arguments is at fault.
+    pub part: Part,
+    pub kind: IssueKind,
+}
+
+/// An argument of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    Joint,
+    Target,
+    Speed,
+    Duration,
+    Timeout,
+    Knots,
+    Until,
+    Ports,
+}
+
+/// What is wrong, in SI units; joints and ports by path name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum IssueKind {
+    /// The position is outside the joint's range.
+    OutOfRange { joint: String, position: f64, range: (f64, f64), prismatic: bool },
+    /// The speed is more than the joint, or a motor that drives it, can do.
+    TooFast { joint: String, speed: f64, limit: f64, prismatic: bool },
+    /// The duration is shorter than the joint's limits allow, s.
+    TooShort { joint: String, given: f64, needed: f64 },
+    /// The joint takes no commands.
+    Mute { joint: String, why: Mute },
+    /// The connectors do not mate.
+    NoMate { a: String, b: String },
+    /// Not finite, negative, or out of order.
+    BadNumber { value: f64 },
+}
+
+/// The issues of every action, each action once, in order of the graph. `tol` is the part by which a
+/// limit may be exceeded: rounding, see [`Settings`](super::Settings).
+pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
+    let facts = facts(robot);
+    let mut found = Vec::new();
+    for action in Graph::of(program).actions() {
+        let mut judge = Judge { robot, facts: &facts, tol, action, found: &mut found };
+        judge.action();
+    }
+    found
+}
+
+struct Judge<'a> {
+    robot: &'a Assembly,
+    facts: &'a [Facts],
+    tol: f64,
+    action: &'a Action,
+    found: &'a mut Vec<Issue>,
+}
+
+impl<'a> Judge<'a> {
+    fn action(&mut self) {
+        if let Some(timeout) = self.action.timeout {
+            self.at_least_zero(Part::Timeout, timeout);
+        }
+        if self.action.until.as_ref().is_some_and(|c| condition::depth(c) > condition::DEPTH_MAX) {
+            self.report(Part::Until, IssueKind::BadNumber { value: condition::DEPTH_MAX as f64 });
+        }
+        match &self.action.command {
+            Command::Move { joint, target, duration, profile } => {
+                self.joint(*joint);
+                let change = match *target {
+                    Target::To(position) => {
+                        self.position(Part::Target, *joint, position);
+                        None
+                    }
+                    Target::By(change) => Some(change),
+                };
+                if let Some(given) = *duration {
+                    self.at_least_zero(Part::Duration, given);
+                    self.short(
+                        *joint,
+                        given,
+                        change.and_then(|c| law::least(*profile, c, self.able(*joint))),
+                    );
+                }
+            }
+            Command::Spin { joint, speed, duration } => {
+                self.joint(*joint);
+                self.speed(Part::Speed, *joint, *speed);
+                if let Some(given) = *duration {
+                    self.at_least_zero(Part::Duration, given);
+                }
+            }
+            Command::Follow { joint, knots } => {
+                self.joint(*joint);
+                self.knots(*joint, knots);
+            }
+            Command::Wait { duration } => self.at_least_zero(Part::Duration, *duration),
+            Command::Dock { a, b } => {
+                if !mate(self.robot, *a, *b) {
+                    let (a, b) = (self.robot.port_name(*a), self.robot.port_name(*b));
+                    self.report(Part::Ports, IssueKind::NoMate { a, b });
+                }
+            }
+            Command::Undock { .. } => {}
+        }
+    }
+
+    fn joint(&mut self, joint: JointId) {
+        let facts = self.of(joint);
+        if let Some(why) = facts.mute {
+            self.report(Part::Joint, IssueKind::Mute { joint: facts.name.clone(), why });
+        }
+    }
+
+    fn position(&mut self, part: Part, joint: JointId, position: f64) {
+        let facts = self.of(joint);
+        if !position.is_finite() {
+            return self.report(part, IssueKind::BadNumber { value: position });
+        }
+        let Some(range) = facts.range else { return };
+        let slack = self.tol * (range.1 - range.0);
+        if position < range.0 - slack || position > range.1 + slack {
+            let (joint, prismatic) = (facts.name.clone(), facts.prismatic);
+            self.report(part, IssueKind::OutOfRange { joint, position, range, prismatic });
+        }
+    }
+
+    fn speed(&mut self, part: Part, joint: JointId, speed: f64) {
+        let facts = self.of(joint);
+        if !speed.is_finite() {
+            return self.report(part, IssueKind::BadNumber { value: speed });
+        }
+        let Some(limit) = facts.speed else { return };
+        if speed.abs() > limit * (1.0 + self.tol) {
+            let (joint, prismatic) = (facts.name.clone(), facts.prismatic);
+            self.report(part, IssueKind::TooFast { joint, speed, limit, prismatic });
+        }
+    }
+
+    fn short(&mut self, joint: JointId, given: f64, least: Option<f64>) {
+        let Some(needed) = least.filter(|needed| given < needed * (1.0 - self.tol)) else { return };
+        let joint = self.of(joint).name.clone();
+        self.report(Part::Duration, IssueKind::TooShort { joint, given, needed });
+    }
+
+    /// The knots of a followed function, and the cubics between them: at most one issue of each kind.
+    fn knots(&mut self, joint: JointId, knots: &[[f64; 3]]) {
+        let before = self.found.len();
+        if let Some(value) = knots.iter().flatten().copied().find(|v| !v.is_finite()) {
+            return self.report(Part::Knots, IssueKind::BadNumber { value });
+        }
+        for knot in knots {
+            self.position(Part::Knots, joint, knot[1]);
+            if self.found.len() > before {
+                break;
+            }
+        }
+        let before = self.found.len();
+        for piece in law::followed(knots).into_iter().filter(|p| p.duration > 0.0) {
+            let rates = polynomial::derivative(&piece.control);
+            for u in [0.0, 0.5, 1.0] {
+                self.speed(Part::Knots, joint, polynomial::value(&rates, u) / piece.duration);
+                if self.found.len() > before {
+                    return;
+                }
+            }
+        }
+    }
+
+    fn at_least_zero(&mut self, part: Part, value: f64) {
+        if !(value >= 0.0 && value.is_finite()) {
+            self.report(part, IssueKind::BadNumber { value });
+        }
+    }
+
+    fn of(&self, joint: JointId) -> &'a Facts {
+        &self.facts[joint.0 as usize]
+    }
+
+    fn able(&self, joint: JointId) -> Ability {
+        let facts = self.of(joint);
+        Ability { speed: facts.speed, acceleration: facts.acceleration }
+    }
+
+    fn report(&mut self, part: Part, kind: IssueKind) {
+        self.found.push(Issue { cause: self.action.cause, part, kind });
+    }
+}

@@ -1,0 +1,90 @@
+//! Why a behaviour is no plan, and which action is to blame.
+
+use super::joints::Mute;
+use crate::plan::CauseId;
+
+/// A behaviour that can't be carried out, or whose schedule exceeds a limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// The action to blame; `None` where it is the behaviour as a whole.
+    pub cause: Option<CauseId>,
+    pub reason: Reason,
+}
+
+/// SI units; joints and ports by path name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reason {
+    /// The joint takes no commands.
+    Mute { joint: String, why: Mute },
+    /// No limit says how fast the joint is, so the action needs a duration.
+    NoSpeed { joint: String },
+    /// A duration, speed, target or knot that is not finite, is negative, or is out of order.
+    BadNumber { what: &'static str, value: f64 },
+    /// The followed function does not begin where the joint is.
+    Jump { joint: String, at: f64, begins: f64 },
+    /// The joint moves too fast to be stopped within the duration of the move that takes over.
+    NoTimeToStop { joint: String, needed: f64, given: f64 },
+    /// The plan would end while the joint still turns.
+    StillTurning { joint: String, speed: f64 },
+    /// The condition never holds in the undisturbed run.
+    NeverHolds,
+    /// The behaviour aborts in the undisturbed run.
+    Aborted { message: String, time: f64 },
+    /// The port is taken.
+    PortTaken { port: String, by: String },
+    /// Nothing is docked at the port.
+    PortFree { port: String },
+    /// The connectors do not mate.
+    NoMate { a: String, b: String },
+    /// The two ports are on parts of the robot that nothing connects.
+    Apart { a: String, b: String },
+    /// A phase or stretch holds something that can't be shifted or scaled.
+    NotCyclic { what: &'static str },
+    /// A piece of motion shorter than a tick of time.
+    TooShort,
+    /// A limit was reached.
+    Limit { what: &'static str, limit: u64 },
+}
+
+impl Refusal {
+    pub fn at(cause: CauseId, reason: Reason) -> Refusal {
+        Refusal { cause: Some(cause), reason }
+    }
+
+    pub fn whole(reason: Reason) -> Refusal {
+        Refusal { cause: None, reason }
+    }
+}
+
+/// In words, with plain SI numbers; whoever knows the user's units may say it better.
+impl std::fmt::Display for Reason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Reason::Mute { joint, why: Mute::Passive } => write!(f, "`{joint}` has no motor"),
+            Reason::Mute { joint, why: Mute::Mimic } => write!(f, "`{joint}` follows another joint"),
+            Reason::Mute { joint, why: Mute::Fixed } => write!(f, "`{joint}` is fixed"),
+            Reason::NoSpeed { joint } => {
+                write!(f, "`{joint}` states no greatest speed, so the action needs a duration (`in:`)")
+            }
+            Reason::BadNumber { what, value } => write!(f, "{what} cannot be {value}"),
+            Reason::Jump { joint, at, begins } => {
+                write!(f, "the motion begins at {begins:.6}, but `{joint}` is at {at:.6}")
+            }
+            Reason::NoTimeToStop { joint, needed, given } => {
+                write!(f, "`{joint}` needs {needed:.6} s to stop, which leaves nothing of {given:.6} s")
+            }
+            Reason::StillTurning { joint, speed } => {
+                write!(f, "the plan ends while `{joint}` still turns at {speed:.6} per second")
+            }
+            Reason::NeverHolds => write!(f, "the condition never holds, and there is no timeout"),
+            Reason::Aborted { message, time } => write!(f, "aborted at {time:.6} s: {message}"),
+            Reason::PortTaken { port, by } => write!(f, "`{port}` is taken by `{by}`"),
+            Reason::PortFree { port } => write!(f, "nothing is docked at `{port}`"),
+            Reason::NoMate { a, b } => write!(f, "`{a}` and `{b}` do not mate"),
+            Reason::Apart { a, b } => write!(f, "nothing connects the parts of `{a}` and `{b}`"),
+            Reason::NotCyclic { what } => write!(f, "{what} cannot be part of a cycle"),
+            Reason::TooShort => write!(f, "a piece of the motion is shorter than a tick of time"),
+            Reason::Limit { what, limit } => write!(f, "more than {limit} {what}"),
+        }
+    }
+}

@@ -1,0 +1,447 @@
+//! The run of a program: frames for what has begun, a queue for what will end.
+
+use super::condition::{self, View};
+use super::joints::Facts;
+use super::limits::Issue;
+use super::motion::Motion;
+use super::refusal::{Reason, Refusal};
+use super::schedule::Settings;
+use crate::plan::time::{DURATION_MAX, tick_after};
+use crate::plan::{Action, CauseId, Dock, Exemption, Node, Otherwise, Track};
+use crate::robot::{Assembly, JointId};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+/// A run in progress. Time begins at 0.
+pub(super) struct Run<'a> {
+    pub(super) robot: Arc<Assembly>,
+    pub(super) facts: Vec<Facts>,
+    pub(super) motions: Vec<Motion>,
+    /// Positions at the start, joints of new bonds included.
+    pub(super) start: Vec<f64>,
+    /// Which bonds hold.
+    pub(super) holds: Vec<bool>,
+    pub(super) docks: Vec<Dock>,
+    pub(super) exemptions: Vec<Exemption>,
+    pub(super) issues: Vec<Issue>,
+    pub(super) settings: Settings,
+    pub(super) now: f64,
+    pub(super) actions: u64,
+    pub(super) steps: u64,
+    pub(super) segments: u64,
+    /// How many phases and stretches this run is inside of.
+    pub(super) cycles: u64,
+    tasks: Vec<Task<'a>>,
+    frames: Vec<Frame<'a>>,
+    free: Vec<usize>,
+    active: Vec<Option<Active<'a>>>,
+    idle: Vec<usize>,
+    /// Slots of the actions that wait for a condition, in order of their beginning.
+    waiting: Vec<usize>,
+    queue: BinaryHeap<Event>,
+    events: u64,
+    done: bool,
+}
+
+/// What a run leaves.
+pub(super) struct Played {
+    pub(super) robot: Arc<Assembly>,
+    pub(super) tracks: Vec<Track>,
+    /// Positions at the start.
+    pub(super) joints: Vec<f64>,
+    /// Positions at the end.
+    pub(super) end: Vec<f64>,
+    pub(super) docks: Vec<Dock>,
+    pub(super) duration: f64,
+    pub(super) exemptions: Vec<Exemption>,
+    pub(super) issues: Vec<Issue>,
+    pub(super) actions: u64,
+    pub(super) steps: u64,
+}
+
+enum Task<'a> {
+    Begin(&'a Arc<Node>, Option<usize>),
+    /// One child of the frame has completed; `None`: the whole program has.
+    Complete(Option<usize>),
+}
+
+struct Frame<'a> {
+    parent: Option<usize>,
+    kind: FrameKind<'a>,
+}
+
+enum FrameKind<'a> {
+    Series { rest: std::slice::Iter<'a, Arc<Node>> },
+    Parallel { left: usize },
+    Repeat { body: &'a Arc<Node>, left: u64 },
+    Exempt { index: usize },
+}
+
+/// An action, or a piece of a cycle, that has begun.
+struct Active<'a> {
+    parent: Option<usize>,
+    action: Option<&'a Action>,
+    began: f64,
+    /// Which of the slot's tenants this is: events of earlier ones are void.
+    tenant: u64,
+    /// The joint to hold if the action ends before its motion.
+    holds: Option<(JointId, CauseId)>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum EventKind {
+    End,
+    Timeout,
+}
+
+struct Event {
+    time: f64,
+    number: u64,
+    slot: usize,
+    tenant: u64,
+    kind: EventKind,
+}
+
+/// The earliest event is the greatest: first by time, then in order of creation.
+impl Ord for Event {
+    fn cmp(&self, other: &Event) -> Ordering {
+        other.time.total_cmp(&self.time).then(other.number.cmp(&self.number))
+    }
+}
+impl PartialOrd for Event {
+    fn partial_cmp(&self, other: &Event) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Event {
+    fn eq(&self, other: &Event) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Event {}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(
+        robot: Arc<Assembly>,
+        facts: Vec<Facts>,
+        motions: Vec<Motion>,
+        holds: Vec<bool>,
+        settings: Settings,
+    ) -> Run<'a> {
+        let start = motions.iter().map(|m| m.position(0.0)).collect();
+        Run {
+            robot,
+            facts,
+            motions,
+            start,
+            holds,
+            docks: vec![],
+            exemptions: vec![],
+            issues: vec![],
+            settings,
+            now: 0.0,
+            actions: 0,
+            steps: 0,
+            segments: 0,
+            cycles: 0,
+            tasks: vec![],
+            frames: vec![],
+            free: vec![],
+            active: vec![],
+            idle: vec![],
+            waiting: vec![],
+            queue: BinaryHeap::new(),
+            events: 0,
+            done: false,
+        }
+    }
+
+    /// Runs a program to its end and until every joint is at rest.
+    pub(super) fn play(mut self, program: &'a Arc<Node>) -> Result<Played, Refusal> {
+        self.tasks.push(Task::Begin(program, None));
+        loop {
+            while let Some(task) = self.tasks.pop() {
+                match task {
+                    Task::Begin(node, parent) => self.begin(node, parent)?,
+                    Task::Complete(frame) => self.complete(frame),
+                }
+            }
+            if self.done {
+                return self.finish();
+            }
+            self.advance()?;
+        }
+    }
+
+    fn begin(&mut self, node: &'a Arc<Node>, parent: Option<usize>) -> Result<(), Refusal> {
+        self.count_step()?;
+        match &**node {
+            Node::Action(action) => {
+                self.actions += 1;
+                limit(self.actions, self.settings.actions_max, "actions")?;
+                self.begin_action(action, parent)?;
+            }
+            Node::Series(list) => self.enter(parent, FrameKind::Series { rest: list.iter() }),
+            Node::Repeat { body, times } => self.enter(parent, FrameKind::Repeat { body, left: *times }),
+            Node::Parallel(list) if list.is_empty() => self.tasks.push(Task::Complete(parent)),
+            Node::Parallel(list) => {
+                let frame = self.open(parent, FrameKind::Parallel { left: list.len() });
+                self.tasks.extend(list.iter().rev().map(|n| Task::Begin(n, Some(frame))));
+            }
+            Node::Exempt { body, kind, cause } => {
+                let index = self.exemptions.len();
+                let (from, to) = (self.now, self.now);
+                self.exemptions.push(Exemption { kind: kind.clone(), from, to, cause: *cause });
+                let frame = self.open(parent, FrameKind::Exempt { index });
+                self.tasks.push(Task::Begin(body, Some(frame)));
+            }
+            Node::Phase { .. } | Node::Approach { .. } | Node::Stretch { .. } => {
+                let end = self.begin_cycle(node)?;
+                self.activate(
+                    Active { parent, action: None, began: self.now, tenant: 0, holds: None },
+                    Some(end),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Opens a frame that goes on as if a child of it had just completed.
+    fn enter(&mut self, parent: Option<usize>, kind: FrameKind<'a>) {
+        let frame = self.open(parent, kind);
+        self.tasks.push(Task::Complete(Some(frame)));
+    }
+
+    fn open(&mut self, parent: Option<usize>, kind: FrameKind<'a>) -> usize {
+        let frame = Frame { parent, kind };
+        if let Some(index) = self.free.pop() {
+            self.frames[index] = frame;
+            return index;
+        }
+        self.frames.push(frame);
+        self.frames.len() - 1
+    }
+
+    /// A child of the frame has completed: the next begins, or the frame completes, too.
+    fn complete(&mut self, frame: Option<usize>) {
+        let Some(index) = frame else {
+            self.done = true;
+            return;
+        };
+        let next = match &mut self.frames[index].kind {
+            FrameKind::Series { rest } => rest.next(),
+            FrameKind::Repeat { body, left } if *left > 0 => {
+                *left -= 1;
+                Some(*body)
+            }
+            FrameKind::Parallel { left } if *left > 1 => {
+                *left -= 1;
+                return;
+            }
+            FrameKind::Exempt { index } => {
+                self.exemptions[*index].to = self.now;
+                None
+            }
+            FrameKind::Repeat { .. } | FrameKind::Parallel { .. } => None,
+        };
+        if let Some(node) = next {
+            self.tasks.push(Task::Begin(node, frame));
+        } else {
+            self.free.push(index);
+            self.tasks.push(Task::Complete(self.frames[index].parent));
+        }
+    }
+
+    fn begin_action(&mut self, action: &'a Action, parent: Option<usize>) -> Result<(), Refusal> {
+        let (end, holds) = self.command(action)?;
+        let timeout = self.timeout_of(action)?;
+        let active = Active { parent, action: Some(action), began: self.now, tenant: 0, holds };
+        let slot = self.activate(active, end);
+        if let Some(time) = timeout {
+            self.post(time, slot, EventKind::Timeout);
+        }
+        if let Some(until) = &action.until {
+            if condition::depth(until) > condition::DEPTH_MAX {
+                let limit = condition::DEPTH_MAX as u64;
+                return Err(Refusal::at(action.cause, Reason::Limit { what: "nested conditions", limit }));
+            }
+            self.waiting.push(slot);
+        }
+        Ok(())
+    }
+
+    fn timeout_of(&self, action: &Action) -> Result<Option<f64>, Refusal> {
+        let Some(timeout) = action.timeout else { return Ok(None) };
+        if !(timeout >= 0.0 && timeout.is_finite()) {
+            return Err(Refusal::at(action.cause, Reason::BadNumber { what: "a timeout", value: timeout }));
+        }
+        Ok(Some(self.now + tick_after(timeout)))
+    }
+
+    fn activate(&mut self, mut active: Active<'a>, end: Option<f64>) -> usize {
+        self.events += 1;
+        active.tenant = self.events;
+        let slot = match self.idle.pop() {
+            Some(slot) => {
+                self.active[slot] = Some(active);
+                slot
+            }
+            None => {
+                self.active.push(Some(active));
+                self.active.len() - 1
+            }
+        };
+        if let Some(time) = end {
+            self.post(time, slot, EventKind::End);
+        }
+        slot
+    }
+
+    fn post(&mut self, time: f64, slot: usize, kind: EventKind) {
+        self.events += 1;
+        let tenant = self.active[slot].as_ref().expect("events are posted for what is active").tenant;
+        self.queue.push(Event { time, number: self.events, slot, tenant, kind });
+    }
+
+    /// Goes on to the next instant at which something completes.
+    fn advance(&mut self) -> Result<(), Refusal> {
+        self.drop_void_events();
+        let horizon = self.queue.peek().map_or(f64::INFINITY, |e| e.time);
+        if let Some((slot, time)) = self.first_condition(horizon) {
+            self.now = time;
+            self.within_time()?;
+            self.end_early(slot);
+            return Ok(());
+        }
+        let Some(Event { time, slot, kind, .. }) = self.queue.pop() else {
+            let waiting = self.waiting.first().and_then(|&s| self.active[s].as_ref()).and_then(|a| a.action);
+            let cause = waiting.expect("without events, what has not completed waits for a condition").cause;
+            return Err(Refusal::at(cause, Reason::NeverHolds));
+        };
+        self.now = time;
+        self.within_time()?;
+        match kind {
+            EventKind::End => self.end(slot),
+            EventKind::Timeout => self.time_out(slot)?,
+        }
+        Ok(())
+    }
+
+    fn drop_void_events(&mut self) {
+        let void = |e: &Event| self.active[e.slot].as_ref().is_none_or(|a| a.tenant != e.tenant);
+        while self.queue.peek().is_some_and(void) {
+            self.queue.pop();
+        }
+    }
+
+    /// The action whose condition holds first, not after `horizon`; of equals the one begun first.
+    fn first_condition(&mut self, horizon: f64) -> Option<(usize, f64)> {
+        if self.waiting.is_empty() {
+            return None;
+        }
+        self.motions.iter_mut().for_each(|m| m.pass(self.now));
+        let mut best: Option<(usize, f64)> = None;
+        for &slot in &self.waiting {
+            let active = self.active[slot].as_ref().expect("what waits is active");
+            let action = active.action.expect("only actions wait");
+            let until = action.until.as_ref().expect("what waits has a condition");
+            let (robot, motions, holds) = (&*self.robot, &self.motions[..], &self.holds[..]);
+            let view = View { robot, motions, holds, began: active.began };
+            let before = best.map_or(horizon, |(_, t)| t);
+            let hit = condition::first(until, &view, self.now, before);
+            if let Some(time) = hit.filter(|t| best.is_none_or(|(_, b)| *t < b)) {
+                best = Some((slot, time));
+            }
+        }
+        best
+    }
+
+    fn within_time(&self) -> Result<(), Refusal> {
+        limit(self.now as u64, DURATION_MAX as u64 - 1, "seconds")
+    }
+
+    /// The action's motion is over.
+    fn end(&mut self, slot: usize) {
+        let active = self.leave(slot);
+        self.tasks.push(Task::Complete(active.parent));
+    }
+
+    /// The action's condition holds.
+    fn end_early(&mut self, slot: usize) {
+        let active = self.leave(slot);
+        self.hold(&active);
+        self.tasks.push(Task::Complete(active.parent));
+    }
+
+    fn time_out(&mut self, slot: usize) -> Result<(), Refusal> {
+        let active = self.leave(slot);
+        self.hold(&active);
+        let action = active.action.expect("only actions time out");
+        match &action.otherwise {
+            Otherwise::Proceed => self.tasks.push(Task::Complete(active.parent)),
+            Otherwise::Node(node) => self.tasks.push(Task::Begin(node, active.parent)),
+            Otherwise::Abort(message) => {
+                let reason = Reason::Aborted { message: message.clone(), time: self.now };
+                return Err(Refusal::at(action.cause, reason));
+            }
+        }
+        Ok(())
+    }
+
+    fn leave(&mut self, slot: usize) -> Active<'a> {
+        self.waiting.retain(|s| *s != slot);
+        self.idle.push(slot);
+        self.active[slot].take().expect("only what is active ends")
+    }
+
+    fn hold(&mut self, active: &Active) {
+        // Unless another command has taken the joint over.
+        let Some((joint, cause)) = active.holds else { return };
+        if self.motions[joint.0 as usize].command.as_ref().is_some_and(|(_, c)| *c == cause) {
+            self.stop(joint, cause);
+        }
+    }
+
+    fn finish(self) -> Result<Played, Refusal> {
+        let mut duration = self.now;
+        for (motion, facts) in self.motions.iter().zip(&self.facts) {
+            if let Some(turning) = motion.turning().filter(|t| t.speed != 0.0) {
+                let reason = Reason::StillTurning { joint: facts.name.clone(), speed: turning.speed };
+                return Err(Refusal::at(turning.cause, reason));
+            }
+            duration = duration.max(motion.ends().unwrap_or(0.0));
+        }
+        let end = self.motions.iter().map(|m| m.position(f64::INFINITY)).collect();
+        let tracks = self.motions.into_iter().enumerate().filter_map(|(joint, motion)| {
+            let segments = motion.into_segments();
+            (!segments.is_empty()).then_some(Track { joint: JointId(joint as u32), segments })
+        });
+        Ok(Played {
+            tracks: tracks.collect(),
+            robot: self.robot,
+            joints: self.start,
+            end,
+            docks: self.docks,
+            duration,
+            exemptions: self.exemptions,
+            issues: self.issues,
+            actions: self.actions,
+            steps: self.steps,
+        })
+    }
+
+    fn count_step(&mut self) -> Result<(), Refusal> {
+        self.steps += 1;
+        limit(self.steps, self.settings.steps_max, "steps")
+    }
+
+    pub(super) fn count_segments(&mut self, more: usize) -> Result<(), Refusal> {
+        self.segments += more as u64;
+        limit(self.segments, self.settings.segments_max, "pieces of motion")
+    }
+}
+
+pub(super) fn limit(value: u64, max: u64, what: &'static str) -> Result<(), Refusal> {
+    if value > max { Err(Refusal::whole(Reason::Limit { what, limit: max })) } else { Ok(()) }
+}

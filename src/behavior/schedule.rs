@@ -1,0 +1,111 @@
+//! From a program to a plan's tracks: the undisturbed run of a series-parallel graph of actions.
+//!
+//! The run goes from event to event. An action begins when all actions before it have completed; it
+//! completes when its motion has, or, if it has one, when its condition holds, or when its time runs
+//! out. What it commanded stays in force until the next command to the same joint, which takes over
+//! from where the joint is then.
+
+use super::joints::{self, Facts};
+use super::limits::Issue;
+use super::motion::Motion;
+use super::refusal::{Reason, Refusal};
+use super::run::{Played, Run};
+use crate::plan::visit::Graph;
+use crate::plan::{CauseId, Exemption, Node, Otherwise, Program, Tracks};
+use crate::robot::{Assembly, JointId, State};
+use std::sync::Arc;
+
+/// A behaviour of a robot that is in a state.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    pub robot: Assembly,
+    pub start: State,
+    pub program: Arc<Node>,
+    /// Handed on to the tracks: who set the start pose.
+    pub start_causes: Vec<(JointId, CauseId)>,
+    /// Who connected which bond.
+    pub bond_causes: Vec<(usize, CauseId)>,
+    pub settings: Settings,
+}
+
+/// Limits and tolerances of scheduling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Most actions executed, repetitions included.
+    pub actions_max: u64,
+    /// Most segments of all tracks together.
+    pub segments_max: u64,
+    /// Most nodes entered, empty ones included.
+    pub steps_max: u64,
+    /// Deepest nesting of a program.
+    pub depth_max: u64,
+    /// Deepest nesting of phases and stretches in each other.
+    pub cycles_max: u64,
+    /// How far from the joint a followed function, or a cycle, may begin, rad or m: what rounding
+    /// explains and no eye sees.
+    pub tol_begin: f64,
+    /// How much shorter than the least time a stated duration may be, as a part of it: rounding.
+    pub tol_duration: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            actions_max: 5_000_000,
+            segments_max: 10_000_000,
+            steps_max: 50_000_000,
+            depth_max: 1_000,
+            cycles_max: 8,
+            tol_begin: 1e-6,
+            tol_duration: 1e-9,
+        }
+    }
+}
+
+/// When everything happens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scheduled {
+    pub tracks: Tracks,
+    pub program: Program,
+    pub exemptions: Vec<Exemption>,
+    /// Whether times depend on what sensors would say.
+    pub nominal: bool,
+    /// Actions executed, repetitions included.
+    pub actions: u64,
+    /// Stated durations that are shorter than the joints' limits allow.
+    pub issues: Vec<Issue>,
+}
+
+/// Schedules a behaviour. Commands in conflict are not looked for here: see
+/// [`conflicts`](super::conflicts).
+pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
+    let Problem { robot, start, program, start_causes, bond_causes, settings } = problem;
+    let graph = Graph::of(&program);
+    if graph.depth as u64 > settings.depth_max {
+        return Err(Refusal::whole(Reason::Limit { what: "nested behaviours", limit: settings.depth_max }));
+    }
+    let nominal = graph.actions().any(|a| {
+        a.timeout.is_some()
+            || matches!(a.otherwise, Otherwise::Node(_))
+            || a.until.as_ref().is_some_and(super::condition::senses)
+    });
+    let facts: Vec<Facts> = joints::facts(&robot);
+    assert_eq!(facts.len(), start.joints.len(), "a state has one position for every joint");
+    assert_eq!(robot.bonds.len(), start.bonds.len(), "a state has one flag for every bond");
+    let motions = start.joints.iter().map(|&q| Motion::at_rest(q)).collect();
+    let run = Run::new(Arc::new(robot), facts, motions, start.bonds.clone(), settings);
+    let Played { robot, tracks, joints, docks, duration, exemptions, actions, issues, .. } =
+        run.play(&program)?;
+    let robot = Arc::unwrap_or_clone(robot);
+    let bonds = robot.bonds.iter().enumerate().map(|(i, _)| start.bonds.get(i).copied().unwrap_or(false));
+    let start = State { bonds: bonds.collect(), joints, base: start.base };
+    drop(graph);
+    Ok(Scheduled {
+        tracks: Tracks { robot, start, tracks, docks, duration, start_causes, bond_causes },
+        program: Program { root: program },
+        exemptions,
+        nominal,
+        actions,
+        issues,
+    })
+}

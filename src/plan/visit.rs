@@ -1,0 +1,121 @@
+//! Programs as graphs: every node once, however often it is used.
+
+use super::{Action, Node, Otherwise};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The distinct nodes under a root, children before parents, found by address.
+pub struct Graph<'a> {
+    /// In order of first completion; the root is last.
+    pub nodes: Vec<&'a Arc<Node>>,
+    index: HashMap<*const Node, usize>,
+    /// Most nodes on a way from the root down, the root included.
+    pub depth: usize,
+}
+
+impl<'a> Graph<'a> {
+    /// Walks the graph with a stack of its own: however deep it is, nothing overflows.
+    pub fn of(root: &'a Arc<Node>) -> Graph<'a> {
+        let mut graph = Graph { nodes: Vec::new(), index: HashMap::new(), depth: 0 };
+        let mut depths = Vec::new();
+        let mut stack = vec![(root, 0)];
+        while let Some((node, next)) = stack.pop() {
+            if next == 0 && graph.index.contains_key(&Arc::as_ptr(node)) {
+                continue;
+            }
+            if let Some(child) = child(node, next) {
+                stack.push((node, next + 1));
+                stack.push((child, 0));
+                continue;
+            }
+            let below = children(node).map(|c| depths[graph.position(c)]).max().unwrap_or(0);
+            depths.push(below + 1);
+            graph.depth = graph.depth.max(below + 1);
+            graph.index.insert(Arc::as_ptr(node), graph.nodes.len());
+            graph.nodes.push(node);
+        }
+        graph
+    }
+
+    /// Where in [`nodes`](Graph::nodes) a node of the graph stands.
+    pub fn position(&self, node: &Arc<Node>) -> usize {
+        self.index[&Arc::as_ptr(node)]
+    }
+
+    /// Every action, in order of nodes.
+    pub fn actions(&self) -> impl Iterator<Item = &'a Action> + '_ {
+        self.nodes.iter().filter_map(|node| match &***node {
+            Node::Action(action) => Some(action),
+            _ => None,
+        })
+    }
+}
+
+/// The nodes directly under a node: an action has its `else` branch.
+pub fn children(node: &Node) -> impl Iterator<Item = &Arc<Node>> {
+    (0..).map_while(|i| child(node, i))
+}
+
+fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
+    match node {
+        Node::Series(list) | Node::Parallel(list) => list.get(i),
+        Node::Action(Action { otherwise: Otherwise::Node(body), .. })
+        | Node::Repeat { body, .. }
+        | Node::Phase { body, .. }
+        | Node::Approach { body, .. }
+        | Node::Stretch { body, .. }
+        | Node::Exempt { body, .. } => Some(body).filter(|_| i == 0),
+        Node::Action(_) => None,
+    }
+}
+
+/// The same graph, sharing kept, with every action rewritten; `rewrite` sees the action with its
+/// `else` branch already done.
+pub fn rewritten<E>(
+    root: &Arc<Node>,
+    mut rewrite: impl FnMut(&Action) -> Result<Action, E>,
+) -> Result<Arc<Node>, E> {
+    let graph = Graph::of(root);
+    let mut done: Vec<Arc<Node>> = Vec::with_capacity(graph.nodes.len());
+    for node in &graph.nodes {
+        let new = |child: &Arc<Node>| done[graph.position(child)].clone();
+        let made = match &***node {
+            Node::Action(action) => {
+                let otherwise = match &action.otherwise {
+                    Otherwise::Node(n) => Otherwise::Node(new(n)),
+                    other => other.clone(),
+                };
+                let shallow = Action {
+                    command: action.command.clone(),
+                    until: action.until.clone(),
+                    otherwise,
+                    ..*action
+                };
+                Node::Action(rewrite(&shallow)?)
+            }
+            other => with_children(other, new),
+        };
+        done.push(Arc::new(made));
+    }
+    Ok(done.pop().expect("a graph has its root"))
+}
+
+/// A node that is no action, over other children.
+pub fn with_children(node: &Node, new: impl Fn(&Arc<Node>) -> Arc<Node>) -> Node {
+    match node {
+        Node::Action(action) => Node::Action(action.clone()),
+        Node::Series(list) => Node::Series(list.iter().map(new).collect()),
+        Node::Parallel(list) => Node::Parallel(list.iter().map(new).collect()),
+        Node::Repeat { body, times } => Node::Repeat { body: new(body), times: *times },
+        Node::Phase { body, shift, cause } => Node::Phase { body: new(body), shift: *shift, cause: *cause },
+        Node::Approach { body, shift, cause } => {
+            Node::Approach { body: new(body), shift: *shift, cause: *cause }
+        }
+        Node::Stretch { body, duration, cause } => {
+            Node::Stretch { body: new(body), duration: *duration, cause: *cause }
+        }
+        Node::Exempt { body, kind, cause } => {
+            Node::Exempt { body: new(body), kind: kind.clone(), cause: *cause }
+        }
+    }
+}
