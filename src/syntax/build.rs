@@ -44,7 +44,12 @@ impl<'t> Builder<'t> {
 
     /// A range of the text that the nodes come from, as a span of the file.
     pub(super) fn at(&self, start: usize, end: usize) -> Span {
-        Span::new(self.file, self.base + start, self.base + end)
+        let (start, end) = (self.base + start, self.base + end);
+        match self.faulty_value {
+            // The hole that stands for a faulty value has no text.
+            Some(value) => Span::new(self.file, start.min(value), end.min(value)),
+            None => Span::new(self.file, start, end),
+        }
     }
 
     pub(super) fn error(&mut self, code: Code, message: impl Into<String>, span: Span) -> &mut Diagnostic {

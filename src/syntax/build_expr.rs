@@ -289,13 +289,15 @@ impl Builder<'_> {
     }
 
     fn name_or_constant(&mut self, span: Span) -> ExprKind {
+        if self.faulty_value == Some(span.start as usize) {
+            return ExprKind::Error;
+        }
         match &self.text[span.range()] {
             "true" => ExprKind::Bool(true),
             "false" => ExprKind::Bool(false),
             "X" => ExprKind::Axis(Axis::X),
             "Y" => ExprKind::Axis(Axis::Y),
             "Z" => ExprKind::Axis(Axis::Z),
-            "_" if self.faulty_value == Some(span.start as usize) => ExprKind::Error,
             "_" => ExprKind::Hole,
             _ => ExprKind::Name(self.symbol(span)),
         }

@@ -12,7 +12,7 @@ pub(super) struct Meant {
 /// What a character outside texts and comments was probably meant to be.
 pub(super) fn meant(c: char) -> Meant {
     let (replacement, hint) = match c {
-        ';' => (Some('\n'), "modl has no semicolons: a line break or the next keyword ends a statement"),
+        ';' => (Some('\n'), "a line break or the next keyword ends a statement"),
         '\'' | '‘' | '’' => (None, "texts stand in double quotes: \"...\""),
         '“' | '”' | '„' | '«' | '»' => (None, "texts stand in plain double quotes: \"...\""),
         '−' | '–' | '—' => (Some('-'), "the minus sign is `-`"),

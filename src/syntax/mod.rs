@@ -12,9 +12,12 @@ mod build_truss;
 mod build_types;
 mod characters;
 mod explain;
+mod failure;
 mod lex;
 mod parse;
+mod recover;
 mod scan;
+mod split;
 mod words;
 
 pub use parse::{HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, parse};

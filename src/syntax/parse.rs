@@ -2,9 +2,12 @@
 
 use super::ast;
 use super::build::Builder;
+use super::recover::Parser;
 use super::scan::scan;
 use crate::source::{Diagnostic, FileId, Span, code};
 use pest::Parser as _;
+use pest::error::ErrorVariant;
+use std::sync::{Mutex, PoisonError};
 
 /// How deep brackets, comments and types may nest.
 pub const NESTING_MAX: usize = 200;
@@ -34,32 +37,67 @@ pub struct Parsed {
 /// The tree of a file. Never fails: pieces that cannot be parsed become `Error` nodes, each with a
 /// diagnostic.
 pub fn parse(id: FileId, text: &str) -> Parsed {
+    if text.len() > TEXT_MAX {
+        return too_large(id, text);
+    }
     let scan = scan(id, text);
-    let mut builder = Builder::new(id, text, &scan.comments);
+    let mut parser = Parser::new(Builder::new(id, text, &scan.comments), &scan);
     let mut items = Vec::new();
     let ends = scan.chunks.iter().skip(1).copied().chain([text.len()]);
     for (&start, end) in scan.chunks.iter().zip(ends) {
-        builder.base = start;
-        match Grammar::parse(Rule::chunk, &scan.text[start..end]) {
-            Ok(mut nodes) => builder.chunk(nodes.next().expect("a parse has one root"), &mut items),
-            Err(error) => {
-                let at = start
-                    + match error.location {
-                        pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
-                    };
-                let span = Span::new(id, at, at);
-                builder.error(code::SYNTAX, "this cannot be read", span);
-                items.push(ast::Item {
-                    span: Span::new(id, start, end),
-                    doc: None,
-                    kind: ast::ItemKind::Error,
-                });
-            }
-        }
+        parser.chunk(start..end, &mut items);
     }
-    let doc = builder.file_doc();
-    let mut diagnostics = builder.diagnostics;
+    let doc = parser.builder.file_doc();
+    let mut diagnostics = parser.builder.diagnostics;
     diagnostics.extend(scan.diagnostics);
     diagnostics.sort_by_key(|d| d.span().map(|span| (span.start, span.end)));
+    diagnostics.truncate(DIAGNOSTICS_MAX);
     Parsed { file: ast::File { id, doc, items, comments: scan.comments }, diagnostics }
+}
+
+fn too_large(id: FileId, text: &str) -> Parsed {
+    let message = format!("the text has {} bytes, and {TEXT_MAX} is the limit", text.len());
+    let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
+        .label(Span::new(id, 0, 0), "")
+        .hint("put parts of it into files of their own and import them with `use`");
+    let file = ast::File { id, doc: None, items: Vec::new(), comments: Vec::new() };
+    Parsed { file, diagnostics: vec![diagnostic] }
+}
+
+/// The root of the parse of a whole text by a rule, if it is sound.
+pub(super) fn nodes(rule: Rule, text: &str) -> Option<Node<'_>> {
+    Grammar::parse(rule, text).ok()?.next()
+}
+
+/// Where parsing came to a halt, and what would have let it go on.
+#[derive(Clone, Debug)]
+pub(super) struct Failure {
+    pub(super) at: usize,
+    /// Texts of the grammar that would fit there.
+    pub(super) wanted: Vec<String>,
+    /// Whether a name or number would fit, or a longer one.
+    pub(super) wants_word: bool,
+    /// Whether the parser ran out of stack.
+    pub(super) too_deep: bool,
+}
+
+/// pest's switch for detailed errors is one for the whole process.
+static DETAIL: Mutex<()> = Mutex::new(());
+
+/// Parses a faulty text once more to learn what was wanted at the furthest place.
+pub(super) fn failure(rule: Rule, text: &str) -> Option<Failure> {
+    let _guard = DETAIL.lock().unwrap_or_else(PoisonError::into_inner);
+    pest::set_error_detail(true);
+    let parsed = Grammar::parse(rule, text);
+    pest::set_error_detail(false);
+    let error = parsed.err()?;
+    let mut failure = Failure { at: 0, wanted: Vec::new(), wants_word: false, too_deep: false };
+    failure.too_deep = matches!(error.variant, ErrorVariant::CustomError { .. });
+    if let Some(attempts) = error.parse_attempts() {
+        failure.at = attempts.max_position;
+        // pest names the type of these tokens nowhere, but it prints them: a range as `a..z`.
+        failure.wanted = attempts.expected_tokens().iter().map(ToString::to_string).collect();
+        failure.wants_word = failure.wanted.iter().any(|wanted| wanted == "a..z");
+    }
+    Some(failure)
 }

@@ -67,6 +67,8 @@ struct Scanner<'t> {
     deep_told: bool,
     /// The previous token, on the same line.
     previous: Option<Token>,
+    /// The previous character that has no place in a program.
+    stray: Option<usize>,
 }
 
 impl<'t> Scanner<'t> {
@@ -89,6 +91,7 @@ impl<'t> Scanner<'t> {
             scan,
             deep_told: false,
             previous: None,
+            stray: None,
         }
     }
 
@@ -202,7 +205,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// Which of the three kinds of brackets stands here.
+    /// Which of the three kinds of brackets stands here; braces are 2.
     fn kind(&self, at: usize) -> usize {
         match self.source.as_bytes()[at] {
             b'(' | b')' => 0,
@@ -247,7 +250,11 @@ impl<'t> Scanner<'t> {
         self.tell(explain::stray_closer(closer, span, innermost_span), at, false);
         // `(a]`: the wrong bracket closes what is open on its line.
         match innermost {
-            Some(open) if at - open < LINE_LENGTH && !self.source[open..at].contains('\n') => {
+            Some(open)
+                if self.kind(open) != 2
+                    && at - open < LINE_LENGTH
+                    && !self.source.as_bytes()[open..at].contains(&b'\n') =>
+            {
                 self.pop_from(self.open.len() - 1);
                 self.scan.faults.push(Fault { at: open, fatal: false });
             }
@@ -320,15 +327,16 @@ impl<'t> Scanner<'t> {
         let c = self.source[token.start..].chars().next().expect("a token is not empty");
         let span = self.span(token.start, token.end);
         let meant = characters::meant(c);
-        // One word with several odd letters is one mistake.
-        let goes_on = self.previous.is_some_and(|before| before.end == token.start)
-            && meant.replacement == Some('_')
-            && self.scan.faults.last().is_some_and(|fault| touches(self.source, fault.at, token.start));
-        if goes_on {
-            self.scan.faults.push(Fault { at: token.start, fatal: false });
-        } else {
-            self.tell(characters::stray(c, span), token.start, meant.replacement.is_none());
+        // What a line repeats is one mistake.
+        let repeated = self.stray.is_some_and(|before| {
+            self.source[before..].starts_with(c) && !self.source[before..token.start].contains('\n')
+        });
+        let fatal = meant.replacement.is_none();
+        match repeated {
+            true => self.scan.faults.push(Fault { at: token.start, fatal }),
+            false => self.tell(characters::stray(c, span), token.start, fatal),
         }
+        self.stray = Some(token.start);
         self.replace(token.start, token.end, meant.replacement.unwrap_or(' '));
     }
 
@@ -343,11 +351,6 @@ impl<'t> Scanner<'t> {
             bytes[start] = with as u8;
         }
     }
-}
-
-/// Whether everything between two places belongs to one word.
-fn touches(text: &str, start: usize, end: usize) -> bool {
-    text[start..end].chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
 /// Whether what follows a keyword shows that it begins an item: a name or a text on its line. Two

@@ -1,0 +1,484 @@
+//! Why a piece cannot be parsed: the place where the grammar came to a halt, in the user's words.
+
+use super::explain;
+use super::lex::{Token, TokenKind};
+use super::parse::Failure;
+use super::split::tokens;
+use super::words;
+use crate::source::suggest::suggest;
+use crate::source::{Code, Diagnostic, FileId, Span, code};
+
+/// What the faulty piece is one of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Items,
+    Statements,
+    Module,
+    Config,
+    Truss,
+}
+
+/// What begins an item or a statement of a file.
+const ITEMS_AND_STATEMENTS: &[&str] = &[
+    "use",
+    "let",
+    "fn",
+    "extern",
+    "connector",
+    "module",
+    "cell",
+    "strut",
+    "config",
+    "lattice",
+    "truss",
+    "test",
+    "expect",
+    "require",
+    "if",
+    "for",
+];
+
+impl Place {
+    /// The words that begin a piece here.
+    pub(super) fn keywords(self) -> &'static [&'static str] {
+        match self {
+            Place::Items => ITEMS_AND_STATEMENTS,
+            Place::Statements => words::STATEMENTS,
+            Place::Module => words::MODULE,
+            Place::Config => words::CONFIG,
+            Place::Truss => words::TRUSS,
+        }
+    }
+
+    /// What begins with these words, and where it stands.
+    fn name(self) -> &'static str {
+        match self {
+            Place::Items => "an item of a file",
+            Place::Statements => "a statement",
+            Place::Module => "a clause of a module",
+            Place::Config => "a clause of a configuration",
+            Place::Truss => "a clause of a truss",
+        }
+    }
+}
+
+/// A mistake: the tokens of the piece, and which of them the grammar could not take.
+struct Mistake<'t> {
+    text: &'t str,
+    base: usize,
+    file: FileId,
+    tokens: Vec<Token>,
+    /// The number of tokens where the piece ends too early.
+    found: usize,
+    failure: &'t Failure,
+    place: Place,
+}
+
+/// The diagnostic for a piece `text` that begins at `base` of the `whole` text.
+pub(super) fn explain(
+    failure: &Failure,
+    text: &str,
+    base: usize,
+    place: Place,
+    whole: &str,
+    file: FileId,
+) -> Diagnostic {
+    let mut tokens = tokens(text, 0..text.len());
+    let mut found = tokens.iter().position(|token| token.end > failure.at).unwrap_or(tokens.len());
+    if let Some(inside) = inside_text(&tokens, found, failure.at, text) {
+        // The mistake stands in the `{ }` of a text: what follows is seen token by token.
+        tokens.truncate(found);
+        tokens.extend(inside);
+    }
+    found = found.min(tokens.len());
+    // Behind a reserved word the grammar only asks whether the word goes on: the word is the mistake.
+    if let Some(before) = found.checked_sub(1).map(|before| tokens[before])
+        && before.end == failure.at
+        && words::is_reserved(&text[before.start..before.end])
+        && failure.wanted.iter().all(|wanted| matches!(wanted.as_str(), "a..z" | "A..Z" | "0..9" | "_"))
+    {
+        found -= 1;
+    }
+    let mistake = Mistake { text, base, file, tokens, found, failure, place };
+    mistake.explain(whole)
+}
+
+fn inside_text(all: &[Token], found: usize, at: usize, text: &str) -> Option<Vec<Token>> {
+    let token = all.get(found)?;
+    let is_text = matches!(token.kind, TokenKind::Text { .. }) && token.start < at;
+    is_text.then(|| tokens(text, at..token.end))
+}
+
+impl Mistake<'_> {
+    fn explain(&self, whole: &str) -> Diagnostic {
+        if self.failure.too_deep {
+            return explain::too_deep(self.span_of(0), "this");
+        }
+        None.or_else(|| self.later())
+            .or_else(|| self.first_word())
+            .or_else(|| self.connection())
+            .or_else(|| self.reserved_name())
+            .or_else(|| self.wrong_mark())
+            .or_else(|| self.brace_literal())
+            .or_else(|| self.line_start())
+            .or_else(|| self.missing_type())
+            .or_else(|| self.own_line())
+            .unwrap_or_else(|| self.missing(whole))
+    }
+
+    fn token_text(&self, index: usize) -> &str {
+        self.tokens.get(index).map_or("", |token| &self.text[token.start..token.end])
+    }
+
+    fn found(&self) -> &str {
+        self.token_text(self.found)
+    }
+
+    fn before(&self) -> &str {
+        self.found.checked_sub(1).map_or("", |before| self.token_text(before))
+    }
+
+    fn kind_of(&self, index: usize) -> Option<TokenKind> {
+        self.tokens.get(index).map(|token| token.kind)
+    }
+
+    /// The span of a token, or the place behind the last one.
+    fn span_of(&self, index: usize) -> Span {
+        let (start, end) = match (self.tokens.get(index), self.tokens.last()) {
+            (Some(token), _) => (token.start, token.end),
+            (None, Some(last)) => (last.end, last.end),
+            (None, None) => (0, 0),
+        };
+        Span::new(self.file, self.base + start, self.base + end)
+    }
+
+    fn wants(&self, text: &str) -> bool {
+        self.failure.wanted.iter().any(|wanted| wanted == text)
+    }
+
+    /// Whether any expression would fit at the place.
+    fn wants_expression(&self) -> bool {
+        self.wants("\"") && self.wants("[") && self.wants("not")
+    }
+
+    fn begins_line(&self) -> bool {
+        let Some(before) = self.found.checked_sub(1).and_then(|before| self.tokens.get(before)) else {
+            return false;
+        };
+        let end = self.tokens.get(self.found).map_or(self.text.len(), |token| token.start);
+        self.text[before.end..end].contains('\n')
+    }
+
+    fn error(&self, message: impl Into<String>) -> Option<Diagnostic> {
+        self.error_at(code::SYNTAX, self.found, message)
+    }
+
+    fn error_at(&self, code: Code, index: usize, message: impl Into<String>) -> Option<Diagnostic> {
+        Some(Diagnostic::error(code, message).label(self.span_of(index), ""))
+    }
+
+    /// Parts of the language that have their place but are not built yet.
+    fn later(&self) -> Option<Diagnostic> {
+        let (first, second) = (self.token_text(0), self.token_text(1));
+        let item = match first {
+            "scene" => second == "{" || self.kind_of(1) == Some(TokenKind::Word),
+            "role" => self.kind_of(1) == Some(TokenKind::Word),
+            _ => false,
+        };
+        let index = match (self.before(), self.found()) {
+            _ if item && self.place == Place::Items => 0,
+            ("closed", "(") => self.found - 1,
+            (_, "ensures") => self.found,
+            _ => return None,
+        };
+        let what = match self.token_text(index) {
+            "closed" => "closed (solves ...)",
+            what => what,
+        };
+        self.error_at(code::LATER, index, format!("`{what}` is not built yet"))
+    }
+
+    /// A word that begins nothing here: misspelt, or in another place.
+    fn first_word(&self) -> Option<Diagnostic> {
+        let first = self.token_text(0);
+        let is_word = self.kind_of(0) == Some(TokenKind::Word);
+        if !is_word || self.found > 1 || self.place.keywords().contains(&first) || words::is_reserved(first) {
+            return None;
+        }
+        let may_be_expression = matches!(self.place, Place::Items | Place::Statements);
+        if may_be_expression && self.kind_of(1) != Some(TokenKind::Word) {
+            return None;
+        }
+        let message = match elsewhere(first) {
+            Some(place) => format!("`{first}` begins {}, not {}", place.name(), self.place.name()),
+            None => format!("`{first}` does not begin {}", self.place.name()),
+        };
+        let diagnostic = Diagnostic::error(code::SYNTAX, message).label(self.span_of(0), "");
+        let meant = suggest(first, self.place.keywords().iter().copied());
+        Some(match meant {
+            Some(meant) if elsewhere(first).is_none() => diagnostic.hint(format!("`{meant}`?")),
+            _ if may_be_expression => diagnostic,
+            _ => diagnostic.hint(format!("here stand {}", listed(self.place.keywords()))),
+        })
+    }
+
+    fn connection(&self) -> Option<Diagnostic> {
+        let (first, what) = match self.token_text(0) {
+            "connect" => ("connect", "ports"),
+            "strut" => ("strut", "nodes"),
+            _ => return None,
+        };
+        if !self.wants("--") {
+            return None;
+        }
+        let diagnostic = match self.found() {
+            "-" | "->" | "," | "to" | "<->" | "and" | "with" | "+" | "++" | "=" => {
+                self.error(format!("`--` joins the two {what}, not `{}`", self.found()))
+            }
+            _ => self.error(format!("`--` is missing between the two {what}")),
+        };
+        diagnostic.map(|diagnostic| diagnostic.hint(format!("write `{first} a -- b`")))
+    }
+
+    /// A reserved word where a name is wanted.
+    fn reserved_name(&self) -> Option<Diagnostic> {
+        let found = self.found();
+        let declares = matches!(
+            self.before(),
+            "let"
+                | "fn"
+                | "part"
+                | "port"
+                | "joint"
+                | "link"
+                | "motor"
+                | "alias"
+                | "module"
+                | "config"
+                | "connector"
+                | "cell"
+                | "strut"
+                | "lattice"
+                | "truss"
+                | "behavior"
+                | "node"
+                | "base"
+                | "set"
+                | "connect"
+                | "--"
+                | "->"
+                | "for"
+                | "on"
+                | "of"
+                | "as"
+                | ":"
+        );
+        (words::is_reserved(found) && declares && !self.wants_expression()).then(|| {
+            self.error(format!("`{found}` is a reserved word and cannot be a name"))
+                .expect("an error was made")
+                .hint(format!("the reserved words are {}", listed(words::RESERVED)))
+        })
+    }
+
+    /// One mark in the place of another.
+    fn wrong_mark(&self) -> Option<Diagnostic> {
+        let found = self.found();
+        let hint = match found {
+            "==" if self.wants("=") || self.wants_expression() && self.found == 2 => {
+                "one `=` gives a name its value; `==` compares"
+            }
+            "=" | "->" if self.wants(":") && !self.wants("=") => "the type stands behind `:`",
+            ":" | "=>" | ":=" if self.wants("=") => "the value stands behind `=`",
+            ":" if self.wants("->") => "the result stands behind `->`",
+            "?" => "write `if c { a } else { b }`",
+            "=" if self.wants_operator() => "`==` compares; `=` gives a name its value in `let name = ...`",
+            "." if self.wants_expression() && self.kind_of(self.found + 1) == Some(TokenKind::Number) => {
+                "write the zero: `0.5`"
+            }
+            "--" if self.wants_expression() || self.wants_operator() => {
+                "`--` stands between two ports; write `a - -b` to subtract a negative number"
+            }
+            "|" if self.wants_operator() => "write `or`",
+            _ => return None,
+        };
+        self.error(format!("`{found}` cannot stand here")).map(|diagnostic| diagnostic.hint(hint))
+    }
+
+    /// Whether the place follows a whole operand.
+    fn wants_operator(&self) -> bool {
+        self.wants("*") && self.wants("..")
+    }
+
+    /// `{ a: 1 }`, or `{` where an expression is wanted.
+    fn brace_literal(&self) -> Option<Diagnostic> {
+        let record = self.found() == ":"
+            && matches!(
+                self.kind_of(self.found.wrapping_sub(1)),
+                Some(TokenKind::Word | TokenKind::Text { .. })
+            )
+            && self.found >= 2
+            && self.token_text(self.found - 2) == "{";
+        let brace = self.found() == "{" && self.wants_expression();
+        // The first entry of what was read as a block.
+        let entry = self.found() == ":" && self.found == 1 && self.place == Place::Statements;
+        if !record && !brace && !entry {
+            return None;
+        }
+        let index = if record { self.found - 2 } else { self.found };
+        self.error_at(code::SYNTAX, index, "there are no records in `{ }`")
+            .map(|d| d.hint("give named values as arguments: `Name(a: 1, b: 2)`; a list is written `[a, b]`"))
+    }
+
+    /// `+`, `-`, `(` or `[` that begins a line but was meant to continue one.
+    fn line_start(&self) -> Option<Diagnostic> {
+        let first = self.found().chars().next()?;
+        let continues = matches!(self.found(), "+" | "-" | "(" | "[");
+        let mark = self.span_of(self.found);
+        (continues && self.begins_line() && !self.wants_expression())
+            .then(|| explain::line_break(mark, first))
+    }
+
+    /// A parameter without its type.
+    fn missing_type(&self) -> Option<Diagnostic> {
+        let declares = matches!(
+            self.token_text(0),
+            "fn" | "extern" | "behavior" | "config" | "module" | "cell" | "strut" | "lattice" | "truss"
+        );
+        let ends = matches!(self.found(), "," | ")" | "=");
+        let before = self.found.checked_sub(1)?;
+        if !declares || !ends || !self.wants(":") || self.kind_of(before) != Some(TokenKind::Word) {
+            return None;
+        }
+        let name = self.before();
+        self.error_at(code::SYNTAX, before, format!("the parameter `{name}` needs a type"))
+            .map(|diagnostic| diagnostic.hint(format!("write for example `{name}: Length`")))
+    }
+
+    /// Two statements on one line.
+    fn own_line(&self) -> Option<Diagnostic> {
+        let statements = matches!(self.place, Place::Items | Place::Statements) || self.in_block();
+        let begins = matches!(
+            self.kind_of(self.found),
+            Some(TokenKind::Word | TokenKind::Number | TokenKind::Text { .. })
+        );
+        let separate = self.wants_operator() && self.wants("\n") && !self.wants(",") && !self.wants(")");
+        if !statements || !begins || !separate || self.begins_line() || self.found == 0 {
+            return None;
+        }
+        if self.kind_of(self.found - 1) == Some(TokenKind::Number)
+            && self.before().ends_with(|c: char| c.is_ascii_digit())
+        {
+            return None;
+        }
+        self.error(format!("`{}` cannot follow on this line", self.found()))
+            .map(|d| d.hint("an operator is missing, or a line break: an expression that is a statement begins its own line"))
+    }
+
+    fn in_block(&self) -> bool {
+        self.wants("}") && self.wants("let")
+    }
+
+    /// What is missing before what was found.
+    fn missing(&self, whole: &str) -> Diagnostic {
+        let unit = self.kind_of(self.found) == Some(TokenKind::Word)
+            && self.found > 0
+            && self.kind_of(self.found - 1) == Some(TokenKind::Number)
+            && self.wants_operator()
+            && !self.begins_line();
+        let wanted = self.wanted();
+        let before = self.found_words(whole);
+        // Where a line or file ends too early, the place is behind what stands there.
+        let ends = self.found >= self.tokens.len() || self.begins_line() && !wanted.is_empty();
+        let span = match self.found.checked_sub(1).filter(|_| ends).and_then(|before| self.tokens.get(before))
+        {
+            Some(last) => Span::new(self.file, self.base + last.end, self.base + last.end),
+            None => self.span_of(self.found),
+        };
+        let message = match wanted.as_slice() {
+            [] if self.found >= self.tokens.len() => "this ends too early".to_string(),
+            [] => format!("{before} cannot stand here"),
+            wanted if ends => format!("{} is missing at the end of this line", listed_or(wanted)),
+            wanted => format!("{} is missing before {before}", listed_or(wanted)),
+        };
+        let diagnostic = Diagnostic::error(code::SYNTAX, message).label(span, "");
+        if unit {
+            return diagnostic.hint(format!(
+                "a unit sticks to its number: `{}{}`",
+                self.before(),
+                self.found()
+            ));
+        }
+        // Within an expression the form of the whole is no help.
+        match words::form(self.token_text(0)).filter(|_| !self.wants_expression() && !self.wants_operator()) {
+            Some(form) => diagnostic.hint(format!("it is written `{form}`")),
+            None => diagnostic,
+        }
+    }
+
+    /// What was found, in words.
+    fn found_words(&self, whole: &str) -> String {
+        let text = self.found();
+        let Some(kind) = self.kind_of(self.found) else {
+            let rest = tokens(
+                whole,
+                self.base + self.text.len()..whole.len().min(self.base + self.text.len() + 200),
+            );
+            return match rest.first() {
+                Some(token) => format!("`{}`", &whole[token.start..token.end]),
+                None => "the end of the file".into(),
+            };
+        };
+        let shortened: String = text.chars().take(20).collect();
+        let shortened = if shortened.len() < text.len() { format!("{shortened}...") } else { shortened };
+        match kind {
+            TokenKind::Text { .. } => format!("the text {}", shortened.replace('\n', " ")),
+            _ => format!("`{shortened}`"),
+        }
+    }
+
+    /// What would fit, in words, the marks first.
+    fn wanted(&self) -> Vec<String> {
+        if self.wants_expression() {
+            return vec!["an expression".into()];
+        }
+        const MARKS: [&str; 16] =
+            [")", "]", "}", ",", ":", "=", "--", "->", "{", ">", "in", "of", "on", "facing", "as", "\""];
+        // Behind an operand `>` compares, and behind the first word of an argument a label may end.
+        let misleading: &[&str] = match (self.wants_operator(), self.wants(",")) {
+            (true, true) => &[">", ":", "="],
+            (true, false) => &[">"],
+            _ => &[],
+        };
+        let marks = MARKS.iter().filter(|mark| self.wants(mark) && !misleading.contains(mark));
+        let marks = marks.map(|mark| format!("`{mark}`"));
+        let mut wanted: Vec<String> = marks.take(4).collect();
+        let after_word = self.found > 0 && self.tokens[self.found - 1].end == self.failure.at;
+        if wanted.is_empty() && self.failure.wants_word && !after_word {
+            wanted.push("a name".into());
+        }
+        wanted
+    }
+}
+
+/// The place whose keyword this is.
+fn elsewhere(word: &str) -> Option<Place> {
+    let places = [Place::Items, Place::Config, Place::Module, Place::Truss];
+    places.into_iter().find(|place| place.keywords().contains(&word))
+}
+
+/// `a`, `b` and `c`
+fn listed(words: &[&str]) -> String {
+    let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    joined(&words, "and")
+}
+
+fn listed_or(words: &[String]) -> String {
+    joined(words, "or")
+}
+
+fn joined(words: &[String], conjunction: &str) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => format!("{} {conjunction} {last}", first.join(", ")),
+        _ => words.concat(),
+    }
+}

@@ -1,0 +1,337 @@
+//! Going on after a mistake: faulty runs are cut into pieces, sound pieces are parsed, and each faulty
+//! one becomes an `Error` node with one diagnostic.
+
+use super::ast::*;
+use super::build::Builder;
+use super::failure::{Place, explain};
+use super::parse::{DIAGNOSTICS_MAX, Node, Rule, failure, nodes};
+use super::scan::{Fault, Scan};
+use super::split::{bodies, split, tokens};
+use crate::source::Span;
+use std::ops::Range;
+
+/// How many levels of bodies are looked into for faulty pieces; each costs a parse of its text.
+const BODIES_MAX: usize = 12;
+
+/// What stands in a body: parsed piece by piece where the whole cannot be parsed.
+trait Clause: Sized {
+    /// The rule for a run of them, as a whole text.
+    const RULE: Rule;
+    const PLACE: Place;
+    fn build(builder: &mut Builder, run: Node) -> Vec<Self>;
+    fn error(span: Span) -> Self;
+    /// The bodies that stand in it, in order of the text.
+    fn bodies(&mut self) -> Vec<&mut Vec<Self>>;
+}
+
+macro_rules! clause {
+    ($name:ident, $kind:ident, $rule:ident, $build:ident, $place:ident $(, $doc:ident)?) => {
+        impl Clause for $name {
+            const RULE: Rule = Rule::$rule;
+            const PLACE: Place = Place::$place;
+            fn build(builder: &mut Builder, run: Node) -> Vec<$name> {
+                builder.$build(run)
+            }
+            fn error(span: Span) -> $name {
+                $name { span, $($doc: None,)? kind: $kind::Error }
+            }
+            fn bodies(&mut self) -> Vec<&mut Vec<$name>> {
+                match &mut self.kind {
+                    $kind::For { body, .. } => vec![body],
+                    $kind::If { then, otherwise, .. } => {
+                        let chained = matches!(otherwise.as_slice(), [one] if matches!(one.kind, $kind::If { .. }));
+                        let mut bodies = vec![then];
+                        match chained {
+                            true => bodies.extend(otherwise[0].bodies()),
+                            false => bodies.push(otherwise),
+                        }
+                        bodies
+                    }
+                    _ => Vec::new(),
+                }
+            }
+        }
+    };
+}
+
+clause!(ModuleClause, ModuleClauseKind, module_clauses, module_clauses, Module, doc);
+clause!(ConfigClause, ConfigClauseKind, config_clauses, config_clauses, Config, doc);
+clause!(TrussClause, TrussClauseKind, truss_clauses, truss_clauses, Truss);
+clause!(Stmt, StmtKind, statements, statements, Statements);
+
+/// Parses the chunks of a file.
+pub(super) struct Parser<'t> {
+    pub(super) builder: Builder<'t>,
+    pub(super) scan: &'t Scan<'t>,
+    /// How many bodies deep the recovery is.
+    depth: usize,
+}
+
+impl<'t> Parser<'t> {
+    pub(super) fn new(builder: Builder<'t>, scan: &'t Scan<'t>) -> Parser<'t> {
+        Parser { builder, scan, depth: 0 }
+    }
+
+    /// The items of one chunk, added to those before.
+    pub(super) fn chunk(&mut self, range: Range<usize>, items: &mut Vec<Item>) {
+        if self.faults(&range).iter().any(|fault| fault.fatal && self.nests_too_deep(*fault)) {
+            items.push(self.error_item(range));
+        } else if !self.sound_items(range.clone(), items) {
+            self.faulty_chunk(range, items);
+        }
+    }
+
+    fn faulty_chunk(&mut self, range: Range<usize>, items: &mut Vec<Item>) {
+        let told = self.builder.diagnostics.len();
+        for piece in split(&self.scan.text, range.clone(), Place::Items.keywords(), &self.scan.unclosed) {
+            if !self.sound_items(piece.clone(), items) {
+                let item = self.faulty_item(piece);
+                items.push(item);
+            }
+        }
+        if self.builder.diagnostics.len() == told {
+            // Each piece is sound, but not beside the others.
+            let text = self.scan.text[range.clone()].to_string();
+            self.explain(Rule::chunk, &text, &range, Place::Items);
+        }
+    }
+
+    /// Whether the fault is a bracket: then nothing around it can be parsed.
+    fn nests_too_deep(&self, fault: Fault) -> bool {
+        matches!(self.scan.text.as_bytes()[fault.at], b'(' | b'[' | b'{' | b'"')
+    }
+
+    fn sound_items(&mut self, range: Range<usize>, items: &mut Vec<Item>) -> bool {
+        if self.faults(&range).iter().any(|fault| fault.fatal) {
+            return false;
+        }
+        self.builder.base = range.start;
+        match nodes(Rule::chunk, &self.scan.text[range]) {
+            Some(node) => self.builder.chunk(node, items),
+            None => return false,
+        }
+        true
+    }
+
+    fn faulty_item(&mut self, range: Range<usize>) -> Item {
+        if self.begins_with(&range, &["if", "for"]) {
+            let statement: Stmt = self.faulty_clause(range);
+            return Item { span: statement.span, doc: None, kind: ItemKind::Statement(statement) };
+        }
+        let bodies = bodies(&self.scan.text, range.clone(), &self.scan.unclosed);
+        if let [body] = bodies.as_slice()
+            && !self.has_value_body(&range, body)
+        {
+            let header = self.emptied(&range, &bodies);
+            if let Some(mut item) = self.parsed_item(&header, range.start) {
+                self.fill_item(&mut item, body.clone());
+                return item;
+            }
+            self.explain(Rule::chunk, &header, &(range.start..body.start - 1), Place::Items);
+            return self.error_item(range);
+        }
+        self.explain_item(&range);
+        self.with_faulty_value(&range, |this, text, start| this.parsed_item(text, start))
+            .unwrap_or_else(|| self.error_item(range))
+    }
+
+    fn begins_with(&self, range: &Range<usize>, words: &[&str]) -> bool {
+        let first = tokens(&self.scan.text, range.clone()).first().copied();
+        first.is_some_and(|token| words.contains(&&self.scan.text[token.start..token.end]))
+    }
+
+    /// Whether the `{ }` is a block behind `=` and not the body of the item.
+    fn has_value_body(&self, range: &Range<usize>, body: &Range<usize>) -> bool {
+        let before = tokens(&self.scan.text, range.start..body.start - 1);
+        before.last().is_some_and(|token| matches!(&self.scan.text[token.start..token.end], "=" | "=>"))
+            || self.value_start(range).is_some_and(|value| value < body.start)
+    }
+
+    fn parsed_item(&mut self, text: &str, base: usize) -> Option<Item> {
+        self.builder.base = base;
+        let node = nodes(Rule::chunk, text)?;
+        let mut items = Vec::new();
+        self.builder.chunk(node, &mut items);
+        if items.len() == 1 { items.pop() } else { None }
+    }
+
+    fn fill_item(&mut self, item: &mut Item, body: Range<usize>) {
+        match &mut item.kind {
+            ItemKind::Module(module) => module.clauses = self.body(body),
+            ItemKind::Config(config) => config.clauses = self.body(body),
+            ItemKind::Truss(truss) => truss.body = TrussBody::Clauses(self.body(body)),
+            ItemKind::Test(test) => test.body = self.body(body),
+            ItemKind::Connector(connector) => {
+                connector.clauses = vec![ConnectorClause::Error];
+                self.explain_item(&self.item_range(item.span));
+            }
+            _ => {
+                self.explain_item(&self.item_range(item.span));
+                item.kind = ItemKind::Error;
+            }
+        }
+    }
+
+    fn item_range(&self, span: Span) -> Range<usize> {
+        span.start as usize..(span.end as usize).min(self.scan.text.len())
+    }
+
+    fn explain_item(&mut self, range: &Range<usize>) {
+        if let Some(value) = self.block_value(range) {
+            drop(self.body::<Stmt>(value));
+            return;
+        }
+        let text = self.scan.text[range.clone()].to_string();
+        self.explain(Rule::chunk, &text, range, Place::Items);
+    }
+
+    /// The block behind `=` that ends the piece.
+    fn block_value(&self, range: &Range<usize>) -> Option<Range<usize>> {
+        let start = self.value_start(range)?;
+        let first = *tokens(&self.scan.text, start..range.end).first()?;
+        let whole = bodies(&self.scan.text, start..range.end, &self.scan.unclosed);
+        match whole.as_slice() {
+            [body] if body.start == first.start + 1 && body.end + 1 == range.end => Some(body.clone()),
+            _ => None,
+        }
+    }
+
+    /// The clauses of a body, piece by piece.
+    fn body<C: Clause>(&mut self, range: Range<usize>) -> Vec<C> {
+        if self.depth >= BODIES_MAX {
+            return self.piece(range);
+        }
+        self.depth += 1;
+        let pieces = split(&self.scan.text, range, C::PLACE.keywords(), &self.scan.unclosed);
+        let clauses = pieces.into_iter().flat_map(|piece| self.piece(piece)).collect();
+        self.depth -= 1;
+        clauses
+    }
+
+    fn piece<C: Clause>(&mut self, range: Range<usize>) -> Vec<C> {
+        if !self.faults(&range).iter().any(|fault| fault.fatal) {
+            let text = &self.scan.text[range.clone()];
+            if let Some(clauses) = self.parsed::<C>(text, range.start) {
+                return clauses;
+            }
+        }
+        vec![self.faulty_clause(range)]
+    }
+
+    fn parsed<C: Clause>(&mut self, text: &str, base: usize) -> Option<Vec<C>> {
+        self.builder.base = base;
+        Some(C::build(&mut self.builder, nodes(C::RULE, text)?))
+    }
+
+    fn faulty_clause<C: Clause>(&mut self, range: Range<usize>) -> C {
+        let bodies = bodies(&self.scan.text, range.clone(), &self.scan.unclosed);
+        if self.begins_with(&range, &["if", "for"]) && self.depth < BODIES_MAX {
+            let header = self.emptied(&range, &bodies);
+            let clause = self.parsed::<C>(&header, range.start).and_then(|mut clauses| clauses.pop());
+            if let Some(mut clause) = clause.filter(|_| !bodies.is_empty())
+                && self.fill(&mut clause, bodies)
+            {
+                return clause;
+            }
+        }
+        match self.block_value(&range) {
+            Some(value) => drop(self.body::<Stmt>(value)),
+            None => {
+                let text = self.scan.text[range.clone()].to_string();
+                self.explain(C::RULE, &text, &range, C::PLACE);
+            }
+        }
+        self.with_faulty_value(&range, |this, text, start| this.parsed::<C>(text, start)?.pop())
+            .unwrap_or_else(|| C::error(self.span(&range)))
+    }
+
+    /// Puts clauses into the emptied bodies of a clause; does nothing where there is another number.
+    fn fill<C: Clause>(&mut self, clause: &mut C, ranges: Vec<Range<usize>>) -> bool {
+        let mut bodies = clause.bodies();
+        // Where there is no last `else`, its body stays empty.
+        let fits = ranges.len() == bodies.len() || ranges.len() + 1 == bodies.len();
+        if fits {
+            for (body, range) in bodies.iter_mut().zip(ranges) {
+                **body = self.body(range);
+            }
+        }
+        fits
+    }
+
+    /// The text of a piece with its bodies emptied, and closed where the end is missing.
+    fn emptied(&self, range: &Range<usize>, bodies: &[Range<usize>]) -> String {
+        let mut text = String::new();
+        let mut at = range.start;
+        for body in bodies {
+            text.push_str(&self.scan.text[at..body.start]);
+            text.extend(std::iter::repeat_n(' ', body.len()));
+            if body.end == range.end {
+                text.push('}');
+            }
+            at = body.end;
+        }
+        text.push_str(&self.scan.text[at..range.end]);
+        text
+    }
+
+    /// The piece with the value behind `=` put aside: what it declares is then known by name.
+    fn with_faulty_value<T>(
+        &mut self,
+        range: &Range<usize>,
+        parsed: impl std::ops::FnOnce(&mut Self, &str, usize) -> Option<T>,
+    ) -> Option<T> {
+        let value = self.value_start(range)?;
+        let text = format!("{}_", &self.scan.text[range.start..value]);
+        self.builder.faulty_value = Some(value);
+        let told = self.builder.diagnostics.len();
+        let node = parsed(self, &text, range.start);
+        self.builder.diagnostics.truncate(told);
+        self.builder.faulty_value = None;
+        node
+    }
+
+    /// The place behind the first `=` outside all brackets.
+    fn value_start(&self, range: &Range<usize>) -> Option<usize> {
+        let mut depth = 0usize;
+        for token in tokens(&self.scan.text, range.clone()) {
+            match &self.scan.text[token.start..token.end] {
+                "(" | "[" | "{" => depth += 1,
+                ")" | "]" | "}" => depth = depth.saturating_sub(1),
+                "=" if depth == 0 => return Some(token.end),
+                _ => {}
+            }
+        }
+        None
+    }
+
+    fn faults(&self, range: &Range<usize>) -> &'t [Fault] {
+        let faults = &self.scan.faults;
+        let start = faults.partition_point(|fault| fault.at < range.start);
+        let end = faults.partition_point(|fault| fault.at < range.end);
+        &faults[start..end.max(start)]
+    }
+
+    fn span(&self, range: &Range<usize>) -> Span {
+        Span::new(self.builder.file, range.start, range.end)
+    }
+
+    fn error_item(&self, range: Range<usize>) -> Item {
+        Item { span: self.span(&range), doc: None, kind: ItemKind::Error }
+    }
+
+    /// Tells why a piece cannot be parsed, unless that was told already.
+    fn explain(&mut self, rule: Rule, text: &str, range: &Range<usize>, place: Place) {
+        let rest = self.scan.text[range.end..].bytes();
+        let blank = rest.take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+        // What was replaced by a blank behind the piece belongs to it.
+        let told = !self.faults(&(range.start..range.end + blank)).is_empty();
+        if told || self.builder.diagnostics.len() >= DIAGNOSTICS_MAX {
+            return;
+        }
+        if let Some(failure) = failure(rule, text) {
+            let whole = &self.scan.text;
+            let diagnostic = explain(&failure, text, range.start, place, whole, self.builder.file);
+            self.builder.diagnostics.push(diagnostic);
+        }
+    }
+}
