@@ -1,5 +1,6 @@
 //! The one test program: a module for each room and each promise.
 
+mod check;
 mod cli;
 mod behavior;
 mod kinematics;
@@ -7,5 +8,6 @@ mod mass;
 mod programs;
 mod render;
 mod robots;
+mod suite;
 mod syntax;
 mod tidy;

@@ -291,7 +291,7 @@ impl<'a> Checker<'a> {
             next = 1;
         }
         let mut rest: Vec<&'a ast::Expr> = Vec::new();
-        let mut named = false;
+        let (mut named, mut misnamed) = (false, false);
         for arg in args {
             let index = match arg.name {
                 Some(n) => {
@@ -299,6 +299,7 @@ impl<'a> Checker<'a> {
                     match params.iter().position(|p| p.name == n.text) {
                         Some(index) => index,
                         None => {
+                            misnamed = true;
                             self.no_parameter(name, n, params);
                             self.expr(scope, &arg.value, None);
                             continue;
@@ -343,7 +344,8 @@ impl<'a> Checker<'a> {
             .filter(|(p, filled)| !**filled && !p.may_be_left_out())
             .map(|(p, _)| format!("`{}`", p.name))
             .collect();
-        if !missing.is_empty() {
+        // An argument under a wrong name was most likely meant for what is missing.
+        if !missing.is_empty() && !misnamed {
             self.report(
                 Diagnostic::error(code::ARGUMENTS, format!("`{name}` also needs {}", missing.join(", ")))
                     .label(

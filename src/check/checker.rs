@@ -274,8 +274,14 @@ impl Scope {
         if depth == self.outer.len() { &mut self.frame } else { &mut self.outer[depth] }
     }
 
+    /// The type of a local, without capturing it.
+    pub fn local_type(&self, name: Symbol) -> Option<&Type> {
+        let frames = std::iter::once(&self.frame).chain(self.outer.iter().rev());
+        frames.filter_map(|f| f.find(name)).map(|b| &b.ty).next()
+    }
+
     pub fn has_local(&self, name: Symbol) -> bool {
-        std::iter::once(&self.frame).chain(&self.outer).any(|f| f.find(name).is_some())
+        self.local_type(name).is_some()
     }
 
     pub fn local_names(&self) -> impl Iterator<Item = &'static str> + '_ {

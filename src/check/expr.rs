@@ -1,6 +1,6 @@
 //! Expressions: names, literals, lists, blocks; calls and operators have files of their own.
 
-use super::checker::{Checker, DefItem, Entity, Scope};
+use super::checker::{Checker, DefItem, Entity, MemberInfoKind, Scope};
 use super::describe::{dimension_with_unit, dimension_words};
 use super::typed::{Clause, DefId, Expr, ExprKind, StmtKind};
 use super::types::{Family, FnType, Type};
@@ -142,8 +142,9 @@ impl<'a> Checker<'a> {
         let text = digits.as_str();
         let Some(unit) = unit else { return self.plain_number(span, text) };
         let Ok(value) = text.parse::<f64>() else { return self.bad_number(span) };
-        for (name, _) in &unit.factors {
-            if scope.has_local(name.text) {
+        // The first factor can't be misread: nothing but a unit follows a number directly.
+        for (name, _) in unit.factors.iter().skip(1) {
+            if self.is_variable(scope, name.text) {
                 self.report(
                     Diagnostic::warning(
                         code::UNIT_SHADOWED,
@@ -163,6 +164,25 @@ impl<'a> Checker<'a> {
                 expr_of(span, Type::Quantity(dimension), ExprKind::Number(value))
             }
             None => error_expr(span),
+        }
+    }
+
+    /// Whether a number of this name may be meant: a local, a parameter or `let` of the body, or a
+    /// `let` of the file.
+    fn is_variable(&mut self, scope: &Scope, name: Symbol) -> bool {
+        if let Some(ty) = scope.local_type(name) {
+            return ty.dimension().is_some();
+        }
+        if let Some(this) = scope.this {
+            let members = self.members(this);
+            if let Some(member) = members.index.get(&name) {
+                let kind = members.list[member.0 as usize].kind;
+                return matches!(kind, MemberInfoKind::Param(_) | MemberInfoKind::Let(_));
+            }
+        }
+        match self.scopes[scope.file].get(&name) {
+            Some(Entity::Def(id)) => matches!(self.def(*id).item, DefItem::Let(_)),
+            _ => false,
         }
     }
 

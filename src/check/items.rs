@@ -187,18 +187,23 @@ impl<'a> Checker<'a> {
 
     fn check_let(&mut self, id: DefId, x: &'a ast::Let) -> DefKind {
         let mut scope = Scope::new(self.def(id).file, None);
-        let value = self.let_value(&mut scope, x);
-        let ty = if x.ty.is_some() { self.inferred_type(id, None) } else { value.ty.clone() };
+        let written = x.ty.as_ref().map(|_| self.inferred_type(id, None));
+        let value = self.value_of_type(&mut scope, x, written);
+        let ty = value.ty.clone();
         let info = self.def_mut(id);
-        info.inferred.get_or_insert_with(|| ty.clone());
+        let ty = info.inferred.get_or_insert(ty).clone();
         DefKind::Let(LetDef { ty, value, frame: scope.frame() })
     }
 
     /// The value of a `let`, of the type written if one is.
     pub fn let_value(&mut self, scope: &mut Scope, x: &'a ast::Let) -> Expr {
-        let value = match &x.ty {
+        let written = x.ty.as_ref().map(|ty| self.type_expr(scope, ty));
+        self.value_of_type(scope, x, written)
+    }
+
+    fn value_of_type(&mut self, scope: &mut Scope, x: &'a ast::Let, written: Option<Type>) -> Expr {
+        let value = match written {
             Some(ty) => {
-                let ty = self.type_expr(scope, ty);
                 let mut value = self.expect(scope, &x.value, &ty, Role::Param(x.name.text));
                 if !value.ty.is_error() {
                     value.ty = ty;

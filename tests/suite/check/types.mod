@@ -1,0 +1,194 @@
+--- a program without mistakes
+let reach = 120mm
+fn ramp(i: Int, n: Int) -> Number = i / (n - 1)
+print(ramp(1, 3), reach + 1cm, 2rad/s * 45mm)
+
+--- dimensions do not mix
+let a = 1mm + 1s
+//          ^ E0201 a length | a time
+//      ~~~ this is a length
+
+--- an angle is no number
+let n: Number = 30deg
+//              ^^^^^ E0201 a number | an angle
+
+--- a plain number is no angle
+print(sin(0.5))
+//        ^^^ E0201 `x` wants an angle (deg); `0.5` is a number | `0.5deg`
+
+--- radians are dropped from products, and never invented
+let v: Speed = 2rad/s * 45mm
+let e: Energy = 2N*m * 90deg
+let w: AngularSpeed = 1m/s / 45mm
+//                    ^^^^^^^^^^^ E0201 an angular speed (rad/s) | a frequency
+let f: Frequency = 2rad/s
+//                 ^^^^^^ E0201 a frequency (Hz) | an angular speed
+
+--- a stiffness is no torque
+let t: Torque = 3N*m/rad
+//              ^^^^^^^^ E0201 a torque
+
+--- no unit of that name, once
+let x = 5n + 3zz
+//       ^ E0203 `n` is no unit | `90deg / n`
+//            ^^ E0203 `zz` is no unit
+
+--- the suffix sticks to the number
+let s = 2
+let a = 6rad/s
+//           ^ W0002 the unit, not the variable
+let b = 6rad / s
+let c: Angle = b
+let d: AngularSpeed = a
+
+--- misspelt names are guessed
+let reach = 1m
+print(raech)
+//    ^^^^^ E0101 `raech` is not known here | `reach`?
+
+--- what follows from a mistake is not said again
+let a = oops
+//      ^^^^ E0101
+let b = a + 1mm
+let c = [b, a, 3s]
+print(c, b.x, a(1))
+
+--- an unknown name is said at each place where it stands
+print(oops)
+//    ^^^^ E0101
+print(oops + 1)
+//    ^^^^ E0101
+
+--- powers
+let a: Area = (2m)^2
+let v: Volume = 2 * (1cm)^3
+let n = 2
+let b = (2m)^n
+//           ^ E0207 a whole number, written out
+let r: Length = sqrt(4m^2)
+
+--- choices
+config C {
+  part m: M
+  behavior b = move(m.j, to: 3deg, profile: smoth)
+//                                          ^^^^^ E0206 none of the choices | `smooth`?
+}
+module M {
+  mass 1kg
+  link a = box(1m, 1m, 1m)
+  link b = box(1m, 1m, 1m) at [2m, 0m, 0m]
+  joint j: a -> b = revolute(axis: X)
+}
+
+--- optional values
+let xs = [1mm, 2mm]
+let a: Length = first(xs)
+//              ^^^^^^^^^ E0202 first(xs) else ...
+let b: Length = first(xs) else 0mm
+let c = 3mm else 1mm
+//      ^^^ E0202 never missing
+
+--- lists have elements of one type
+let xs = [1mm, 2s]
+//             ^^ E0202 of one type
+//        ~~~ the list began with a length
+let ys = [1, 2.5]
+let zs: List<Number> = ys
+let empty: List<Length> = []
+
+--- vectors where vectors are expected
+let p: Vec3<Length> = [1mm, 2mm, 3mm]
+let q: Vec3<Length> = [1mm, 2, 3mm]
+//                          ^ E0201 each coordinate wants a length
+let path: List<Vec3<Length>> = [[0m, 0m, 0m], [1m, 0m, 0m]]
+print(p + q, p.x, norm(p), 2 * p)
+
+--- functions
+fn half(x: Length) = x / 2
+let h: Length = half(3mm)
+let k = half(3s)
+//           ^^ E0201 `x` wants a length
+let l = half()
+//      ^^^^^^ E0205 `half` also needs `x`
+let m = half(1mm, 2mm)
+//                ^^^ E0205 too many arguments
+let n = half(y: 1mm)
+//           ^ E0205 no parameter `y`
+
+--- a result that needs itself
+fn f(n: Int) = f(n - 1)
+//             ^^^^^^^^ E0210 `f` | `-> Type`
+fn g(n: Int) -> Int = g(n - 1)
+
+--- declarations that need each other
+let a = b
+let b = a
+//      ^ E0108 `a` needs itself
+
+--- lambdas and what they capture
+let offset = 2
+let k = 3
+fn apply(f: fn(Int) -> Int, x: Int) -> Int = f(x)
+print(apply(x => x * k + offset, 4))
+let bad = x => x
+//        ^^^^^^ E0210
+
+--- declared twice
+let a = 1
+let a = 2
+//  ^ E0102
+fn f(x: Int, x: Int) -> Int = x
+//           ^ E0102 `x` is declared twice
+
+--- conditions are no truth values
+config C {
+  part m: M
+  behavior a = move(m.j, to: 3deg, until: angle(m.j) > 1deg and elapsed() > 1s, timeout: 2s) else abort("late")
+  behavior b = move(m.j, to: 3deg, until: 1 < 2)
+//                                        ^^^^^ E0202 `until` wants
+  behavior c = if angle(m.j) > 1deg { a() } else { b() }
+//                ^^^^^^^^^^^^^^^^^ E0202 the condition wants true or false
+}
+module M {
+  mass 1kg
+  link a = box(1m, 1m, 1m)
+  link b = box(1m, 1m, 1m) at [2m, 0m, 0m]
+  joint j: a -> b = revolute(axis: X)
+}
+
+--- a block is its last line
+fn area(r: Length) -> Area = {
+  let d = 2 * r
+  d * d
+}
+fn lost(r: Length) -> Length = {
+  r * 2
+//^^^^^ E0202 is lost
+  r
+}
+
+--- comparisons and texts
+let a = "x" + "y"
+//          ^ E0207 `++`
+let b = "x" ++ "y {1 + 2mm}"
+//                   ^ E0201
+let c = [1] ++ [2]
+let d = 1mm < 2mm and 3 == 3
+
+--- types that are none
+fn f(x: Lenght) -> Int = 1
+//      ^^^^^^ E0209 `Length`?
+fn g(x: List) -> Int = 1
+//      ^^^^ E0209
+let y: Smores = 1
+//     ^^^^^^ E0209
+
+--- names are styled
+let maxSpeed = 1
+//  ^^^^^^^^ W0001 `max_speed`
+config my_arm { }
+//     ^^^^^^ W0001 `MyArm`
+
+--- nothing has no value
+let x = print(1)
+//      ^^^^^^^^ E0202 no value
