@@ -3,6 +3,7 @@
 mod check;
 mod cli;
 mod behavior;
+mod distance;
 mod kinematics;
 mod mass;
 mod programs;

@@ -327,6 +327,8 @@ fn a_hinge_in_the_bond_turns_its_first_port() {
 }
 
 proptest! {
+    #![proptest_config(robots::seeded())]
+
     /// `K · K⁻¹`: parent and child may swap roles, whatever the joints and whichever the root.
     #[test]
     fn swapped_roles_are_the_inverse(

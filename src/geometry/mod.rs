@@ -1,13 +1,24 @@
 //! Poses, shapes and distances. The only user of parry; knows no robots.
+#![allow(non_snake_case)]
 
 pub mod json;
 pub mod pose;
 pub mod shape;
+
 pub mod soundness;
 pub mod volume;
 
+pub mod part;
+pub mod solid;
+
+pub mod distance;
+
+mod approach;
 mod hull;
 
+pub use distance::Nearness;
+pub use part::Part;
 pub use pose::{Pose, Vec3};
 pub use shape::{Placed, Shape};
+pub use solid::Solid;
 pub use soundness::Unsound;

@@ -1,0 +1,145 @@
+//! Convex parts, of which all solids are made, by their support functions.
+//!
+//! The support function `h(n)`, the greatest `n · p` over the part's points, is all that distances
+//! need: for any unit `n` the gap along it, `-h_B(-n) - h_A(n)`, is a lower bound of the signed
+//! distance from A to B, and the greatest of them is that distance.
+
+use super::Vec3;
+/// Directions this near to a cylinder's axis are along it: what is left across it is rounding.
+const TOL_STRAIGHT: f64 = 1e-9;
+
+/// A convex body in the frame of its solid.
+#[derive(Clone, Debug)]
+pub struct Part {
+    form: Form,
+    /// Centre of a ball around the part, and its radius, m.
+    pub centre: Vec3,
+    pub radius: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Form {
+    /// Half the edges as vectors.
+    Box([Vec3; 3]),
+    /// Half the axis as a vector, its unit, radius.
+    Cylinder(Vec3, Vec3, f64),
+    Capsule(Vec3, f64),
+    Sphere(f64),
+    /// Corners, from the centre.
+    Points(Vec<Vec3>),
+}
+
+impl Part {
+    pub fn boxed(centre: Vec3, half_edges: [Vec3; 3]) -> Part {
+        let radius = half_edges.iter().map(Vec3::norm_squared).sum::<f64>().sqrt();
+        Part { form: Form::Box(half_edges), centre, radius }
+    }
+
+    pub fn cylinder(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
+        let reach = (half_axis.norm_squared() + radius * radius).sqrt();
+        Part { form: Form::Cylinder(half_axis, half_axis.normalize(), radius), centre, radius: reach }
+    }
+
+    pub fn capsule(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
+        Part { form: Form::Capsule(half_axis, radius), centre, radius: half_axis.norm() + radius }
+    }
+
+    pub fn sphere(centre: Vec3, radius: f64) -> Part {
+        Part { form: Form::Sphere(radius), centre, radius }
+    }
+
+    /// The hull of these points, of which there is at least one.
+    pub fn points(points: &[Vec3]) -> Part {
+        let bound = |pick: fn(f64, f64) -> f64| points.iter().fold(points[0], |m, p| m.zip_map(p, pick));
+        let centre = (bound(f64::min) + bound(f64::max)) / 2.0;
+        let points: Vec<Vec3> = points.iter().map(|p| p - centre).collect();
+        let radius = points.iter().map(Vec3::norm).fold(0.0, f64::max);
+        Part { form: Form::Points(points), centre, radius }
+    }
+
+    /// `max n · (p - centre)`; `n` need not be of unit length.
+    #[inline]
+    pub fn reach(&self, n: &Vec3) -> f64 {
+        match &self.form {
+            Form::Box(e) => n.dot(&e[0]).abs() + n.dot(&e[1]).abs() + n.dot(&e[2]).abs(),
+            Form::Cylinder(half, unit, radius) => {
+                let along = n.dot(unit);
+                n.dot(half).abs() + radius * (n.norm_squared() - along * along).max(0.0).sqrt()
+            }
+            Form::Capsule(half, radius) => n.dot(half).abs() + radius * n.norm(),
+            Form::Sphere(radius) => radius * n.norm(),
+            Form::Points(points) => points.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
+    /// A point of the part that is farthest along `n`.
+    pub fn support(&self, n: &Vec3) -> Vec3 {
+        self.core_support(n) + unit_or_zero(n) * self.rounding()
+    }
+
+    /// A sphere is a point and a capsule a line, rounded by this much, m; other parts by nothing.
+    pub fn rounding(&self) -> f64 {
+        match self.form {
+            Form::Sphere(radius) | Form::Capsule(_, radius) => radius,
+            Form::Box(_) | Form::Cylinder(..) | Form::Points(_) => 0.0,
+        }
+    }
+
+    /// A point of what is rounded that is farthest along `n`.
+    pub fn core_support(&self, n: &Vec3) -> Vec3 {
+        let toward = |v: &Vec3| if n.dot(v) < 0.0 { -v } else { *v };
+        let from_centre = match &self.form {
+            Form::Box(e) => toward(&e[0]) + toward(&e[1]) + toward(&e[2]),
+            Form::Cylinder(half, unit, radius) => {
+                let across = n - unit * n.dot(unit);
+                let straight = across.norm() <= TOL_STRAIGHT * n.norm();
+                let rim = if straight { Vec3::zeros() } else { across.normalize() * *radius };
+                toward(half) + rim
+            }
+            Form::Capsule(half, _) => toward(half),
+            Form::Sphere(_) => Vec3::zeros(),
+            Form::Points(points) => farthest(points, n),
+        };
+        self.centre + from_centre
+    }
+
+    /// The part shrunk or grown about its centre.
+    pub fn scaled(&self, factor: f64) -> Part {
+        let form = match &self.form {
+            Form::Box(e) => Form::Box(e.map(|v| v * factor)),
+            Form::Cylinder(half, unit, radius) => Form::Cylinder(half * factor, *unit, radius * factor),
+            Form::Capsule(half, radius) => Form::Capsule(half * factor, radius * factor),
+            Form::Sphere(radius) => Form::Sphere(radius * factor),
+            Form::Points(points) => Form::Points(points.iter().map(|p| p * factor).collect()),
+        };
+        Part { form, centre: self.centre, radius: self.radius * factor }
+    }
+
+    /// Whether turning about this line leaves the part where it is, to `tol` metres.
+    pub fn is_round_about(&self, point: &Vec3, axis: &Vec3, tol: f64) -> bool {
+        let off_line = |p: &Vec3| (p - axis * axis.dot(p)).norm();
+        let centred = off_line(&(self.centre - point)) <= tol;
+        centred
+            && match &self.form {
+                Form::Sphere(_) => true,
+                Form::Cylinder(half, ..) | Form::Capsule(half, _) => off_line(half) <= tol,
+                Form::Box(_) | Form::Points(_) => false,
+            }
+    }
+}
+
+fn unit_or_zero(v: &Vec3) -> Vec3 {
+    v.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+}
+
+/// The first of the points that are farthest along `n`.
+fn farthest(points: &[Vec3], n: &Vec3) -> Vec3 {
+    let mut best = (f64::NEG_INFINITY, Vec3::zeros());
+    for p in points {
+        let along = n.dot(p);
+        if along > best.0 {
+            best = (along, *p);
+        }
+    }
+    best.1
+}

@@ -1,0 +1,117 @@
+//! Solids: shapes compiled into convex parts.
+
+use super::soundness::{self, Unsound};
+use super::{Part, Placed, Pose, Shape, Vec3, hull};
+
+/// Corners of a mesh may be this far inside its convex hull for the mesh to count as convex, m.
+const TOL_CONVEX: f64 = 1e-9;
+
+/// Hulls of more points than this are reduced to their corners.
+const CORNERS_KEPT: usize = 200;
+
+/// What a link is to the judge of distances: convex parts in the link's frame.
+#[derive(Clone, Debug, Default)]
+pub struct Solid {
+    pub parts: Vec<Part>,
+    /// Closed surfaces whose triangles are among the parts. Only the surface of a mesh that is not
+    /// convex is made of parts: what is wholly inside of it is found by [`Solid::encloses`].
+    shells: Vec<Vec<[Vec3; 3]>>,
+    /// A ball around the whole, m.
+    pub centre: Vec3,
+    pub radius: f64,
+    /// Lowest and highest corner of a box along the frame's axes, m.
+    pub bounds: (Vec3, Vec3),
+}
+
+impl Solid {
+    /// Refuses shapes that enclose no volume; a link without shapes is an empty solid.
+    pub fn new(shapes: &[Placed]) -> Result<Solid, Unsound> {
+        let mut solid = Solid::default();
+        shapes.iter().try_for_each(|placed| solid.add(placed, &Pose::identity()))?;
+        let reach =
+            |n: Vec3| solid.parts.iter().map(|p| n.dot(&p.centre) + p.reach(&n)).fold(f64::MIN, f64::max);
+        if !solid.parts.is_empty() {
+            let high = Vec3::new(reach(Vec3::x()), reach(Vec3::y()), reach(Vec3::z()));
+            let low = -Vec3::new(reach(-Vec3::x()), reach(-Vec3::y()), reach(-Vec3::z()));
+            solid.centre = (low + high) / 2.0;
+            let reach = |p: &Part| (p.centre - solid.centre).norm() + p.radius;
+            solid.radius = solid.parts.iter().map(reach).fold(0.0, f64::max).min((high - low).norm() / 2.0);
+            solid.bounds = (low, high);
+        }
+        Ok(solid)
+    }
+
+    /// Whether a point is inside a mesh that is not convex. Its winding number is the sum of the
+    /// solid angles of the triangles over the whole sphere.
+    pub fn encloses(&self, point: &Vec3) -> bool {
+        self.shells.iter().any(|shell| {
+            let angle: f64 = shell.iter().map(|t| solid_angle(&t.map(|corner| corner - point))).sum();
+            angle > std::f64::consts::TAU
+        })
+    }
+
+    fn add(&mut self, placed: &Placed, X_LS: &Pose) -> Result<(), Unsound> {
+        soundness::check(&placed.shape)?;
+        let X = X_LS * placed.pose;
+        let (p, R) = (X.translation.vector, X.rotation);
+        let along = |axis: &Vec3, length: f64| R * axis.normalize() * (length / 2.0);
+        match &placed.shape {
+            Shape::Box { size } => {
+                let edge = |i: usize| R * (Vec3::ith(i, size[i] / 2.0));
+                self.parts.push(Part::boxed(p, [edge(0), edge(1), edge(2)]));
+            }
+            Shape::Cylinder { radius, length, axis } => {
+                self.parts.push(Part::cylinder(p, along(axis, *length), *radius));
+            }
+            Shape::Sphere { radius } => self.parts.push(Part::sphere(p, *radius)),
+            Shape::Capsule { radius, length, axis } => {
+                self.parts.push(Part::capsule(p, along(axis, *length), *radius));
+            }
+            Shape::Hull { points } => self.parts.push(corners(&moved(points, &X))?),
+            Shape::Mesh { vertices, triangles, .. } => self.add_mesh(&moved(vertices, &X), triangles)?,
+            Shape::Union { parts } => parts.iter().try_for_each(|part| self.add(part, &X))?,
+        }
+        Ok(())
+    }
+
+    /// A convex mesh is the hull of its vertices; any other is its triangles.
+    fn add_mesh(&mut self, vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Unsound> {
+        let shell: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(|i| vertices[i as usize])).collect();
+        if is_convex(&shell, vertices) {
+            self.parts.push(corners(vertices)?);
+        } else {
+            self.parts.extend(shell.iter().map(|triangle| Part::points(triangle)));
+            self.shells.push(shell);
+        }
+        Ok(())
+    }
+}
+
+fn moved(points: &[Vec3], X: &Pose) -> Vec<Vec3> {
+    points.iter().map(|p| X.transform_point(&(*p).into()).coords).collect()
+}
+
+fn corners(points: &[Vec3]) -> Result<Part, Unsound> {
+    if points.len() <= CORNERS_KEPT {
+        return Ok(Part::points(points));
+    }
+    let faces = hull::faces(points).ok_or(Unsound::Flat)?;
+    Ok(Part::points(&faces.points))
+}
+
+/// Whether no vertex is outside the plane of any triangle.
+fn is_convex(shell: &[[Vec3; 3]], vertices: &[Vec3]) -> bool {
+    shell.iter().all(|[a, b, c]| {
+        let normal = (b - a).cross(&(c - a));
+        let tol = TOL_CONVEX * normal.norm();
+        vertices.iter().all(|v| normal.dot(&(v - a)) <= tol)
+    })
+}
+
+/// Of a triangle seen from the origin, signed: positive from behind (van Oosterom and Strackee 1983).
+fn solid_angle([a, b, c]: &[Vec3; 3]) -> f64 {
+    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+    let volume = a.dot(&b.cross(c));
+    let rest = la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la;
+    2.0 * libm::atan2(volume, rest)
+}
