@@ -14,8 +14,10 @@ mod motion;
 mod run;
 pub mod schedule;
 
+pub mod conflict;
 pub mod limits;
 
+pub use conflict::{Conflict, Conflicts, conflicts};
 pub use limits::{Issue, IssueKind, Part, issues};
 pub use refusal::{Reason, Refusal};
 pub use schedule::{Problem, Scheduled, Settings, schedule};

@@ -1,0 +1,184 @@
+//! Conflicts, found without running anything: two commands with different setpoints for one joint,
+//! neither of which comes before the other in the series-parallel order.
+//!
+//! Two actions are unordered where the lowest node over both is parallel. So a node needs to know of
+//! each joint under it no more than one command, and one with another setpoint if there is one; where
+//! two branches of a parallel node share a joint, these show a contradiction if there is any. What a
+//! finished branch left in force counts, since its command is not before those of its siblings.
+//!
+//! Every distinct node is visited once. Tables are handed up, the smaller merged into the larger; a
+//! table is copied only where a node is used twice. In a tree an entry moves at most log2(n) times;
+//! with sharing, the work is at most that of joints times distinct edges.
+
+use crate::plan::visit::{Graph, children};
+use crate::plan::{Action, CauseId, Command, Node, Target};
+use crate::robot::JointId;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// Two commands to one joint at one time, in order of cause.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Conflict {
+    pub first: CauseId,
+    pub second: CauseId,
+    pub joint: JointId,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Conflicts {
+    /// Different setpoints: an error. Each pair of causes once.
+    pub errors: Vec<Conflict>,
+    /// Equal setpoints: a warning. Each pair of causes once.
+    pub warnings: Vec<Conflict>,
+    /// Whether more than [`PAIRS_MAX`] pairs of a kind were found, and the rest dropped.
+    pub more: bool,
+    /// Nodes visited and table entries handled: the measure of the work.
+    pub work: usize,
+}
+
+/// Most pairs reported of each kind.
+pub const PAIRS_MAX: usize = 100;
+
+/// The conflicts in a program.
+pub fn conflicts(program: &Arc<Node>) -> Conflicts {
+    let graph = Graph::of(program);
+    let mut search = Search { found: Conflicts::default(), seen: BTreeSet::new() };
+    let mut tables: Vec<Option<Rc<Table>>> = Vec::with_capacity(graph.nodes.len());
+    let mut uses = vec![0_usize; graph.nodes.len()];
+    for node in &graph.nodes {
+        children(node).for_each(|child| uses[graph.position(child)] += 1);
+    }
+    for node in &graph.nodes {
+        let mut below = Vec::new();
+        for child in children(node) {
+            let index = graph.position(child);
+            uses[index] -= 1;
+            // Taken by its last user, shared by the others.
+            let table = if uses[index] == 0 { tables[index].take() } else { tables[index].clone() };
+            below.push((index, table.expect("a table stays until its last use")));
+        }
+        tables.push(Some(search.table(node, below)));
+    }
+    search.found
+}
+
+/// What is commanded under a node, by joint.
+type Table<'a> = BTreeMap<JointId, Commanded<'a>>;
+
+/// One command to a joint, and one with another setpoint.
+#[derive(Clone, Copy)]
+struct Commanded<'a> {
+    one: &'a Action,
+    other: Option<&'a Action>,
+}
+
+struct Search {
+    found: Conflicts,
+    /// Pairs found already, told apart by whether their setpoints are equal.
+    seen: BTreeSet<(bool, CauseId, CauseId)>,
+}
+
+impl Search {
+    fn table<'a>(&mut self, node: &'a Node, below: Vec<(usize, Rc<Table<'a>>)>) -> Rc<Table<'a>> {
+        self.found.work += 1 + below.len();
+        if matches!(node, Node::Repeat { times: 0, .. }) {
+            return Rc::default();
+        }
+        let parallel = matches!(node, Node::Parallel(_));
+        let mut table = Rc::<Table>::default();
+        if let Node::Action(action) = node
+            && let Some(joint) = commanded(&action.command)
+        {
+            table = Rc::new(BTreeMap::from([(joint, Commanded { one: action, other: None })]));
+        }
+        // The same child again adds nothing, but for once where it runs beside itself.
+        let mut times = BTreeMap::new();
+        for (child, entries) in below {
+            let time: &mut usize = times.entry(child).or_default();
+            *time += 1;
+            if *time <= if parallel { 2 } else { 1 } {
+                table = self.merged(table, entries, parallel);
+            }
+        }
+        table
+    }
+
+    fn merged<'a>(&mut self, a: Rc<Table<'a>>, b: Rc<Table<'a>>, parallel: bool) -> Rc<Table<'a>> {
+        let (mut large, small) = if a.len() >= b.len() { (a, b) } else { (b, a) };
+        if small.is_empty() {
+            return large;
+        }
+        if Rc::strong_count(&large) > 1 {
+            self.found.work += large.len();
+        }
+        let into = Rc::make_mut(&mut large);
+        for (&joint, &theirs) in small.iter() {
+            self.found.work += 1;
+            let Some(ours) = into.get_mut(&joint) else {
+                into.insert(joint, theirs);
+                continue;
+            };
+            if parallel {
+                self.beside(joint, *ours, theirs);
+            }
+            ours.other = ours.other.or_else(|| theirs.unlike(ours.one));
+        }
+        large
+    }
+
+    /// Two branches command one joint: a contradiction, or the same twice.
+    fn beside(&mut self, joint: JointId, a: Commanded, b: Commanded) {
+        if let Some(unlike) = b.unlike(a.one) {
+            self.report(joint, a.one, unlike, false);
+        } else if let Some(unlike) = a.unlike(b.one) {
+            self.report(joint, unlike, b.one, false);
+        } else {
+            self.report(joint, a.one, b.one, true);
+        }
+    }
+
+    fn report(&mut self, joint: JointId, a: &Action, b: &Action, equal: bool) {
+        let (first, second) = (a.cause.min(b.cause), a.cause.max(b.cause));
+        let list = if equal { &mut self.found.warnings } else { &mut self.found.errors };
+        if self.seen.contains(&(equal, first, second)) {
+            return;
+        }
+        if list.len() == PAIRS_MAX {
+            self.found.more = true;
+            return;
+        }
+        self.seen.insert((equal, first, second));
+        list.push(Conflict { first, second, joint });
+    }
+}
+
+impl<'a> Commanded<'a> {
+    /// One of the commands whose setpoint is not that of the action given.
+    fn unlike(&self, action: &Action) -> Option<&'a Action> {
+        [Some(self.one), self.other].into_iter().flatten().find(|a| !same(&a.command, &action.command))
+    }
+}
+
+/// The joint that a command sets a setpoint for.
+fn commanded(command: &Command) -> Option<JointId> {
+    match command {
+        Command::Move { joint, .. } | Command::Spin { joint, .. } | Command::Follow { joint, .. } => {
+            Some(*joint)
+        }
+        Command::Wait { .. } | Command::Dock { .. } | Command::Undock { .. } => None,
+    }
+}
+
+/// Whether two commands to one joint want the same of it. What is relative to where the joint is
+/// when the command comes is never the same twice.
+fn same(a: &Command, b: &Command) -> bool {
+    match (a, b) {
+        (Command::Move { target: Target::To(a), .. }, Command::Move { target: Target::To(b), .. }) => a == b,
+        (Command::Spin { .. }, Command::Spin { .. }) | (Command::Follow { .. }, Command::Follow { .. }) => {
+            a == b
+        }
+        _ => false,
+    }
+}
