@@ -7,6 +7,8 @@ mod distance;
 mod behavior;
 mod cli;
 mod conflicts;
+mod behavior;
+mod cli;
 mod kinematics;
 mod mass;
 mod programs;

@@ -7,16 +7,16 @@ use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 /// A folder of its own, and the command run in it.
-struct Sandbox(TempDir);
+pub struct Sandbox(TempDir);
 
-struct Ran {
-    code: i32,
-    out: String,
-    err: String,
+pub struct Ran {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
 }
 
 impl Sandbox {
-    fn new(files: &[(&str, &[u8])]) -> Sandbox {
+    pub fn new(files: &[(&str, &[u8])]) -> Sandbox {
         let sandbox = Sandbox(TempDir::new().expect("a temporary folder"));
         for (name, bytes) in files {
             let path = sandbox.path(name);
@@ -26,7 +26,7 @@ impl Sandbox {
         sandbox
     }
 
-    fn path(&self, name: &str) -> std::path::PathBuf {
+    pub fn path(&self, name: &str) -> std::path::PathBuf {
         self.0.path().join(name)
     }
 
@@ -37,7 +37,7 @@ impl Sandbox {
         command
     }
 
-    fn run(&self, arguments: &[&str]) -> Ran {
+    pub fn run(&self, arguments: &[&str]) -> Ran {
         ran(self.command(arguments).output().expect("the command runs"))
     }
 
@@ -55,7 +55,7 @@ fn ran(output: std::process::Output) -> Ran {
     Ran { code: output.status.code().unwrap_or(-1), out: text(output.stdout), err: text(output.stderr) }
 }
 
-fn json(ran: &Ran) -> serde_json::Value {
+pub fn json(ran: &Ran) -> serde_json::Value {
     serde_json::from_str(&ran.out).unwrap_or_else(|e| panic!("{e} in\n{}", ran.out))
 }
 

@@ -36,6 +36,7 @@ pub fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
             }
         }
         if cancelled() {
+            report.finish(false, globals);
             return Ok(Ending::Cancelled);
         }
     }

@@ -40,7 +40,7 @@ pub fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, C
         }
         one(file, project, &task, &mut terminal, &mut tally, globals);
     }
-    tally.report.printed = terminal.printed.take();
+    tally.report.printed = terminal.printed.take().filter(|_| !matches!(task, Task::Check));
     if matches!(task, Task::Test(_)) && !globals.json {
         print(&format!("{} passed, {} failed\n", tally.passed, tally.failed));
     }

@@ -111,8 +111,9 @@ pub fn call_error(globals: &Globals, message: &str) {
     if globals.json {
         let object = serde_json::json!({ "ok": false, "call_error": message });
         print(&format!("{object:#}\n"));
+    } else {
+        print_error(&format!("modl: {message}\n"));
     }
-    print_error(&format!("modl: {message}\n"));
 }
 
 /// How diagnostics are drawn on this terminal.
