@@ -74,7 +74,7 @@ truss Tri of Cube {
   node a = [0m, 0m, 0m]
 }
 let r = Row(3)
-let s = Row
+let t = Row
 //      ^^^ E0205 `Row` needs `n`
 
 --- nodes by name
