@@ -1,14 +1,10 @@
 //! The one test program: a module for each room and each promise.
 
+mod behavior;
 mod check;
 mod cli;
-mod behavior;
-mod distance;
-mod behavior;
-mod cli;
 mod conflicts;
-mod behavior;
-mod cli;
+mod distance;
 mod kinematics;
 mod mass;
 mod programs;
