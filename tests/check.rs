@@ -61,6 +61,21 @@ fn text_that_is_not_utf8_is_said_once() {
 }
 
 #[test]
+fn declarations_may_need_each_other_in_a_long_row() {
+    let row = |n: usize| {
+        let mut text = String::new();
+        for i in 0..n {
+            text.push_str(&format!("let a{i} = a{}\n", i + 1));
+        }
+        text + &format!("let a{n} = 1\n")
+    };
+    assert_eq!(observe(&MapFiles::of(&row(900))).diagnostics, []);
+    let observed = observe(&MapFiles::of(&row(20_000)));
+    let codes: Vec<&str> = observed.diagnostics.iter().map(|d| d.code.0).collect();
+    assert!(!codes.is_empty() && codes.iter().all(|c| *c == "E0005"), "{codes:?}");
+}
+
+#[test]
 fn the_standard_library_has_no_mistakes() {
     let mut uses = String::new();
     for (name, _) in modl::source::library::FILES {

@@ -164,6 +164,8 @@ pub struct Checker<'a> {
     /// Slots that the expressions of a declaration's members need.
     pub member_frames: HashMap<DefId, usize>,
     pub diagnostics: Vec<Diagnostic>,
+    /// Declarations that are being worked out, each needed by the one before.
+    pub open_declarations: usize,
 }
 
 /// The surroundings of an expression: its file, its locals, the instance whose body it stands in.
@@ -300,6 +302,7 @@ impl<'a> Checker<'a> {
             member_lets: HashMap::new(),
             member_frames: HashMap::new(),
             diagnostics,
+            open_declarations: 0,
         }
     }
 

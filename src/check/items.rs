@@ -12,6 +12,14 @@ use crate::syntax::ast;
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// Declarations whose inferred types need each other in a row, at most.
+const DECLARATION_CHAIN_MAX: usize = 1_000;
+
+/// Bytes that the deepest expression of one declaration may need, and how much stack is added when
+/// less is left.
+const STACK_LEFT_MIN: usize = 1 << 20;
+const STACK_PIECE: usize = 8 << 20;
+
 impl<'a> Checker<'a> {
     pub fn signature(&mut self, id: DefId) -> Rc<Signature> {
         if let Some(signature) = &self.def(id).signature {
@@ -154,6 +162,17 @@ impl<'a> Checker<'a> {
             self.def_mut(id).inferred = Some(Type::Error);
             return Type::Error;
         }
+        if self.open_declarations >= DECLARATION_CHAIN_MAX {
+            let span = at.unwrap_or(self.def(id).span);
+            let message = format!("more than {DECLARATION_CHAIN_MAX} declarations need each other in a row");
+            self.report(
+                Diagnostic::error(code::TOO_DEEP, message)
+                    .label(span, "needed here")
+                    .hint("write the type of one of them: `let a: Length = ...`"),
+            );
+            self.def_mut(id).inferred = Some(Type::Error);
+            return Type::Error;
+        }
         self.check_def(id);
         self.def(id).inferred.clone().unwrap_or(Type::Error)
     }
@@ -164,8 +183,17 @@ impl<'a> Checker<'a> {
             return;
         }
         self.def_mut(id).busy = true;
-        let item = self.def(id).item;
-        let kind = match item {
+        self.open_declarations += 1;
+        let kind = stacker::maybe_grow(STACK_LEFT_MIN, STACK_PIECE, || self.typed_def(id));
+        self.open_declarations -= 1;
+        self.lint_def(id);
+        let info = self.def_mut(id);
+        info.typed = Some(kind);
+        info.busy = false;
+    }
+
+    fn typed_def(&mut self, id: DefId) -> DefKind {
+        match self.def(id).item {
             DefItem::Let(x) => self.check_let(id, x),
             DefItem::Fn(x) => self.check_fn(id, x),
             DefItem::Native(x) => self.check_native(id, x, None),
@@ -178,11 +206,7 @@ impl<'a> Checker<'a> {
             DefItem::Config(x) => self.check_config(id, x),
             DefItem::Lattice(x) => self.check_lattice(id, x),
             DefItem::Truss(x) => self.check_truss(id, x),
-        };
-        self.lint_def(id);
-        let info = self.def_mut(id);
-        info.typed = Some(kind);
-        info.busy = false;
+        }
     }
 
     fn check_let(&mut self, id: DefId, x: &'a ast::Let) -> DefKind {
