@@ -46,20 +46,6 @@ pub fn disc(axis: Vec3, from: f64, to: f64, radius: f64) -> Placed {
     Placed { pose, shape: Shape::Cylinder { radius, length: (to - from).abs(), axis: axis.map(f64::abs) } }
 }
 
-/// A side arm of the U-holder: straight at the back, rounded about the axle in front.
-fn arm(y0: f64, y1: f64) -> Placed {
-    const ARCS: usize = 16;
-    let mut points = Vec::new();
-    for y in [y0, y1] {
-        points.extend([millimetres(-49.2, y, -44.0), millimetres(-49.2, y, 44.0)]);
-        for i in 0..=ARCS {
-            let (s, c) = libm::sincos(PI * i as f64 / ARCS as f64 - FRAC_PI_2);
-            points.push(millimetres(44.0 * c, y, 44.0 * s));
-        }
-    }
-    Placed { pose: Pose::identity(), shape: Shape::Hull { points } }
-}
-
 pub fn link(name: &str, shape: Vec<Placed>, mass: f64, com: Vec3, friction: f64) -> Link {
     let solid = modl::robot::mass::of_shapes(&shape, 1.0).expect("the tests' shapes are sound");
     let scale = mass / solid.mass;
@@ -95,10 +81,11 @@ fn port(name: &str, link: usize, turn: f64) -> Port {
 
 /// The SMORES module: chassis frame, +x towards T at zero tilt, +y towards L, +z up.
 pub fn smores() -> ModuleType {
+    // The side arms of the U-holder are round about the axle, and reach back to its plate.
     let holder = vec![
         boxed(millimetres(-49.2, -42.7, -44.0), millimetres(-44.0, 42.7, 44.0)),
-        arm(36.3, 42.7),
-        arm(-42.7, -36.3),
+        disc(Vec3::y(), 0.0363, 0.0427, 0.044),
+        disc(Vec3::y(), -0.0427, -0.0363, 0.044),
     ];
     let block = vec![boxed(millimetres(-29.7, -36.1, -29.8), millimetres(42.6, 36.1, 29.8))];
     let front = vec![disc(Vec3::x(), 0.0459, 0.0491, 0.042)];

@@ -14,7 +14,7 @@ pub mod solid;
 pub mod distance;
 
 mod approach;
-mod hull;
+pub mod hull;
 
 pub use distance::Nearness;
 pub use part::Part;

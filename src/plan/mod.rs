@@ -13,6 +13,7 @@ pub mod program;
 pub mod stages;
 pub mod tracks;
 pub mod verdict;
+pub mod verify;
 pub mod visit;
 pub mod world;
 

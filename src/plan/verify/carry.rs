@@ -1,0 +1,155 @@
+//! How a resting robot is carried over the ground while its joints move: wheels roll, feet hold.
+//!
+//! The displacement is the one for which the sum of load times friction times slip over all patches
+//! is least: Coulomb friction lets the loaded contacts stick and the light ones slip. Contacts of the
+//! sample before and of this one count half each, which makes it reversible in time.
+
+use super::contact::Patch;
+use super::model::{Model, Posture};
+use super::stance::Stance;
+use super::support::Mat3;
+use crate::geometry::Vec3;
+
+/// Place and heading on the ground: metres, radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    pub x: f64,
+    pub y: f64,
+    pub yaw: f64,
+}
+
+impl Place {
+    /// Moved by a displacement in its own frame along an arc: forward, left, turn.
+    pub fn moved(&self, by: &Vec3) -> Place {
+        let (s, c) = libm::sincos(by.z);
+        // sin(w)/w and (1 - cos w)/w, by their series where w is small.
+        let (a, b) = if by.z.abs() > 1e-6 { (s / by.z, (1.0 - c) / by.z) } else { (1.0, by.z / 2.0) };
+        let (dx, dy) = (a * by.x - b * by.y, b * by.x + a * by.y);
+        let (s, c) = libm::sincos(self.yaw);
+        Place { x: self.x + c * dx - s * dy, y: self.y + s * dx + c * dy, yaw: self.yaw + by.z }
+    }
+}
+
+/// The least spread of a patch, m² (0.1 mm): a point resists spinning a little.
+const SPREAD_MIN: f64 = 1e-8;
+/// Slips shorter than this part of the greatest motion are smoothed.
+const SMOOTHED_PART: f64 = 1e-4;
+const ROUNDS_MAX: usize = 100;
+/// The rounds end when the displacement changes by less than this part of the greatest motion.
+const CHANGE_MIN: f64 = 1e-10;
+
+/// A patch and how the robot's own motion would drag it.
+struct Dragged {
+    link: usize,
+    /// Part of the weight, halved.
+    load: f64,
+    /// Load times friction.
+    grip: f64,
+    x: f64,
+    y: f64,
+    spread: f64,
+    /// Motion at the centre of pressure, and turn about the vertical.
+    v: [f64; 2],
+    spin: f64,
+}
+
+impl Dragged {
+    /// Its slip if the robot is carried by `by`.
+    fn slip(&self, by: &Vec3) -> [f64; 3] {
+        [self.v[0] + by.x - by.z * self.y, self.v[1] + by.y + by.z * self.x, self.spin + by.z]
+    }
+
+    fn square(&self, slip: &[f64; 3]) -> f64 {
+        slip[0] * slip[0] + slip[1] * slip[1] + self.spread * slip[2] * slip[2]
+    }
+}
+
+/// Where the robot is carried to, and the slip of each loaded link (m) with its part of the weight:
+/// half of it for the patch of the sample before, half for that of this one.
+pub fn carry(
+    model: &Model,
+    old: &Stance,
+    posture: &Posture,
+    R: &Mat3,
+    height: f64,
+    patches: &[Patch],
+) -> (Place, Vec<(usize, f64, f64)>) {
+    let dragged: Vec<Dragged> =
+        old.patches.iter().chain(patches).map(|patch| drag(model, old, posture, R, height, patch)).collect();
+    let by = least_friction(&dragged);
+    let slips = dragged.iter().map(|d| {
+        let slip = d.slip(&by);
+        (d.link, libm::hypot(slip[0], slip[1]) / 2.0, 2.0 * d.load)
+    });
+    (old.place.moved(&by), slips.collect())
+}
+
+fn drag(model: &Model, old: &Stance, new: &Posture, R: &Mat3, height: f64, patch: &Patch) -> Dragged {
+    let link = patch.link;
+    let p = |posture: &Posture, R: &Mat3, height: f64| {
+        R * (posture.p[link] - posture.centre) + Vec3::new(0.0, 0.0, height)
+    };
+    let (R0, p0) = (old.R * old.posture.R[link], p(&old.posture, &old.R, old.height));
+    let (R1, p1) = (R * new.R[link], p(new, R, height));
+    let turn = R1 * R0.transpose();
+    let (o, v) = twist(&turn, &(p1 - turn * p0));
+    let at = Vec3::new(patch.x, patch.y, 0.0);
+    let motion = o.cross(&at) + v;
+    let load = patch.load / 2.0;
+    Dragged {
+        link,
+        load,
+        grip: load * model.bodies[link].friction,
+        x: patch.x,
+        y: patch.y,
+        spread: patch.spread + SPREAD_MIN,
+        v: [motion.x, motion.y],
+        spin: o.z,
+    }
+}
+
+/// The twist (rotation vector, velocity at the origin) whose exponential is a displacement.
+fn twist(R: &Mat3, t: &Vec3) -> (Vec3, Vec3) {
+    let vee = Vec3::new(R[(2, 1)] - R[(1, 2)], R[(0, 2)] - R[(2, 0)], R[(1, 0)] - R[(0, 1)]) / 2.0;
+    let (s, c) = (vee.norm(), (R.trace() - 1.0) / 2.0);
+    let angle = libm::atan2(s, c);
+    let o = if s > 1e-12 { vee * (angle / s) } else { vee };
+    let squared = angle * angle;
+    let factor = if squared > 1e-6 { (1.0 - angle * s / (2.0 * (1.0 - c))) / squared } else { 1.0 / 12.0 };
+    (o, t - o.cross(t) * 0.5 + o.cross(&o.cross(t)) * factor)
+}
+
+/// The displacement of least friction, by reweighted least squares.
+fn least_friction(dragged: &[Dragged]) -> Vec3 {
+    let zero = Vec3::zeros();
+    let greatest = dragged.iter().map(|d| libm::sqrt(d.square(&d.slip(&zero)))).fold(0.0, f64::max);
+    if greatest == 0.0 {
+        return zero;
+    }
+    let smoothed = SMOOTHED_PART * greatest;
+    let mut by = zero;
+    for round in 0..ROUNDS_MAX {
+        let mut normal = Mat3::zeros();
+        let mut right = zero;
+        for d in dragged {
+            let softened = libm::sqrt(d.square(&d.slip(&by)) + smoothed * smoothed);
+            let weight = if round == 0 { d.grip } else { d.grip / softened };
+            let rows = [
+                (Vec3::new(1.0, 0.0, -d.y), d.v[0], 1.0),
+                (Vec3::new(0.0, 1.0, d.x), d.v[1], 1.0),
+                (Vec3::new(0.0, 0.0, 1.0), d.spin, d.spread),
+            ];
+            for (row, value, factor) in rows {
+                normal += row * row.transpose() * (weight * factor);
+                right -= row * (value * weight * factor);
+            }
+        }
+        let Some(next) = normal.cholesky().map(|c| c.solve(&right)) else { return by };
+        let change = (next - by).norm();
+        by = next;
+        if change <= CHANGE_MIN * greatest {
+            break;
+        }
+    }
+    by
+}

@@ -1,0 +1,93 @@
+//! Hulls of points on the ground, and how far inside them the centre of mass is.
+
+/// A point on the ground, m.
+pub type Point = [f64; 2];
+
+/// Hulls narrower than this are lines, m.
+const WIDTH_MIN: f64 = 1e-6;
+
+/// Where a place on the ground lies against a hull.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Margin {
+    /// Distance to the nearest edge, positive inside, m.
+    pub distance: f64,
+    /// The two points of the nearest edge, as indices of the points given.
+    pub edge: (usize, usize),
+    /// Least width of the hull, m.
+    pub width: f64,
+}
+
+/// Corners of the convex hull, counter-clockwise, as indices; collinear points are left out. Of
+/// coinciding points the first is taken. One or two corners where the points do not span an area.
+pub fn hull(points: &[Point]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| {
+        points[a][0].total_cmp(&points[b][0]).then(points[a][1].total_cmp(&points[b][1])).then(a.cmp(&b))
+    });
+    order.dedup_by(|b, a| points[*a] == points[*b]);
+    if order.len() < 3 {
+        return order;
+    }
+    let mut corners = chain(points, order.iter().copied());
+    corners.pop();
+    let mut upper = chain(points, order.iter().rev().copied());
+    upper.pop();
+    corners.extend(upper);
+    corners
+}
+
+/// One side of the hull: always turning left.
+fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut side: Vec<usize> = Vec::new();
+    for index in order {
+        while let [.., a, b] = side[..] {
+            if cross(points[a], points[b], points[index]) > 0.0 {
+                break;
+            }
+            side.pop();
+        }
+        side.push(index);
+    }
+    side
+}
+
+/// Margin of `at` in the hull of `points`; `None` where they do not span an area.
+pub fn margin(points: &[Point], at: Point) -> Option<Margin> {
+    let corners = hull(points);
+    if corners.len() < 3 {
+        return None;
+    }
+    let edges = (0..corners.len()).map(|i| (corners[i], corners[(i + 1) % corners.len()]));
+    let mut nearest: Option<Margin> = None;
+    let (mut inside, mut width) = (true, f64::INFINITY);
+    for (a, b) in edges {
+        let length = distance(points[a], points[b]);
+        let height = cross(points[a], points[b], at) / length;
+        inside &= height >= 0.0;
+        let across = corners.iter().map(|&c| cross(points[a], points[b], points[c]) / length);
+        width = width.min(across.fold(0.0, f64::max));
+        let away = to_segment(points[a], points[b], at);
+        if nearest.as_ref().is_none_or(|n| away < n.distance) {
+            nearest = Some(Margin { distance: away, edge: (a, b), width: 0.0 });
+        }
+    }
+    let nearest = nearest.filter(|_| width > WIDTH_MIN)?;
+    let distance = if inside { nearest.distance } else { -nearest.distance };
+    Some(Margin { distance, width, ..nearest })
+}
+
+/// Twice the signed area of a triangle, positive if `c` is on the left of `a b`.
+fn cross(a: Point, b: Point, c: Point) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    libm::hypot(b[0] - a[0], b[1] - a[1])
+}
+
+fn to_segment(a: Point, b: Point, at: Point) -> f64 {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let along = (at[0] - a[0]) * dx + (at[1] - a[1]) * dy;
+    let u = (along / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+    distance([a[0] + u * dx, a[1] + u * dy], at)
+}

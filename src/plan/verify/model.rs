@@ -1,0 +1,124 @@
+//! The robot as the judge sees it: kinematics compiled for the bonds that hold, masses, and what can
+//! touch the ground.
+
+use super::support::{self, Feature, Mat3};
+use crate::geometry::{Pose, Vec3};
+use crate::robot::{Assembly, Kinematics};
+use std::ops::Range;
+
+pub struct Model<'a> {
+    pub robot: &'a Assembly,
+    pub kinematics: Kinematics,
+    /// One for every link of the assembly, loose ones too.
+    pub bodies: Vec<Body>,
+    /// Links that hang on the base, in order of link.
+    pub attached: Vec<usize>,
+    /// Of the attached links, in order of link.
+    pub features: Vec<Feature>,
+    /// The link of each feature.
+    pub link_of: Vec<usize>,
+    /// Of the attached links, kg.
+    pub mass: f64,
+}
+
+/// What the ground needs to know of a link.
+#[derive(Clone, Debug)]
+pub struct Body {
+    pub module: usize,
+    pub mass: f64,
+    /// In the link's frame, m.
+    pub com: Vec3,
+    pub friction: f64,
+    /// Gap up to which the link counts as touching the ground, m.
+    pub contact: f64,
+    /// Its features in [`Model::features`].
+    pub features: Range<usize>,
+}
+
+/// Where the links are in the frame of the base module's body.
+#[derive(Clone, Debug)]
+pub struct Posture {
+    pub R: Vec<Mat3>,
+    pub p: Vec<Vec3>,
+    /// Centre of mass of the attached links.
+    pub centre: Vec3,
+}
+
+impl<'a> Model<'a> {
+    /// Compiles `robot` with the bonds for which `bonds` says true.
+    pub fn new(robot: &'a Assembly, bonds: &[bool]) -> Model<'a> {
+        let kinematics = Kinematics::new(robot, bonds, robot.base);
+        let mut model = Model {
+            robot,
+            bodies: Vec::with_capacity(kinematics.link_count()),
+            kinematics,
+            attached: Vec::new(),
+            features: Vec::new(),
+            link_of: Vec::new(),
+            mass: 0.0,
+        };
+        let mut shapes: Vec<Option<Vec<Vec<Feature>>>> = vec![None; robot.library.modules.len()];
+        for module in 0..robot.modules.len() {
+            let declared = robot.module_type(module);
+            let shapes = shapes[robot.modules[module].kind].get_or_insert_with(|| {
+                declared.links.iter().map(|link| support::features(&link.collides)).collect()
+            });
+            let loose = model.kinematics.tree.loose.binary_search(&module).is_ok();
+            for (index, link) in declared.links.iter().enumerate() {
+                let first = model.features.len();
+                if !loose {
+                    let number = model.bodies.len();
+                    model.attached.push(number);
+                    model.mass += link.mass;
+                    model.features.extend_from_slice(&shapes[index]);
+                    model.link_of.resize(model.features.len(), number);
+                }
+                model.bodies.push(Body {
+                    module,
+                    mass: link.mass,
+                    com: link.com,
+                    friction: link.friction,
+                    contact: declared.contact,
+                    features: first..model.features.len(),
+                });
+            }
+        }
+        model
+    }
+
+    /// Where the links are with the joints at these positions. `poses` is room for one pose a link.
+    pub fn posture(&self, joints: &[f64], poses: &mut Vec<Pose>) -> Posture {
+        poses.resize(self.bodies.len(), Pose::identity());
+        self.kinematics.link_poses(joints, &Pose::identity(), poses);
+        let R: Vec<Mat3> = poses.iter().map(|X| *X.rotation.to_rotation_matrix().matrix()).collect();
+        let p: Vec<Vec3> = poses.iter().map(|X| X.translation.vector).collect();
+        let mut moment = Vec3::zeros();
+        for &link in &self.attached {
+            moment += (R[link] * self.bodies[link].com + p[link]) * self.bodies[link].mass;
+        }
+        let centre = if self.mass > 0.0 { moment / self.mass } else { p[self.base_link()] };
+        Posture { R, p, centre }
+    }
+
+    /// The body of the base module.
+    pub fn base_link(&self) -> usize {
+        self.kinematics.link(self.robot.base, 0)
+    }
+
+    /// All features with the robot turned by `R`, the centre of mass at the origin.
+    pub fn placed(&self, posture: &Posture, R: &Mat3) -> Vec<Feature> {
+        let mut placed = Vec::with_capacity(self.features.len());
+        for &link in &self.attached {
+            let R_link = R * posture.R[link];
+            let p = R * (posture.p[link] - posture.centre);
+            let own = &self.features[self.bodies[link].features.clone()];
+            placed.extend(own.iter().map(|feature| feature.placed(&R_link, &p)));
+        }
+        placed
+    }
+
+    /// Path name of the module of a link.
+    pub fn module_name(&self, link: usize) -> &str {
+        &self.robot.modules[self.bodies[link].module].name
+    }
+}

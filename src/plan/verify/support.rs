@@ -1,0 +1,172 @@
+//! What of a robot can touch the ground: vertices, circles and spheres, each with one lowest point.
+//!
+//! Wheels are exact circles. A polygon would make wells in which a chassis sticks; and a wheel's own
+//! spin changes no feature at all, which is what makes rolling cheap and exact.
+
+use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
+
+pub type Mat3 = nalgebra::Matrix3<f64>;
+
+/// Points that stand for a circle: the lowest, and others round it so that a disc lying flat is more
+/// than one point.
+pub const CIRCLE_POINTS: u8 = 8;
+
+/// A circle whose plane is level within this (sine of the angle) has no lowest point of its own.
+const LEVEL: f64 = 1e-9;
+
+/// Nesting of unions that is looked into; deeper parts are not declared by anyone.
+const UNIONS_MAX: usize = 100_000;
+
+/// A part of a link's surface, in the frame of the link or in another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feature {
+    pub centre: Vec3,
+    pub form: Form,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    Vertex,
+    /// Unit axis; radius in metres.
+    Circle(Vec3, f64),
+    /// Radius in metres.
+    Sphere(f64),
+}
+
+impl Feature {
+    /// The feature in the frame in which its own frame is turned by `R` and then shifted by `p`.
+    pub fn placed(&self, R: &Mat3, p: &Vec3) -> Feature {
+        let form = match self.form {
+            Form::Circle(axis, radius) => Form::Circle(R * axis, radius),
+            form => form,
+        };
+        Feature { centre: R * self.centre + p, form }
+    }
+
+    /// How many points stand for it.
+    pub fn points(&self) -> u8 {
+        if matches!(self.form, Form::Circle(..)) { CIRCLE_POINTS } else { 1 }
+    }
+
+    /// Height of its lowest point along the unit vector `up`.
+    pub fn lowest(&self, up: &Vec3) -> f64 {
+        let centre = up.dot(&self.centre);
+        match self.form {
+            Form::Vertex => centre,
+            Form::Sphere(radius) => centre - radius,
+            Form::Circle(axis, radius) => {
+                let along = up.dot(&axis);
+                centre - radius * libm::sqrt((1.0 - along * along).max(0.0))
+            }
+        }
+    }
+
+    /// Point `k` of those that stand for it; 0 is the lowest along `up`.
+    pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
+        match self.form {
+            Form::Vertex => self.centre,
+            Form::Sphere(radius) => self.centre - up * radius,
+            Form::Circle(axis, radius) => {
+                let e = downhill(&axis, up);
+                let (s, c) = EIGHTHS[usize::from(k % CIRCLE_POINTS)];
+                self.centre + (e * c + axis.cross(&e) * s) * radius
+            }
+        }
+    }
+
+    /// Upper bound on how far any point of it is from the origin, m.
+    pub fn reach(&self) -> f64 {
+        self.centre.norm() + self.radius()
+    }
+
+    /// Upper bound on how far any of its points is from the place of its like in `other`, m.
+    pub fn moved(&self, other: &Feature) -> f64 {
+        let centre = (self.centre - other.centre).norm();
+        match (self.form, other.form) {
+            (Form::Circle(a, radius), Form::Circle(b, _)) => centre + radius * (a - b).norm(),
+            _ => centre,
+        }
+    }
+
+    fn radius(&self) -> f64 {
+        match self.form {
+            Form::Vertex => 0.0,
+            Form::Circle(_, radius) | Form::Sphere(radius) => radius,
+        }
+    }
+}
+
+const HALF_ROOT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// Sine and cosine of the eighths of a turn.
+const EIGHTHS: [(f64, f64); 8] = [
+    (0.0, 1.0),
+    (HALF_ROOT, HALF_ROOT),
+    (1.0, 0.0),
+    (HALF_ROOT, -HALF_ROOT),
+    (0.0, -1.0),
+    (-HALF_ROOT, -HALF_ROOT),
+    (-1.0, 0.0),
+    (-HALF_ROOT, HALF_ROOT),
+];
+
+/// The unit vector in the plane of a circle that goes down steepest; for a level circle one that
+/// depends on its axis alone.
+fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
+    let e = axis * up.dot(axis) - up;
+    let n = e.norm();
+    if n > LEVEL {
+        return e / n;
+    }
+    let across = if axis.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
+    (across - axis * across.dot(axis)).normalize()
+}
+
+/// The features of a link's shapes, in the frame of the link, in an order that depends on nothing
+/// but the declaration.
+pub fn features(shapes: &[Placed]) -> Vec<Feature> {
+    let mut found = Vec::new();
+    let mut open: Vec<(Pose, &Shape)> = shapes.iter().rev().map(|s| (s.pose, &s.shape)).collect();
+    for _ in 0..UNIONS_MAX {
+        let Some((pose, shape)) = open.pop() else { break };
+        if let Shape::Union { parts } = shape {
+            open.extend(parts.iter().rev().map(|part| (pose * part.pose, &part.shape)));
+            continue;
+        }
+        let (R, p) = (*pose.rotation.to_rotation_matrix().matrix(), pose.translation.vector);
+        found.extend(of_shape(shape).iter().map(|feature| feature.placed(&R, &p)));
+    }
+    found
+}
+
+fn of_shape(shape: &Shape) -> Vec<Feature> {
+    let feature = |centre, form| Feature { centre, form };
+    match shape {
+        Shape::Box { size } => {
+            let corner = |i: u8| {
+                let sign = |bit: u8| if i & bit == 0 { -0.5 } else { 0.5 };
+                Vec3::new(sign(1) * size.x, sign(2) * size.y, sign(4) * size.z)
+            };
+            (0..8).map(|i| feature(corner(i), Form::Vertex)).collect()
+        }
+        Shape::Cylinder { radius, length, axis } => {
+            let ends = [-0.5, 0.5].map(|half| axis * (half * length));
+            ends.map(|centre| feature(centre, Form::Circle(*axis, *radius))).to_vec()
+        }
+        Shape::Sphere { radius } => vec![feature(Vec3::zeros(), Form::Sphere(*radius))],
+        Shape::Capsule { radius, length, axis } => {
+            let ends = [-0.5, 0.5].map(|half| axis * (half * length));
+            ends.map(|centre| feature(centre, Form::Sphere(*radius))).to_vec()
+        }
+        Shape::Hull { points } => vertices(points),
+        Shape::Mesh { vertices: points, .. } => vertices(points),
+        Shape::Union { .. } => vec![],
+    }
+}
+
+/// Only corners of the convex hull can be lowest.
+fn vertices(points: &[Vec3]) -> Vec<Feature> {
+    let corners = hull::faces(points).map(|faces| faces.points);
+    let corners = corners.as_deref().unwrap_or(points);
+    corners.iter().map(|p| Feature { centre: *p, form: Form::Vertex }).collect()
+}
