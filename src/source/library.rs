@@ -8,7 +8,16 @@ macro_rules! embed {
 }
 
 /// Name and text of each file, in order of name.
-pub const FILES: &[(&str, &str)] = embed!["prelude.mod"];
+pub const FILES: &[(&str, &str)] = embed![
+    "crystal.mod",
+    "gaits.mod",
+    "mori.mod",
+    "prelude.mod",
+    "rofi.mod",
+    "shapes.mod",
+    "smores.mod",
+    "truss.mod",
+];
 
 /// The text of a library file, such as `smores.mod` for `std.smores`.
 pub fn text(name: &str) -> Option<&'static str> {

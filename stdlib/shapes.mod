@@ -1,0 +1,217 @@
+//! Meshes to fold, morph to and learn from: the convex deltahedra, and a few shapes with a purpose.
+//!
+//! All are centred, except where their documentation says otherwise; faces are listed
+//! counterclockwise from outside.
+
+// Points given as multiples of a length.
+fn _scaled(points: List<Vec3<Number>>, by: Length) -> List<Vec3<Length>> = [p * by for p in points]
+
+// `n` points on a circle about the z axis, the first at the angle `from`.
+fn _ring(n: Int, radius: Length, z: Length, from: Angle = 0deg) -> List<Vec3<Length>> =
+  [[radius * cos(360deg * i / n + from), radius * sin(360deg * i / n + from), z] for i in 0..n]
+
+// The golden ratio.
+let _golden = (1 + sqrt(5)) / 2
+
+// The two tips of a bipyramid.
+fn _tips(z: Length) -> List<Vec3<Length>> = [[0m, 0m, z], [0m, 0m, -z]]
+
+/// Four triangles.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.tetrahedron
+/// print(faces(tetrahedron(edge: 80mm)))
+/// ```
+fn tetrahedron(edge: Length) -> Mesh = polyhedron(
+  _scaled([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], edge / sqrt(8)),
+  [
+    [0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2],
+  ],
+)
+
+/// Six triangles: two tetrahedra, face on face.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.triangular_bipyramid
+/// print(faces(triangular_bipyramid(edge: 80mm)))
+/// ```
+fn triangular_bipyramid(edge: Length) -> Mesh = polyhedron(
+  _ring(3, edge / sqrt(3), 0m) ++ _tips(edge * sqrt(2 / 3)),
+  [
+    [0, 1, 3], [0, 4, 1], [0, 3, 2], [0, 2, 4], [1, 2, 3], [1, 4, 2],
+  ],
+)
+
+/// Eight triangles.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.octahedron
+/// print(faces(octahedron(edge: 80mm)))
+/// ```
+fn octahedron(edge: Length) -> Mesh = polyhedron(
+  _scaled([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], edge / sqrt(2)),
+  [
+    [0, 2, 4], [0, 5, 2], [0, 4, 3], [0, 3, 5], [1, 4, 2], [1, 2, 5], [1, 3, 4], [1, 5, 3],
+  ],
+)
+
+/// Ten triangles: two pyramids on a pentagon.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.pentagonal_bipyramid
+/// print(faces(pentagonal_bipyramid(edge: 80mm)))
+/// ```
+fn pentagonal_bipyramid(edge: Length) -> Mesh = polyhedron(
+  _ring(5, edge / (2 * sin(36deg)), 0m) ++ _tips(edge * sqrt(1 - (1 / (2 * sin(36deg)))^2)),
+  [
+    [0, 1, 5], [0, 6, 1], [0, 5, 4], [0, 4, 6], [1, 2, 5], [1, 6, 2], [2, 3, 5], [2, 6, 3],
+    [3, 4, 5], [3, 6, 4],
+  ],
+)
+
+/// Twelve triangles. Its coordinates are roots of a cubic.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.snub_disphenoid
+/// print(faces(snub_disphenoid(edge: 80mm)))
+/// ```
+fn snub_disphenoid(edge: Length) -> Mesh = polyhedron(
+  _scaled([
+    [0.644584273224, 0.205561565853, 0],
+    [-0.644584273224, 0.205561565853, 0],
+    [0, -0.205561565853, 0.644584273224],
+    [0, -0.205561565853, -0.644584273224],
+    [0.5, -0.783930924233, 0],
+    [-0.5, -0.783930924233, 0],
+    [0, 0.783930924233, 0.5],
+    [0, 0.783930924233, -0.5],
+  ], edge),
+  [
+    [0, 2, 4], [6, 2, 0], [4, 3, 0], [0, 3, 7], [7, 6, 0], [5, 2, 1], [1, 2, 6], [1, 3, 5],
+    [7, 3, 1], [1, 6, 7], [5, 4, 2], [3, 4, 5],
+  ],
+)
+
+/// Fourteen triangles: a triangular prism with a pyramid on each side.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.triaugmented_prism
+/// print(faces(triaugmented_prism(edge: 80mm)))
+/// ```
+fn triaugmented_prism(edge: Length) -> Mesh = polyhedron(
+  _ring(3, edge / sqrt(3), -edge / 2) ++ _ring(3, edge / sqrt(3), edge / 2)
+    ++ _ring(3, edge * (1 / sqrt(12) + 1 / sqrt(2)), 0m, from: 60deg),
+  [
+    [0, 2, 1], [0, 1, 6], [0, 8, 2], [0, 6, 3], [0, 3, 8], [1, 2, 7], [1, 4, 6], [1, 7, 4],
+    [2, 5, 7], [2, 8, 5], [3, 4, 5], [3, 6, 4], [3, 5, 8], [4, 7, 5],
+  ],
+)
+
+/// Sixteen triangles: a square antiprism with a pyramid on either end.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.gyroelongated_bipyramid
+/// print(faces(gyroelongated_bipyramid(edge: 80mm)))
+/// ```
+fn gyroelongated_bipyramid(edge: Length) -> Mesh = polyhedron(
+  _ring(4, edge / sqrt(2), -edge / (2 * sqrt(sqrt(2)))) ++ _ring(4, edge / sqrt(2), edge / (2 * sqrt(sqrt(2))), from: 45deg)
+    ++ _tips(-edge / sqrt(2) - edge / (2 * sqrt(sqrt(2)))),
+  [
+    [0, 1, 4], [0, 8, 1], [0, 7, 3], [0, 3, 8], [0, 4, 7], [1, 2, 5], [1, 8, 2], [1, 5, 4],
+    [2, 3, 6], [2, 8, 3], [2, 6, 5], [3, 7, 6], [4, 5, 9], [4, 9, 7], [5, 6, 9], [6, 7, 9],
+  ],
+)
+
+/// Twenty triangles.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.icosahedron
+/// print(faces(icosahedron(edge: 80mm)))
+/// ```
+fn icosahedron(edge: Length) -> Mesh = polyhedron(
+  _scaled(
+    [[0, a, b * _golden] for a in [1, -1] for b in [1, -1]]
+      ++ [[a, b * _golden, 0] for a in [1, -1] for b in [1, -1]]
+      ++ [[b * _golden, 0, a] for a in [1, -1] for b in [1, -1]],
+    edge / 2,
+  ),
+  [
+    [0, 2, 8], [0, 9, 2], [0, 4, 6], [0, 8, 4], [0, 6, 9], [1, 10, 3], [1, 3, 11], [1, 6, 4],
+    [1, 4, 10], [1, 11, 6], [2, 7, 5], [2, 5, 8], [2, 9, 7], [3, 5, 7], [3, 10, 5], [3, 7, 11],
+    [4, 8, 10], [5, 10, 8], [6, 11, 9], [7, 9, 11],
+  ],
+)
+
+/// A cube, of six squares.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.cube
+/// print(faces(cube(edge: 2m)))
+/// ```
+fn cube(edge: Length) -> Mesh = polyhedron(
+  _scaled([[x, y, z] for z in [-1, 1] for y in [-1, 1] for x in [-1, 1]], edge / 2),
+  [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]],
+)
+
+/// An L: two square bars of the given length and width that share a corner, lying in the xy plane.
+///
+/// The corner of the L is at the origin; the bars are as high as wide, from z = 0 up.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.ell
+/// print(faces(ell(length: 3m, width: 1m)))
+/// ```
+fn ell(length: Length, width: Length) -> Mesh = {
+  let outline = [[0m, 0m], [length, 0m], [length, width], [width, width], [width, length], [0m, length]]
+  polyhedron(
+    [[p[0], p[1], z] for z in [0m, width] for p in outline],
+    [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11]] ++ [[i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6] for i in 0..6],
+  )
+}
+
+/// A quadruped of eighteen triangles: a shell cut from an icosahedron, and four legs of two triangles.
+///
+/// It stands on the plane z = 0; its hips are splayed by 45 degrees, its knees bent by 20. It is open
+/// below. Its faces have 108 spanning trees.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.quadruped18
+/// print(faces(quadruped18(edge: 80mm)))
+/// ```
+fn quadruped18(edge: Length) -> Mesh = polyhedron(
+  _scaled([
+    [-0.288675134595, -0.5, 1.42986478007],
+    [-0.288675134595, 0.5, 1.42986478007],
+    [0.57735026919, 0, 1.42986478007],
+    [-0.467086179481, 0.809016994375, 0.495692421109],
+    [0.934172358963, 0, 0.495692421109],
+    [-0.467086179481, -0.809016994375, 0.495692421109],
+    [0.467086179481, -0.809016994375, 0.852514510883],
+    [-0.934172358963, 0, 0.852514510883],
+    [0.467086179481, 0.809016994375, 0.852514510883],
+    [-1.35416587795, -0.538244912745, 0.121831366208],
+    [-1.02499222787, -1.4746218808, 0],
+    [-1.35416587795, 0.538244912745, 0.121831366208],
+    [-1.02499222787, 1.4746218808, 0],
+    [1.14321670687, -0.903619594872, 0.121831366208],
+    [1.78955612368, -0.150358367616, 0],
+    [1.14321670687, 0.903619594872, 0.121831366208],
+    [1.78955612368, 0.150358367616, 0],
+  ], edge),
+  [
+    [2, 1, 0], [0, 1, 7], [6, 2, 0], [0, 5, 6], [7, 5, 0], [1, 2, 8],
+    [1, 3, 7], [8, 3, 1], [6, 4, 2], [2, 4, 8], [5, 7, 9], [5, 9, 10],
+    [7, 3, 11], [12, 11, 3], [4, 6, 13], [4, 13, 14], [8, 4, 15], [16, 15, 4],
+  ],
+)
