@@ -9,6 +9,7 @@ mod ground;
 mod kinematics;
 mod mass;
 mod motions;
+mod plan_operations;
 mod programs;
 mod render;
 mod robots;

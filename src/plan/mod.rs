@@ -17,16 +17,34 @@ pub mod verify;
 pub mod visit;
 pub mod world;
 
+pub mod carry;
+pub mod concat;
+pub mod reverse;
+pub mod slice;
+pub mod timeline;
+pub mod unfit;
+
+pub mod file;
+mod finite;
+mod form;
+pub mod validate;
+
 use crate::robot::Library;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 pub use body::{Body, Snapshot};
+pub use carry::Carrier;
+pub use concat::joined;
 pub use node_paths::{Knot, NodePaths, Way};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
+pub use reverse::reversed;
+pub use slice::sliced;
 pub use stages::{CellBox, Counter, Law, Model, Ratio, Run, Stage, Stages};
+pub use timeline::timeline;
 pub use tracks::{Dock, DockKind, Segment, Track, Tracks};
+pub use unfit::Unfit;
 pub use verdict::{Check, CheckKind, Failure, Status, Verdict, Worst};
 pub use world::{Exemption, ExemptionKind, Ground, Settings, Stability, World};
 

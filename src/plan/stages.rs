@@ -22,7 +22,7 @@ pub struct Stages {
     pub time_unit: f64,
     /// What the cells' forces are bound to.
     pub model: Model,
-    /// Where every cell is at the start: together the runs hold each cell once.
+    /// Where every cell is at the start. Of two runs that name a cell the later holds.
     pub start: Vec<Run>,
     pub stages: Vec<Stage>,
 }
@@ -37,7 +37,8 @@ pub struct Model {
     pub contact_force: Option<Ratio>,
 }
 
-/// One stage: from where the one before ended to `end`. Cells that no run names stay.
+/// One stage: from where the one before ended to `end`. Cells that no run names stay; of two runs
+/// that name a cell the later holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
@@ -133,10 +134,14 @@ impl Stage {
 }
 
 impl Run {
+    /// How many cells it holds.
+    pub fn count(&self) -> u64 {
+        self.counters.iter().map(|c| c.count).product()
+    }
+
     /// Every cell of the run with its centre and size, in cell sizes.
     pub fn cells(&self) -> impl Iterator<Item = (usize, CellBox)> + '_ {
-        let total: u64 = self.counters.iter().map(|c| c.count).product();
-        (0..total).map(|n| self.cell(n))
+        (0..self.count()).map(|n| self.cell(n))
     }
 
     fn cell(&self, mut n: u64) -> (usize, CellBox) {
@@ -168,6 +173,18 @@ impl Stages {
             now * self.time_unit
         });
         std::iter::once(0.0).chain(ends).collect()
+    }
+
+    /// Runs that say where every cell is before a stage: those since the last that named every cell,
+    /// in order, so that of two that name a cell the later holds.
+    pub fn before(&self, stage: usize) -> Vec<Run> {
+        let named: Vec<&[Run]> = std::iter::once(&self.start)
+            .chain(self.stages[..stage].iter().map(|s| &s.end))
+            .map(Vec::as_slice)
+            .collect();
+        let all = |runs: &&[Run]| runs.iter().map(Run::count).sum::<u64>() >= self.count;
+        let first = named.iter().rposition(all).unwrap_or(0);
+        named[first..].concat()
     }
 
     /// Every cell at a time in seconds, in cell sizes.

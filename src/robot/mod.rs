@@ -6,6 +6,7 @@ pub mod library;
 pub mod mass;
 
 pub mod kinematics;
+pub mod matching;
 pub mod step;
 pub mod tree;
 
@@ -15,3 +16,4 @@ pub use library::{
     Capture, Cell, Connector, Hinge, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Port, Strut,
 };
 pub use mass::Mass;
+pub use matching::{Matching, Mismatch, matching};

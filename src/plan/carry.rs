@@ -1,0 +1,237 @@
+//! Programs and motions of one robot carried over to another that matches it.
+
+use super::visit::{Graph, with_children};
+use super::{
+    Action, CauseId, Command, Condition, Dock, Exemption, ExemptionKind, Node, Otherwise, Segment, Signal,
+    Target, Track, Tracks,
+};
+use crate::robot::{Assembly, Bond, JointId, JointOwner, Kinematics, Matching, PortRef, State};
+use std::sync::Arc;
+
+/// How to say of robot A, with the bonds that B needs beside its own, what was said of robot B.
+#[derive(Clone, Debug)]
+pub struct Carrier {
+    /// Robot A with the bonds of B.
+    robot: Assembly,
+    /// State at the start, those bonds open.
+    start: State,
+    modules: Vec<usize>,
+    /// For every bond of B.
+    bonds: Vec<usize>,
+    /// For every joint of B.
+    joints: Vec<JointId>,
+    /// For every joint of B: what to add to its position.
+    offsets: Vec<f64>,
+    /// What to add to a cause.
+    causes: u32,
+}
+
+impl Carrier {
+    /// `found` is where the robot of `b`, at its start, is found in that of `a`, at its end.
+    pub fn new(a: &Tracks, b: &Tracks, found: &Matching, causes: u32) -> Carrier {
+        let (mut robot, mut start) = (a.robot.clone(), a.start.clone());
+        let mut hinges = Vec::new();
+        let mut bonds = Vec::new();
+        for (index, bond) in b.robot.bonds.iter().enumerate() {
+            let port = |p: PortRef| PortRef { module: found.modules[p.module], port: p.port };
+            let image = Bond { a: port(bond.a), b: port(bond.b), turn: bond.turn };
+            let known = found.bonds[index].or_else(|| free_bond(&robot, &image, &start));
+            bonds.push(known.unwrap_or_else(|| {
+                robot.bonds.push(image);
+                start.bonds.push(false);
+                hinges.push(index);
+                robot.bonds.len() - 1
+            }));
+        }
+        let in_b = Kinematics::new(&b.robot, &b.start.bonds, b.robot.base);
+        for bond in hinges {
+            start.joints.extend(in_b.hinge(bond).map(|joint| b.start.joints[joint]));
+        }
+        let in_a = Kinematics::new(&robot, &start.bonds, robot.base);
+        let image = |owner| match owner {
+            JointOwner::Module { module, joint } => in_a.joint(found.modules[module], joint),
+            JointOwner::Bond(bond) => {
+                in_a.hinge(bonds[bond]).expect("a hinge's bond is matched by one with a hinge")
+            }
+        };
+        let joints = b.robot.joints().map(|owner| JointId(image(owner) as u32)).collect();
+        let (modules, offsets) = (found.modules.clone(), found.offsets.clone());
+        Carrier { robot, start, modules, bonds, joints, offsets, causes }
+    }
+
+    /// Which modules have another name in A: (name in B, name in A).
+    pub fn renamed(&self, b: &Assembly) -> Vec<(String, String)> {
+        let pairs =
+            b.modules.iter().zip(&self.modules).map(|(m, &image)| (&m.name, &self.robot.modules[image].name));
+        pairs.filter(|(b, a)| a != b).map(|(b, a)| (b.clone(), a.clone())).collect()
+    }
+
+    /// Motion `a`, then motion `b`.
+    pub fn tracks(self, a: &Tracks, b: &Tracks) -> Tracks {
+        let end = a.end();
+        let mut tracks: Vec<Track> = a.tracks.clone();
+        for track in &b.tracks {
+            let joint = self.joint(track.joint);
+            let at = end.joints.get(joint.0 as usize).copied();
+            let segments = self.segments(track, a.duration, at);
+            match tracks.binary_search_by_key(&joint, |t| t.joint) {
+                Ok(known) => tracks[known].segments.extend(segments),
+                Err(place) => tracks.insert(place, Track { joint, segments }),
+            }
+        }
+        let docks = b.docks.iter().map(|d| Dock {
+            time: d.time + a.duration,
+            bond: self.bonds[d.bond],
+            cause: self.cause(d.cause),
+            ..*d
+        });
+        Tracks {
+            docks: a.docks.iter().cloned().chain(docks).collect(),
+            tracks,
+            duration: a.duration + b.duration,
+            start_causes: a.start_causes.clone(),
+            bond_causes: a.bond_causes.clone(),
+            robot: self.robot,
+            start: self.start,
+        }
+    }
+
+    /// The segments of a track, later by `seam`; the first begins exactly where the joint is.
+    fn segments(&self, track: &Track, seam: f64, at: Option<f64>) -> Vec<Segment> {
+        let offset = self.offsets[track.joint.0 as usize];
+        let mut segments: Vec<Segment> = track
+            .segments
+            .iter()
+            .map(|s| Segment {
+                start: s.start + seam,
+                end: s.end + seam,
+                control: s.control.iter().map(|c| c + offset).collect(),
+                cause: self.cause(s.cause),
+            })
+            .collect();
+        if let (Some(first), Some(at)) = (segments.first_mut(), at) {
+            first.control[0] = at;
+        }
+        segments
+    }
+
+    pub fn exemption(&self, exemption: &Exemption, seam: f64) -> Exemption {
+        Exemption {
+            kind: self.kind(&exemption.kind),
+            from: exemption.from + seam,
+            to: exemption.to + seam,
+            cause: self.cause(exemption.cause),
+        }
+    }
+
+    fn kind(&self, kind: &ExemptionKind) -> ExemptionKind {
+        match kind {
+            ExemptionKind::Collision(Some((m, n))) => {
+                ExemptionKind::Collision(Some((self.modules[*m], self.modules[*n])))
+            }
+            ExemptionKind::Overload(Some(joint)) => {
+                ExemptionKind::Overload(Some(self.joint(JointId(*joint)).0))
+            }
+            other => other.clone(),
+        }
+    }
+
+    /// A program of B, said of A; what is shared stays shared.
+    pub fn program(&self, root: &Arc<Node>) -> Arc<Node> {
+        let graph = Graph::of(root);
+        let mut done: Vec<Arc<Node>> = Vec::with_capacity(graph.nodes.len());
+        for node in &graph.nodes {
+            let new = |child: &Arc<Node>| done[graph.position(child)].clone();
+            let mut made = match &***node {
+                Node::Action(action) => Node::Action(self.action(action, new)),
+                other => with_children(other, new),
+            };
+            match &mut made {
+                Node::Phase { cause, .. } | Node::Approach { cause, .. } | Node::Stretch { cause, .. } => {
+                    *cause = self.cause(*cause);
+                }
+                Node::Exempt { kind, cause, .. } => (*kind, *cause) = (self.kind(kind), self.cause(*cause)),
+                Node::Action(_) | Node::Series(_) | Node::Parallel(_) | Node::Repeat { .. } => {}
+            }
+            done.push(Arc::new(made));
+        }
+        done.pop().expect("a graph has its root")
+    }
+
+    fn action(&self, action: &Action, new: impl Fn(&Arc<Node>) -> Arc<Node>) -> Action {
+        Action {
+            command: self.command(&action.command),
+            until: action.until.as_ref().map(|c| self.condition(c)),
+            timeout: action.timeout,
+            otherwise: match &action.otherwise {
+                Otherwise::Node(node) => Otherwise::Node(new(node)),
+                other => other.clone(),
+            },
+            cause: self.cause(action.cause),
+        }
+    }
+
+    fn command(&self, command: &Command) -> Command {
+        let mut new = command.clone();
+        match &mut new {
+            Command::Move { joint, target, .. } => {
+                if let Target::To(position) = target {
+                    *position += self.offset(*joint);
+                }
+                *joint = self.joint(*joint);
+            }
+            Command::Follow { joint, knots } => {
+                knots.iter_mut().for_each(|knot| knot[1] += self.offset(*joint));
+                *joint = self.joint(*joint);
+            }
+            Command::Spin { joint, .. } => *joint = self.joint(*joint),
+            Command::Dock { a, b } => (*a, *b) = (self.port(*a), self.port(*b)),
+            Command::Undock { port } => *port = self.port(*port),
+            Command::Wait { .. } => {}
+        }
+        new
+    }
+
+    fn condition(&self, condition: &Condition) -> Condition {
+        let boxed = |c: &Condition| Box::new(self.condition(c));
+        match condition {
+            Condition::Compare { signal, compare, value } => {
+                let (signal, value) = match *signal {
+                    Signal::Angle(joint) => (Signal::Angle(self.joint(joint)), value + self.offset(joint)),
+                    Signal::Speed(joint) => (Signal::Speed(self.joint(joint)), *value),
+                    Signal::Elapsed => (Signal::Elapsed, *value),
+                };
+                Condition::Compare { signal, compare: *compare, value }
+            }
+            Condition::Docked(port) => Condition::Docked(self.port(*port)),
+            Condition::Mated(a, b) => Condition::Mated(self.port(*a), self.port(*b)),
+            Condition::And(a, b) => Condition::And(boxed(a), boxed(b)),
+            Condition::Or(a, b) => Condition::Or(boxed(a), boxed(b)),
+            Condition::Not(a) => Condition::Not(boxed(a)),
+        }
+    }
+
+    fn joint(&self, joint: JointId) -> JointId {
+        self.joints[joint.0 as usize]
+    }
+
+    fn offset(&self, joint: JointId) -> f64 {
+        self.offsets[joint.0 as usize]
+    }
+
+    fn port(&self, port: PortRef) -> PortRef {
+        PortRef { module: self.modules[port.module], port: port.port }
+    }
+
+    fn cause(&self, cause: CauseId) -> CauseId {
+        CauseId(cause.0 + self.causes)
+    }
+}
+
+/// A bond of A, between the same ports, that may serve again: one without a hinge, which might have
+/// turned since.
+fn free_bond(robot: &Assembly, image: &Bond, start: &State) -> Option<usize> {
+    let swapped = Bond { a: image.b, b: image.a, turn: image.turn };
+    let found = robot.bonds[..start.bonds.len()].iter().position(|b| b == image || *b == swapped)?;
+    robot.hinge(found).is_none().then_some(found)
+}

@@ -1,0 +1,91 @@
+//! The program that does what tracks say, told by the clock: for plans that were reversed or cut, and
+//! for planned ones.
+
+use super::{Action, CauseId, Command, DockKind, Node, Otherwise, Profile, Segment, Target, Track, Tracks};
+use crate::robot::JointId;
+use std::sync::Arc;
+
+/// A series for every joint and one for docking, in parallel; each action lasts exactly as long as
+/// its segment, gaps are waits. A reason where a piece is no motion that a program can command.
+pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, String> {
+    let mut branches = Vec::with_capacity(tracks.tracks.len() + 1);
+    for track in &tracks.tracks {
+        branches.push(joint(track)?);
+    }
+    if !tracks.docks.is_empty() {
+        branches.push(docking(tracks));
+    }
+    // What nothing moves takes its time, too.
+    branches.push(wait(tracks.duration));
+    Ok(Arc::new(Node::Parallel(branches)))
+}
+
+fn joint(track: &Track) -> Result<Arc<Node>, String> {
+    let mut now = 0.0;
+    let mut series = Vec::with_capacity(track.segments.len());
+    for segment in &track.segments {
+        if segment.start > now {
+            series.push(wait(segment.start - now));
+        }
+        series.push(action(command(track.joint, segment)?, segment.cause));
+        now = segment.end;
+    }
+    Ok(Arc::new(Node::Series(series)))
+}
+
+fn command(joint: JointId, segment: &Segment) -> Result<Command, String> {
+    let duration = segment.end - segment.start;
+    let moved = |profile| Command::Move {
+        joint,
+        target: Target::To(segment.last()),
+        duration: Some(duration),
+        profile,
+    };
+    match segment.control[..] {
+        [_, _] => Ok(moved(Profile::Linear)),
+        [a, b, c, d, e, f] if a == b && b == c && d == e && e == f => Ok(moved(Profile::Smooth)),
+        // Up to the third degree a piece is the cubic between its ends' positions and velocities.
+        [_, _, _] | [_, _, _, _] => {
+            let knot = |t: f64, at: f64| [t - segment.start, at, segment.velocity(t)];
+            let knots = vec![knot(segment.start, segment.control[0]), knot(segment.end, segment.last())];
+            Ok(Command::Follow { joint, knots })
+        }
+        _ => Err(format!(
+            "between {:.3} s and {:.3} s a joint moves by a law that no command states",
+            segment.start, segment.end
+        )),
+    }
+}
+
+fn docking(tracks: &Tracks) -> Arc<Node> {
+    let mut now = 0.0;
+    let mut series = Vec::with_capacity(tracks.docks.len());
+    for dock in &tracks.docks {
+        if dock.time > now {
+            series.push(wait(dock.time - now));
+            now = dock.time;
+        }
+        let bond = tracks.robot.bonds[dock.bond];
+        let command = match dock.kind {
+            DockKind::Dock => Command::Dock { a: bond.a, b: bond.b },
+            DockKind::Undock => Command::Undock { port: bond.b },
+        };
+        series.push(action(command, dock.cause));
+    }
+    Arc::new(Node::Series(series))
+}
+
+/// Waiting has no cause of its own: nothing moves by it.
+fn wait(duration: f64) -> Arc<Node> {
+    action(Command::Wait { duration }, CauseId(0))
+}
+
+fn action(command: Command, cause: CauseId) -> Arc<Node> {
+    Arc::new(Node::Action(Action {
+        command,
+        until: None,
+        timeout: None,
+        otherwise: Otherwise::Proceed,
+        cause,
+    }))
+}

@@ -1,0 +1,248 @@
+//! Whether two robots are the same but for the names of their modules: an isomorphism that keeps
+//! module types, ports, turns and joint positions.
+//!
+//! A connected robot is explored from one module along its bonds, and a bond leaves by a known port:
+//! so the image of one module fixes all others. Every image of the first module is tried in turn,
+//! which takes time in the square of the number of modules at worst.
+
+use super::{Assembly, JointKind, Kinematics, Library, State};
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
+
+/// How the modules and bonds of robot B are found in robot A.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Matching {
+    /// For every module of B, the module of A.
+    pub modules: Vec<usize>,
+    /// For every bond of B that holds, the bond of A.
+    pub bonds: Vec<Option<usize>>,
+    /// For every joint of B, what to add to its position to have that in A: whole turns, and 0 for
+    /// joints that do not turn without end.
+    pub offsets: Vec<f64>,
+}
+
+/// Why two robots do not match; modules by path name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mismatch {
+    /// Different numbers of modules.
+    Count { a: usize, b: usize },
+    /// B is not in one piece, so that its modules can't be told by their bonds.
+    Pieces,
+    /// B has a module whose type A lacks.
+    Kind { module: String, kind: String },
+    /// In the best attempt, these modules differ in what is docked at this port.
+    Bond { a: String, b: String, port: String },
+    /// In the best attempt, these joints have different positions, rad or m.
+    Joint { a: String, b: String, a_position: f64, b_position: f64 },
+}
+
+impl std::fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Mismatch::Count { a, b } => write!(f, "one has {a} modules, the other {b}"),
+            Mismatch::Pieces => write!(f, "the second robot is not in one piece"),
+            Mismatch::Kind { module, kind } => {
+                write!(f, "`{module}` is a `{kind}`, which the first robot lacks there")
+            }
+            Mismatch::Bond { a, b, port } => {
+                write!(f, "at `{port}`, `{a}` and `{b}` are not docked to the same")
+            }
+            Mismatch::Joint { a, b, a_position, b_position } => {
+                write!(f, "`{a}` is at {a_position:.6}, `{b}` at {b_position:.6}")
+            }
+        }
+    }
+}
+
+/// Finds robot B, in its state, in robot A, in its own. Joint positions agree within `tol_joint` (rad
+/// or m), those of endless joints up to whole turns.
+pub fn matching(
+    a: (&Assembly, &State),
+    b: (&Assembly, &State),
+    tol_joint: f64,
+) -> Result<Matching, Mismatch> {
+    let count = (a.0.modules.len(), b.0.modules.len());
+    if count.0 != count.1 || count.0 == 0 {
+        return Err(Mismatch::Count { a: count.0, b: count.1 });
+    }
+    let search = Search { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), tol_joint };
+    // The module of the same name first: names are kept where they can be.
+    let first = &b.0.modules[0];
+    let same_name = a.0.modules.iter().position(|m| m.name == first.name);
+    let others = (0..count.0).filter(|i| Some(*i) != same_name);
+    let mut best: Option<(usize, Mismatch)> = None;
+    for image in same_name.into_iter().chain(others) {
+        match search.from(image) {
+            Ok(found) => return Ok(found),
+            Err((reached, mismatch)) => {
+                if best.as_ref().is_none_or(|(most, _)| reached > *most) {
+                    best = Some((reached, mismatch));
+                }
+            }
+        }
+    }
+    Err(best.expect("there is at least one module").1)
+}
+
+/// Whether two module types are the same but for the numbering of their connectors.
+fn same_kind(a: (&Library, usize), b: (&Library, usize)) -> bool {
+    let (of_a, of_b) = (&a.0.modules[a.1], &b.0.modules[b.1]);
+    if std::ptr::eq(of_a, of_b) {
+        return true;
+    }
+    let mut renumbered = of_b.clone();
+    for (port, like) in renumbered.ports.iter_mut().zip(&of_a.ports) {
+        let (x, y) = (&a.0.connectors[like.connector], &b.0.connectors[port.connector]);
+        if x.name != y.name || x.turns != y.turns || x.hinge != y.hinge {
+            return false;
+        }
+        port.connector = like.connector;
+    }
+    *of_a == renumbered
+}
+
+/// What is docked at a port.
+#[derive(Clone, Copy)]
+struct Docked {
+    module: usize,
+    port: usize,
+    turn: u32,
+    bond: usize,
+    /// Whether this port is the first of the bond; kept only where that matters, in hinges.
+    leads: Option<bool>,
+}
+
+/// A robot in a state, prepared for exploring.
+struct Side<'a> {
+    robot: &'a Assembly,
+    state: &'a State,
+    kinematics: Kinematics,
+    /// By module and port.
+    docked: Vec<Vec<Option<Docked>>>,
+}
+
+impl<'a> Side<'a> {
+    fn new(robot: &'a Assembly, state: &'a State) -> Side<'a> {
+        let ports = |m| vec![None; robot.module_type(m).ports.len()];
+        let mut docked: Vec<Vec<Option<Docked>>> = (0..robot.modules.len()).map(ports).collect();
+        for (index, bond) in robot.bonds.iter().enumerate().filter(|(i, _)| state.bonds[*i]) {
+            for (here, there, leads) in [(bond.a, bond.b, true), (bond.b, bond.a, false)] {
+                let leads = robot.hinge(index).map(|_| leads);
+                let (module, port, turn) = (there.module, there.port, bond.turn);
+                docked[here.module][here.port] = Some(Docked { module, port, turn, bond: index, leads });
+            }
+        }
+        Side { robot, state, kinematics: Kinematics::new(robot, &state.bonds, 0), docked }
+    }
+
+    fn name(&self, module: usize) -> String {
+        self.robot.modules[module].name.clone()
+    }
+}
+
+struct Search<'a> {
+    a: Side<'a>,
+    b: Side<'a>,
+    tol_joint: f64,
+}
+
+impl Search<'_> {
+    /// Tries one image of the first module of B; otherwise how many modules agreed, and what did not.
+    fn from(&self, image: usize) -> Result<Matching, (usize, Mismatch)> {
+        let n = self.b.robot.modules.len();
+        let mut images = vec![None; n];
+        let mut taken = vec![false; n];
+        let mut found = Matching {
+            modules: vec![],
+            bonds: vec![None; self.b.robot.bonds.len()],
+            offsets: vec![0.0; self.b.state.joints.len()],
+        };
+        (images[0], taken[image]) = (Some(image), true);
+        let mut queue = VecDeque::from([0]);
+        let mut reached = 0;
+        // A joint elsewhere does not end the attempt: that the rest fits makes it worth telling.
+        let mut elsewhere: Option<Mismatch> = None;
+        while let Some(x) = queue.pop_front() {
+            let y = images[x].expect("what is queued has an image");
+            self.same_type(x, y).map_err(|mismatch| (reached, mismatch))?;
+            elsewhere = elsewhere.or(self.joints(x, y, &mut found).err());
+            reached += 1;
+            for port in 0..self.b.docked[x].len() {
+                let (here, there) = (self.b.docked[x][port], self.a.docked[y][port]);
+                let (Some(u), Some(v)) = (here, there) else {
+                    if here.is_some() != there.is_some() {
+                        return Err((reached, self.differ(x, y, port)));
+                    }
+                    continue;
+                };
+                let fits = u.port == v.port && u.turn == v.turn && u.leads == v.leads;
+                let fresh = images[u.module].is_none() && !taken[v.module];
+                if !fits || !(fresh || images[u.module] == Some(v.module)) {
+                    return Err((reached, self.differ(x, y, port)));
+                }
+                elsewhere = elsewhere.or(self.hinge(u.bond, v.bond, &mut found).err());
+                found.bonds[u.bond] = Some(v.bond);
+                if fresh {
+                    (images[u.module], taken[v.module]) = (Some(v.module), true);
+                    queue.push_back(u.module);
+                }
+            }
+        }
+        found.modules = images.into_iter().collect::<Option<_>>().ok_or((reached, Mismatch::Pieces))?;
+        elsewhere.map_or(Ok(found), |mismatch| Err((reached, mismatch)))
+    }
+
+    fn same_type(&self, x: usize, y: usize) -> Result<(), Mismatch> {
+        let (a, b) = (self.a.robot, self.b.robot);
+        if !same_kind((&a.library, a.modules[y].kind), (&b.library, b.modules[x].kind)) {
+            return Err(Mismatch::Kind { module: self.b.name(x), kind: b.module_type(x).name.clone() });
+        }
+        Ok(())
+    }
+
+    /// Compares the joint positions of a module of B and one of A of the same type.
+    fn joints(&self, x: usize, y: usize, found: &mut Matching) -> Result<(), Mismatch> {
+        for (index, joint) in self.b.robot.module_type(x).joints.iter().enumerate() {
+            if joint.kind == JointKind::Fixed || joint.mimic.is_some() {
+                continue;
+            }
+            let endless = joint.kind == JointKind::Revolute && joint.limits.range.is_none();
+            let (at_a, at_b) = (self.a.kinematics.joint(y, index), self.b.kinematics.joint(x, index));
+            let name = |side: &Side, module| format!("{}.{}", side.name(module), joint.name);
+            let (in_a, in_b) = (name(&self.a, y), name(&self.b, x));
+            self.joint((at_a, in_a), (at_b, in_b), endless, found)?;
+        }
+        Ok(())
+    }
+
+    fn hinge(&self, bond_b: usize, bond_a: usize, found: &mut Matching) -> Result<(), Mismatch> {
+        let (Some(at_a), Some(at_b)) = (self.a.kinematics.hinge(bond_a), self.b.kinematics.hinge(bond_b))
+        else {
+            return Ok(());
+        };
+        let name = |side: &Side, bond| side.robot.joint_name(super::JointOwner::Bond(bond));
+        let endless = self.b.robot.hinge(bond_b).is_some_and(|h| h.limits.range.is_none());
+        self.joint((at_a, name(&self.a, bond_a)), (at_b, name(&self.b, bond_b)), endless, found)
+    }
+
+    fn joint(
+        &self,
+        a: (usize, String),
+        b: (usize, String),
+        endless: bool,
+        found: &mut Matching,
+    ) -> Result<(), Mismatch> {
+        let (p, q) = (self.a.state.joints[a.0], self.b.state.joints[b.0]);
+        let offset = if endless { libm::round((p - q) / TAU) * TAU } else { 0.0 };
+        if (p - q - offset).abs() > self.tol_joint {
+            return Err(Mismatch::Joint { a: a.1, b: b.1, a_position: p, b_position: q });
+        }
+        found.offsets[b.0] = offset;
+        Ok(())
+    }
+
+    fn differ(&self, x: usize, y: usize, port: usize) -> Mismatch {
+        let port = self.b.robot.module_type(x).ports[port].name.clone();
+        Mismatch::Bond { a: self.a.name(y), b: self.b.name(x), port }
+    }
+}
