@@ -4,10 +4,10 @@ use super::arguments::Globals;
 use super::disk::Project;
 use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
-use super::{CallError, Ending, stubs};
+use super::{CallError, Ending};
 
 use crate::check;
-use crate::interpret::{Limits, Mode, Options, Outcome, TestResult};
+use crate::interpret::{self, Limits, Mode, Options, Outcome, TestResult};
 use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
 
@@ -65,7 +65,8 @@ fn one(
     let mut diagnostics = checked.diagnostics.clone();
     let mut outcome = Outcome::default();
     if !diagnostics.iter().any(Diagnostic::is_error) {
-        outcome = stubs::run(&checked, mode(task), project as &dyn Files, terminal, &options(task, globals));
+        outcome =
+            interpret::run(&checked, mode(task), project as &dyn Files, terminal, &options(task, globals));
         diagnostics.append(&mut outcome.diagnostics);
     }
     terminal.clear_progress();

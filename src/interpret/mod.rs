@@ -1,5 +1,62 @@
 //! Typed tree to values, effects and plans.
+//!
+//! The way through this room: [`run`] puts an evaluator on a stage of its own ([`stage`]), which
+//! walks expressions ([`eval`], [`operators`], [`call`], [`statements`]) to values ([`value`]).
+//! Declarations become designs ([`elaborate`], [`module`], [`config`], [`connect`], [`lattice`],
+//! [`truss`]) and, for the right wing, robots ([`robot_of`]); behaviours become plans
+//! ([`behavior`], [`planning`]), and what is wrong with these goes back to the lines that caused it
+//! ([`causes`], [`verdicts`]). The built-ins ([`natives`]) are the only bridge between the wings.
 
 pub mod host;
 
+mod stage;
+mod stop;
+mod value;
+
+mod eval;
+mod interpreter;
+mod operators;
+
+mod call;
+mod statements;
+
+mod design;
+mod elaborate;
+
+mod cells;
+mod connector;
+mod facts;
+mod lattice;
+mod module;
+mod stl;
+mod sweep;
+mod truss;
+
+mod config;
+mod connect;
+mod robot_of;
+
+mod behavior;
+mod causes;
+mod joining;
+mod planning;
+mod record;
+mod verdicts;
+
+mod natives;
+mod natives_action;
+mod natives_family;
+mod natives_list;
+mod natives_math;
+mod natives_plan;
+mod natives_robot;
+mod natives_shape;
+mod show_value;
+
+mod pending;
+mod run;
+
 pub use host::{Host, Limits, Mode, Options, Outcome, TestResult, WriteError};
+pub use natives::{Native, all as all_natives};
+pub use record::fields_of;
+pub use run::run;

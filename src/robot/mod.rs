@@ -9,6 +9,7 @@ pub mod kinematics;
 pub mod matching;
 pub mod step;
 pub mod tree;
+pub mod truss;
 
 pub use assembly::{Assembly, Bond, JointId, JointOwner, ModuleInstance, PortRef, State};
 pub use kinematics::{Kinematics, Residual};

@@ -1,0 +1,253 @@
+//! Behaviours: which robot they move, what excuses them, and what is wrong with them before any run.
+
+use super::causes::CauseRecord;
+use super::design::Design;
+use super::eval::Frame;
+use super::interpreter::Interpreter;
+use super::robot_of::{Robot, port_ref};
+use super::stop::{Eval, Stop, fault};
+use super::value::{Behavior, ConditionValue, JointValue, PortValue, Value};
+use crate::behavior::{self, Conflict, Issue, IssueKind, Part};
+use crate::check::typed::{Exemption, ExemptionKind};
+use crate::plan::{self, CauseId, Condition, Node};
+use crate::source::{Code, Diagnostic, Span, code};
+use crate::units::{Dimension, quantity};
+use std::rc::Rc;
+use std::sync::Arc;
+
+impl Interpreter<'_> {
+    /// The one robot that two things belong to.
+    pub fn common_robot(
+        &self,
+        a: Option<&Rc<Design>>,
+        b: Option<&Rc<Design>>,
+        span: Span,
+    ) -> Eval<Option<Rc<Design>>> {
+        match (a, b) {
+            (Some(a), Some(b)) if !Rc::ptr_eq(a, b) => Err(other_robot(a, b, span)),
+            (a, b) => Ok(a.or(b).cloned()),
+        }
+    }
+
+    /// The robot of a joint, for an action; `None` where something is wrong with it.
+    pub fn robot_at(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
+        let running = design.config().is_some_and(|config| !config.complete.get());
+        if running {
+            let message = format!("`{}` is not complete here", design.name);
+            return Err(fault(
+                code::DECLARATION_CYCLE,
+                span,
+                message,
+                "asked before all connections are made",
+            ));
+        }
+        self.robot_of_checked(design)
+    }
+
+    /// The robot even of a configuration with mistakes, so that its behaviours can be looked at.
+    fn robot_of_checked(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
+        let broken = design.broken.replace(false);
+        let robot = self.robot_of(design);
+        design.broken.set(broken);
+        robot
+    }
+
+    /// `allows unstable, collision(a, b)`
+    pub fn exempt(
+        &mut self,
+        behavior: &Rc<Behavior>,
+        allows: &[Exemption],
+        frame: &mut Frame,
+    ) -> Eval<Value> {
+        let mut node = behavior.node.clone();
+        for exemption in allows.iter().rev() {
+            let Some(kind) = self.exemption_kind(&exemption.kind, behavior, frame)? else {
+                return Ok(Value::Unknown);
+            };
+            let cause = self.cause(exemption.span, Vec::new(), "");
+            node = Arc::new(Node::Exempt { body: node, kind, cause });
+        }
+        Ok(Value::Behavior(Rc::new(Behavior { robot: behavior.robot.clone(), node })))
+    }
+
+    fn exemption_kind(
+        &mut self,
+        kind: &ExemptionKind,
+        behavior: &Behavior,
+        frame: &mut Frame,
+    ) -> Eval<Option<plan::ExemptionKind>> {
+        Ok(Some(match kind {
+            ExemptionKind::Unstable => plan::ExemptionKind::Unstable,
+            ExemptionKind::Slip => plan::ExemptionKind::Slip,
+            ExemptionKind::Collision(None) => plan::ExemptionKind::Collision(None),
+            ExemptionKind::Overload(None) => plan::ExemptionKind::Overload(None),
+            ExemptionKind::Collision(Some((a, b))) => {
+                let parts = (self.eval(a, frame)?, self.eval(b, frame)?);
+                let (Value::Instance(x), Value::Instance(y)) = parts else { return Ok(None) };
+                for (part, expr) in [(&x, a), (&y, b)] {
+                    self.common_robot(behavior.robot.as_ref(), Some(&part.robot), expr.span)?;
+                    if part.design.module().is_none() {
+                        let message = "`collision` names two modules, or none";
+                        return Err(fault(code::BAD_ACTION, expr.span, message, "not a single module"));
+                    }
+                }
+                plan::ExemptionKind::Collision(Some((x.offset, y.offset)))
+            }
+            ExemptionKind::Overload(Some(joint)) => {
+                let Value::Joint(value) = self.eval(joint, frame)? else { return Ok(None) };
+                self.common_robot(behavior.robot.as_ref(), Some(&value.robot), joint.span)?;
+                let Some(robot) = self.robot_at(&value.robot, joint.span)? else { return Ok(None) };
+                plan::ExemptionKind::Overload(Some(robot.joint(&value).0))
+            }
+        }))
+    }
+
+    /// `a <-> b`
+    pub fn mated_condition(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Value> {
+        let (Value::Port(a), Value::Port(b)) = (a, b) else { return Ok(Value::Unknown) };
+        let robot = self.common_robot(Some(&a.robot), Some(&b.robot), span)?;
+        let condition = Condition::Mated(port_ref(a), port_ref(b));
+        Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))
+    }
+
+    /// Reports what is wrong with a behaviour before any run: commands in conflict, limits of the
+    /// joints; gives whether nothing is.
+    pub fn check_behavior(&mut self, behavior: &Behavior) -> Eval<bool> {
+        let Some(design) = &behavior.robot else { return Ok(true) };
+        let Some(robot) = self.robot_of_checked(design)? else { return Ok(false) };
+        let mark = self.errors;
+        let assembly = &robot.assembly;
+        let tol = behavior::Settings::default().tol_duration;
+        for issue in behavior::issues(assembly, &behavior.node, tol) {
+            let diagnostic = self.issue(&issue);
+            self.add_report(diagnostic);
+        }
+        let found = behavior::conflicts(&behavior.node);
+        for (list, error) in [(&found.errors, true), (&found.warnings, false)] {
+            for conflict in list {
+                let diagnostic = self.conflict(conflict, &robot, error);
+                self.add_report(diagnostic);
+            }
+        }
+        Ok(!self.failed_since(mark))
+    }
+
+    fn conflict(&self, conflict: &Conflict, robot: &Robot, error: bool) -> Diagnostic {
+        let joint = robot.joint_name(conflict.joint);
+        let (a, b) = (self.causes.get(conflict.first), self.causes.get(conflict.second));
+        let diagnostic = if error {
+            Diagnostic::error(code::CONFLICT, format!("two commands to {joint} at one time"))
+        } else {
+            Diagnostic::warning(
+                code::EQUAL_SETPOINTS,
+                format!("the same command to {joint} twice at one time"),
+            )
+        };
+        let first = with_instance(format!("commands {joint}"), a);
+        let second = with_instance("and so does this, in parallel".to_string(), b);
+        let diagnostic = diagnostic.label(a.primary(), first).label(b.primary(), second);
+        let diagnostic = in_library(in_library(diagnostic, a), b);
+        if error {
+            diagnostic.hint("put one after the other with `Sc`")
+        } else {
+            diagnostic.hint("leave one of them out")
+        }
+    }
+
+    /// What an action asks for that its joint can't do, at the argument that asks.
+    pub fn issue(&self, issue: &Issue) -> Diagnostic {
+        let record = self.causes.get(issue.cause);
+        let (code, message, label) = issue_words(&issue.kind);
+        let at = if record.caller.is_some() { record.primary() } else { record.argument(issue.part) };
+        let label = if message.contains(&*record.instance) { label } else { with_instance(label, record) };
+        let diagnostic = Diagnostic::error(code, message).label(at, label);
+        let diagnostic = in_library(diagnostic, record);
+        match &issue.kind {
+            IssueKind::TooShort { needed, .. } => {
+                diagnostic.hint(format!("the least time is {}", quantity(*needed, Dimension::TIME)))
+            }
+            _ => diagnostic,
+        }
+    }
+
+    /// The instance a joint belongs to is the subject of its commands.
+    pub fn action_cause(&mut self, span: Span, args: Vec<(Part, Span)>, joint: &JointValue) -> CauseId {
+        let subject = joint.name();
+        self.cause(span, args, &subject)
+    }
+
+    /// Whether two ports are of one robot.
+    pub fn common_ports(&self, a: &PortValue, b: &PortValue, span: Span) -> Eval<Option<Rc<Design>>> {
+        self.common_robot(Some(&a.robot), Some(&b.robot), span)
+    }
+}
+
+pub fn with_instance(label: String, record: &CauseRecord) -> String {
+    if label.contains(&*record.instance) { label } else { format!("{label} [{}]", record.instance) }
+}
+
+/// Behind the user's own line, the one in the library.
+pub fn in_library(diagnostic: Diagnostic, record: &CauseRecord) -> Diagnostic {
+    match record.caller {
+        Some(_) => diagnostic.label(record.span, "the command itself, in the library"),
+        None => diagnostic,
+    }
+}
+
+fn issue_words(kind: &IssueKind) -> (Code, String, String) {
+    let unit = |prismatic: bool| if prismatic { Dimension::LENGTH } else { Dimension::ANGLE };
+    let speed_unit = |prismatic: bool| if prismatic { Dimension::SPEED } else { Dimension::ANGULAR_SPEED };
+    match kind {
+        IssueKind::OutOfRange { joint, position, range, prismatic } => {
+            let show = |x: f64| quantity(x, unit(*prismatic));
+            let (low, high) = (show(range.0), show(range.1));
+            let at = show(*position);
+            (
+                code::OUT_OF_RANGE,
+                format!("{joint} can't go to {at}: its range is {low} to {high}"),
+                format!("outside {low} to {high}"),
+            )
+        }
+        IssueKind::TooFast { joint, speed, limit, prismatic } => {
+            let show = |x: f64| quantity(x, speed_unit(*prismatic));
+            let (speed, limit) = (show(*speed), show(*limit));
+            (
+                code::TOO_FAST,
+                format!("{joint} can't turn at {speed}: its limit is {limit}"),
+                format!("faster than {limit}"),
+            )
+        }
+        IssueKind::TooShort { joint, given, needed } => {
+            let show = |x: f64| quantity(x, Dimension::TIME);
+            (
+                code::TOO_FAST,
+                format!("{joint} can't do this in {}: it needs {}", show(*given), show(*needed)),
+                "too short".to_string(),
+            )
+        }
+        IssueKind::Mute { joint, why } => {
+            let why = match why {
+                behavior::joints::Mute::Passive => "has no motor",
+                behavior::joints::Mute::Mimic => "follows other joints",
+                behavior::joints::Mute::Fixed => "is fixed",
+            };
+            (code::PASSIVE_JOINT, format!("{joint} {why} and takes no commands"), why.to_string())
+        }
+        IssueKind::NoMate { a, b } => {
+            (code::BAD_DOCK, format!("the connectors of {a} and {b} do not mate"), "can't dock".to_string())
+        }
+        IssueKind::BadNumber { value } => (
+            code::BAD_ACTION,
+            format!("an action can't have {value} here"),
+            "negative, or no finite number".to_string(),
+        ),
+    }
+}
+
+fn other_robot(a: &Rc<Design>, b: &Rc<Design>, span: Span) -> Stop {
+    let message = format!("this mixes two robots: {} and {}", a.name, b.name);
+    Diagnostic::error(code::OTHER_ROBOT, message)
+        .label(span, "one behaviour moves one robot")
+        .hint("make both parts of one configuration")
+        .into()
+}

@@ -1,0 +1,152 @@
+//! Who commanded what: spans on the side of the language, numbered causes on the side of plans.
+
+use super::interpreter::Interpreter;
+use crate::behavior::Part;
+use crate::plan::{Action, Cause, CauseId, Node, Otherwise};
+use crate::source::{Sources, Span};
+use std::collections::HashMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// What a cause is in the source.
+#[derive(Clone, Debug)]
+pub struct CauseRecord {
+    pub span: Span,
+    /// Of the arguments of an action.
+    pub args: Vec<(Part, Span)>,
+    /// Which instance: `leg[2].m[0].tilt`, `i = 3`.
+    pub instance: Rc<str>,
+    /// The call in the user's own files, where `span` is in the library.
+    pub caller: Option<Span>,
+}
+
+impl CauseRecord {
+    /// The span to show first: the user's own line.
+    pub fn primary(&self) -> Span {
+        self.caller.unwrap_or(self.span)
+    }
+
+    /// Where an argument stands; the whole action where it was left out.
+    pub fn argument(&self, part: Part) -> Span {
+        self.args.iter().find(|(p, _)| *p == part).map_or(self.span, |(_, span)| *span)
+    }
+}
+
+/// All causes of a run. A plan gets a table of its own, of those that it names.
+#[derive(Default)]
+pub struct Causes {
+    records: Vec<CauseRecord>,
+}
+
+impl Causes {
+    pub fn add(&mut self, record: CauseRecord) -> CauseId {
+        self.records.push(record);
+        CauseId(u32::try_from(self.records.len() - 1).expect("causes are counted in 32 bits"))
+    }
+
+    pub fn get(&self, id: CauseId) -> &CauseRecord {
+        &self.records[id.0 as usize]
+    }
+}
+
+impl Interpreter<'_> {
+    /// A cause at the place where evaluation is.
+    pub fn cause(&mut self, span: Span, args: Vec<(Part, Span)>, subject: &str) -> CauseId {
+        let notes = self.binder_notes();
+        let instance = match (subject.is_empty(), notes.is_empty()) {
+            (false, false) => format!("{subject} ({notes})"),
+            (false, true) => subject.to_string(),
+            _ => notes,
+        };
+        let caller = if self.is_library(span) { self.user_call().map(|call| call.span) } else { None };
+        self.causes.add(CauseRecord { span, args, instance: instance.as_str().into(), caller })
+    }
+}
+
+/// The causes of one plan, in order of first mention.
+#[derive(Default)]
+pub struct PlanCauses {
+    /// From the plan's numbers to the run's.
+    pub ids: Vec<CauseId>,
+    known: HashMap<CauseId, CauseId>,
+}
+
+impl PlanCauses {
+    pub fn number(&mut self, cause: CauseId) -> CauseId {
+        *self.known.entry(cause).or_insert_with(|| {
+            self.ids.push(cause);
+            CauseId(u32::try_from(self.ids.len() - 1).expect("causes are counted in 32 bits"))
+        })
+    }
+
+    /// The graph with the plan's own numbers. What is shared stays shared.
+    pub fn renumber(&mut self, node: &Arc<Node>) -> Arc<Node> {
+        self.renumber_shared(node, &mut HashMap::new())
+    }
+
+    fn renumber_shared(&mut self, node: &Arc<Node>, done: &mut HashMap<*const Node, Arc<Node>>) -> Arc<Node> {
+        if let Some(known) = done.get(&Arc::as_ptr(node)) {
+            return known.clone();
+        }
+        let mut all = |nodes: &[Arc<Node>]| nodes.iter().map(|n| self.renumber_shared(n, done)).collect();
+        let new = match &**node {
+            Node::Series(nodes) => Node::Series(all(nodes)),
+            Node::Parallel(nodes) => Node::Parallel(all(nodes)),
+            Node::Action(action) => Node::Action(self.renumber_action(action, done)),
+            Node::Repeat { body, times } => {
+                Node::Repeat { body: self.renumber_shared(body, done), times: *times }
+            }
+            Node::Phase { body, shift, cause } => {
+                let body = self.renumber_shared(body, done);
+                Node::Phase { body, shift: *shift, cause: self.number(*cause) }
+            }
+            Node::Approach { body, shift, cause } => {
+                let body = self.renumber_shared(body, done);
+                Node::Approach { body, shift: *shift, cause: self.number(*cause) }
+            }
+            Node::Stretch { body, duration, cause } => {
+                let body = self.renumber_shared(body, done);
+                Node::Stretch { body, duration: *duration, cause: self.number(*cause) }
+            }
+            Node::Exempt { body, kind, cause } => {
+                let body = self.renumber_shared(body, done);
+                Node::Exempt { body, kind: kind.clone(), cause: self.number(*cause) }
+            }
+        };
+        let new = Arc::new(new);
+        done.insert(Arc::as_ptr(node), new.clone());
+        new
+    }
+
+    fn renumber_action(&mut self, action: &Action, done: &mut HashMap<*const Node, Arc<Node>>) -> Action {
+        let mut action = action.clone();
+        action.cause = self.number(action.cause);
+        if let Otherwise::Node(node) = &action.otherwise {
+            action.otherwise = Otherwise::Node(self.renumber_shared(node, done));
+        }
+        action
+    }
+
+    /// The table that goes into the plan.
+    pub fn table(&self, causes: &Causes, sources: &Sources) -> Vec<Cause> {
+        self.ids.iter().map(|id| described(causes.get(*id), sources)).collect()
+    }
+}
+
+fn described(record: &CauseRecord, sources: &Sources) -> Cause {
+    let caller = record.caller.map(|span| Box::new(place(span, "", sources)));
+    Cause { caller, ..place(record.span, &record.instance, sources) }
+}
+
+fn place(span: Span, instance: &str, sources: &Sources) -> Cause {
+    let file = sources.file(span.file);
+    let at = file.line_column(span.start as usize);
+    Cause {
+        file: file.name.to_string(),
+        line: at.line,
+        column: at.column,
+        text: file.line(at.line).trim().to_string(),
+        instance: instance.to_string(),
+        caller: None,
+    }
+}

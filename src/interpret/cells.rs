@@ -1,0 +1,87 @@
+//! Arrangements of cells: rows, blocks, and what is drawn as text.
+
+use std::collections::{BTreeMap, VecDeque};
+
+/// Places of cells on the grid; x to the right, y up (in a text the first line is the top), z up.
+/// Each place once, in the order in which the cells are numbered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cells {
+    pub places: Vec<[i64; 3]>,
+}
+
+/// A character of a cell text that is no cell and no gap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BadCell {
+    pub character: char,
+    /// From 0, in lines and in bytes of the line.
+    pub line: usize,
+    pub offset: usize,
+}
+
+/// Cells of one layer from text: `#` is a cell, `.` and a blank are not.
+pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut places = Vec::new();
+    for (row, line) in lines.iter().enumerate() {
+        for (x, (offset, character)) in line.char_indices().enumerate() {
+            match character {
+                '#' => places.push([x as i64, (lines.len() - 1 - row) as i64, z]),
+                '.' | ' ' => {}
+                character => return Err(BadCell { character, line: row, offset }),
+            }
+        }
+    }
+    Ok(places)
+}
+
+impl Cells {
+    pub fn block(size: [usize; 3]) -> Cells {
+        let mut places = Vec::with_capacity(size.iter().product());
+        for z in 0..size[2] {
+            for y in 0..size[1] {
+                places.extend((0..size[0]).map(|x| [x as i64, y as i64, z as i64]));
+            }
+        }
+        Cells { places }
+    }
+
+    /// Sizes of the pieces that hang together over faces, in order of their first cell; one for a
+    /// connected arrangement.
+    pub fn pieces(&self) -> Vec<usize> {
+        let index: BTreeMap<[i64; 3], usize> =
+            self.places.iter().enumerate().map(|(i, place)| (*place, i)).collect();
+        let mut reached = vec![false; self.places.len()];
+        let mut sizes = Vec::new();
+        for start in 0..self.places.len() {
+            if reached[start] {
+                continue;
+            }
+            reached[start] = true;
+            let mut frontier = VecDeque::from([start]);
+            let mut size = 0;
+            while let Some(cell) = frontier.pop_front() {
+                size += 1;
+                for place in neighbours(self.places[cell]) {
+                    if let Some(&next) = index.get(&place)
+                        && !reached[next]
+                    {
+                        reached[next] = true;
+                        frontier.push_back(next);
+                    }
+                }
+            }
+            sizes.push(size);
+        }
+        sizes
+    }
+}
+
+fn neighbours(place: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
+    (0..3).flat_map(move |axis| {
+        [-1, 1].map(|step| {
+            let mut next = place;
+            next[axis] += step;
+            next
+        })
+    })
+}

@@ -1,0 +1,322 @@
+//! Elaborated declarations and the instances that are views of them.
+//!
+//! A design is a declaration with its arguments, elaborated once and shared by all its instances.
+//! An instance is a design at a place of a robot, the outermost design: joints and ports of a part
+//! are joints and ports of the whole.
+
+use super::interpreter::Lazy;
+use super::lattice::LatticeDesign;
+use super::robot_of::Robot;
+use super::truss::TrussDesign;
+use super::value::{JointValue, PortValue, Value};
+use crate::check::typed::DefId;
+use crate::robot::{Cell, ModuleType, Strut};
+use crate::source::Span;
+use std::cell::{Cell as Flag, OnceCell, RefCell};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+pub struct Design {
+    pub def: DefId,
+    /// With its arguments where they differ from the defaults: `Walker(bend: 35deg)`.
+    pub name: String,
+    /// One value for every parameter.
+    pub args: Vec<Value>,
+    pub kind: DesignKind,
+    /// Something is wrong with it, and has been reported: instances of it are unknown.
+    pub broken: Flag<bool>,
+}
+
+pub enum DesignKind {
+    Module(ModuleDesign),
+    Config(ConfigDesign),
+    Cell(Cell),
+    Strut(Strut),
+    Lattice(LatticeDesign),
+    Truss(TrussDesign),
+}
+
+pub struct ModuleDesign {
+    /// Its ports' connectors are indices into `connectors` here, not into a library.
+    pub module: Rc<ModuleType>,
+    pub connectors: Vec<DefId>,
+    /// First port and number of ports of every [`ModuleDef::ports`](crate::check::typed::ModuleDef).
+    pub port_groups: Vec<(usize, usize)>,
+    /// Dimension of each joint's position.
+    pub joint_dimensions: Vec<crate::units::Dimension>,
+    pub robot: OnceCell<Option<Rc<Robot>>>,
+}
+
+/// Filled in order while the body is elaborated; the body can refer to what is there already.
+#[derive(Default)]
+pub struct ConfigDesign {
+    /// By [`PartDef`](crate::check::typed::PartDef).
+    pub parts: OnceCell<Vec<PartGroup>>,
+    /// All modules, those of the parts in order.
+    pub modules: OnceCell<Vec<FlatModule>>,
+    pub bonds: RefCell<Vec<BondRecord>>,
+    /// The bond at each port that has one.
+    pub taken: RefCell<HashMap<(usize, usize), usize>>,
+    pub groups: RefCell<Groups>,
+    pub sets: RefCell<Vec<SetRecord>>,
+    /// Index of the module named by `base`.
+    pub base: Flag<Option<usize>>,
+    pub closed: bool,
+    pub order: Flag<usize>,
+    /// Whether all clauses have been run, so that questions about geometry make sense.
+    pub complete: Flag<bool>,
+    pub robot: OnceCell<Option<Rc<Robot>>>,
+}
+
+/// A part, or a list of parts.
+pub struct PartGroup {
+    pub list: bool,
+    pub elements: Vec<PartElement>,
+}
+
+pub struct PartElement {
+    pub design: Rc<Design>,
+    /// Index of its first module.
+    pub offset: usize,
+    /// `leg` or `leg[2]`
+    pub name: Rc<str>,
+}
+
+/// A module of a configuration.
+#[derive(Clone)]
+pub struct FlatModule {
+    /// Path name: `leg[2].m[0]`.
+    pub name: Rc<str>,
+    pub design: Rc<Design>,
+}
+
+/// `connect`, with where it stands.
+#[derive(Clone)]
+pub struct BondRecord {
+    pub a: (usize, usize),
+    pub b: (usize, usize),
+    /// In steps of the connector's turns.
+    pub turn: u32,
+    pub span: Span,
+    /// Of the two paths.
+    pub ends: (Span, Span),
+    /// Which instance: the path of the part, the loop variables.
+    pub instance: Rc<str>,
+}
+
+/// `set`, with where it stands.
+#[derive(Clone)]
+pub struct SetRecord {
+    pub module: usize,
+    pub joint: usize,
+    pub value: f64,
+    pub span: Span,
+    pub instance: Rc<str>,
+}
+
+/// Which modules hang together: a forest that grows (union and find).
+#[derive(Default)]
+pub struct Groups(Vec<usize>);
+
+impl Groups {
+    fn root(&mut self, module: usize) -> usize {
+        self.0.extend(self.0.len()..=module);
+        let mut at = module;
+        while self.0[at] != at {
+            self.0[at] = self.0[self.0[at]];
+            at = self.0[at];
+        }
+        at
+    }
+
+    pub fn together(&mut self, a: usize, b: usize) -> bool {
+        self.root(a) == self.root(b)
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[b] = a;
+    }
+}
+
+impl ConfigDesign {
+    pub fn add_bond(&self, bond: BondRecord) {
+        let index = self.bonds.borrow().len();
+        self.taken.borrow_mut().extend([(bond.a, index), (bond.b, index)]);
+        self.groups.borrow_mut().join(bond.a.0, bond.b.0);
+        self.bonds.borrow_mut().push(bond);
+    }
+}
+
+impl Design {
+    pub fn module(&self) -> Option<&ModuleDesign> {
+        match &self.kind {
+            DesignKind::Module(module) => Some(module),
+            _ => None,
+        }
+    }
+
+    pub fn config(&self) -> Option<&ConfigDesign> {
+        match &self.kind {
+            DesignKind::Config(config) => Some(config),
+            _ => None,
+        }
+    }
+
+    /// Number of modules; 0 for what is no robot or not far enough elaborated.
+    pub fn module_count(&self) -> usize {
+        match &self.kind {
+            DesignKind::Module(_) => 1,
+            DesignKind::Config(config) => config.modules.get().map_or(0, Vec::len),
+            _ => 0,
+        }
+    }
+
+    /// The module design at an index.
+    pub fn module_at(self: &Rc<Design>, index: usize) -> Rc<Design> {
+        match &self.kind {
+            DesignKind::Config(config) => {
+                config.modules.get().expect("modules are listed before they are named")[index].design.clone()
+            }
+            _ => self.clone(),
+        }
+    }
+
+    pub fn module_type(self: &Rc<Design>, index: usize) -> Rc<ModuleType> {
+        let design = self.module_at(index);
+        design.module().expect("only modules are listed").module.clone()
+    }
+
+    /// Path name of a module; a lone module goes by the name of its type.
+    pub fn module_name(&self, index: usize) -> Rc<str> {
+        match &self.kind {
+            DesignKind::Config(config) => {
+                config.modules.get().expect("modules are listed before they are named")[index].name.clone()
+            }
+            _ => self.name.as_str().into(),
+        }
+    }
+
+    /// 0 for a module, one more than the largest order of its parts for a configuration.
+    pub fn order(&self) -> usize {
+        self.config().map_or(0, |config| config.order.get())
+    }
+
+    pub fn bonds(&self) -> Vec<BondRecord> {
+        self.config().map_or_else(Vec::new, |config| config.bonds.borrow().clone())
+    }
+
+    pub fn sets(&self) -> Vec<SetRecord> {
+        self.config().map_or_else(Vec::new, |config| config.sets.borrow().clone())
+    }
+}
+
+impl std::fmt::Debug for Design {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+/// A design at a place of a robot.
+pub struct Instance {
+    pub design: Rc<Design>,
+    /// The outermost design.
+    pub robot: Rc<Design>,
+    /// Index of its first module among the robot's.
+    pub offset: usize,
+    /// Path name within the robot; empty for the whole.
+    pub path: Rc<str>,
+    /// By part group; made when first asked for.
+    parts: OnceCell<Vec<Value>>,
+    /// Lets and ports of the body, by member.
+    pub lazy: RefCell<HashMap<usize, Lazy>>,
+}
+
+impl Instance {
+    pub fn whole(design: Rc<Design>) -> Rc<Instance> {
+        let robot = design.clone();
+        Rc::new(Instance {
+            design,
+            robot,
+            offset: 0,
+            path: "".into(),
+            parts: OnceCell::new(),
+            lazy: RefCell::default(),
+        })
+    }
+
+    /// The parts of a configuration as values: an instance or a list of instances for each group.
+    /// `None` while they are being elaborated.
+    pub fn parts(&self) -> Option<&[Value]> {
+        let config = self.design.config()?;
+        let groups = config.parts.get()?;
+        Some(self.parts.get_or_init(|| groups.iter().map(|group| self.part_values(group)).collect()))
+    }
+
+    fn part_values(&self, group: &PartGroup) -> Value {
+        let mut elements: Vec<Value> = group.elements.iter().map(|e| Value::Instance(self.part(e))).collect();
+        if group.list { Value::List(Rc::new(elements)) } else { elements.pop().unwrap_or(Value::Unknown) }
+    }
+
+    fn part(&self, element: &PartElement) -> Rc<Instance> {
+        Rc::new(Instance {
+            design: element.design.clone(),
+            robot: self.robot.clone(),
+            offset: self.offset + element.offset,
+            path: join_path(&self.path, &element.name),
+            parts: OnceCell::new(),
+            lazy: RefCell::default(),
+        })
+    }
+
+    /// A joint of a module instance.
+    pub fn joint(&self, joint: usize) -> Option<Value> {
+        let module = self.design.module()?;
+        let dimension = *module.joint_dimensions.get(joint)?;
+        Some(Value::Joint(JointValue { robot: self.robot.clone(), module: self.offset, joint, dimension }))
+    }
+
+    /// A port of a module instance, or the list of an array's ports.
+    pub fn port(&self, group: usize, array: bool) -> Option<Value> {
+        let module = self.design.module()?;
+        let (first, count) = *module.port_groups.get(group)?;
+        let port = |port| Value::Port(PortValue { robot: self.robot.clone(), module: self.offset, port });
+        let mut ports = (first..first + count).map(port);
+        if array { Some(Value::List(Rc::new(ports.collect()))) } else { ports.next() }
+    }
+
+    /// Path name, or the name of the design for the whole.
+    pub fn title(&self) -> &str {
+        if self.path.is_empty() { &self.design.name } else { &self.path }
+    }
+}
+
+impl std::fmt::Debug for Instance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.title())
+    }
+}
+
+impl JointValue {
+    /// Path name: `leg[2].m[0].tilt`; without the module where the robot is a lone module.
+    pub fn name(&self) -> String {
+        let joint = &self.robot.module_type(self.module).joints[self.joint].name;
+        format!("{}.{joint}", self.robot.module_name(self.module))
+    }
+}
+
+impl PortValue {
+    pub fn name(&self) -> String {
+        let port = &self.robot.module_type(self.module).ports[self.port].name;
+        format!("{}.{port}", self.robot.module_name(self.module))
+    }
+}
+
+/// `a` and `b` as one path name; either may be empty.
+pub fn join_path(a: &str, b: &str) -> Rc<str> {
+    match (a.is_empty(), b.is_empty()) {
+        (true, _) => b.into(),
+        (_, true) => a.into(),
+        _ => format!("{a}.{b}").into(),
+    }
+}

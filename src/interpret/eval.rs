@@ -1,0 +1,475 @@
+//! Expressions to values.
+
+use super::design::Instance;
+use super::interpreter::{Interpreter, Lazy};
+use super::stop::{Eval, Stop, fault};
+use super::value::{Callable, Value};
+use crate::check::typed::{Clause, DefId, DefKind, Expr, ExprKind, Local, MemberId};
+use crate::source::{Diagnostic, Span, code};
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// The variables of a body, and the instance whose body it is.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    pub slots: Vec<Value>,
+    pub this: Option<Rc<Instance>>,
+}
+
+impl Frame {
+    pub fn new(size: usize, this: Option<Rc<Instance>>) -> Frame {
+        Frame { slots: vec![Value::Unknown; size], this }
+    }
+
+    pub fn set(&mut self, local: Local, value: Value) {
+        self.set_slot(local.0 as usize, value);
+    }
+
+    pub fn set_slot(&mut self, slot: usize, value: Value) {
+        if slot >= self.slots.len() {
+            self.slots.resize(slot + 1, Value::Unknown);
+        }
+        self.slots[slot] = value;
+    }
+
+    pub fn get(&self, local: Local) -> Value {
+        self.slots.get(local.0 as usize).cloned().unwrap_or(Value::Unknown)
+    }
+}
+
+impl Interpreter<'_> {
+    /// The value of an expression. A fault is reported and leaves an unknown value.
+    pub fn eval(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
+        self.step(expr.span)?;
+        let result = self.nested(expr.span, |this| this.eval_kind(expr, frame));
+        self.settle(result)
+    }
+
+    /// The value of an expression that may be left out.
+    pub fn eval_optional(&mut self, expr: Option<&Expr>, frame: &mut Frame) -> Eval<Option<Value>> {
+        expr.map(|e| self.eval(e, frame)).transpose()
+    }
+
+    fn eval_kind(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
+        let span = expr.span;
+        match &expr.kind {
+            ExprKind::Error => Ok(Value::Unknown),
+            ExprKind::Number(x) => {
+                Ok(Value::Quantity(*x, expr.ty.dimension().unwrap_or(crate::units::Dimension::NUMBER)))
+            }
+            ExprKind::Int(n) => Ok(Value::Int(*n)),
+            ExprKind::BigInt(digits) => self.big_literal(digits.as_str(), span),
+            ExprKind::Bool(b) => Ok(Value::Bool(*b)),
+            ExprKind::Text(text) => Ok(Value::text(text)),
+            ExprKind::Interpolation(pieces) => self.eval_interpolation(pieces, span, frame),
+            ExprKind::Word(word) => Ok(Value::Word(*word)),
+            ExprKind::Missing => Ok(Value::Missing),
+            ExprKind::Local(local) => Ok(frame.get(*local)),
+            ExprKind::Global(def) => self.global(*def, span),
+            ExprKind::FnValue(def) => Ok(Value::Fn(Rc::new(Callable::Def(*def)))),
+            ExprKind::BehaviorValue { object, behavior } => {
+                self.eval_behavior_value(object, *behavior, frame)
+            }
+            ExprKind::This => Ok(frame.this.clone().map_or(Value::Unknown, Value::Instance)),
+            ExprKind::Member { object, member } => match self.eval(object, frame)? {
+                Value::Instance(instance) => self.member(&instance, *member, span),
+                _ => Ok(Value::Unknown),
+            },
+            ExprKind::Joint { object, joint } => {
+                Ok(on_instance(&self.eval(object, frame)?, |instance| instance.joint(*joint)))
+            }
+            ExprKind::Port { object, port } => self.eval_port(object, *port, frame),
+            ExprKind::Field { object, field } => match self.eval(object, frame)? {
+                Value::Unknown => Ok(Value::Unknown),
+                value => self.field(&value, *field, span),
+            },
+            ExprKind::List(elements) => self.eval_list(elements, frame),
+            ExprKind::Comprehension { body, clauses } => self.eval_comprehension(body, clauses, span, frame),
+            ExprKind::Vec3(coordinates) => self.eval_vec3(coordinates, frame),
+            ExprKind::Range { from, to } => {
+                let ends = (self.eval(from, frame)?, self.eval(to, frame)?);
+                let unknown = ends.0.is_unknown() || ends.1.is_unknown();
+                Ok(if unknown { Value::Unknown } else { Value::Range(Rc::new(ends)) })
+            }
+            ExprKind::Unary { op, operand } => {
+                let value = self.eval(operand, frame)?;
+                self.unary(*op, &value, span)
+            }
+            ExprKind::Binary { op, left, right } => self.eval_binary(*op, left, right, span, frame),
+            ExprKind::OrElse { value, otherwise } => match self.eval(value, frame)? {
+                Value::Missing => self.eval(otherwise, frame),
+                value => Ok(value),
+            },
+            ExprKind::TimeoutElse { action, otherwise } => {
+                let action = self.eval(action, frame)?;
+                let otherwise = self.eval(otherwise, frame)?;
+                self.timeout_else(&action, &otherwise, span)
+            }
+            ExprKind::DropRadians(inner) => match (self.eval(inner, frame)?, expr.ty.dimension()) {
+                (Value::Quantity(x, _), Some(dimension)) => Ok(Value::Quantity(x, dimension)),
+                (value, _) => Ok(value),
+            },
+            ExprKind::Index { object, index } => self.eval_index(object, index, span, frame),
+            ExprKind::If { condition, then, otherwise } => match self.eval(condition, frame)? {
+                Value::Bool(true) => self.eval(then, frame),
+                Value::Bool(false) => {
+                    Ok(self.eval_optional(otherwise.as_deref(), frame)?.unwrap_or(Value::Nothing))
+                }
+                _ => Ok(Value::Unknown),
+            },
+            ExprKind::Block { statements, value } => {
+                for statement in statements {
+                    self.execute(statement, frame)?;
+                }
+                Ok(self.eval_optional(value.as_deref(), frame)?.unwrap_or(Value::Nothing))
+            }
+            ExprKind::Lambda { captures, body, frame: size, .. } => {
+                Ok(Value::Fn(Rc::new(Callable::Lambda {
+                    body: Arc::clone(body),
+                    captured: captures.iter().map(|(from, to)| (*to, frame.get(*from))).collect(),
+                    frame: *size,
+                    this: frame.this.clone(),
+                })))
+            }
+            ExprKind::Call { def, args } => self.call_def(*def, args, span, frame),
+            ExprKind::CallValue { callee, args } => self.eval_call_value(callee, args, span, frame),
+            ExprKind::CallBehavior { object, behavior, args } => {
+                match self.eval(object, frame)? {
+                    Value::Instance(instance) => self.call_behavior(&instance, *behavior, args, span, frame),
+                    _ => {
+                        // The arguments may hold mistakes of their own.
+                        for arg in args.iter().flatten() {
+                            self.eval(arg, frame)?;
+                        }
+                        Ok(Value::Unknown)
+                    }
+                }
+            }
+            ExprKind::Instance { def, args } => self.instantiate(*def, args, span, frame),
+        }
+    }
+
+    fn eval_list(&mut self, elements: &[Expr], frame: &mut Frame) -> Eval<Value> {
+        let values = elements.iter().map(|e| self.eval(e, frame)).collect::<Eval<Vec<_>>>()?;
+        Ok(Value::list(values))
+    }
+
+    fn eval_vec3(&mut self, coordinates: &[Expr; 3], frame: &mut Frame) -> Eval<Value> {
+        let mut point = crate::geometry::Vec3::zeros();
+        let mut dimension = None;
+        let mut known = true;
+        for (i, coordinate) in coordinates.iter().enumerate() {
+            let value = self.eval(coordinate, frame)?;
+            known &= !value.is_unknown();
+            point[i] = value.as_number().unwrap_or(0.0);
+            dimension = dimension.or(value.as_dimension());
+        }
+        let dimension = dimension.unwrap_or(crate::units::Dimension::NUMBER);
+        Ok(if known { Value::Vec3(point, dimension) } else { Value::Unknown })
+    }
+
+    fn eval_port(&mut self, object: &Expr, port: usize, frame: &mut Frame) -> Eval<Value> {
+        let value = self.eval(object, frame)?;
+        let program = self.program;
+        Ok(on_instance(&value, |instance| {
+            let DefKind::Module(module) = &program.def(instance.design.def).kind else { return None };
+            instance.port(port, module.ports.get(port)?.array)
+        }))
+    }
+
+    fn eval_behavior_value(&mut self, object: &Expr, behavior: usize, frame: &mut Frame) -> Eval<Value> {
+        Ok(match self.eval(object, frame)? {
+            Value::Instance(object) => Value::Fn(Rc::new(Callable::Behavior { object, behavior })),
+            _ => Value::Unknown,
+        })
+    }
+
+    fn eval_interpolation(&mut self, pieces: &[Expr], span: Span, frame: &mut Frame) -> Eval<Value> {
+        let mut text = String::new();
+        let mut known = true;
+        for piece in pieces {
+            let value = self.eval(piece, frame)?;
+            known &= !value.is_unknown();
+            text.push_str(&self.show(&value));
+            self.check_text(text.len(), span)?;
+        }
+        Ok(if known { Value::text(text) } else { Value::Unknown })
+    }
+
+    fn eval_comprehension(
+        &mut self,
+        body: &Expr,
+        clauses: &[Clause],
+        span: Span,
+        frame: &mut Frame,
+    ) -> Eval<Value> {
+        let mut out = Vec::new();
+        let mut known = true;
+        self.comprehend(body, clauses, span, frame, &mut out, &mut known)?;
+        Ok(if known { Value::list(out) } else { Value::Unknown })
+    }
+
+    fn comprehend(
+        &mut self,
+        body: &Expr,
+        clauses: &[Clause],
+        span: Span,
+        frame: &mut Frame,
+        out: &mut Vec<Value>,
+        known: &mut bool,
+    ) -> Eval<()> {
+        match clauses.split_first() {
+            None => {
+                out.push(self.eval(body, frame)?);
+                self.check_list(out.len(), span)
+            }
+            Some((Clause::If(condition), rest)) => match self.eval(condition, frame)? {
+                Value::Bool(true) => self.comprehend(body, rest, span, frame, out, known),
+                Value::Bool(false) => Ok(()),
+                _ => {
+                    *known = false;
+                    Ok(())
+                }
+            },
+            Some((Clause::For { binder, iterable }, rest)) => {
+                let values = self.eval(iterable, frame)?;
+                let complete = self.for_each(&values, *binder, iterable.span, frame, |this, frame| {
+                    this.comprehend(body, rest, span, frame, out, known)
+                })?;
+                *known &= complete;
+                Ok(())
+            }
+        }
+    }
+
+    /// Runs `body` for every element of a list or of a range of whole numbers; gives whether the
+    /// elements are known at all.
+    pub fn for_each(
+        &mut self,
+        values: &Value,
+        binder: Local,
+        span: Span,
+        frame: &mut Frame,
+        mut body: impl FnMut(&mut Self, &mut Frame) -> Eval<()>,
+    ) -> Eval<bool> {
+        let name = self.binder_name(span);
+        let mut once = |this: &mut Self, frame: &mut Frame, value: Value| {
+            frame.set(binder, value.clone());
+            this.bound(name, &value, |this| body(this, frame))
+        };
+        match values {
+            Value::List(elements) => {
+                for value in elements.iter() {
+                    once(self, frame, value.clone())?;
+                }
+            }
+            Value::Range(ends) => {
+                let (Value::Int(from), Value::Int(to)) = (&ends.0, &ends.1) else {
+                    return Err(fault(
+                        code::SIZE_LIMIT,
+                        span,
+                        "a loop over a range with such ends does not end",
+                        "whole numbers below 2^63 are wanted",
+                    ));
+                };
+                for i in *from..*to {
+                    self.step(span)?;
+                    once(self, frame, Value::Int(i))?;
+                }
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// The name of the loop variable, which stands before `in` and the expression at `span`.
+    fn binder_name(&self, span: Span) -> crate::source::Symbol {
+        let text = &self.sources.file(span.file).text[..span.start as usize];
+        let before = text.trim_end().strip_suffix("in").unwrap_or("").trim_end();
+        let start = before.rfind(|c: char| !c.is_alphanumeric() && c != '_').map_or(0, |i| i + 1);
+        before[start..].into()
+    }
+
+    fn eval_index(&mut self, object: &Expr, index: &Expr, span: Span, frame: &mut Frame) -> Eval<Value> {
+        let list = self.eval(object, frame)?;
+        let index = self.eval(index, frame)?;
+        let (Value::List(elements), Some(at)) = (&list, index.as_big()) else { return Ok(Value::Unknown) };
+        let found = usize::try_from(&at).ok().and_then(|at| elements.get(at));
+        found.cloned().ok_or_else(|| {
+            let name = self.sources.text(object.span);
+            let elements = match elements.len() {
+                0 => "no elements".to_string(),
+                1 => "1 element".to_string(),
+                n => format!("{n} elements"),
+            };
+            let mut diagnostic = Diagnostic::error(
+                code::INDEX,
+                format!("index {at} is outside `{name}`, which has {elements}"),
+            )
+            .label(span, format!("index {at} of {elements}"));
+            if !list_is_empty(&list) {
+                diagnostic = diagnostic.hint("elements are counted from 0");
+            }
+            Stop::from(diagnostic)
+        })
+    }
+
+    /// The value of a top-level `let`.
+    pub fn global(&mut self, def: DefId, span: Span) -> Eval<Value> {
+        let index = def.0 as usize;
+        match &self.globals[index] {
+            Lazy::Done(value) => return Ok(value.clone()),
+            Lazy::Running => return Err(self.cycle(def, span)),
+            Lazy::Waiting => {}
+        }
+        let program = self.program;
+        let DefKind::Let(binding) = &program.def(def).kind else { return Ok(Value::Unknown) };
+        self.globals[index] = Lazy::Running;
+        let name = self.name(def);
+        let result =
+            self.called(span, name, |this| this.eval(&binding.value, &mut Frame::new(binding.frame, None)));
+        self.globals[index] = Lazy::Done(result.as_ref().map_or(Value::Unknown, Value::clone));
+        result
+    }
+
+    fn cycle(&self, def: DefId, span: Span) -> Stop {
+        let declared = self.program.def(def);
+        Diagnostic::error(code::DECLARATION_CYCLE, format!("the value of `{}` needs itself", declared.name))
+            .label(declared.span, "declared here")
+            .label(span, "and needed here, before it has a value")
+            .into()
+    }
+
+    /// A member of an instance, by index in its declaration.
+    pub fn member(&mut self, instance: &Rc<Instance>, member: MemberId, span: Span) -> Eval<Value> {
+        use crate::check::typed::MemberKind;
+        let program = self.program;
+        let Some((members, frame)) = members_of(&program.def(instance.design.def).kind) else {
+            return Ok(Value::Unknown);
+        };
+        let Some(declared) = members.get(member.0 as usize) else { return Ok(Value::Unknown) };
+        match &declared.kind {
+            MemberKind::Param(index) => {
+                Ok(instance.design.args.get(*index).cloned().unwrap_or(Value::Unknown))
+            }
+            MemberKind::Part(index) => match instance.parts() {
+                Some(parts) => Ok(parts.get(*index).cloned().unwrap_or(Value::Unknown)),
+                None if instance.design.broken.get() => Ok(Value::Unknown),
+                None => Err(fault(
+                    code::DECLARATION_CYCLE,
+                    span,
+                    format!(
+                        "the parts of `{}` need `{}`, which is one of them",
+                        instance.design.name, declared.name
+                    ),
+                    "needed before the parts exist",
+                )),
+            },
+            MemberKind::Let(value) => self.lazy_member(instance, member, span, |this| {
+                this.eval(value, &mut Frame::new(frame, Some(instance.clone())))
+            }),
+            MemberKind::Port { count, value } => self.lazy_member(instance, member, span, |this| {
+                let mut frame = Frame::new(frame, Some(instance.clone()));
+                let ports = this.eval(value, &mut frame)?;
+                this.check_port_count(count.as_ref(), &ports, value.span, &mut frame)?;
+                Ok(ports)
+            }),
+            MemberKind::Node => Ok(self.node_member(instance, declared.name)),
+            MemberKind::Behavior(behavior) => {
+                Ok(Value::Fn(Rc::new(Callable::Behavior { object: instance.clone(), behavior: *behavior })))
+            }
+        }
+    }
+
+    fn lazy_member(
+        &mut self,
+        instance: &Rc<Instance>,
+        member: MemberId,
+        span: Span,
+        compute: impl FnOnce(&mut Self) -> Eval<Value>,
+    ) -> Eval<Value> {
+        let key = member.0 as usize;
+        let known = instance.lazy.borrow().get(&key).cloned().unwrap_or_default();
+        match known {
+            Lazy::Done(value) => return Ok(value),
+            Lazy::Running => {
+                let name = self.sources.text(span);
+                return Err(fault(
+                    code::DECLARATION_CYCLE,
+                    span,
+                    format!("the value of `{name}` needs itself"),
+                    "needed here, before it has a value",
+                ));
+            }
+            Lazy::Waiting => {}
+        }
+        instance.lazy.borrow_mut().insert(key, Lazy::Running);
+        let result = compute(self);
+        let value = result.as_ref().map_or(Value::Unknown, Value::clone);
+        instance.lazy.borrow_mut().insert(key, Lazy::Done(value));
+        result
+    }
+
+    fn check_port_count(
+        &mut self,
+        count: Option<&Expr>,
+        ports: &Value,
+        span: Span,
+        frame: &mut Frame,
+    ) -> Eval<()> {
+        let (Some(count), Value::List(ports)) = (count, ports) else { return Ok(()) };
+        let Some(wanted) = self.eval(count, frame)?.as_big() else { return Ok(()) };
+        if wanted == num_bigint::BigInt::from(ports.len()) {
+            return Ok(());
+        }
+        let message = format!("{wanted} ports are declared, and the list has {}", ports.len());
+        Err(Diagnostic::error(code::BAD_VALUE, message)
+            .label(span, format!("{} ports", ports.len()))
+            .label(count.span, "declared here")
+            .into())
+    }
+
+    pub fn check_list(&mut self, length: usize, span: Span) -> Eval<()> {
+        let limit = self.limits().list;
+        if length <= limit {
+            return Ok(());
+        }
+        self.too_large(span, format!("a list of more than {limit} elements"))
+    }
+
+    pub fn check_text(&mut self, length: usize, span: Span) -> Eval<()> {
+        let limit = self.limits().text;
+        if length <= limit {
+            return Ok(());
+        }
+        self.too_large(span, format!("a text of more than {limit} bytes"))
+    }
+
+    fn too_large(&mut self, span: Span, what: String) -> Eval<()> {
+        Err(fault(code::SIZE_LIMIT, span, format!("{what} is not allowed"), what.clone()))
+    }
+}
+
+/// The members of a declaration with a body, and the slots that their expressions need.
+pub fn members_of(kind: &DefKind) -> Option<(&[crate::check::typed::Member], usize)> {
+    Some(match kind {
+        DefKind::Module(d) => (&d.members, d.frame),
+        DefKind::Cell(d) | DefKind::Strut(d) => (&d.members, d.frame),
+        DefKind::Config(d) => (&d.members, d.frame),
+        DefKind::Lattice(d) => (&d.members, d.frame),
+        DefKind::Truss(d) => (&d.members, d.frame),
+        _ => return None,
+    })
+}
+
+/// What a question to an instance gives; unknown where there is no instance.
+fn on_instance(value: &Value, ask: impl FnOnce(&Rc<Instance>) -> Option<Value>) -> Value {
+    match value {
+        Value::Instance(instance) => ask(instance).unwrap_or(Value::Unknown),
+        _ => Value::Unknown,
+    }
+}
+
+fn list_is_empty(value: &Value) -> bool {
+    matches!(value, Value::List(elements) if elements.is_empty())
+}

@@ -1,0 +1,283 @@
+//! The state of a run: what has been computed, what was reported, where evaluation is.
+
+use super::causes::Causes;
+use super::connector::ConnectorDesign;
+use super::design::{Design, Instance};
+use super::host::{Limits, Mode, Options, TestResult};
+use super::planning::Planned;
+use super::stage::Stage;
+use super::stop::{Eval, Stop};
+use super::value::Value;
+use crate::check::Checked;
+use crate::check::typed::{DefId, Program};
+use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
+use std::collections::HashSet;
+use std::rc::Rc;
+
+/// Most findings of one run; more help nobody.
+const REPORTS_MAX: usize = 200;
+/// Most calls that a message shows.
+const CALLS_SHOWN: usize = 4;
+/// Evaluations within evaluations. The stack of [`super::stage`] is made for this many.
+const NESTING_MAX: usize = 40_000;
+/// Steps between two looks at whether the user wants the run to end.
+const STEPS_PER_LOOK: u64 = 4096;
+
+pub struct Interpreter<'a> {
+    pub program: &'a Program,
+    pub sources: &'a Sources,
+    pub options: &'a Options,
+    pub mode: Mode,
+    pub stage: Stage,
+    pub causes: Causes,
+    /// The last plans; see [`super::planning`].
+    pub plans: Vec<Rc<Planned>>,
+    pub reports: Vec<Diagnostic>,
+    /// Errors found so far, repeated ones included.
+    pub errors: usize,
+    reported: HashSet<(Code, Option<Span>, Option<String>)>,
+    /// Top-level lets.
+    pub globals: Vec<Lazy>,
+    /// Elaborated declarations with their arguments, by declaration.
+    pub designs: Vec<Vec<Rc<Design>>>,
+    pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
+    /// The calls that evaluation is in, outermost first.
+    pub calls: Vec<CallSite>,
+    /// Loop variables with their values, outermost first.
+    pub binders: Vec<Binder>,
+    pub written: Vec<String>,
+    pub tests: Vec<TestResult>,
+    /// Whether something could not be judged because of an error reported before.
+    pub unjudged: bool,
+    steps: u64,
+    nesting: usize,
+}
+
+/// A value that is computed when it is first needed.
+#[derive(Clone, Debug, Default)]
+pub enum Lazy {
+    #[default]
+    Waiting,
+    Running,
+    Done(Value),
+}
+
+/// A call of something that a user or the library wrote.
+#[derive(Clone, Debug)]
+pub struct CallSite {
+    pub span: Span,
+    pub name: Symbol,
+    /// Length of [`Interpreter::binders`] at the call: those before belong to the caller.
+    binders: usize,
+}
+
+/// A loop variable. Its name is read from the text when a message wants it.
+#[derive(Clone, Debug)]
+pub struct Binder {
+    pub name: Symbol,
+    pub value: Value,
+}
+
+impl<'a> Interpreter<'a> {
+    pub fn new(checked: &'a Checked, mode: Mode, options: &'a Options, stage: Stage) -> Interpreter<'a> {
+        let count = checked.program.defs.len();
+        Interpreter {
+            program: &checked.program,
+            sources: &checked.sources,
+            options,
+            mode,
+            stage,
+            causes: Causes::default(),
+            plans: Vec::new(),
+            reports: Vec::new(),
+            errors: 0,
+            reported: HashSet::new(),
+            globals: vec![Lazy::Waiting; count],
+            designs: vec![Vec::new(); count],
+            connectors: vec![None; count],
+            calls: Vec::new(),
+            binders: Vec::new(),
+            written: Vec::new(),
+            tests: Vec::new(),
+            unjudged: false,
+            steps: 0,
+            nesting: 0,
+        }
+    }
+
+    pub fn limits(&self) -> &'a Limits {
+        &self.options.limits
+    }
+
+    pub fn name(&self, def: DefId) -> Symbol {
+        self.program.def(def).name
+    }
+
+    /// Counts a step; ends the run at the limit or when the user wants it.
+    pub fn step(&mut self, span: Span) -> Eval<()> {
+        self.steps += 1;
+        if self.steps > self.limits().steps {
+            let message = format!("the program takes more than {} evaluation steps", self.limits().steps);
+            return self.halt(
+                Diagnostic::error(code::STEP_LIMIT, message)
+                    .label(span, "evaluation was here")
+                    .hint("`--max-steps` raises the limit"),
+            );
+        }
+        if self.steps.is_multiple_of(STEPS_PER_LOOK) && self.stage.cancelled() {
+            return Err(Stop::Halt);
+        }
+        Ok(())
+    }
+
+    /// Runs `body` one level of evaluation deeper; refuses where the stack would not bear it.
+    pub fn nested<T>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<T> {
+        if self.nesting >= NESTING_MAX {
+            return self.halt(
+                Diagnostic::error(code::RECURSION_LIMIT, "evaluation is nested too deeply")
+                    .label(span, "evaluation was here"),
+            );
+        }
+        self.nesting += 1;
+        let result = body(self);
+        self.nesting -= 1;
+        result
+    }
+
+    /// Runs `body` as the body of a call from `span`.
+    pub fn called<T>(
+        &mut self,
+        span: Span,
+        name: Symbol,
+        body: impl FnOnce(&mut Self) -> Eval<T>,
+    ) -> Eval<T> {
+        let binders = self.binders.len();
+        self.calls.push(CallSite { span, name, binders });
+        let result = if self.calls.len() > self.limits().recursion { self.too_deep() } else { body(self) };
+        self.calls.pop();
+        self.binders.truncate(binders);
+        result
+    }
+
+    fn too_deep<T>(&mut self) -> Eval<T> {
+        let limit = self.limits().recursion;
+        let outermost = self.calls.first().expect("a call was just pushed");
+        let mut diagnostic = Diagnostic::error(
+            code::RECURSION_LIMIT,
+            format!("calls are nested more than {limit} deep, which is the limit"),
+        )
+        .label(outermost.span, "this call does not come back");
+        let mut shown = HashSet::from([outermost.span]);
+        for call in self.calls.iter().rev() {
+            if shown.len() <= CALLS_SHOWN && shown.insert(call.span) {
+                diagnostic =
+                    diagnostic.label(call.span, format!("which led to this call of `{}`", call.name));
+            }
+        }
+        self.halt(diagnostic.hint("a function that calls itself needs a case in which it does not"))
+    }
+
+    /// Runs `body` with a loop variable.
+    pub fn bound<T>(&mut self, name: Symbol, value: &Value, body: impl FnOnce(&mut Self) -> T) -> T {
+        self.binders.push(Binder { name, value: value.clone() });
+        let result = body(self);
+        self.binders.pop();
+        result
+    }
+
+    /// Reports a finding and ends the run.
+    pub fn halt<T>(&mut self, diagnostic: Diagnostic) -> Eval<T> {
+        self.add_report(diagnostic);
+        Err(Stop::Halt)
+    }
+
+    /// Reports a finding with the calls that led to it and the loop variables it depends on. One
+    /// finding of a kind at one place is enough.
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        let diagnostic = self.with_calls(diagnostic);
+        self.add_report(diagnostic);
+    }
+
+    /// Reports a finding that is about more than the place where evaluation is.
+    pub fn add_report(&mut self, diagnostic: Diagnostic) {
+        self.errors += usize::from(diagnostic.is_error());
+        // What the judge finds differs from robot to robot, at one and the same line.
+        let judged = diagnostic.code.0.starts_with("E06").then(|| diagnostic.message.clone());
+        let key = (diagnostic.code, diagnostic.span(), judged);
+        if self.reports.len() < REPORTS_MAX && self.reported.insert(key) {
+            self.reports.push(diagnostic);
+        }
+    }
+
+    /// Whether an error was found since `mark` (a count of errors), reported before or not.
+    pub fn failed_since(&self, mark: usize) -> bool {
+        self.errors > mark
+    }
+
+    /// Turns a fault into a report and an unknown value; a halt passes.
+    pub fn settle(&mut self, result: Eval<Value>) -> Eval<Value> {
+        match result {
+            Err(Stop::Fault(diagnostic)) => {
+                self.report(*diagnostic);
+                Ok(Value::Unknown)
+            }
+            other => other,
+        }
+    }
+
+    pub fn is_library(&self, span: Span) -> bool {
+        self.sources.file(span.file).library
+    }
+
+    /// The innermost call that stands in the user's own files.
+    pub fn user_call(&self) -> Option<&CallSite> {
+        self.calls.iter().rev().find(|call| !self.is_library(call.span))
+    }
+
+    fn with_calls(&self, mut diagnostic: Diagnostic) -> Diagnostic {
+        let Some(primary) = diagnostic.span() else { return diagnostic };
+        let notes = self.binder_notes();
+        if !notes.is_empty() && diagnostic.severity == Severity::Error {
+            diagnostic.message = format!("{} (with {notes})", diagnostic.message);
+        }
+        if self.is_library(primary)
+            && let Some(call) = self.user_call()
+        {
+            let text = format!("in this call of `{}`", call.name);
+            diagnostic.labels.insert(0, crate::source::Label { span: call.span, text });
+        }
+        let mut shown: HashSet<Span> = diagnostic.labels.iter().map(|l| l.span).collect();
+        // What `check` elaborates by itself is called from nowhere: its span is the name.
+        let named = |call: &&CallSite| self.sources.text(call.span) != call.name.as_str();
+        for call in self.calls.iter().rev().filter(named).take(CALLS_SHOWN) {
+            if shown.insert(call.span) {
+                diagnostic = diagnostic.label(call.span, format!("called from here: `{}`", call.name));
+            }
+        }
+        diagnostic
+    }
+
+    /// The loop variables of the body at hand: `i = 3, j = 0`.
+    pub fn binder_notes(&self) -> String {
+        let from = self.calls.last().map_or(0, |call| call.binders);
+        let notes = self.binders[from.min(self.binders.len())..].iter().filter_map(|b| self.binder_note(b));
+        notes.collect::<Vec<_>>().join(", ")
+    }
+
+    fn binder_note(&self, binder: &Binder) -> Option<String> {
+        let shown = match &binder.value {
+            Value::Instance(instance) if !instance.path.is_empty() => instance.path.to_string(),
+            Value::Int(_) | Value::Quantity(..) | Value::Bool(_) | Value::Text(_) | Value::Word(_) => {
+                self.show(&binder.value)
+            }
+            Value::Joint(joint) => joint.name(),
+            _ => return None,
+        };
+        Some(format!("{} = {shown}", binder.name))
+    }
+
+    /// A root instance of a design.
+    pub fn whole(&self, design: &Rc<Design>) -> Rc<Instance> {
+        Instance::whole(design.clone())
+    }
+}

@@ -1,0 +1,175 @@
+//! Built-ins that plan, judge, print and write.
+
+use super::call::Call;
+use super::host::WriteError;
+use super::interpreter::Interpreter;
+use super::natives::{Native, on_run, pure};
+use super::planning::{Beginning, Planned};
+use super::record::Record;
+use super::stop::{Eval, Stop, fault};
+use super::value::Value;
+use crate::plan::{Ground, Plan, Settings, Stability, World};
+use crate::source::{Diagnostic, code, files};
+use std::rc::Rc;
+
+pub const TABLE: &[Native] = &[
+    on_run("print", 1, print),
+    on_run("emit", 5, emit),
+    pure("world", 3, world),
+    on_run("plan", 3, plan),
+    on_run("reverse", 1, reverse),
+    on_run("verify", 5, verify),
+    on_run("Plan.at", 2, plan_at),
+    on_run("Plan.slice", 2, plan_slice),
+];
+
+fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let shown: Vec<String> = call.list(0)?.iter().map(|value| interpreter.show(value)).collect();
+    let line = shown.join(" ");
+    interpreter.check_text(line.len(), call.span)?;
+    interpreter.stage.print(line);
+    Ok(Value::Nothing)
+}
+
+fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let ground = match call.word(0) {
+        Some("fixed") => Ground::Fixed,
+        Some("off") => Ground::Off,
+        _ => Ground::Settle,
+    };
+    let gravity = if call.word(1) == Some("off") { 0.0 } else { call.number(1)? };
+    let friction = call.number(2)?;
+    if gravity < 0.0 {
+        return Err(call.refuse(1, "gravity acts downwards, so it can't be negative"));
+    }
+    if friction < 0.0 {
+        return Err(call.refuse(2, "friction must not be negative"));
+    }
+    if ground == Ground::Settle && gravity == 0.0 {
+        return Err(call.refuse(1, "without gravity nothing rests on the ground: `ground: off` or `fixed`"));
+    }
+    Ok(Value::Record(Rc::new(Record::World(World { gravity, ground, friction }))))
+}
+
+fn world_at(call: &Call, index: usize) -> Option<World> {
+    match call.arg(index) {
+        Value::Record(record) => match &**record {
+            Record::World(world) => Some(*world),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn planned_value(planned: Option<Rc<Planned>>) -> Value {
+    planned.map_or(Value::Unknown, |planned| Value::Record(Rc::new(Record::Plan(planned))))
+}
+
+fn plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let behavior = call.behavior(0)?.clone();
+    let mut beginning = Beginning::default();
+    if let Value::Record(record) = call.arg(1)
+        && let Record::State(state) = &**record
+    {
+        interpreter.common_robot(behavior.robot.as_ref(), Some(&state.robot), call.at(1))?;
+        beginning.start = Some(state.state.clone());
+    }
+    if let Some(world) = world_at(call, 2) {
+        beginning.world = world;
+    }
+    Ok(planned_value(interpreter.plan_from(&behavior, beginning, call.span)?))
+}
+
+fn plan_argument(interpreter: &mut Interpreter, call: &Call, index: usize) -> Eval<Option<Rc<Planned>>> {
+    interpreter.plan_of(call.arg(index), call.at(index))
+}
+
+fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let reversed = interpreter.changed(&planned, |plan| Ok(super::pending::reverse(plan)), call.span)?;
+    Ok(planned_value(Some(reversed)))
+}
+
+fn plan_at(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let time = call.number(1)?;
+    if !(0.0..=planned.plan.body.duration()).contains(&time) {
+        return Err(call.refuse(1, "this is before the plan begins or after it ends"));
+    }
+    Ok(interpreter.state_at(&planned, time))
+}
+
+fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let (from, to) = call.range(1)?;
+    if !(0.0 <= from && from < to && to <= planned.plan.body.duration()) {
+        return Err(call.refuse(1, "this is no stretch of the plan"));
+    }
+    let sliced = interpreter.changed(&planned, |plan| super::pending::slice(plan, from, to), call.span)?;
+    Ok(planned_value(Some(sliced)))
+}
+
+/// `sample`, `unstable_for` and `stability`, which begin at parameter `first`.
+fn settings(interpreter: &Interpreter, call: &Call, first: usize) -> Eval<Settings> {
+    let unstable_for = call.number(first + 1)?;
+    if unstable_for < 0.0 {
+        return Err(call.refuse(first + 1, "a time must not be negative"));
+    }
+    let stability =
+        if call.word(first + 2) == Some("centres") { Stability::Centres } else { Stability::Footprint };
+    let sample = call.positive(first, "the time between samples")?;
+    Ok(Settings { sample, unstable_for, stability, ..interpreter.judge_settings() })
+}
+
+fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let settings = settings(interpreter, call, 1)?;
+    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let verdict = interpreter.judge(&planned, settings, world_at(call, 4));
+    interpreter.report_unneeded(&planned, &verdict);
+    Ok(Value::Record(Rc::new(Record::Report(verdict))))
+}
+
+fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let name = call.text(1)?.to_string();
+    let Some(path) = files::join("", &name).filter(|path| !path.is_empty()) else {
+        return Err(outside(call, &name));
+    };
+    let settings = settings(interpreter, call, 2)?;
+    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let verdict = interpreter.judge(&planned, settings, None);
+    interpreter.report_unneeded(&planned, &verdict);
+    if !verdict.ok() {
+        interpreter.report_failures(&planned, &verdict, call.at(0));
+        return Ok(Value::Unknown);
+    }
+    let excuses = interpreter.excuses(&planned, &settings);
+    let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
+    let bytes = super::pending::write(&plan);
+    match interpreter.stage.write(&path, bytes) {
+        Ok(shown) => interpreter.written.push(shown),
+        Err(WriteError::Outside) => return Err(outside(call, &name)),
+        Err(WriteError::Failed(why)) => {
+            let message = format!("`{path}` can't be written: {why}");
+            return Err(fault(code::CANNOT_WRITE, call.at(1), message, why));
+        }
+    }
+    if !excuses.is_empty() {
+        interpreter.stage.print(format!("{path}: verified with {}", excuses.join(", ")));
+    }
+    note_settling(interpreter, call, &verdict.notes);
+    Ok(Value::Nothing)
+}
+
+/// A robot that does not start as it is drawn is worth a note.
+fn note_settling(interpreter: &mut Interpreter, call: &Call, notes: &[String]) {
+    for note in notes.iter().filter(|note| note.contains("settles")) {
+        interpreter.add_report(Diagnostic::note(code::START_SETTLES, note).label(call.at(0), "of this plan"));
+    }
+}
+
+fn outside(call: &Call, name: &str) -> Stop {
+    Diagnostic::error(code::OUTSIDE_OUTPUT, format!("`{name}` leads out of the output folder"))
+        .label(call.at(1), "output stays in the output folder")
+        .hint("write a path below it, such as `walk.plan.json`")
+        .into()
+}

@@ -1,0 +1,323 @@
+//! Behaviours to plans, and plans before the judge.
+
+use super::causes::PlanCauses;
+use super::design::Design;
+use super::interpreter::Interpreter;
+use super::record::{Record, StateValue, first_world};
+use super::robot_of::Robot;
+use super::stop::{Eval, Stop, fault};
+use super::value::{Behavior, Value};
+use crate::behavior::{self, Problem, Scheduled};
+use crate::geometry::Vec3;
+use crate::plan::{
+    Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom,
+};
+use crate::robot::{JointId, State};
+use crate::source::{Span, code};
+use sha2::{Digest, Sha256};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// Plans that are kept, so that `verify` and `emit` of one behaviour plan and judge it once.
+const KEPT_MAX: usize = 32;
+
+/// A plan with what the language knows about it.
+pub struct Planned {
+    pub robot: Rc<Design>,
+    pub body: Rc<Robot>,
+    pub plan: Plan,
+    /// The run's numbers of the plan's causes.
+    pub causes: Vec<CauseId>,
+    pub actions: u64,
+    /// Verdicts so far.
+    judged: RefCell<Vec<Judged>>,
+}
+
+/// A verdict with what it was given under.
+struct Judged {
+    settings: Settings,
+    worlds: Vec<WorldFrom>,
+    verdict: Rc<Verdict>,
+}
+
+/// Who set the start pose: joints, and bonds by index.
+#[derive(Default)]
+struct StartCauses {
+    joints: Vec<(JointId, CauseId)>,
+    bonds: Vec<(usize, CauseId)>,
+}
+
+impl std::fmt::Debug for Planned {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a plan of {}", self.robot.name)
+    }
+}
+
+impl Planned {
+    pub fn new(
+        robot: Rc<Design>,
+        body: Rc<Robot>,
+        plan: Plan,
+        causes: Vec<CauseId>,
+        actions: u64,
+    ) -> Planned {
+        Planned { robot, body, plan, causes, actions, judged: RefCell::default() }
+    }
+
+    pub fn actions(&self) -> usize {
+        usize::try_from(self.actions).unwrap_or(usize::MAX)
+    }
+
+    /// Stretches between one change of commands and the next.
+    pub fn steps(&self) -> usize {
+        self.plan.body.instants().len().saturating_sub(1)
+    }
+}
+
+/// Where a behaviour begins (else the robot's start pose), and under which world.
+#[derive(Default)]
+pub struct Beginning {
+    pub start: Option<State>,
+    pub world: World,
+}
+
+impl Interpreter<'_> {
+    /// The plan of a behaviour from the start pose of its robot; `None` where something is wrong
+    /// with it, which has been reported.
+    pub fn plan_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<Option<Rc<Planned>>> {
+        self.plan_from(behavior, Beginning::default(), span)
+    }
+
+    pub fn plan_from(
+        &mut self,
+        behavior: &Behavior,
+        beginning: Beginning,
+        span: Span,
+    ) -> Eval<Option<Rc<Planned>>> {
+        if self.mode == super::host::Mode::Check {
+            self.check_behavior(behavior)?;
+            return Ok(None);
+        }
+        let Some(design) = behavior.robot.clone() else {
+            let message = "this behaviour moves no robot, so there is nothing to plan";
+            return Err(fault(code::BAD_ACTION, span, message, "no action names a joint or a port"));
+        };
+        let Some(robot) = self.robot_of(&design)? else { return Ok(None) };
+        let mut causes = PlanCauses::default();
+        let program = causes.renumber(&behavior.node);
+        let start = beginning.start.unwrap_or_else(|| robot.start.clone());
+        if let Some(kept) = self.kept_plan(&design, &program, &start, &beginning.world, &causes.ids) {
+            return Ok(Some(kept));
+        }
+        if !self.check_behavior(behavior)? {
+            return Ok(None);
+        }
+        let set = self.start_causes(&design, &robot, &mut causes);
+        let problem = Problem {
+            robot: robot.assembly.as_ref().clone(),
+            start,
+            program,
+            start_causes: set.joints,
+            bond_causes: set.bonds,
+            settings: behavior::Settings::default(),
+        };
+        let scheduled = match behavior::schedule(problem) {
+            Ok(scheduled) => scheduled,
+            Err(refusal) => return Err(self.refused(&refusal, &causes.ids, span)),
+        };
+        let planned = self.assemble_plan(design, robot, scheduled, &causes, beginning.world);
+        if !self.report_issues(&planned.1, &causes.ids) {
+            return Ok(None);
+        }
+        let planned = Rc::new(planned.0);
+        self.keep_plan(planned.clone());
+        Ok(Some(planned))
+    }
+
+    fn assemble_plan(
+        &self,
+        design: Rc<Design>,
+        robot: Rc<Robot>,
+        scheduled: Scheduled,
+        causes: &PlanCauses,
+        world: World,
+    ) -> (Planned, Vec<behavior::Issue>) {
+        let Scheduled { tracks, program, exemptions, nominal, actions, issues } = scheduled;
+        let plan = Plan {
+            provenance: self.provenance(),
+            worlds: vec![WorldFrom { from: 0.0, world }],
+            settings: self.judge_settings(),
+            library: tracks.robot.library.clone(),
+            body: Body::Tracks(tracks),
+            program: Some(program),
+            nominal,
+            causes: causes.table(&self.causes, self.sources),
+            exemptions,
+            verdict: None,
+        };
+        (Planned::new(design, robot, plan, causes.ids.clone(), actions), issues)
+    }
+
+    /// The default options of the judge, within the limits of the run.
+    pub fn judge_settings(&self) -> Settings {
+        Settings { samples_max: self.limits().samples, ..Settings::default() }
+    }
+
+    /// Durations that turned out shorter than the joints' limits allow.
+    fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
+        for issue in issues {
+            let issue = behavior::Issue { cause: ids[issue.cause.0 as usize], ..issue.clone() };
+            let diagnostic = self.issue(&issue);
+            self.add_report(diagnostic);
+        }
+        issues.is_empty()
+    }
+
+    /// A plan of the same behaviour of the same robot. Causes may differ: the same commands called
+    /// from another line are other causes, and then it is planned anew.
+    fn kept_plan(
+        &self,
+        design: &Rc<Design>,
+        program: &Arc<Node>,
+        start: &State,
+        world: &World,
+        causes: &[CauseId],
+    ) -> Option<Rc<Planned>> {
+        let same = |planned: &&Rc<Planned>| {
+            let plan = &planned.plan;
+            let Some(tracks) = plan.body.tracks() else { return false };
+            Rc::ptr_eq(&planned.robot, design)
+                && planned.causes.starts_with(causes)
+                && first_world(plan) == *world
+                && tracks.start == *start
+                && plan.program.as_ref().is_some_and(|p| p.root == *program)
+        };
+        self.plans.iter().find(same).cloned()
+    }
+
+    fn keep_plan(&mut self, planned: Rc<Planned>) {
+        if self.plans.len() >= KEPT_MAX {
+            self.plans.remove(0);
+        }
+        self.plans.push(planned);
+    }
+
+    /// Causes of the joints' start positions and of the bonds.
+    fn start_causes(&mut self, design: &Rc<Design>, robot: &Robot, causes: &mut PlanCauses) -> StartCauses {
+        let mut start = StartCauses::default();
+        for set in design.sets() {
+            let cause = self.start_cause(set.span, &set.instance);
+            let joint = JointId(robot.kinematics.joint(set.module, set.joint) as u32);
+            // A later `set` of a joint replaces an earlier one.
+            start.joints.retain(|(other, _)| *other != joint);
+            start.joints.push((joint, causes.number(cause)));
+        }
+        for (index, bond) in design.bonds().iter().enumerate() {
+            let cause = self.start_cause(bond.span, &bond.instance);
+            start.bonds.push((index, causes.number(cause)));
+        }
+        start
+    }
+
+    fn start_cause(&mut self, span: Span, instance: &str) -> CauseId {
+        self.causes.add(super::causes::CauseRecord {
+            span,
+            args: Vec::new(),
+            instance: instance.into(),
+            caller: None,
+        })
+    }
+
+    /// Names and hashes of all texts.
+    fn provenance(&self) -> Provenance {
+        let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
+        let mut sources: Vec<(String, String)> =
+            self.sources.files().map(|(_, file)| (file.name.to_string(), hash(&file.text))).collect();
+        sources.sort();
+        Provenance {
+            planner: "behavior".into(),
+            sources,
+            seed: Some(self.options.seed),
+            tool: format!("modl {}", env!("CARGO_PKG_VERSION")),
+            ..Provenance::default()
+        }
+    }
+
+    /// A robot in its start pose as a plan that lasts no time.
+    pub fn plan_pose(&mut self, design: &Rc<Design>, world: World) -> Eval<Option<Rc<Planned>>> {
+        let Some(robot) = self.robot_of(design)? else { return Ok(None) };
+        let mut causes = PlanCauses::default();
+        let set = self.start_causes(design, &robot, &mut causes);
+        let tracks = Tracks {
+            robot: robot.assembly.as_ref().clone(),
+            start: robot.start.clone(),
+            tracks: Vec::new(),
+            docks: Vec::new(),
+            duration: 0.0,
+            start_causes: set.joints,
+            bond_causes: set.bonds,
+        };
+        let scheduled = Scheduled {
+            tracks,
+            program: crate::plan::Program { root: Arc::new(Node::Series(Vec::new())) },
+            exemptions: Vec::new(),
+            nominal: false,
+            actions: 0,
+            issues: Vec::new(),
+        };
+        Ok(Some(Rc::new(self.assemble_plan(design.clone(), robot, scheduled, &causes, world).0)))
+    }
+
+    /// The verdict on a plan under these options; each asked for once.
+    pub fn judge(&mut self, planned: &Planned, settings: Settings, world: Option<World>) -> Rc<Verdict> {
+        let worlds = match world {
+            Some(world) => vec![WorldFrom { from: 0.0, world }],
+            None => planned.plan.worlds.clone(),
+        };
+        let known = |judged: &&Judged| judged.settings == settings && judged.worlds == worlds;
+        if let Some(judged) = planned.judged.borrow().iter().find(known) {
+            return judged.verdict.clone();
+        }
+        self.stage.progress(format!("verifying {}", planned.robot.name));
+        let plan = Plan { settings, worlds: worlds.clone(), ..planned.plan.clone() };
+        let verdict = Rc::new(super::pending::verify(&plan));
+        planned.judged.borrow_mut().push(Judged { settings, worlds, verdict: verdict.clone() });
+        verdict
+    }
+
+    pub fn state_at(&mut self, planned: &Rc<Planned>, time: f64) -> Value {
+        let time = time.clamp(0.0, planned.plan.body.duration());
+        match planned.plan.body.state(time) {
+            Snapshot::Robot(state) => Value::Record(Rc::new(Record::State(StateValue {
+                robot: planned.robot.clone(),
+                body: planned.body.clone(),
+                state,
+                time,
+            }))),
+            Snapshot::Cells(_) | Snapshot::Nodes(_) => Value::Unknown,
+        }
+    }
+
+    /// The plan that a value is or gives.
+    pub fn plan_of(&mut self, value: &Value, span: Span) -> Eval<Option<Rc<Planned>>> {
+        match value {
+            Value::Behavior(behavior) => self.plan_behavior(behavior, span),
+            Value::Record(record) => match &**record {
+                Record::Plan(planned) => Ok(Some(planned.clone())),
+                _ => Ok(None),
+            },
+            Value::Instance(instance) => self.plan_pose(&instance.robot, World::default()),
+            _ => Ok(None),
+        }
+    }
+
+    fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
+        super::verdicts::refused(self, refusal, ids, span)
+    }
+}
+
+/// The corners of the area that a robot stands on, in the frame of its base as it rests.
+pub fn footprint(robot: &Robot) -> Vec<Vec3> {
+    super::pending::footprint_of(&robot.assembly, &robot.start)
+}

@@ -1,0 +1,219 @@
+//! Records: what built-ins give back, and the fields by which it is asked.
+
+use super::design::Design;
+use super::interpreter::Interpreter;
+use super::planning::Planned;
+use super::robot_of::Robot;
+use super::stop::Eval;
+use super::truss::free_motions;
+use super::value::Value;
+use super::verdicts;
+use crate::geometry::Vec3;
+use crate::plan::{Ground, Plan, Verdict, World, Worst};
+use crate::robot::State;
+use crate::source::{Span, Symbol};
+use crate::units::Dimension;
+use std::rc::Rc;
+
+#[derive(Debug)]
+pub enum Record {
+    Plan(Rc<Planned>),
+    Report(Rc<Verdict>),
+    State(StateValue),
+    World(World),
+    /// Nodes and struts.
+    Frame(Vec<Vec3>, Vec<(usize, usize)>),
+    /// Of a truss.
+    Rigidity(Rc<Design>),
+}
+
+/// A state of a robot, with when and where it was taken.
+pub struct StateValue {
+    pub robot: Rc<Design>,
+    pub body: Rc<Robot>,
+    pub state: State,
+    pub time: f64,
+}
+
+const ACCELERATION: Dimension = Dimension::ACCELERATION;
+const ENERGY: Dimension = Dimension::TORQUE;
+
+impl Interpreter<'_> {
+    /// A field of a record; a behaviour is asked as the plan that it gives.
+    pub fn field(&mut self, value: &Value, field: Symbol, span: Span) -> Eval<Value> {
+        match value {
+            Value::Behavior(behavior) => match self.plan_behavior(behavior, span)? {
+                Some(planned) => Ok(self.plan_field(&planned, field.as_str())),
+                None => Ok(Value::Unknown),
+            },
+            Value::Record(record) => Ok(match &**record {
+                Record::Plan(planned) => self.plan_field(planned, field.as_str()),
+                Record::Report(verdict) => report_field(verdict, field.as_str()),
+                Record::State(state) => state.field(field.as_str()),
+                Record::World(world) => world_field(world, field.as_str()),
+                Record::Frame(nodes, struts) => frame_field(nodes, struts, field.as_str()),
+                Record::Rigidity(truss) => rigidity_field(truss, field.as_str()),
+            }),
+            _ => Ok(Value::Unknown),
+        }
+    }
+
+    fn plan_field(&mut self, planned: &Rc<Planned>, field: &str) -> Value {
+        match field {
+            "duration" => Value::time(planned.plan.body.duration()),
+            "actions" => Value::count(planned.actions()),
+            "steps" => Value::count(planned.steps()),
+            "start" => self.state_at(planned, 0.0),
+            "end" => self.state_at(planned, planned.plan.body.duration()),
+            "assumes" => Value::Record(Rc::new(Record::World(first_world(&planned.plan)))),
+            _ => Value::Unknown,
+        }
+    }
+}
+
+pub fn first_world(plan: &Plan) -> World {
+    plan.worlds.first().map_or_else(World::default, |from| from.world)
+}
+
+/// The names of a record's fields, as Rust has them; the tests compare them with the declarations.
+pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
+    Some(match record {
+        "Plan" => &["duration", "actions", "steps", "start", "end", "assumes"],
+        "Report" => &[
+            "ok",
+            "clearance",
+            "margin",
+            "torque_margin",
+            "bond_margin",
+            "speed_margin",
+            "travel",
+            "displacement",
+            "heading",
+            "slip",
+            "duration",
+            "energy",
+            "samples",
+            "failures",
+            "checks",
+            "worst",
+            "notes",
+        ],
+        "State" => &["time", "base", "com"],
+        "World" => &["gravity", "ground", "friction"],
+        "Frame" => &["nodes", "struts"],
+        "Rigidity" => &["rigid", "rank", "self_stresses", "weakest", "redundant", "free_motions"],
+        _ => return None,
+    })
+}
+
+fn report_field(verdict: &Verdict, field: &str) -> Value {
+    // A margin that nothing limits is infinite: larger than whatever it is compared with.
+    let worst = |worst: &Option<Worst>, dimension| {
+        Value::Quantity(worst.as_ref().map_or(f64::INFINITY, |w| w.value), dimension)
+    };
+    let texts = |texts: Vec<String>| Value::list(texts.into_iter().map(Value::text).collect());
+    let [x, y, z] = verdict.travel;
+    match field {
+        "ok" => Value::Bool(verdict.ok()),
+        "clearance" => worst(&verdict.clearance, Dimension::LENGTH),
+        "margin" => worst(&verdict.margin, Dimension::LENGTH),
+        "torque_margin" => worst(&verdict.torque_margin, Dimension::NUMBER),
+        "bond_margin" => worst(&verdict.bond_margin, Dimension::NUMBER),
+        "speed_margin" => worst(&verdict.speed_margin, Dimension::NUMBER),
+        "travel" => Value::length(libm::hypot(x, y)),
+        "displacement" => Value::Vec3(Vec3::new(x, y, z), Dimension::LENGTH),
+        "heading" => Value::Quantity(verdict.heading, Dimension::ANGLE),
+        "slip" => Value::length(verdict.slip.as_ref().map_or(0.0, |w| w.value)),
+        "duration" => Value::time(verdict.duration),
+        "energy" => Value::Quantity(verdict.energy, ENERGY),
+        "samples" => Value::count(verdict.samples),
+        "failures" => texts(verdict.failures.iter().map(verdicts::failure_line).collect()),
+        "checks" => texts(verdict.checks.iter().map(verdicts::check_line).collect()),
+        "worst" => texts(verdicts::worst_lines(verdict)),
+        "notes" => texts(verdict.notes.clone()),
+        _ => Value::Unknown,
+    }
+}
+
+impl std::fmt::Debug for StateValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a state of {}", self.robot.name)
+    }
+}
+
+impl StateValue {
+    fn field(&self, field: &str) -> Value {
+        match field {
+            "time" => Value::time(self.time),
+            "base" => Value::Pose(Rc::new(self.state.base)),
+            "com" => {
+                let poses = self.poses();
+                let (com, _) = self.body.kinematics.centre_of_mass(&self.body.assembly, &poses);
+                Value::Vec3(com, Dimension::LENGTH)
+            }
+            _ => Value::Unknown,
+        }
+    }
+
+    /// World poses of all links.
+    pub fn poses(&self) -> Vec<crate::geometry::Pose> {
+        let mut poses = vec![self.state.base; self.body.kinematics.link_count()];
+        let base = self.body.assembly.base;
+        self.body.kinematics.link_poses_from(base, &self.state.joints, &self.state.base, &mut poses);
+        poses
+    }
+}
+
+fn world_field(world: &World, field: &str) -> Value {
+    match field {
+        "gravity" => Value::Quantity(world.gravity, ACCELERATION),
+        "ground" => Value::text(match world.ground {
+            Ground::Settle => "settle",
+            Ground::Fixed => "fixed",
+            Ground::Off => "off",
+        }),
+        "friction" => Value::number(world.friction),
+        _ => Value::Unknown,
+    }
+}
+
+fn frame_field(nodes: &[Vec3], struts: &[(usize, usize)], field: &str) -> Value {
+    match field {
+        "nodes" => Value::list(nodes.iter().map(|p| Value::Vec3(*p, Dimension::LENGTH)).collect()),
+        "struts" => {
+            let pair = |(a, b): &(usize, usize)| Value::list(vec![Value::count(*a), Value::count(*b)]);
+            Value::list(struts.iter().map(pair).collect())
+        }
+        _ => Value::Unknown,
+    }
+}
+
+/// Nodes, and struts by pairs of nodes.
+type NodesAndStruts = (Vec<Vec3>, Vec<(usize, usize)>);
+
+/// Nodes and struts of a `Frame`.
+pub fn frame_parts(value: &Value) -> Option<NodesAndStruts> {
+    match value {
+        Value::Record(record) => match &**record {
+            Record::Frame(nodes, struts) => Some((nodes.clone(), struts.clone())),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn rigidity_field(design: &Rc<Design>, field: &str) -> Value {
+    let super::design::DesignKind::Truss(truss) = &design.kind else { return Value::Unknown };
+    let rigidity = &truss.rigidity;
+    match field {
+        "rigid" => Value::Bool(rigidity.rigid()),
+        "rank" => Value::count(rigidity.rank),
+        "self_stresses" => Value::count(rigidity.self_stresses),
+        "weakest" => Value::number(rigidity.weakest),
+        "redundant" => {
+            Value::list(rigidity.redundant.iter().map(|&s| Value::text(truss.strut_name(s))).collect())
+        }
+        "free_motions" => Value::list(free_motions(truss).into_iter().map(Value::text).collect()),
+        _ => Value::Unknown,
+    }
+}

@@ -1,0 +1,98 @@
+//! A thread with a large stack for the evaluator, and the way from there to the outside.
+//!
+//! Evaluation is recursive, and programs nest deeper than the stack of a thread that somebody else
+//! made. The outside (files and host) stays on the thread of the caller, which serves requests.
+
+use super::host::{Host, WriteError};
+use crate::source::{Files, ReadError};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::Duration;
+
+/// Room for the evaluator's recursion; pages that are never touched cost nothing.
+const STACK_BYTES: usize = 1 << 30;
+/// How often the host is asked whether the user wants the run to end.
+const LOOK_EVERY: Duration = Duration::from_millis(5);
+
+enum Request {
+    Print(String),
+    Progress(String),
+    Write(String, Vec<u8>, Sender<Result<String, WriteError>>),
+    Read(String, Sender<Result<Vec<u8>, ReadError>>),
+}
+
+/// The evaluator's end of the way to the outside.
+pub struct Stage {
+    requests: Sender<Request>,
+    cancelled: Arc<AtomicBool>,
+}
+
+impl Stage {
+    pub fn print(&self, line: String) {
+        self.send(Request::Print(line));
+    }
+
+    pub fn progress(&self, line: String) {
+        self.send(Request::Progress(line));
+    }
+
+    pub fn write(&self, path: &str, bytes: Vec<u8>) -> Result<String, WriteError> {
+        let (sender, receiver) = channel();
+        self.send(Request::Write(path.into(), bytes, sender));
+        receiver.recv().expect("the outside serves until the evaluator ends")
+    }
+
+    pub fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+        let (sender, receiver) = channel();
+        self.send(Request::Read(path.into(), sender));
+        receiver.recv().expect("the outside serves until the evaluator ends")
+    }
+
+    pub fn cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+
+    fn send(&self, request: Request) {
+        self.requests.send(request).expect("the outside serves until the evaluator ends");
+    }
+}
+
+/// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
+pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnce(Stage) -> T + Send) -> T {
+    let (sender, requests) = channel();
+    let cancelled = Arc::new(AtomicBool::new(host.cancelled()));
+    let stage = Stage { requests: sender, cancelled: cancelled.clone() };
+    std::thread::scope(|scope| {
+        let evaluator = std::thread::Builder::new()
+            .name("evaluator".into())
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, move || evaluate(stage))
+            .expect("the system can start a thread");
+        serve(&requests, files, host, &cancelled);
+        evaluator.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+fn serve(requests: &Receiver<Request>, files: &dyn Files, host: &mut dyn Host, cancelled: &AtomicBool) {
+    loop {
+        match requests.recv_timeout(LOOK_EVERY) {
+            Ok(request) => answer(request, files, host),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return,
+        }
+        if host.cancelled() {
+            cancelled.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// An answer that nobody waits for any more is dropped.
+fn answer(request: Request, files: &dyn Files, host: &mut dyn Host) {
+    match request {
+        Request::Print(line) => host.print(&line),
+        Request::Progress(line) => host.progress(&line),
+        Request::Write(path, bytes, reply) => drop(reply.send(host.write(&path, &bytes))),
+        Request::Read(path, reply) => drop(reply.send(files.read(&path))),
+    }
+}

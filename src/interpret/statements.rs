@@ -1,0 +1,107 @@
+//! Statements and tests.
+
+use super::eval::Frame;
+use super::host::{Mode, TestResult};
+use super::interpreter::Interpreter;
+use super::stop::{Eval, Stop};
+use super::value::Value;
+use crate::check::typed::{Body, Expr, Stmt, StmtKind};
+use crate::source::{Diagnostic, code};
+
+impl Interpreter<'_> {
+    /// Executes the statements of a body; a statement that fails leaves its names unknown, and the
+    /// others go on.
+    pub fn execute_body(&mut self, body: &Body) -> Eval<()> {
+        let mut frame = Frame::new(body.frame, None);
+        for statement in &body.statements {
+            self.execute(statement, &mut frame)?;
+        }
+        Ok(())
+    }
+
+    pub fn execute(&mut self, statement: &Stmt, frame: &mut Frame) -> Eval<()> {
+        match &statement.kind {
+            StmtKind::Let { local, value } => {
+                let value = self.eval(value, frame)?;
+                frame.set(*local, value);
+            }
+            StmtKind::Expr(expr) => {
+                self.eval(expr, frame)?;
+            }
+            StmtKind::Expect { condition, message } => self.expect(condition, message.as_ref(), frame)?,
+            StmtKind::If { condition, then, otherwise } => {
+                let branch = match self.eval(condition, frame)? {
+                    Value::Bool(true) => then,
+                    Value::Bool(false) => otherwise,
+                    _ => return Ok(()),
+                };
+                self.execute_all(branch, frame)?;
+            }
+            StmtKind::For { binder, iterable, body } => {
+                let values = self.eval(iterable, frame)?;
+                let looped = self.for_each(&values, *binder, iterable.span, frame, |this, frame| {
+                    this.execute_all(body, frame)
+                });
+                match looped {
+                    Err(Stop::Fault(diagnostic)) => self.report(*diagnostic),
+                    other => drop(other?),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn execute_all(&mut self, statements: &[Stmt], frame: &mut Frame) -> Eval<()> {
+        statements.iter().try_for_each(|statement| self.execute(statement, frame))
+    }
+
+    fn expect(&mut self, condition: &Expr, message: Option<&Expr>, frame: &mut Frame) -> Eval<()> {
+        let value = self.eval(condition, frame)?;
+        self.unjudged |= value.is_unknown();
+        if self.mode == Mode::Check || !matches!(value, Value::Bool(false)) {
+            return Ok(());
+        }
+        let text = self.sources.text(condition.span).split_whitespace().collect::<Vec<_>>().join(" ");
+        let said = match self.eval_optional(message, frame)? {
+            Some(Value::Text(message)) => format!("{message}: `{text}` does not hold"),
+            _ => format!("`{text}` does not hold"),
+        };
+        let found = self.sides(condition, frame)?;
+        let label = if found.is_empty() { "this is false".to_string() } else { found };
+        self.report(Diagnostic::error(code::EXPECTATION, said).label(condition.span, label));
+        Ok(())
+    }
+
+    /// What the sides of a comparison were: `1.2 mm > 2 mm`.
+    pub fn sides(&mut self, condition: &Expr, frame: &mut Frame) -> Eval<String> {
+        use crate::check::typed::{BinaryOp as Op, ExprKind};
+        let ExprKind::Binary { op, left, right } = &condition.kind else { return Ok(String::new()) };
+        let sign = match op {
+            Op::Eq => "==",
+            Op::Ne => "!=",
+            Op::Lt => "<",
+            Op::Le => "<=",
+            Op::Gt => ">",
+            Op::Ge => ">=",
+            _ => return Ok(String::new()),
+        };
+        let (left, right) = (self.eval(left, frame)?, self.eval(right, frame)?);
+        Ok(format!("{} {sign} {} is false", self.show(&left), self.show(&right)))
+    }
+
+    /// Runs the tests whose name contains the filter; each passes unless it reported an error or
+    /// something in it could not be judged.
+    pub fn run_tests(&mut self) -> Eval<()> {
+        let program = self.program;
+        let filter = self.options.filter.as_deref().unwrap_or_default();
+        for test in program.tests.iter().filter(|test| test.name.contains(filter)) {
+            let mark = self.errors;
+            self.unjudged = false;
+            let ended = self.execute_body(&test.body);
+            let passed = ended.is_ok() && !self.unjudged && !self.failed_since(mark);
+            self.tests.push(TestResult { name: test.name.clone(), passed });
+            ended?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,65 @@
+//! Triangle meshes from STL files, binary and text.
+
+use crate::geometry::Vec3;
+use std::collections::HashMap;
+
+/// Bytes of the header of a binary file, and of one triangle.
+const HEADER: usize = 84;
+const TRIANGLE: usize = 50;
+
+type Triangles = (Vec<Vec3>, Vec<[u32; 3]>);
+
+/// Vertices (m) and triangles; corners at one place are one vertex. `scale` is the length of a unit.
+pub fn read(bytes: &[u8], scale: f64) -> Result<Triangles, String> {
+    let count = bytes.get(80..HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
+    let corners = match count {
+        Some(count) if bytes.len() == HEADER + TRIANGLE * count => binary(&bytes[HEADER..]),
+        _ => text(bytes)?,
+    };
+    if corners.is_empty() {
+        return Err("it holds no triangles".into());
+    }
+    if corners.iter().flatten().flatten().any(|x| !x.is_finite()) {
+        return Err("a coordinate is no finite number".into());
+    }
+    Ok(shared(&corners, scale))
+}
+
+fn binary(body: &[u8]) -> Vec<[[f32; 3]; 3]> {
+    let number = |b: &[u8], at: usize| f32::from_le_bytes([b[at], b[at + 1], b[at + 2], b[at + 3]]);
+    let corner = |b: &[u8], k: usize| [0, 4, 8].map(|c| number(b, 12 + 12 * k + c));
+    body.chunks_exact(TRIANGLE).map(|b| [0, 1, 2].map(|k| corner(b, k))).collect()
+}
+
+fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "its length does not fit its triangles".to_string())?;
+    let mut corners = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        if words.next() != Some("vertex") {
+            continue;
+        }
+        let numbers: Vec<f32> = words.filter_map(|w| w.parse().ok()).collect();
+        let corner = <[f32; 3]>::try_from(numbers);
+        corners.push(corner.map_err(|_| format!("line {} is no vertex", index + 1))?);
+    }
+    if corners.len() % 3 != 0 {
+        return Err("its last triangle is not complete".into());
+    }
+    Ok(corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
+}
+
+fn shared(corners: &[[[f32; 3]; 3]], scale: f64) -> Triangles {
+    let mut vertices = Vec::new();
+    let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+    let mut vertex = |corner: &[f32; 3]| {
+        // Adding zero makes one of the two zeros, which are one place.
+        let key = corner.map(|x| (x + 0.0).to_bits());
+        *known.entry(key).or_insert_with(|| {
+            vertices.push(Vec3::new(corner[0].into(), corner[1].into(), corner[2].into()) * scale);
+            u32::try_from(vertices.len() - 1).expect("a file has fewer than 2^32 vertices")
+        })
+    };
+    let triangles = corners.iter().map(|t| [vertex(&t[0]), vertex(&t[1]), vertex(&t[2])]).collect();
+    (vertices, triangles)
+}

@@ -1,0 +1,246 @@
+//! Values of a running program.
+//!
+//! Types were settled by `check`, so a value carries only what printing and arithmetic need.
+//! Values are immutable and shared; a copy costs a pointer.
+
+use super::cells::Cells;
+use super::design::{Design, Instance};
+use super::record::Record;
+use crate::check::typed::{DefId, Expr, Local};
+use crate::geometry::{Placed, Pose, Vec3};
+use crate::plan;
+use crate::robot::{JointKind, Limits};
+use crate::source::Symbol;
+use crate::units::Dimension;
+use num_bigint::BigInt;
+use std::rc::Rc;
+use std::sync::Arc;
+
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// What an error left behind, or what only a run can know. Whatever is computed from it is
+    /// unknown too, in silence. Lists, records and instances never contain it: they are unknown.
+    Unknown,
+    /// What `print` gives.
+    Nothing,
+    /// The missing value of an optional type.
+    Missing,
+    Bool(bool),
+    Int(i64),
+    /// A whole number beyond `i64`; see [`Value::whole`].
+    Big(Rc<BigInt>),
+    /// SI.
+    Quantity(f64, Dimension),
+    Text(Rc<str>),
+    /// A word of a choice.
+    Word(Symbol),
+    List(Rc<Vec<Value>>),
+    /// SI.
+    Vec3(Vec3, Dimension),
+    Pose(Rc<Pose>),
+    Range(Rc<(Value, Value)>),
+    Fn(Rc<Callable>),
+    Instance(Rc<Instance>),
+    Joint(JointValue),
+    Port(PortValue),
+    Behavior(Rc<Behavior>),
+    Signal(Rc<SignalValue>),
+    Condition(Rc<ConditionValue>),
+    Shape(Rc<Solid>),
+    JointKind(Rc<JointSpec>),
+    Cells(Rc<Cells>),
+    Mesh(Rc<Mesh>),
+    Cloud(Rc<Vec<Vec3>>),
+    Record(Rc<Record>),
+}
+
+/// What can be called through a value.
+#[derive(Debug)]
+pub enum Callable {
+    Lambda {
+        body: Arc<Expr>,
+        /// Slots of the lambda's frame with what they hold from outside.
+        captured: Vec<(Local, Value)>,
+        frame: usize,
+        this: Option<Rc<Instance>>,
+    },
+    Def(DefId),
+    Behavior {
+        object: Rc<Instance>,
+        behavior: usize,
+    },
+}
+
+/// A joint of a robot. The robot is the outermost one, so that the joints of a part are joints of
+/// the whole.
+#[derive(Clone, Debug)]
+pub struct JointValue {
+    pub robot: Rc<Design>,
+    /// Index among the robot's modules.
+    pub module: usize,
+    /// Index among the module's joints.
+    pub joint: usize,
+    /// Of its position.
+    pub dimension: Dimension,
+}
+
+/// A port of a robot, the outermost one.
+#[derive(Clone, Debug)]
+pub struct PortValue {
+    pub robot: Rc<Design>,
+    pub module: usize,
+    pub port: usize,
+}
+
+/// An action graph with the robot that it moves; `None` where no action names one, as in `wait(1s)`.
+#[derive(Debug)]
+pub struct Behavior {
+    pub robot: Option<Rc<Design>>,
+    pub node: Arc<plan::Node>,
+}
+
+#[derive(Debug)]
+pub struct SignalValue {
+    pub robot: Option<Rc<Design>>,
+    pub signal: plan::Signal,
+}
+
+#[derive(Debug)]
+pub struct ConditionValue {
+    pub robot: Option<Rc<Design>>,
+    pub condition: plan::Condition,
+}
+
+/// A shape with what it says about its link.
+#[derive(Clone, Debug, Default)]
+pub struct Solid {
+    pub parts: Vec<Placed>,
+    pub mass: Option<f64>,
+    pub com: Option<Vec3>,
+    /// xx, yy, zz, xy, xz, yz about the centre of mass.
+    pub inertia: Option<[f64; 6]>,
+    pub friction: Option<f64>,
+}
+
+/// `revolute(...)`, `prismatic(...)`, `fixed()`.
+#[derive(Debug)]
+pub struct JointSpec {
+    pub kind: JointKind,
+    /// As written; need not be of unit length.
+    pub axis: Vec3,
+    pub limits: Limits,
+    pub passive: bool,
+}
+
+/// A surface of flat faces.
+#[derive(Debug)]
+pub struct Mesh {
+    pub vertices: Vec<Vec3>,
+    /// Places in `vertices`, counterclockwise from outside; at least three each.
+    pub faces: Vec<Vec<usize>>,
+}
+
+impl Value {
+    pub fn text(text: impl AsRef<str>) -> Value {
+        Value::Text(text.as_ref().into())
+    }
+
+    pub fn number(x: f64) -> Value {
+        Value::Quantity(x, Dimension::NUMBER)
+    }
+
+    pub fn length(x: f64) -> Value {
+        Value::Quantity(x, Dimension::LENGTH)
+    }
+
+    pub fn time(x: f64) -> Value {
+        Value::Quantity(x, Dimension::TIME)
+    }
+
+    pub fn count(n: usize) -> Value {
+        Value::Int(i64::try_from(n).expect("counts are far below 2^63"))
+    }
+
+    /// A list, or unknown where an element is.
+    pub fn list(elements: Vec<Value>) -> Value {
+        if elements.iter().any(Value::is_unknown) { Value::Unknown } else { Value::List(Rc::new(elements)) }
+    }
+
+    /// A whole number in its shortest form.
+    pub fn whole(n: BigInt) -> Value {
+        i64::try_from(&n).map_or_else(|_| Value::Big(Rc::new(n)), Value::Int)
+    }
+
+    pub fn optional(value: Option<Value>) -> Value {
+        value.unwrap_or(Value::Missing)
+    }
+
+    pub fn is_unknown(&self) -> bool {
+        matches!(self, Value::Unknown)
+    }
+
+    /// A quantity or whole number in SI.
+    pub fn as_number(&self) -> Option<f64> {
+        match self {
+            Value::Quantity(x, _) => Some(*x),
+            Value::Int(n) => Some(*n as f64),
+            Value::Big(n) => num_traits::ToPrimitive::to_f64(n.as_ref()),
+            _ => None,
+        }
+    }
+
+    pub fn as_dimension(&self) -> Option<Dimension> {
+        match self {
+            Value::Quantity(_, d) | Value::Vec3(_, d) => Some(*d),
+            Value::Int(_) | Value::Big(_) => Some(Dimension::NUMBER),
+            _ => None,
+        }
+    }
+
+    pub fn as_big(&self) -> Option<BigInt> {
+        match self {
+            Value::Int(n) => Some(BigInt::from(*n)),
+            Value::Big(n) => Some(n.as_ref().clone()),
+            _ => None,
+        }
+    }
+
+    /// Whether two values are equal, as `==` says; `None` where that is not defined.
+    pub fn same(&self, other: &Value) -> Option<bool> {
+        use Value::*;
+        Some(match (self, other) {
+            (Unknown, _) | (_, Unknown) => return None,
+            (Nothing, Nothing) | (Missing, Missing) => true,
+            (Missing, _) | (_, Missing) => false,
+            (Bool(a), Bool(b)) => a == b,
+            (Int(a), Int(b)) => a == b,
+            (Big(a), Big(b)) => a == b,
+            (Int(_), Big(_)) | (Big(_), Int(_)) => false,
+            (Text(a), Text(b)) => a == b,
+            (Word(a), Word(b)) => a == b,
+            (Vec3(a, _), Vec3(b, _)) => a == b,
+            (Pose(a), Pose(b)) => a == b,
+            (List(a), List(b)) => {
+                a.len() == b.len() && a.iter().zip(b.iter()).all(|(x, y)| x.same(y) == Some(true))
+            }
+            (Range(a), Range(b)) => a.0.same(&b.0)? && a.1.same(&b.1)?,
+            (Fn(a), Fn(b)) => {
+                Rc::ptr_eq(a, b) || matches!((&**a, &**b), (Callable::Def(x), Callable::Def(y)) if x == y)
+            }
+            (Instance(a), Instance(b)) => {
+                Rc::ptr_eq(&a.design, &b.design) && Rc::ptr_eq(&a.robot, &b.robot) && a.offset == b.offset
+            }
+            (Joint(a), Joint(b)) => {
+                Rc::ptr_eq(&a.robot, &b.robot) && (a.module, a.joint) == (b.module, b.joint)
+            }
+            (Port(a), Port(b)) => Rc::ptr_eq(&a.robot, &b.robot) && (a.module, a.port) == (b.module, b.port),
+            (Behavior(a), Behavior(b)) => Rc::ptr_eq(a, b) || a.node == b.node,
+            (Cells(a), Cells(b)) => a == b,
+            (Shape(a), Shape(b)) => a.parts == b.parts,
+            (Mesh(a), Mesh(b)) => a.vertices == b.vertices && a.faces == b.faces,
+            (Cloud(a), Cloud(b)) => a == b,
+            (Record(a), Record(b)) => Rc::ptr_eq(a, b),
+            (a, b) => a.as_number()? == b.as_number()?,
+        })
+    }
+}

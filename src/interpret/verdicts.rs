@@ -1,0 +1,245 @@
+//! What the judge found, in words and as diagnostics at the lines that are to blame.
+
+use super::behavior::{in_library, with_instance};
+use super::causes::CauseRecord;
+use super::interpreter::Interpreter;
+use super::planning::Planned;
+use super::stop::Stop;
+use crate::behavior::{Reason, Refusal};
+use crate::plan::{CauseId, Check, CheckKind, ExemptionKind, Failure, Settings, Status, Verdict, Worst};
+use crate::source::{Code, Diagnostic, Label, Span, code};
+use crate::units::{Dimension, display, quantity};
+use std::collections::BTreeSet;
+
+/// Failures of one plan that are reported; the rest is counted.
+const FAILURES_SHOWN: usize = 8;
+
+fn seconds(t: f64) -> String {
+    quantity(t, Dimension::TIME)
+}
+
+pub fn failure_line(failure: &Failure) -> String {
+    format!("at {}: {}", seconds(failure.time), failure.message)
+}
+
+pub fn check_name(kind: CheckKind) -> &'static str {
+    match kind {
+        CheckKind::Conflict => "conflict",
+        CheckKind::Collision => "collision",
+        CheckKind::JointRange => "joint range",
+        CheckKind::Speed => "speed",
+        CheckKind::Acceleration => "acceleration",
+        CheckKind::Torque => "torque",
+        CheckKind::BondLoad => "bond load",
+        CheckKind::Docking => "docking",
+        CheckKind::Connectedness => "connectedness",
+        CheckKind::Closure => "closure",
+        CheckKind::Ground => "ground",
+        CheckKind::Stability => "stability",
+        CheckKind::Slip => "slip",
+        CheckKind::Rest => "rest",
+    }
+}
+
+pub fn check_line(check: &Check) -> String {
+    let status = match &check.status {
+        Status::Proved => "proved".to_string(),
+        Status::Sampled(n) => format!("sampled({n})"),
+        Status::NotChecked(why) => format!("not checked: {why}"),
+        Status::NoLimit => "no limit stated".to_string(),
+        Status::Exempt => "exempt".to_string(),
+        Status::Failed => "failed".to_string(),
+    };
+    format!("{}: {status}", check_name(check.kind))
+}
+
+/// The worst values that there are, each with its time and place.
+pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
+    let length = |x: f64| quantity(x, Dimension::LENGTH);
+    let number = |x: f64| display::number(x);
+    let line = |name: &str, worst: &Option<Worst>, show: &dyn Fn(f64) -> String| {
+        worst.as_ref().map(|w| {
+            let at = if w.at.is_empty() { String::new() } else { format!(", {}", w.at.join(" and ")) };
+            format!("{name} {} at {}{at}", show(w.value), seconds(w.time))
+        })
+    };
+    [
+        line("clearance", &verdict.clearance, &length),
+        line("margin", &verdict.margin, &length),
+        line("torque margin", &verdict.torque_margin, &number),
+        line("bond margin", &verdict.bond_margin, &number),
+        line("speed margin", &verdict.speed_margin, &number),
+        line("slip", &verdict.slip, &length),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// A verdict as `print` shows it.
+pub fn in_words(verdict: &Verdict) -> String {
+    let [x, y, _] = verdict.travel;
+    let travel = quantity(libm::hypot(x, y), Dimension::LENGTH);
+    let head = if verdict.ok() { "verified" } else { "not verified" };
+    let mut lines = vec![format!("{head}: {}, travels {travel}", seconds(verdict.duration))];
+    lines.extend(verdict.failures.iter().take(FAILURES_SHOWN).map(|f| format!("failed {}", failure_line(f))));
+    lines.extend(worst_lines(verdict));
+    lines.extend(verdict.checks.iter().map(check_line));
+    lines.extend(verdict.notes.iter().map(|note| format!("note: {note}")));
+    lines.join("\n  ")
+}
+
+fn failure_code(kind: CheckKind) -> Code {
+    match kind {
+        CheckKind::Conflict => code::CONFLICT,
+        CheckKind::Collision => code::COLLISION,
+        CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration => code::LIMIT_EXCEEDED,
+        CheckKind::Torque => code::OVERLOAD,
+        CheckKind::BondLoad => code::BOND_OVERLOAD,
+        CheckKind::Docking => code::DOCK_MISS,
+        CheckKind::Connectedness => code::FALLS_APART,
+        CheckKind::Closure => code::CLOSURE,
+        CheckKind::Ground => code::PENETRATION,
+        CheckKind::Stability => code::FALL,
+        CheckKind::Slip => code::UNSTABLE,
+        CheckKind::Rest => code::NOT_AT_REST,
+    }
+}
+
+impl Interpreter<'_> {
+    /// Reports every failure at what is to blame for it.
+    pub fn report_failures(&mut self, planned: &Planned, verdict: &Verdict, span: Span) {
+        for failure in verdict.failures.iter().take(FAILURES_SHOWN) {
+            let diagnostic = self.failure(planned, failure, span);
+            self.add_report(diagnostic);
+        }
+        if let Some(rest) = verdict.failures.len().checked_sub(FAILURES_SHOWN + 1) {
+            let message = format!("{} more failures of this plan", rest + 1);
+            self.add_report(Diagnostic::error(code::NOT_VERIFIED, message).label(span, "of this plan"));
+        }
+    }
+
+    fn failure(&self, planned: &Planned, failure: &Failure, span: Span) -> Diagnostic {
+        let message = format!("{}, at t = {}", failure.message, seconds(failure.time));
+        let mut diagnostic = Diagnostic::error(failure_code(failure.kind), message);
+        let records: Vec<&CauseRecord> =
+            failure.blame.iter().map(|id| self.causes.get(planned.causes[id.0 as usize])).collect();
+        for (index, record) in records.iter().enumerate() {
+            let text = match (failure.blames_start, index) {
+                (true, 0) => "the start pose, set here, is to blame",
+                (true, _) => "and here",
+                (false, 0) => "held still, this would remove the failure",
+                (false, _) => "so would this",
+            };
+            diagnostic = add_label(diagnostic, record.primary(), with_instance(text.to_string(), record));
+            if record.caller.is_some() {
+                diagnostic = in_library(diagnostic, record);
+            }
+        }
+        let diagnostic = add_label(diagnostic, span, "while this plan is verified".to_string());
+        match failure.kind {
+            CheckKind::Stability if failure.until.is_some() => diagnostic
+                .hint("`unstable_for:` allows support to be missing for a while, `allows unstable` to tip"),
+            _ => diagnostic,
+        }
+    }
+
+    /// Exemptions that nothing needed; those of the library are its own affair.
+    pub fn report_unneeded(&mut self, planned: &Planned, verdict: &Verdict) {
+        let exemptions = &planned.plan.exemptions;
+        let needed = |id: CauseId| {
+            exemptions
+                .iter()
+                .enumerate()
+                .any(|(i, e)| e.cause == id && !verdict.unneeded_exemptions.contains(&i))
+        };
+        for &index in &verdict.unneeded_exemptions {
+            let Some(exemption) = exemptions.get(index) else { continue };
+            // One clause covers every interval in which its behaviour runs.
+            if needed(exemption.cause) {
+                continue;
+            }
+            let record = self.causes.get(planned.causes[exemption.cause.0 as usize]);
+            if self.is_library(record.span) {
+                continue;
+            }
+            let message = format!("nothing needed the exemption `{}`", exemption_name(&exemption.kind));
+            let diagnostic = Diagnostic::warning(code::UNNEEDED_EXEMPTION, message)
+                .label(record.span, "not needed")
+                .hint("leave it out, so that the judge may speak");
+            self.add_report(diagnostic);
+        }
+    }
+
+    /// What a plan was excused from and by which looser options, to be printed when it is written.
+    pub fn excuses(&self, planned: &Planned, settings: &Settings) -> Vec<String> {
+        let strict = self.judge_settings();
+        let mut lines = Vec::new();
+        if settings.unstable_for > strict.unstable_for {
+            lines.push(format!("unstable_for: {}", seconds(settings.unstable_for)));
+        }
+        if settings.sample > strict.sample {
+            lines.push(format!("sample: {}", seconds(settings.sample)));
+        }
+        if settings.stability != strict.stability {
+            lines.push("stability: centres".to_string());
+        }
+        for exemption in &planned.plan.exemptions {
+            let cause = &planned.plan.causes[exemption.cause.0 as usize];
+            let name = exemption_name(&exemption.kind);
+            lines.push(format!("allows {name} ({}:{})", cause.file, cause.line));
+        }
+        let mut said = BTreeSet::new();
+        lines.retain(|line| said.insert(line.clone()));
+        lines
+    }
+}
+
+fn exemption_name(kind: &ExemptionKind) -> &'static str {
+    match kind {
+        ExemptionKind::Unstable => "unstable",
+        ExemptionKind::Slip => "slip",
+        ExemptionKind::Collision(_) => "collision",
+        ExemptionKind::Overload(_) => "overload",
+    }
+}
+
+fn add_label(mut diagnostic: Diagnostic, span: Span, text: String) -> Diagnostic {
+    if diagnostic.labels.iter().all(|label| label.span != span) {
+        diagnostic.labels.push(Label { span, text });
+    }
+    diagnostic
+}
+
+/// A behaviour that is no plan, at the action that is to blame.
+pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], span: Span) -> Stop {
+    let diagnostic = Diagnostic::error(refusal_code(&refusal.reason), refusal.reason.to_string());
+    let diagnostic = match refusal.cause {
+        Some(cause) => {
+            let record = interpreter.causes.get(ids[cause.0 as usize]);
+            let label = with_instance("this action".to_string(), record);
+            in_library(diagnostic.label(record.primary(), label), record)
+        }
+        None => diagnostic,
+    };
+    add_label(diagnostic, span, "planned here".to_string()).into()
+}
+
+fn refusal_code(reason: &Reason) -> Code {
+    match reason {
+        Reason::Mute { .. } => code::PASSIVE_JOINT,
+        Reason::Jump { .. } => code::FOLLOW_JUMP,
+        Reason::StillTurning { .. } => code::NOT_AT_REST,
+        Reason::Aborted { .. } => code::ABORTED,
+        Reason::PortTaken { .. } | Reason::PortFree { .. } | Reason::NoMate { .. } | Reason::Apart { .. } => {
+            code::BAD_DOCK
+        }
+        Reason::NoTimeToStop { .. } => code::TOO_FAST,
+        Reason::Limit { .. } => code::SIZE_LIMIT,
+        Reason::NoSpeed { .. }
+        | Reason::BadNumber { .. }
+        | Reason::NeverHolds
+        | Reason::NotCyclic { .. }
+        | Reason::TooShort => code::BAD_ACTION,
+    }
+}

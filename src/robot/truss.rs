@@ -1,0 +1,174 @@
+//! Infinitesimal rigidity of trusses: which motions of the nodes change no strut's length, to first
+//! order (Maxwell, Calladine). The rigidity matrix has one row a strut and three columns a node.
+
+use crate::geometry::Vec3;
+use nalgebra::{DMatrix, DVector};
+
+/// Singular values below this part of the largest count as zero: far above rounding, far below the
+/// stiffness of any truss that is worth building.
+const SINGULAR: f64 = 1e-9;
+/// Components below this part of the largest count as no motion.
+const STILL: f64 = 1e-6;
+/// A strut carries a self-stress if this much of its row lies in the span of the others.
+const REDUNDANT: f64 = 1e-9;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rigidity {
+    /// Rank of the rigidity matrix.
+    pub rank: usize,
+    /// The rank that a rigid truss of these nodes has: 3n - 6, less for nodes on a line.
+    pub rank_rigid: usize,
+    /// Independent states of stress without load.
+    pub self_stresses: usize,
+    /// The least singular value that is not zero, for a truss of mean strut length 1.
+    pub weakest: f64,
+    /// Struts without any one of which the rank stays.
+    pub redundant: Vec<usize>,
+    /// Free motions but those of the whole.
+    pub free: Vec<FreeMotion>,
+}
+
+/// A free motion, scaled so that the largest displacement is 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeMotion {
+    /// Nodes that move, with their displacements.
+    pub nodes: Vec<(usize, Vec3)>,
+}
+
+impl Rigidity {
+    pub fn rigid(&self) -> bool {
+        self.free.is_empty()
+    }
+}
+
+/// Examines a truss. Struts must have length.
+pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
+    let matrix = rigidity_matrix(nodes, struts);
+    let svd = matrix.svd(true, true);
+    let largest = svd.singular_values.max();
+    let is_zero = |s: f64| s <= largest * SINGULAR;
+    let kept: Vec<usize> =
+        (0..svd.singular_values.len()).filter(|&i| !is_zero(svd.singular_values[i])).collect();
+    let u = svd.u.as_ref().expect("asked for");
+    let v_t = svd.v_t.as_ref().expect("asked for");
+    let leverage = |strut: usize| kept.iter().map(|&i| u[(strut, i)] * u[(strut, i)]).sum::<f64>();
+    let rigid_motions = motions_of_the_whole(nodes);
+    let null: Vec<DVector<f64>> = (0..svd.singular_values.len())
+        .filter(|i| !kept.contains(i))
+        .map(|i| v_t.row(i).transpose())
+        .collect();
+    let free = reduced(without(null, &rigid_motions), 3 * nodes.len() - kept.len() - rigid_motions.len());
+    Rigidity {
+        rank: kept.len(),
+        rank_rigid: 3 * nodes.len() - rigid_motions.len(),
+        self_stresses: struts.len() - kept.len(),
+        weakest: kept.iter().map(|&i| svd.singular_values[i]).fold(f64::INFINITY, f64::min),
+        redundant: (0..struts.len()).filter(|&s| leverage(s) < 1.0 - REDUNDANT).collect(),
+        free: free.iter().map(free_motion).collect(),
+    }
+}
+
+/// Rows `(p_a - p_b)` at a, `(p_b - p_a)` at b, in mean strut lengths; rows of zeros fill it up so
+/// that the decomposition has a right vector for every column.
+fn rigidity_matrix(nodes: &[Vec3], struts: &[(usize, usize)]) -> DMatrix<f64> {
+    let length = |&(a, b): &(usize, usize)| (nodes[a] - nodes[b]).norm();
+    let mean = struts.iter().map(length).sum::<f64>() / struts.len().max(1) as f64;
+    let columns = 3 * nodes.len();
+    let mut matrix = DMatrix::zeros(struts.len().max(columns), columns);
+    for (row, &(a, b)) in struts.iter().enumerate() {
+        let d = (nodes[a] - nodes[b]) / mean;
+        for k in 0..3 {
+            matrix[(row, 3 * a + k)] = d[k];
+            matrix[(row, 3 * b + k)] = -d[k];
+        }
+    }
+    matrix
+}
+
+/// An orthonormal basis of the translations and turns of all nodes together.
+fn motions_of_the_whole(nodes: &[Vec3]) -> Vec<DVector<f64>> {
+    let centre = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
+    let moved = |motion: &dyn Fn(&Vec3) -> Vec3| {
+        DVector::from_iterator(3 * nodes.len(), nodes.iter().flat_map(|p| motion(p).data.0[0]))
+    };
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let mut motions: Vec<DVector<f64>> = axes.iter().map(|axis| moved(&|_| *axis)).collect();
+    motions.extend(axes.iter().map(|axis| moved(&|p| axis.cross(&(p - centre)))));
+    orthonormal(motions)
+}
+
+/// Gram and Schmidt, twice for accuracy; vectors that depend on those before are left out.
+fn orthonormal(vectors: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    for vector in vectors {
+        let length = vector.norm();
+        let mut rest = vector;
+        for _ in 0..2 {
+            for b in &basis {
+                let along = b.dot(&rest);
+                rest.axpy(-along, b, 1.0);
+            }
+        }
+        if rest.norm() > length * STILL {
+            basis.push(rest.normalize());
+        }
+    }
+    basis
+}
+
+fn without(vectors: Vec<DVector<f64>>, basis: &[DVector<f64>]) -> Vec<DVector<f64>> {
+    let project = |mut v: DVector<f64>| {
+        for b in basis {
+            let along = b.dot(&v);
+            v.axpy(-along, b, 1.0);
+        }
+        v
+    };
+    vectors.into_iter().map(project).collect()
+}
+
+/// A basis of what the vectors span, of `count` vectors with as many zeros as elimination gives:
+/// it depends on the span alone, so on nothing but the truss.
+fn reduced(mut rows: Vec<DVector<f64>>, count: usize) -> Vec<DVector<f64>> {
+    let mut done: Vec<DVector<f64>> = Vec::new();
+    let columns = rows.first().map_or(0, |r| r.len());
+    while done.len() < count && !rows.is_empty() {
+        let largest = rows.iter().map(|r| r.amax()).fold(0.0, f64::max);
+        // The first column that is not small in all rows; in it the row that is largest.
+        let Some(column) = (0..columns).find(|&c| rows.iter().any(|r| r[c].abs() > largest * 0.1)) else {
+            break;
+        };
+        let best = (0..rows.len()).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
+        let pivot = rows.swap_remove(best.expect("rows is not empty"));
+        let pivot = &pivot / pivot[column];
+        for row in rows.iter_mut().chain(done.iter_mut()) {
+            let factor = row[column];
+            row.axpy(-factor, &pivot, 1.0);
+        }
+        done.push(pivot);
+    }
+    done
+}
+
+fn free_motion(motion: &DVector<f64>) -> FreeMotion {
+    let at = |node: usize| Vec3::new(motion[3 * node], motion[3 * node + 1], motion[3 * node + 2]);
+    let count = motion.len() / 3;
+    let largest = (0..count).map(|n| at(n).norm()).fold(0.0, f64::max);
+    let moving = (0..count).filter(|&n| at(n).norm() > largest * STILL);
+    FreeMotion { nodes: moving.map(|n| (n, at(n) / largest)).collect() }
+}
+
+/// The least distance between two segments, m.
+pub fn segment_distance(p: (Vec3, Vec3), q: (Vec3, Vec3)) -> f64 {
+    let (u, v, w) = (p.1 - p.0, q.1 - q.0, p.0 - q.0);
+    let (a, b, c, d, e) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
+    let denominator = a * c - b * b;
+    let clamp = |x: f64| x.clamp(0.0, 1.0);
+    let project = |from: f64, over: f64| if over > 0.0 { clamp(from / over) } else { 0.0 };
+    // Parallel segments have their least distance at an end, too.
+    let s = if denominator > SINGULAR * a * c { clamp((b * e - c * d) / denominator) } else { 0.0 };
+    let t = project(e + b * s, c);
+    let s = project(b * t - d, a);
+    let t = project(e + b * s, c);
+    (w + u * s - v * t).norm()
+}
