@@ -53,7 +53,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("std::io", &["cli"]),
     ("std::net", &[]),
     ("std::process", &["cli"]),
-    ("std::thread", &[]),
+    ("std::thread", &["interpret"]),
     ("std::time", &[]),
 ];
 

@@ -5,27 +5,25 @@
 
 use super::host::{Host, WriteError};
 use crate::source::{Files, ReadError};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::Duration;
+use std::cell::Cell;
+use std::sync::mpsc::{Sender, channel};
 
 /// Room for the evaluator's recursion; pages that are never touched cost nothing.
 const STACK_BYTES: usize = 1 << 30;
-/// How often the host is asked whether the user wants the run to end.
-const LOOK_EVERY: Duration = Duration::from_millis(5);
 
 enum Request {
     Print(String),
     Progress(String),
     Write(String, Vec<u8>, Sender<Result<String, WriteError>>),
     Read(String, Sender<Result<Vec<u8>, ReadError>>),
+    Cancelled(Sender<bool>),
 }
 
 /// The evaluator's end of the way to the outside.
 pub struct Stage {
     requests: Sender<Request>,
-    cancelled: Arc<AtomicBool>,
+    /// Once cancelled, always cancelled.
+    cancelled: Cell<bool>,
 }
 
 impl Stage {
@@ -38,19 +36,25 @@ impl Stage {
     }
 
     pub fn write(&self, path: &str, bytes: Vec<u8>) -> Result<String, WriteError> {
-        let (sender, receiver) = channel();
-        self.send(Request::Write(path.into(), bytes, sender));
-        receiver.recv().expect("the outside serves until the evaluator ends")
+        self.ask(|reply| Request::Write(path.into(), bytes, reply))
     }
 
     pub fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
-        let (sender, receiver) = channel();
-        self.send(Request::Read(path.into(), sender));
-        receiver.recv().expect("the outside serves until the evaluator ends")
+        self.ask(|reply| Request::Read(path.into(), reply))
     }
 
+    /// Whether the user wants the run to end.
     pub fn cancelled(&self) -> bool {
-        self.cancelled.load(Ordering::Relaxed)
+        if !self.cancelled.get() {
+            self.cancelled.set(self.ask(Request::Cancelled));
+        }
+        self.cancelled.get()
+    }
+
+    fn ask<T>(&self, request: impl FnOnce(Sender<T>) -> Request) -> T {
+        let (sender, receiver) = channel();
+        self.send(request(sender));
+        receiver.recv().expect("the outside serves until the evaluator ends")
     }
 
     fn send(&self, request: Request) {
@@ -61,30 +65,16 @@ impl Stage {
 /// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
 pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnce(Stage) -> T + Send) -> T {
     let (sender, requests) = channel();
-    let cancelled = Arc::new(AtomicBool::new(host.cancelled()));
-    let stage = Stage { requests: sender, cancelled: cancelled.clone() };
+    let stage = Stage { requests: sender, cancelled: Cell::new(false) };
     std::thread::scope(|scope| {
         let evaluator = std::thread::Builder::new()
             .name("evaluator".into())
             .stack_size(STACK_BYTES)
             .spawn_scoped(scope, move || evaluate(stage))
             .expect("the system can start a thread");
-        serve(&requests, files, host, &cancelled);
+        requests.iter().for_each(|request| answer(request, files, host));
         evaluator.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     })
-}
-
-fn serve(requests: &Receiver<Request>, files: &dyn Files, host: &mut dyn Host, cancelled: &AtomicBool) {
-    loop {
-        match requests.recv_timeout(LOOK_EVERY) {
-            Ok(request) => answer(request, files, host),
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return,
-        }
-        if host.cancelled() {
-            cancelled.store(true, Ordering::Relaxed);
-        }
-    }
 }
 
 /// An answer that nobody waits for any more is dropped.
@@ -94,5 +84,6 @@ fn answer(request: Request, files: &dyn Files, host: &mut dyn Host) {
         Request::Progress(line) => host.progress(&line),
         Request::Write(path, bytes, reply) => drop(reply.send(host.write(&path, &bytes))),
         Request::Read(path, reply) => drop(reply.send(files.read(&path))),
+        Request::Cancelled(reply) => drop(reply.send(host.cancelled())),
     }
 }
