@@ -16,3 +16,4 @@ mod robots;
 mod suite;
 mod syntax;
 mod tidy;
+mod verify;

@@ -74,6 +74,7 @@ fn settings(plan: &Plan) -> String {
 
 fn check_name(kind: CheckKind) -> &'static str {
     match kind {
+        CheckKind::Form => "form",
         CheckKind::Conflict => "conflict",
         CheckKind::Collision => "collision",
         CheckKind::JointRange => "joint range",

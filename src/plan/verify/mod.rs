@@ -1,21 +1,100 @@
 //! The one judge of plans. It knows no planner, and believes nothing that a plan says of itself.
-
+//!
+//! A plan's robot is walked over its ground from sample to sample ([`walk`]); each check watches it.
+//! Joint and motor limits are judged on the polynomials themselves.
 #![allow(non_snake_case)]
+
+mod ledger;
+mod tolerances;
+
+mod extremum;
+mod limits;
+
+mod support;
+
+mod model;
 
 mod align;
 mod carry;
 mod contact;
 mod descend;
 mod footprint;
-mod model;
-mod sample;
 mod stance;
-mod support;
-mod tolerances;
+
+mod sample;
 mod walk;
+
+mod stability;
+mod travel;
+
+mod judge;
 
 pub use contact::{Patch, Touch};
 pub use model::Model;
 pub use stance::Stance;
 pub use tolerances::Tolerances;
 pub use walk::{Course, Ended, Sample, Tip, Waypoint, walk};
+
+use super::{
+    Body, Check, CheckKind, Failure, Plan, Provenance, Settings, Status, Tracks, Verdict, World, WorldFrom,
+};
+use crate::robot::{Assembly, State};
+
+/// Judges a plan under its stated worlds and settings. What it says of itself is recomputed.
+pub fn verify(plan: &Plan) -> Verdict {
+    match &plan.body {
+        Body::Tracks(tracks) => judge::tracks(plan, tracks),
+        Body::Stages(_) => unjudged("plans of lattices"),
+        Body::NodePaths(_) => unjudged("plans of trusses"),
+    }
+}
+
+/// Judges one state of a robot: Definition V.2 of the compositional-design paper.
+pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &Settings) -> Verdict {
+    let tracks = Tracks {
+        robot: robot.clone(),
+        start: state.clone(),
+        tracks: vec![],
+        docks: vec![],
+        duration: 0.0,
+        start_causes: vec![],
+        bond_causes: vec![],
+    };
+    verify(&Plan {
+        provenance: Provenance::default(),
+        worlds: vec![WorldFrom { from: 0.0, world: *world }],
+        settings: *settings,
+        library: robot.library.clone(),
+        body: Body::Tracks(tracks),
+        program: None,
+        nominal: false,
+        causes: vec![],
+        exemptions: vec![],
+        verdict: None,
+    })
+}
+
+/// Nothing unverified may pass: what the judge can't judge yet fails.
+fn unjudged(what: &str) -> Verdict {
+    let why = format!("{what} can't be judged yet");
+    Verdict {
+        checks: vec![Check { kind: CheckKind::Form, status: Status::NotChecked(why.clone()) }],
+        failures: vec![fault(why)],
+        ..Verdict::default()
+    }
+}
+
+/// A plan that is not even well formed.
+fn fault(message: String) -> Failure {
+    Failure {
+        kind: CheckKind::Form,
+        time: 0.0,
+        until: None,
+        at: vec![],
+        message,
+        value: 0.0,
+        limit: 0.0,
+        blame: vec![],
+        blames_start: false,
+    }
+}

@@ -34,6 +34,8 @@ pub struct Tolerances {
     pub limit: f64,
     /// A joint whose position jumps by less stands still (rad or m).
     pub jump: f64,
+    /// A change of speed at once that is rounding (rad/s or m/s).
+    pub speed_jump: f64,
     /// Loops that the bonds close may be open by this, where the connector states no capture.
     pub closure_distance: f64,
     pub closure_angle: f64,
@@ -67,6 +69,7 @@ impl Default for Tolerances {
             motion_sample: 0.02,
             limit: 1e-9,
             jump: 1e-9,
+            speed_jump: 1e-6,
             closure_distance: 1e-3,
             closure_angle: degree,
             slip_load: 0.05,

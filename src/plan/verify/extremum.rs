@@ -1,0 +1,48 @@
+//! Greatest values of polynomials in Bernstein form, to within a bound: proved, not sampled.
+
+use crate::plan::polynomial::{hull, split};
+
+/// Relative precision of a greatest value.
+const PRECISION: f64 = 1e-12;
+
+/// Pieces looked at before the bound is taken instead of the value.
+const PIECES_MAX: usize = 4096;
+
+/// The greatest value over 0..1, and where. It is never below the true one, and above it by no more
+/// than rounding, unless a polynomial is so wild that the pieces run out.
+pub fn greatest(control: &[f64]) -> (f64, f64) {
+    let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));
+    let (first, last) = (control[0], control[control.len() - 1]);
+    let mut best = if last > first { (last, 1.0) } else { (first, 0.0) };
+    let mut open = vec![(control.to_vec(), 0.0, 1.0)];
+    for _ in 0..PIECES_MAX {
+        let Some((points, from, to)) = open.pop() else { return best };
+        if hull(&points).1 <= best.0 + PRECISION * size {
+            continue;
+        }
+        let middle = (from + to) / 2.0;
+        let (left, right) = split(&points, 0.5);
+        if right[0] > best.0 {
+            best = (right[0], middle);
+        }
+        open.push((right, middle, to));
+        open.push((left, from, middle));
+    }
+    let bound = open.iter().map(|(points, from, _)| (hull(points).1, *from));
+    bound.fold(best, |best, piece| if piece.0 > best.0 { piece } else { best })
+}
+
+/// The same polynomial with more control points.
+pub fn elevated(control: &[f64], degree: usize) -> Vec<f64> {
+    let mut points = control.to_vec();
+    while points.len() <= degree {
+        let n = points.len() as f64;
+        let inner = points.windows(2).enumerate().map(|(i, w)| {
+            let part = (i + 1) as f64 / n;
+            part * w[0] + (1.0 - part) * w[1]
+        });
+        let ends = (points[0], points[points.len() - 1]);
+        points = std::iter::once(ends.0).chain(inner).chain([ends.1]).collect();
+    }
+    points
+}

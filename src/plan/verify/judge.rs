@@ -1,0 +1,77 @@
+//! The judgement of an articulated robot's plan: one walk, watched by every check.
+
+use super::ledger::Ledger;
+use super::walk::{Course, Ended, walk};
+use super::{Tolerances, limits, stability, travel};
+use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
+use crate::units::{Dimension, quantity};
+
+pub fn tracks(plan: &Plan, tracks: &Tracks) -> Verdict {
+    let tolerances = Tolerances::default();
+    let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);
+    limits::judge(tracks, &tolerances, &mut ledger);
+    let course = Course {
+        tracks,
+        worlds: &plan.worlds,
+        exemptions: &plan.exemptions,
+        settings: &plan.settings,
+        tolerances: &tolerances,
+        held: None,
+    };
+    on_the_way(&course, &mut ledger);
+    ledger.check(CheckKind::Rest, Status::Proved);
+    ledger.finish()
+}
+
+/// Everything that is judged from sample to sample.
+fn on_the_way(course: &Course, ledger: &mut Ledger) {
+    let mut standing = stability::Watch::new(course.settings, course.tolerances);
+    let mut travel = travel::Watch::new(course.tolerances);
+    let mut samples = 0;
+    let ended = walk(*course, None, course.tracks.duration, &mut |sample, _| {
+        samples += 1;
+        if let Some(lack) = standing.see(sample, ledger) {
+            ledger.fail(lack.failure());
+        }
+        travel.see(sample, ledger);
+        true
+    });
+    if let Some(lack) = standing.end(course.tracks.duration) {
+        ledger.fail(lack.failure());
+    }
+    if let Ended::Limit(time) = ended {
+        ledger.fail(limit_reached(course.settings.samples_max, time));
+    }
+    ledger.verdict.samples = samples;
+    standing.finish(ledger);
+    let names = |link| link_name(course, link);
+    travel.finish(course.settings, names, ledger);
+}
+
+fn link_name(course: &Course, link: usize) -> String {
+    let robot = &course.tracks.robot;
+    let mut rest = link;
+    for (module, instance) in robot.modules.iter().enumerate() {
+        let links = &robot.module_type(module).links;
+        if rest < links.len() {
+            return format!("{}.{}", instance.name, links[rest].name);
+        }
+        rest -= links.len();
+    }
+    String::new()
+}
+
+fn limit_reached(samples_max: usize, time: f64) -> Failure {
+    let reached = quantity(time, Dimension::TIME);
+    Failure {
+        kind: CheckKind::Form,
+        time,
+        until: None,
+        at: vec![],
+        message: format!("the judge took {samples_max} samples, the most allowed, and got to {reached} only"),
+        value: samples_max as f64,
+        limit: samples_max as f64,
+        blame: vec![],
+        blames_start: false,
+    }
+}

@@ -1,0 +1,95 @@
+//! What the judge writes down as it goes: failures, excuses, notes, worst values.
+
+use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, Verdict, Worst};
+
+/// Failures that are told one by one; further ones are counted.
+const FAILURES_MAX: usize = 100;
+
+pub struct Ledger<'a> {
+    exemptions: &'a [Exemption],
+    /// The end of the plan, which is never excused, s.
+    end: f64,
+    used: Vec<bool>,
+    /// Kinds of which an excuse was needed.
+    excused: Vec<CheckKind>,
+    /// Failures beyond [`FAILURES_MAX`].
+    untold: usize,
+    pub verdict: Verdict,
+}
+
+impl<'a> Ledger<'a> {
+    pub fn new(exemptions: &'a [Exemption], end: f64) -> Ledger<'a> {
+        let verdict = Verdict { duration: end, ..Verdict::default() };
+        Ledger { exemptions, end, used: vec![false; exemptions.len()], excused: vec![], untold: 0, verdict }
+    }
+
+    /// Whether what happens at `t` is excused by an exemption of the kind; then that was needed.
+    pub fn excuses(&mut self, kind: CheckKind, t: f64, of: impl Fn(&ExemptionKind) -> bool) -> bool {
+        let mut excused = false;
+        for (i, exemption) in self.exemptions.iter().enumerate() {
+            if t < self.end && exemption.from <= t && t <= exemption.to && of(&exemption.kind) {
+                (self.used[i], excused) = (true, true);
+            }
+        }
+        if excused {
+            self.note_excuse(kind);
+        }
+        excused
+    }
+
+    /// An exemption that another part of the judge found to be needed.
+    pub fn use_exemption(&mut self, index: usize, kind: CheckKind) {
+        self.used[index] = true;
+        self.note_excuse(kind);
+    }
+
+    fn note_excuse(&mut self, kind: CheckKind) {
+        if !self.excused.contains(&kind) {
+            self.excused.push(kind);
+        }
+    }
+
+    pub fn fail(&mut self, failure: Failure) {
+        if self.verdict.failures.len() < FAILURES_MAX {
+            self.verdict.failures.push(failure);
+        } else {
+            self.untold += 1;
+        }
+    }
+
+    pub fn note(&mut self, note: String) {
+        if !self.verdict.notes.contains(&note) {
+            self.verdict.notes.push(note);
+        }
+    }
+
+    /// Records a check: failed if there is a failure of its kind, exempt if one was excused.
+    pub fn check(&mut self, kind: CheckKind, otherwise: Status) {
+        let failed = self.verdict.failures.iter().any(|f| f.kind == kind);
+        let status = match (failed, self.excused.contains(&kind)) {
+            (true, _) => Status::Failed,
+            (false, true) => Status::Exempt,
+            (false, false) => otherwise,
+        };
+        self.verdict.checks.push(Check { kind, status });
+    }
+
+    /// The verdict: failures in order of time, exemptions that nothing needed listed.
+    pub fn finish(mut self) -> Verdict {
+        self.verdict.failures.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.kind.cmp(&b.kind)));
+        self.verdict.unneeded_exemptions = (0..self.used.len()).filter(|&i| !self.used[i]).collect();
+        self.verdict.events.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.verdict.checks.sort_by_key(|check| check.kind);
+        if self.untold > 0 {
+            self.note(format!("{} more failures are not listed", self.untold));
+        }
+        self.verdict
+    }
+}
+
+/// Keeps the lower of two worst values.
+pub fn lower(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
+    if worst.as_ref().is_none_or(|w| value < w.value) {
+        *worst = Some(Worst { value, time, at: at() });
+    }
+}
