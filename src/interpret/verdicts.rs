@@ -24,6 +24,7 @@ pub fn failure_line(failure: &Failure) -> String {
 
 pub fn check_name(kind: CheckKind) -> &'static str {
     match kind {
+        CheckKind::Form => "form",
         CheckKind::Conflict => "conflict",
         CheckKind::Collision => "collision",
         CheckKind::JointRange => "joint range",
@@ -91,6 +92,7 @@ pub fn in_words(verdict: &Verdict) -> String {
 
 fn failure_code(kind: CheckKind) -> Code {
     match kind {
+        CheckKind::Form => code::NOT_VERIFIED,
         CheckKind::Conflict => code::CONFLICT,
         CheckKind::Collision => code::COLLISION,
         CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration => code::LIMIT_EXCEEDED,
