@@ -1,29 +1,50 @@
 //! Plans out of plans: one after another, backwards, a stretch of one.
 
 use super::interpreter::Interpreter;
-use super::planning::Planned;
-use super::stop::Eval;
+use super::planning::{Beginning, Planned};
+use super::record::Record;
+use super::stop::{Eval, Stop, fault};
 use super::value::Value;
-use crate::plan::Plan;
-use crate::source::Span;
+use crate::plan::{self, Plan, Unfit};
+use crate::source::{Span, code};
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// `p ++ q`, `p ++ b`
-    pub fn join_plans(&mut self, _a: &Value, _b: &Value, span: Span) -> Eval<Value> {
-        Err(super::call::not_yet("++".into(), span))
+    /// `p ++ q`, `p ++ b`: a behaviour begins where the plan before it ends.
+    pub fn join_plans(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Value> {
+        let Some(first) = self.plan_of(a, span)? else { return Ok(Value::Unknown) };
+        let second = match b {
+            Value::Behavior(behavior) => {
+                let same = behavior.robot.as_ref().is_some_and(|robot| Rc::ptr_eq(robot, &first.robot));
+                let mut beginning = Beginning::default();
+                if same && let Some(tracks) = first.plan.body.tracks() {
+                    beginning.start = Some(tracks.end());
+                }
+                self.plan_from(behavior, beginning, span)?
+            }
+            _ => self.plan_of(b, span)?,
+        };
+        let Some(second) = second else { return Ok(Value::Unknown) };
+        let plan = plan::joined(&first.plan, &second.plan).map_err(|unfit| unfitting(&unfit, span))?;
+        let causes = first.causes.iter().chain(&second.causes).copied().collect();
+        let actions = first.actions + second.actions;
+        let joined = Planned::new(first.robot.clone(), first.body.clone(), plan, causes, actions);
+        Ok(Value::Record(Rc::new(Record::Plan(Rc::new(joined)))))
     }
 
     /// A plan of the same robot made from another.
     pub fn changed(
         &mut self,
         planned: &Rc<Planned>,
-        change: impl FnOnce(&Plan) -> Result<Plan, String>,
+        change: impl FnOnce(&Plan) -> Result<Plan, Unfit>,
         span: Span,
     ) -> Eval<Rc<Planned>> {
-        let plan = change(&planned.plan)
-            .map_err(|why| super::stop::fault(crate::source::code::NO_MATCH, span, why.clone(), why))?;
+        let plan = change(&planned.plan).map_err(|unfit| unfitting(&unfit, span))?;
         let (robot, body) = (planned.robot.clone(), planned.body.clone());
         Ok(Rc::new(Planned::new(robot, body, plan, planned.causes.clone(), planned.actions)))
     }
+}
+
+fn unfitting(unfit: &Unfit, span: Span) -> Stop {
+    fault(code::NO_MATCH, span, unfit.to_string(), "these do not fit together")
 }

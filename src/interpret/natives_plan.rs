@@ -8,7 +8,7 @@ use super::planning::{Beginning, Planned};
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
-use crate::plan::{Ground, Plan, Settings, Stability, World};
+use crate::plan::{self, Ground, Plan, Settings, Stability, World};
 use crate::source::{Diagnostic, code, files};
 use std::rc::Rc;
 
@@ -16,7 +16,7 @@ pub const TABLE: &[Native] = &[
     on_run("print", 1, print),
     on_run("emit", 5, emit),
     pure("world", 3, world),
-    on_run("plan", 3, plan),
+    on_run("plan", 3, plan_behavior),
     on_run("reverse", 1, reverse),
     on_run("verify", 5, verify),
     on_run("Plan.at", 2, plan_at),
@@ -65,7 +65,7 @@ fn planned_value(planned: Option<Rc<Planned>>) -> Value {
     planned.map_or(Value::Unknown, |planned| Value::Record(Rc::new(Record::Plan(planned))))
 }
 
-fn plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let behavior = call.behavior(0)?.clone();
     let mut beginning = Beginning::default();
     if let Value::Record(record) = call.arg(1)
@@ -86,7 +86,7 @@ fn plan_argument(interpreter: &mut Interpreter, call: &Call, index: usize) -> Ev
 
 fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
-    let reversed = interpreter.changed(&planned, |plan| Ok(super::pending::reverse(plan)), call.span)?;
+    let reversed = interpreter.changed(&planned, |plan| Ok(plan::reversed(plan)), call.span)?;
     Ok(planned_value(Some(reversed)))
 }
 
@@ -105,7 +105,7 @@ fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if !(0.0 <= from && from < to && to <= planned.plan.body.duration()) {
         return Err(call.refuse(1, "this is no stretch of the plan"));
     }
-    let sliced = interpreter.changed(&planned, |plan| super::pending::slice(plan, from, to), call.span)?;
+    let sliced = interpreter.changed(&planned, |plan| plan::sliced(plan, from, to), call.span)?;
     Ok(planned_value(Some(sliced)))
 }
 
@@ -144,8 +144,10 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     let excuses = interpreter.excuses(&planned, &settings);
     let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
-    let bytes = super::pending::write(&plan);
-    match interpreter.stage.write(&path, bytes) {
+    let text = plan::file::write(&plan).map_err(|error| {
+        fault(code::CANNOT_WRITE, call.at(0), format!("the plan can't be written: {error}"), "this plan")
+    })?;
+    match interpreter.stage.write(&path, text.into_bytes()) {
         Ok(shown) => interpreter.written.push(shown),
         Err(WriteError::Outside) => return Err(outside(call, &name)),
         Err(WriteError::Failed(why)) => {

@@ -8,12 +8,3 @@ pub fn verify(plan: &Plan) -> Verdict {
 pub fn footprint_of(_: &Assembly, _: &State) -> Vec<Vec3> {
     Vec::new()
 }
-pub fn reverse(plan: &Plan) -> Plan {
-    plan.clone()
-}
-pub fn slice(plan: &Plan, _: f64, _: f64) -> Result<Plan, String> {
-    Ok(plan.clone())
-}
-pub fn write(_: &Plan) -> Vec<u8> {
-    Vec::new()
-}
