@@ -17,6 +17,9 @@ pub mod schedule;
 pub mod conflict;
 pub mod limits;
 
+pub mod gait;
+pub mod mirror;
+
 pub use conflict::{Conflict, Conflicts, conflicts};
 pub use limits::{Issue, IssueKind, Part, issues};
 pub use refusal::{Reason, Refusal};

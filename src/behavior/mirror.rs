@@ -1,0 +1,193 @@
+//! A behaviour carried over to the other side of a robot: which joint is the mirror image of which,
+//! and whether it then turns the other way.
+//!
+//! Found from geometry alone, with every joint at zero: the plane goes through the middle of the
+//! robot's centres of mass, parallel to two axes of the base's frame; the image of a joint is the
+//! joint of its type whose child link and axis are where the mirror puts them.
+
+use crate::geometry::{Pose, Vec3};
+use crate::plan::visit::rewritten;
+use crate::plan::{Action, Command, Condition, Node, Signal, Target};
+use crate::robot::{Assembly, JointId, JointKind, JointOwner, Kinematics};
+use std::sync::Arc;
+
+/// A plane through the middle of the robot, along two axes of the base's frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    XY,
+    YZ,
+    XZ,
+}
+
+/// How far an image may be from a joint, m: parts are placed with less care than this only by
+/// mistake, and the masses of the two halves of a module may differ a little.
+const TOL_PLACE: f64 = 2e-3;
+/// How far the direction of an axis may be from its image, as the sine of the angle.
+const TOL_DIRECTION: f64 = 1e-3;
+
+/// Why a behaviour has no mirror image.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Lopsided {
+    /// No joint is where the mirror puts this one (path name).
+    Joint(String),
+    /// Docking has no mirror image.
+    Docking,
+}
+
+impl std::fmt::Display for Lopsided {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Lopsided::Joint(name) => write!(f, "no joint is the mirror image of `{name}`"),
+            Lopsided::Docking => write!(f, "docking has no mirror image"),
+        }
+    }
+}
+
+/// The mirror image of a behaviour; `holds` says which bonds hold the robot together.
+pub fn mirrored(
+    robot: &Assembly,
+    holds: &[bool],
+    program: &Arc<Node>,
+    plane: Plane,
+) -> Result<Arc<Node>, Lopsided> {
+    let images = images(robot, holds, plane);
+    let names: Vec<String> = robot.joints().map(|owner| robot.joint_name(owner)).collect();
+    let image = |joint: JointId| {
+        let index = joint.0 as usize;
+        images[index].ok_or_else(|| Lopsided::Joint(names[index].clone()))
+    };
+    rewritten(program, |action| mirrored_action(action, &image))
+}
+
+/// For every joint its image, and 1 or -1: what its positions are multiplied by.
+pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(JointId, f64)>> {
+    let marks = marks(robot, holds);
+    let centre =
+        marks.iter().flatten().map(|m| m.centre).sum::<Vec3>() / marks.iter().flatten().count().max(1) as f64;
+    let normal = match plane {
+        Plane::XY => Vec3::z(),
+        Plane::YZ => Vec3::x(),
+        Plane::XZ => Vec3::y(),
+    };
+    let mirror = Mirror { centre, normal };
+    marks.iter().map(|mark| mark.as_ref().and_then(|m| mirror.image(m, &marks))).collect()
+}
+
+/// What tells a joint from others: in the frame of the base, all joints at zero.
+struct Mark {
+    kind: usize,
+    prismatic: bool,
+    /// Centre of mass of the link that it moves.
+    centre: Vec3,
+    /// The point of the axis nearest to that.
+    foot: Vec3,
+    axis: Vec3,
+}
+
+fn marks(robot: &Assembly, holds: &[bool]) -> Vec<Option<Mark>> {
+    let kinematics = Kinematics::new(robot, holds, robot.base);
+    let count = robot.joints().count();
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(&vec![0.0; count], &Pose::identity(), &mut poses);
+    let mark = |owner| {
+        // The hinge of a bond belongs to no module, and has no image.
+        let JointOwner::Module { module, joint } = owner else { return None };
+        let declared = &robot.module_type(module).joints[joint];
+        let link = &robot.module_type(module).links[declared.child];
+        let X_BM = kinematics.module_pose(module, &poses);
+        let X_BL = poses[kinematics.link(module, declared.child)];
+        let centre = X_BL.transform_point(&link.com.into()).coords;
+        let axis = (X_BM * declared.pose).rotation * declared.axis;
+        let origin = (X_BM * declared.pose).translation.vector;
+        let foot = origin + axis * (centre - origin).dot(&axis);
+        let prismatic = declared.kind == JointKind::Prismatic;
+        (declared.kind != JointKind::Fixed).then_some(Mark {
+            kind: robot.modules[module].kind,
+            prismatic,
+            centre,
+            foot,
+            axis,
+        })
+    };
+    robot.joints().map(mark).collect()
+}
+
+struct Mirror {
+    centre: Vec3,
+    normal: Vec3,
+}
+
+impl Mirror {
+    fn point(&self, p: Vec3) -> Vec3 {
+        self.centre + self.direction(p - self.centre)
+    }
+
+    fn direction(&self, v: Vec3) -> Vec3 {
+        v - self.normal * (2.0 * v.dot(&self.normal))
+    }
+
+    /// The nearest joint of the same type that is where the mirror puts this one.
+    fn image(&self, mark: &Mark, marks: &[Option<Mark>]) -> Option<(JointId, f64)> {
+        let (centre, foot) = (self.point(mark.centre), self.point(mark.foot));
+        // What turns right-handed about an axis turns left-handed about the axis in the mirror.
+        let axis = if mark.prismatic { self.direction(mark.axis) } else { -self.direction(mark.axis) };
+        let candidates = marks.iter().enumerate().filter_map(|(index, other)| {
+            let other = other.as_ref()?;
+            let off = (other.centre - centre).norm().max((other.foot - foot).norm());
+            let fits = other.kind == mark.kind && other.prismatic == mark.prismatic && off <= TOL_PLACE;
+            (fits && other.axis.cross(&axis).norm() <= TOL_DIRECTION).then_some((off, index, other))
+        });
+        let (_, index, other) = candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        Some((JointId(index as u32), other.axis.dot(&axis).signum()))
+    }
+}
+
+type Image<'a> = &'a dyn Fn(JointId) -> Result<(JointId, f64), Lopsided>;
+
+fn mirrored_action(action: &Action, image: Image) -> Result<Action, Lopsided> {
+    let mut new = action.clone();
+    match &mut new.command {
+        Command::Move { joint, target, .. } => {
+            let (other, sign) = image(*joint)?;
+            *joint = other;
+            match target {
+                Target::To(value) | Target::By(value) => *value *= sign,
+            }
+        }
+        Command::Spin { joint, speed, .. } => {
+            let (other, sign) = image(*joint)?;
+            *joint = other;
+            *speed *= sign;
+        }
+        Command::Follow { joint, knots } => {
+            let (other, sign) = image(*joint)?;
+            *joint = other;
+            knots.iter_mut().for_each(|knot| (knot[1], knot[2]) = (knot[1] * sign, knot[2] * sign));
+        }
+        Command::Wait { .. } => {}
+        Command::Dock { .. } | Command::Undock { .. } => return Err(Lopsided::Docking),
+    }
+    if let Some(until) = &action.until {
+        new.until = Some(mirrored_condition(until, image)?);
+    }
+    Ok(new)
+}
+
+fn mirrored_condition(condition: &Condition, image: Image) -> Result<Condition, Lopsided> {
+    let boxed = |c: &Condition| mirrored_condition(c, image).map(Box::new);
+    Ok(match condition {
+        Condition::Compare { signal, compare, value } => {
+            let (signal, sign) = match *signal {
+                Signal::Angle(joint) => image(joint).map(|(other, sign)| (Signal::Angle(other), sign))?,
+                Signal::Speed(joint) => image(joint).map(|(other, sign)| (Signal::Speed(other), sign))?,
+                Signal::Elapsed => (Signal::Elapsed, 1.0),
+            };
+            let compare = if sign < 0.0 { compare.turned() } else { *compare };
+            Condition::Compare { signal, compare, value: value * sign }
+        }
+        Condition::Docked(_) | Condition::Mated(..) => return Err(Lopsided::Docking),
+        Condition::And(a, b) => Condition::And(boxed(a)?, boxed(b)?),
+        Condition::Or(a, b) => Condition::Or(boxed(a)?, boxed(b)?),
+        Condition::Not(a) => Condition::Not(boxed(a)?),
+    })
+}
