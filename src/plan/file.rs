@@ -3,9 +3,6 @@
 
 use super::form::{FORMAT, Header, PlanForm, VERSION};
 use super::{Plan, finite, validate};
-use serde::Serialize;
-use serde_json::ser::{Formatter, Serializer};
-use std::io::{self, Write};
 
 /// Longest text that is read, bytes.
 pub const TEXT_MAX: usize = 1 << 31;
@@ -47,11 +44,7 @@ impl From<serde_json::Error> for FileError {
 pub fn write(plan: &Plan) -> Result<String, FileError> {
     let form = PlanForm::of(plan);
     finite::check(&form).map_err(|fault| FileError::whole(fault.to_string()))?;
-    let mut bytes = Vec::new();
-    let mut to = Serializer::with_formatter(&mut bytes, Lines { depth: 0, empty: true });
-    form.serialize(&mut to)?;
-    bytes.push(b'\n');
-    String::from_utf8(bytes).map_err(|_| FileError::whole("the plan holds text that is not UTF-8"))
+    Ok(laid_out(&serde_json::to_string(&form)?))
 }
 
 /// A plan from text, its indices and orders checked. What it says of its own verdict is not believed:
@@ -84,73 +77,56 @@ pub fn schema() -> serde_json::Value {
     schema
 }
 
-/// Lays out JSON: a line for each item of the outer containers, so that a person finds their way and
-/// two plans can be compared, and inner containers on the line where they stand.
-struct Lines {
-    depth: usize,
-    /// Whether the container just opened is empty so far.
-    empty: bool,
-}
-
 /// Containers deeper than this stay on one line: a segment of a track is one.
 const LINES_DEPTH: usize = 5;
 
-impl Lines {
-    fn open<W: Write + ?Sized>(&mut self, to: &mut W, bracket: &[u8]) -> io::Result<()> {
-        self.depth += 1;
-        self.empty = true;
-        to.write_all(bracket)
-    }
-
-    fn close<W: Write + ?Sized>(&mut self, to: &mut W, bracket: &[u8]) -> io::Result<()> {
-        self.depth -= 1;
-        if !self.empty && self.depth < LINES_DEPTH {
-            self.line(to)?;
+/// Compact JSON with a line for each item of the outer containers, so that a person finds their way
+/// and two plans can be compared; inner containers stay on the line where they stand.
+fn laid_out(compact: &str) -> String {
+    let mut text = String::with_capacity(compact.len() + compact.len() / 4);
+    let (mut depth, mut quoted, mut escaped) = (0, false, false);
+    let mut letters = compact.chars().peekable();
+    while let Some(letter) = letters.next() {
+        if quoted {
+            text.push(letter);
+            quoted = escaped || letter != '"';
+            escaped = !escaped && letter == '\\';
+            continue;
         }
-        self.empty = false;
-        to.write_all(bracket)
-    }
-
-    fn item<W: Write + ?Sized>(&mut self, to: &mut W, first: bool) -> io::Result<()> {
-        self.empty = false;
-        if !first {
-            to.write_all(b",")?;
+        match letter {
+            '[' | '{' => {
+                depth += 1;
+                text.push(letter);
+                let empty = letters.peek().is_some_and(|next| matches!(next, ']' | '}'));
+                if depth <= LINES_DEPTH && !empty {
+                    new_line(&mut text, depth);
+                }
+            }
+            ']' | '}' => {
+                depth -= 1;
+                let empty = text.ends_with(['[', '{']);
+                if depth < LINES_DEPTH && !empty {
+                    new_line(&mut text, depth);
+                }
+                text.push(letter);
+            }
+            ',' if depth <= LINES_DEPTH => {
+                text.push(',');
+                new_line(&mut text, depth);
+            }
+            ',' => text.push_str(", "),
+            ':' => text.push_str(": "),
+            _ => {
+                quoted = letter == '"';
+                text.push(letter);
+            }
         }
-        if self.depth <= LINES_DEPTH {
-            self.line(to)
-        } else if first {
-            Ok(())
-        } else {
-            to.write_all(b" ")
-        }
     }
-
-    fn line<W: Write + ?Sized>(&self, to: &mut W) -> io::Result<()> {
-        to.write_all(b"\n")?;
-        (0..self.depth).try_for_each(|_| to.write_all(b" "))
-    }
+    text.push('\n');
+    text
 }
 
-impl Formatter for Lines {
-    fn begin_array<W: Write + ?Sized>(&mut self, to: &mut W) -> io::Result<()> {
-        self.open(to, b"[")
-    }
-    fn end_array<W: Write + ?Sized>(&mut self, to: &mut W) -> io::Result<()> {
-        self.close(to, b"]")
-    }
-    fn begin_array_value<W: Write + ?Sized>(&mut self, to: &mut W, first: bool) -> io::Result<()> {
-        self.item(to, first)
-    }
-    fn begin_object<W: Write + ?Sized>(&mut self, to: &mut W) -> io::Result<()> {
-        self.open(to, b"{")
-    }
-    fn end_object<W: Write + ?Sized>(&mut self, to: &mut W) -> io::Result<()> {
-        self.close(to, b"}")
-    }
-    fn begin_object_key<W: Write + ?Sized>(&mut self, to: &mut W, first: bool) -> io::Result<()> {
-        self.item(to, first)
-    }
-    fn begin_object_value<W: Write + ?Sized>(&mut self, to: &mut W) -> io::Result<()> {
-        to.write_all(b": ")
-    }
+fn new_line(text: &mut String, depth: usize) {
+    text.push('\n');
+    text.extend(std::iter::repeat_n(' ', depth));
 }
