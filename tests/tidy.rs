@@ -125,7 +125,7 @@ fn rooms_know_only_the_rooms_above_them() {
     let mut faults = Vec::new();
     for (file, text) in rust("src") {
         let parts: Vec<&str> = file.split('/').collect();
-        let [_, room, _] = parts[..] else { continue };
+        let [_, room, _, ..] = parts[..] else { continue };
         let Some((_, known)) = ROOMS.iter().find(|(name, _)| *name == room) else {
             faults.push(format!("{file}: the room `{room}` is not on the list"));
             continue;
@@ -188,7 +188,9 @@ fn folders_are_one_level_deep_and_have_names_that_say_something() {
     let mut faults = Vec::new();
     for file in rust("src").keys() {
         let parts: Vec<&str> = file.split('/').collect();
-        if parts.len() > 3 {
+        // The judge is a room within the room of plans.
+        let deep = if file.starts_with("src/plan/verify/") { 4 } else { 3 };
+        if parts.len() > deep {
             faults.push(format!("{file}: too deep"));
         }
         if parts.iter().any(|part| empty_names.contains(&part.trim_end_matches(".rs"))) {
@@ -209,10 +211,11 @@ fn no_file_is_left_out_of_the_build() {
             ("src", "lib" | "main") | ("tests", "all") => continue,
             ("src", _) => ("src/lib.rs".to_owned(), stem),
             ("tests", _) => ("tests/all.rs".to_owned(), stem),
-            (_, "mod") => {
-                let (above, module) = folder.rsplit_once('/').expect("below src or tests");
-                (if above == "src" { "src/lib.rs".to_owned() } else { "tests/all.rs".to_owned() }, module)
-            }
+            (_, "mod") => match folder.rsplit_once('/').expect("below src or tests") {
+                ("src", module) => ("src/lib.rs".to_owned(), module),
+                ("tests", module) => ("tests/all.rs".to_owned(), module),
+                (above, module) => (format!("{above}/mod.rs"), module),
+            },
             _ => (format!("{folder}/mod.rs"), stem),
         };
         let text = src.get(&parent).or(tests.get(&parent)).map_or("", String::as_str);
