@@ -17,5 +17,7 @@ mod render;
 mod robots;
 mod suite;
 mod syntax;
+mod syntax_random;
 mod tidy;
+mod tree;
 mod verify;

@@ -50,23 +50,36 @@ impl Files for MapFiles {
 
 /// Runs every case of every file in `tests/suite/FOLDER` and fails with all differences.
 pub fn run(folder: &str, observe: impl Fn(&str) -> Observed) {
+    let mut report = String::new();
+    let mut cases = 0;
+    for (file, text) in files(folder) {
+        for (name, line, case) in sections(&text) {
+            cases += 1;
+            compare(&format!("{file}:{line} {name}"), &case, &observe(&case), &mut report);
+        }
+    }
+    assert!(cases > 0, "no cases in {folder}");
+    assert!(report.is_empty(), "\n{report}");
+}
+
+/// The programs of all cases in `tests/suite/FOLDER`, for tests that change them.
+pub fn programs(folder: &str) -> Vec<String> {
+    let cases = files(folder).into_iter().flat_map(|(_, text)| sections(&text));
+    cases.map(|(_, _, case)| case).collect()
+}
+
+/// The files of `tests/suite/FOLDER` with their names, in order.
+fn files(folder: &str) -> Vec<(String, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite").join(folder);
     let entries = std::fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let mut paths: Vec<_> = entries.map(|e| e.expect("a readable folder").path()).collect();
     paths.retain(|p| p.extension().is_some_and(|e| e == "mod"));
     paths.sort();
-    let mut report = String::new();
-    let mut cases = 0;
-    for path in paths {
-        let text = std::fs::read_to_string(&path).expect("a suite is UTF-8");
-        for (name, line, case) in sections(&text) {
-            cases += 1;
-            let place = format!("{}:{line}", path.file_name().expect("a file").to_string_lossy());
-            compare(&format!("{place} {name}"), &case, &observe(&case), &mut report);
-        }
-    }
-    assert!(cases > 0, "no cases in {}", folder.display());
-    assert!(report.is_empty(), "\n{report}");
+    let read = |path: std::path::PathBuf| {
+        let name = path.file_name().expect("a file").to_string_lossy().into_owned();
+        (name, std::fs::read_to_string(&path).expect("a suite is UTF-8"))
+    };
+    paths.into_iter().map(read).collect()
 }
 
 /// Cases with their names and the lines where they begin.

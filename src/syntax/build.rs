@@ -10,29 +10,38 @@ pub(super) struct Builder<'t> {
     pub(super) file: FileId,
     /// The whole text, as written.
     pub(super) text: &'t str,
+    /// The same as the grammar reads it.
+    pub(super) read: &'t str,
     pub(super) comments: &'t [Comment],
     /// Where the text that the nodes come from begins in the whole text.
     pub(super) base: usize,
+    /// No span ends behind this place: what follows was put there to let the piece be parsed.
+    pub(super) limit: usize,
     /// A hole here stands for a value that could not be parsed.
     pub(super) faulty_value: Option<usize>,
     pub(super) diagnostics: Vec<Diagnostic>,
     /// How deep the recursion of the expression builder is.
     pub(super) depth: usize,
     pub(super) type_depth: usize,
+    /// The base of the piece in which deep nesting was told last.
+    pub(super) deep_told: Option<usize>,
     symbols: HashMap<&'t str, Symbol>,
 }
 
 impl<'t> Builder<'t> {
-    pub(super) fn new(file: FileId, text: &'t str, comments: &'t [Comment]) -> Builder<'t> {
+    pub(super) fn new(file: FileId, text: &'t str, read: &'t str, comments: &'t [Comment]) -> Builder<'t> {
         Builder {
             file,
             text,
+            read,
             comments,
             base: 0,
+            limit: text.len(),
             faulty_value: None,
             diagnostics: Vec::new(),
             depth: 0,
             type_depth: 0,
+            deep_told: None,
             symbols: HashMap::new(),
         }
     }
@@ -45,11 +54,7 @@ impl<'t> Builder<'t> {
     /// A range of the text that the nodes come from, as a span of the file.
     pub(super) fn at(&self, start: usize, end: usize) -> Span {
         let (start, end) = (self.base + start, self.base + end);
-        match self.faulty_value {
-            // The hole that stands for a faulty value has no text.
-            Some(value) => Span::new(self.file, start.min(value), end.min(value)),
-            None => Span::new(self.file, start, end),
-        }
+        whole_characters(self.text, Span::new(self.file, start.min(self.limit), end.min(self.limit)))
     }
 
     pub(super) fn error(&mut self, code: Code, message: impl Into<String>, span: Span) -> &mut Diagnostic {
@@ -113,6 +118,18 @@ impl<'t> Builder<'t> {
             .collect();
         (!lines.is_empty()).then(|| lines.join("\n"))
     }
+}
+
+/// The span with the characters that it cuts in two; in the text as the grammar reads it they are
+/// several.
+pub(super) fn whole_characters(text: &str, mut span: Span) -> Span {
+    while !text.is_char_boundary(span.start as usize) {
+        span.start -= 1;
+    }
+    while !text.is_char_boundary(span.end as usize) {
+        span.end += 1;
+    }
+    span
 }
 
 /// The text of a documentation line behind `///` or `//!` and one space.

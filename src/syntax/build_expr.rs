@@ -419,11 +419,9 @@ impl Builder<'_> {
         Tall::new(span, kind, height + 1)
     }
 
+    /// Told once for each piece of text.
     pub(super) fn too_deep(&mut self, span: Span, what: &str) {
-        let told = self.diagnostics.last().is_some_and(|d| {
-            d.code == code::TOO_DEEP && d.span().is_some_and(|s| s.start <= span.end && span.start <= s.end)
-        });
-        if !told {
+        if self.deep_told.replace(self.base) != Some(self.base) {
             self.error(code::TOO_DEEP, format!("{what} is nested too deeply"), span)
                 .hints
                 .push(format!("give parts of it names with `let`; the limit is {HEIGHT_MAX} levels"));

@@ -1,7 +1,7 @@
 //! Statements, blocks and `if`.
 
 use super::ast::*;
-use super::build::{Builder, next, next_if};
+use super::build::{Builder, next, next_if, whole_characters};
 use super::build_expr::Tall;
 use super::parse::{Node, Rule};
 use crate::source::Span;
@@ -200,7 +200,7 @@ impl Builder<'_> {
             _ => false,
         };
         if mistaken {
-            let mark = Span { end: span.start + 1, ..span };
+            let mark = whole_characters(self.text, Span { end: span.start + 1, ..span });
             self.diagnostics.push(super::explain::line_break(mark, first as char));
         }
         !mistaken

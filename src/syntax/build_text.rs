@@ -10,7 +10,7 @@ use crate::source::{Span, Symbol, code};
 impl Builder<'_> {
     /// Splits `1_000.5e-3N*m` into its digits and its unit.
     pub(super) fn number(&mut self, span: Span) -> ExprKind {
-        let text = &self.text[span.range()];
+        let text = &self.read[span.range()];
         let end = digits_end(text.as_bytes());
         let digits = &text[..end];
         if digits.ends_with('_') || digits.contains("__") || digits.contains("_.") || digits.contains("_e") {

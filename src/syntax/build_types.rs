@@ -121,7 +121,7 @@ impl Builder<'_> {
 
     /// A product of powers, read from its text: `N*m`, `m/s^2`, `1/s`.
     pub(super) fn unit(&mut self, span: Span) -> UnitExpr {
-        let text = self.text[span.range()].as_bytes();
+        let text = self.read[span.range()].as_bytes();
         let start = span.start as usize;
         let mut factors = Vec::new();
         let (mut at, mut sign) = if text[0] == b'1' { (2, -1) } else { (0, 1) };
@@ -145,7 +145,7 @@ impl Builder<'_> {
     }
 
     fn exponent(&mut self, span: Span) -> i32 {
-        match self.text[span.range()].parse() {
+        match self.read[span.range()].parse() {
             Ok(exponent @ -99..=99) => exponent,
             _ => {
                 self.error(code::BAD_NUMBER, "an exponent of a unit lies between -99 and 99", span);

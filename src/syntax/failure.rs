@@ -72,6 +72,7 @@ struct Mistake<'t> {
     found: usize,
     failure: &'t Failure,
     place: Place,
+    in_text: bool,
 }
 
 /// The diagnostic for a piece `text` that begins at `base` of the `whole` text.
@@ -84,11 +85,13 @@ pub(super) fn explain(
     file: FileId,
 ) -> Diagnostic {
     let mut tokens = tokens(text, 0..text.len());
+    let mut in_text = false;
     let mut found = tokens.iter().position(|token| token.end > failure.at).unwrap_or(tokens.len());
     if let Some(inside) = inside_text(&tokens, found, failure.at, text) {
         // The mistake stands in the `{ }` of a text: what follows is seen token by token.
         tokens.truncate(found);
         tokens.extend(inside);
+        in_text = true;
     }
     found = found.min(tokens.len());
     // Behind a reserved word the grammar only asks whether the word goes on: the word is the mistake.
@@ -99,7 +102,7 @@ pub(super) fn explain(
     {
         found -= 1;
     }
-    let mistake = Mistake { text, base, file, tokens, found, failure, place };
+    let mistake = Mistake { text, base, file, tokens, found, failure, place, in_text };
     mistake.explain(whole)
 }
 
@@ -116,6 +119,7 @@ impl Mistake<'_> {
         }
         None.or_else(|| self.later())
             .or_else(|| self.first_word())
+            .or_else(|| self.inner_word())
             .or_else(|| self.connection())
             .or_else(|| self.reserved_name())
             .or_else(|| self.wrong_mark())
@@ -220,6 +224,18 @@ impl Mistake<'_> {
             _ if may_be_expression => diagnostic,
             _ => diagnostic.hint(format!("here stand {}", listed(self.place.keywords()))),
         })
+    }
+
+    /// A misspelt keyword behind a whole expression.
+    fn inner_word(&self) -> Option<Diagnostic> {
+        let found = self.found();
+        let is_word = self.kind_of(self.found) == Some(TokenKind::Word);
+        if !is_word || !self.wants_operator() || self.in_text || words::is_reserved(found) {
+            return None;
+        }
+        let meant = suggest(found, self.place.keywords().iter().copied())?;
+        let message = format!("`{found}` does not begin {}", self.place.name());
+        self.error(message).map(|diagnostic| diagnostic.hint(format!("`{meant}`?")))
     }
 
     fn connection(&self) -> Option<Diagnostic> {
@@ -333,8 +349,9 @@ impl Mistake<'_> {
     fn line_start(&self) -> Option<Diagnostic> {
         let first = self.found().chars().next()?;
         let continues = matches!(self.found(), "+" | "-" | "(" | "[");
+        let is_clause = !matches!(self.place, Place::Items | Place::Statements);
         let mark = self.span_of(self.found);
-        (continues && self.begins_line() && !self.wants_expression())
+        (continues && (self.begins_line() && !self.wants_expression() || is_clause && self.found == 0))
             .then(|| explain::line_break(mark, first))
     }
 
@@ -356,7 +373,8 @@ impl Mistake<'_> {
 
     /// Two statements on one line.
     fn own_line(&self) -> Option<Diagnostic> {
-        let statements = matches!(self.place, Place::Items | Place::Statements) || self.in_block();
+        let in_block = self.wants("}") && self.wants("let");
+        let statements = matches!(self.place, Place::Items | Place::Statements) && !self.in_text || in_block;
         let begins = matches!(
             self.kind_of(self.found),
             Some(TokenKind::Word | TokenKind::Number | TokenKind::Text { .. })
@@ -374,15 +392,12 @@ impl Mistake<'_> {
             .map(|d| d.hint("an operator is missing, or a line break: an expression that is a statement begins its own line"))
     }
 
-    fn in_block(&self) -> bool {
-        self.wants("}") && self.wants("let")
-    }
-
     /// What is missing before what was found.
     fn missing(&self, whole: &str) -> Diagnostic {
         let unit = self.kind_of(self.found) == Some(TokenKind::Word)
             && self.found > 0
             && self.kind_of(self.found - 1) == Some(TokenKind::Number)
+            && self.before().ends_with(|c: char| c.is_ascii_digit())
             && self.wants_operator()
             && !self.begins_line();
         let wanted = self.wanted();

@@ -20,4 +20,4 @@ mod scan;
 mod split;
 mod words;
 
-pub use parse::{HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, parse};
+pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, parse};

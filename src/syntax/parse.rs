@@ -41,7 +41,7 @@ pub fn parse(id: FileId, text: &str) -> Parsed {
         return too_large(id, text);
     }
     let scan = scan(id, text);
-    let mut parser = Parser::new(Builder::new(id, text, &scan.comments), &scan);
+    let mut parser = Parser::new(Builder::new(id, text, &scan.text, &scan.comments), &scan);
     let mut items = Vec::new();
     let ends = scan.chunks.iter().skip(1).copied().chain([text.len()]);
     for (&start, end) in scan.chunks.iter().zip(ends) {

@@ -2,7 +2,7 @@
 //! one becomes an `Error` node with one diagnostic.
 
 use super::ast::*;
-use super::build::Builder;
+use super::build::{Builder, whole_characters};
 use super::failure::{Place, explain};
 use super::parse::{DIAGNOSTICS_MAX, Node, Rule, failure, nodes};
 use super::scan::{Fault, Scan};
@@ -123,7 +123,8 @@ impl<'t> Parser<'t> {
             && !self.has_value_body(&range, body)
         {
             let header = self.emptied(&range, &bodies);
-            if let Some(mut item) = self.parsed_item(&header, range.start) {
+            let item = self.limited(range.end, |this| this.parsed_item(&header, range.start));
+            if let Some(mut item) = item {
                 self.fill_item(&mut item, body.clone());
                 return item;
             }
@@ -227,7 +228,8 @@ impl<'t> Parser<'t> {
         let bodies = bodies(&self.scan.text, range.clone(), &self.scan.unclosed);
         if self.begins_with(&range, &["if", "for"]) && self.depth < BODIES_MAX {
             let header = self.emptied(&range, &bodies);
-            let clause = self.parsed::<C>(&header, range.start).and_then(|mut clauses| clauses.pop());
+            let clauses = self.limited(range.end, |this| this.parsed::<C>(&header, range.start));
+            let clause = clauses.and_then(|mut clauses| clauses.pop());
             if let Some(mut clause) = clause.filter(|_| !bodies.is_empty())
                 && self.fill(&mut clause, bodies)
             {
@@ -284,10 +286,18 @@ impl<'t> Parser<'t> {
         let text = format!("{}_", &self.scan.text[range.start..value]);
         self.builder.faulty_value = Some(value);
         let told = self.builder.diagnostics.len();
-        let node = parsed(self, &text, range.start);
+        let node = self.limited(value, |this| parsed(this, &text, range.start));
         self.builder.diagnostics.truncate(told);
         self.builder.faulty_value = None;
         node
+    }
+
+    /// What is built has no span that ends behind `limit`.
+    fn limited<T>(&mut self, limit: usize, build: impl std::ops::FnOnce(&mut Self) -> T) -> T {
+        let before = std::mem::replace(&mut self.builder.limit, limit);
+        let built = build(self);
+        self.builder.limit = before;
+        built
     }
 
     /// The place behind the first `=` outside all brackets.
@@ -312,7 +322,7 @@ impl<'t> Parser<'t> {
     }
 
     fn span(&self, range: &Range<usize>) -> Span {
-        Span::new(self.builder.file, range.start, range.end)
+        whole_characters(self.builder.text, Span::new(self.builder.file, range.start, range.end))
     }
 
     fn error_item(&self, range: Range<usize>) -> Item {
@@ -330,7 +340,10 @@ impl<'t> Parser<'t> {
         }
         if let Some(failure) = failure(rule, text) {
             let whole = &self.scan.text;
-            let diagnostic = explain(&failure, text, range.start, place, whole, self.builder.file);
+            let mut diagnostic = explain(&failure, text, range.start, place, whole, self.builder.file);
+            for label in &mut diagnostic.labels {
+                label.span = whole_characters(self.builder.text, label.span);
+            }
             self.builder.diagnostics.push(diagnostic);
         }
     }

@@ -69,6 +69,8 @@ struct Scanner<'t> {
     previous: Option<Token>,
     /// The previous character that has no place in a program.
     stray: Option<usize>,
+    /// All such characters of the line.
+    strays: Vec<char>,
 }
 
 impl<'t> Scanner<'t> {
@@ -92,6 +94,7 @@ impl<'t> Scanner<'t> {
             deep_told: false,
             previous: None,
             stray: None,
+            strays: Vec::new(),
         }
     }
 
@@ -116,6 +119,8 @@ impl<'t> Scanner<'t> {
         match token.kind {
             TokenKind::LineBreak => {
                 self.previous = None;
+                self.stray = None;
+                self.strays.clear();
                 return;
             }
             TokenKind::LineComment => self.line_comment(token),
@@ -327,16 +332,16 @@ impl<'t> Scanner<'t> {
         let c = self.source[token.start..].chars().next().expect("a token is not empty");
         let span = self.span(token.start, token.end);
         let meant = characters::meant(c);
-        // What a line repeats is one mistake.
-        let repeated = self.stray.is_some_and(|before| {
-            self.source[before..].starts_with(c) && !self.source[before..token.start].contains('\n')
-        });
+        // What a line repeats is one mistake, and so is a word with several odd letters.
+        let in_word = meant.replacement == Some('_')
+            && self.stray.is_some_and(|before| is_word(&self.source[before..token.start]));
         let fatal = meant.replacement.is_none();
-        match repeated {
+        match in_word || self.strays.contains(&c) {
             true => self.scan.faults.push(Fault { at: token.start, fatal }),
             false => self.tell(characters::stray(c, span), token.start, fatal),
         }
         self.stray = Some(token.start);
+        self.strays.push(c);
         self.replace(token.start, token.end, meant.replacement.unwrap_or(' '));
     }
 
@@ -351,6 +356,10 @@ impl<'t> Scanner<'t> {
             bytes[start] = with as u8;
         }
     }
+}
+
+fn is_word(text: &str) -> bool {
+    text.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
 /// Whether what follows a keyword shows that it begins an item: a name or a text on its line. Two

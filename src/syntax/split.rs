@@ -16,18 +16,22 @@ pub(super) fn split(
     let tokens: Vec<Token> = tokens(text, range.clone());
     let mut starts = Vec::new();
     let mut depth = 0usize;
-    let mut broken = false;
+    // At which depth a bracket of the piece is never closed.
+    let mut broken: Option<usize> = None;
     for (i, token) in tokens.iter().enumerate() {
         match token.kind {
-            TokenKind::Open if unclosed.binary_search(&token.start).is_ok() => broken = true,
+            TokenKind::Open if unclosed.binary_search(&token.start).is_ok() => broken = Some(depth),
             TokenKind::Open => depth += 1,
-            TokenKind::Close => depth = depth.saturating_sub(1),
+            TokenKind::Close => {
+                depth = depth.saturating_sub(1);
+                broken = broken.filter(|at| *at <= depth);
+            }
             _ => {}
         }
         let outside = depth == 0 || depth == 1 && token.kind == TokenKind::Open;
-        if outside && (starts.is_empty() || begins_piece(text, &tokens, i, keywords, broken)) {
+        if outside && (starts.is_empty() || begins_piece(text, &tokens, i, keywords, broken.is_some())) {
             starts.push(token.start);
-            broken = false;
+            broken = None;
         }
     }
     let ends = starts.iter().skip(1).copied().chain([range.end]);
