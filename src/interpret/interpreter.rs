@@ -11,7 +11,7 @@ use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, Program};
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
 /// Most findings of one run; more help nobody.
@@ -32,6 +32,8 @@ pub struct Interpreter<'a> {
     pub causes: Causes,
     /// The last plans; see [`super::planning`].
     pub plans: Vec<Rc<Planned>>,
+    /// Exemptions of the user's own files that were judged, and whether any plan needed them.
+    pub exemptions: BTreeMap<Span, bool>,
     pub reports: Vec<Diagnostic>,
     /// Errors found so far, repeated ones included.
     pub errors: usize,
@@ -89,6 +91,7 @@ impl<'a> Interpreter<'a> {
             stage,
             causes: Causes::default(),
             plans: Vec::new(),
+            exemptions: BTreeMap::new(),
             reports: Vec::new(),
             errors: 0,
             reported: HashSet::new(),

@@ -53,7 +53,6 @@ mod natives_robot;
 mod natives_shape;
 mod show_value;
 
-mod pending;
 mod run;
 
 pub use host::{Host, Limits, Mode, Options, Outcome, TestResult, WriteError};

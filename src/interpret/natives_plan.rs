@@ -125,7 +125,7 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let settings = settings(interpreter, call, 1)?;
     let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
     let verdict = interpreter.judge(&planned, settings, world_at(call, 4));
-    interpreter.report_unneeded(&planned, &verdict);
+    interpreter.note_exemptions(&planned, &verdict);
     Ok(Value::Record(Rc::new(Record::Report(verdict))))
 }
 
@@ -137,7 +137,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let settings = settings(interpreter, call, 2)?;
     let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
     let verdict = interpreter.judge(&planned, settings, None);
-    interpreter.report_unneeded(&planned, &verdict);
+    interpreter.note_exemptions(&planned, &verdict);
     if !verdict.ok() {
         interpreter.report_failures(&planned, &verdict, call.at(0));
         return Ok(Value::Unknown);

@@ -281,7 +281,7 @@ impl Interpreter<'_> {
         }
         self.stage.progress(format!("verifying {}", planned.robot.name));
         let plan = Plan { settings, worlds: worlds.clone(), ..planned.plan.clone() };
-        let verdict = Rc::new(super::pending::verify(&plan));
+        let verdict = Rc::new(crate::plan::verify::verify(&plan));
         planned.judged.borrow_mut().push(Judged { settings, worlds, verdict: verdict.clone() });
         verdict
     }
@@ -319,5 +319,5 @@ impl Interpreter<'_> {
 
 /// The corners of the area that a robot stands on, in the frame of its base as it rests.
 pub fn footprint(robot: &Robot) -> Vec<Vec3> {
-    super::pending::footprint_of(&robot.assembly, &robot.start)
+    crate::plan::verify::area(&robot.assembly, &robot.start)
 }

@@ -23,6 +23,7 @@ pub fn run(
         let mut interpreter = Interpreter::new(checked, mode, options, stage);
         // What halts a run has been reported.
         let _ = interpreter.drive();
+        interpreter.report_unneeded();
         Outcome {
             diagnostics: in_order(std::mem::take(&mut interpreter.reports)),
             tests: std::mem::take(&mut interpreter.tests),

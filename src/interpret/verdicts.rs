@@ -25,6 +25,7 @@ pub fn failure_line(failure: &Failure) -> String {
 pub fn check_name(kind: CheckKind) -> &'static str {
     match kind {
         CheckKind::Form => "form",
+        CheckKind::Form => "form",
         CheckKind::Conflict => "conflict",
         CheckKind::Collision => "collision",
         CheckKind::JointRange => "joint range",
@@ -93,6 +94,7 @@ pub fn in_words(verdict: &Verdict) -> String {
 fn failure_code(kind: CheckKind) -> Code {
     match kind {
         CheckKind::Form => code::NOT_VERIFIED,
+        CheckKind::Form => code::NOT_VERIFIED,
         CheckKind::Conflict => code::CONFLICT,
         CheckKind::Collision => code::COLLISION,
         CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration => code::LIMIT_EXCEEDED,
@@ -146,28 +148,28 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Exemptions that nothing needed; those of the library are its own affair.
-    pub fn report_unneeded(&mut self, planned: &Planned, verdict: &Verdict) {
-        let exemptions = &planned.plan.exemptions;
-        let needed = |id: CauseId| {
-            exemptions
-                .iter()
-                .enumerate()
-                .any(|(i, e)| e.cause == id && !verdict.unneeded_exemptions.contains(&i))
-        };
-        for &index in &verdict.unneeded_exemptions {
-            let Some(exemption) = exemptions.get(index) else { continue };
-            // One clause covers every interval in which its behaviour runs.
-            if needed(exemption.cause) {
+    /// Remembers which exemptions were needed: one clause covers many intervals and many plans.
+    pub fn note_exemptions(&mut self, planned: &Planned, verdict: &Verdict) {
+        for (index, exemption) in planned.plan.exemptions.iter().enumerate() {
+            let needed = !verdict.unneeded_exemptions.contains(&index);
+            let span = self.causes.get(planned.causes[exemption.cause.0 as usize]).span;
+            // Those of the library are its own affair.
+            if !self.is_library(span) {
+                *self.exemptions.entry(span).or_default() |= needed;
+            }
+        }
+    }
+
+    /// Exemptions that no plan of the run needed.
+    pub fn report_unneeded(&mut self) {
+        for (span, needed) in std::mem::take(&mut self.exemptions) {
+            if needed {
                 continue;
             }
-            let record = self.causes.get(planned.causes[exemption.cause.0 as usize]);
-            if self.is_library(record.span) {
-                continue;
-            }
-            let message = format!("nothing needed the exemption `{}`", exemption_name(&exemption.kind));
+            let name = self.sources.text(span);
+            let message = format!("nothing needed the exemption `{name}`");
             let diagnostic = Diagnostic::warning(code::UNNEEDED_EXEMPTION, message)
-                .label(record.span, "not needed")
+                .label(span, "not needed")
                 .hint("leave it out, so that the judge may speak");
             self.add_report(diagnostic);
         }

@@ -27,8 +27,10 @@ mod walk;
 mod stability;
 mod travel;
 
+mod area;
 mod judge;
 
+pub use area::area;
 pub use contact::{Patch, Touch};
 pub use model::Model;
 pub use stance::Stance;
