@@ -4,6 +4,8 @@ mod behavior;
 mod check;
 mod cli;
 mod conflicts;
+mod designs;
+mod desk;
 mod distance;
 mod gaits;
 mod ground;
