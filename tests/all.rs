@@ -7,7 +7,12 @@ mod conflicts;
 mod designs;
 mod desk;
 mod distance;
+<<<<<<< HEAD
 mod gaits;
+=======
+mod docs;
+mod fences;
+>>>>>>> 048ef66 (docs/language.md, more examples, and a test that checks every fence of the library)
 mod ground;
 mod kinematics;
 mod mass;
