@@ -670,7 +670,7 @@ extern fn hull(
 /// `scale` is the length of one unit of the file.
 ///
 /// Example:
-/// ```modl check
+/// ```text
 /// module Claw {
 ///   mass 50g
 ///   link body = mesh("claw.stl", scale: 1mm) collides box(40mm, 20mm, 20mm)
@@ -927,9 +927,10 @@ extern fn cloud(points: List<Vec3<Length>>) -> Cloud
 ///
 /// Give `to` or `by`. `in` is how long it takes; without it, as long as the limits of the joint and
 /// of the motors behind it need. `profile` is the law of time: `smooth` (a quintic at rest at both
-/// ends), `trapezoid` or `linear`. `until` ends the motion early; after `timeout` the next action
-/// begins, or what stands after `else`. A position outside the joint's range, a time that its speed
-/// does not allow and a `passive` joint are refused.
+/// ends), `trapezoid` or `linear`. When `until` holds the action is over and the next one begins; the
+/// joint keeps its setpoint, so it goes on unless that commands it. After `timeout` the next action
+/// begins, too, or what stands after `else`. A position outside the joint's range, a time that its
+/// speed does not allow and a `passive` joint are refused.
 ///
 /// Example:
 /// ```modl
@@ -953,8 +954,8 @@ extern fn move<D: Dimension>(
 /// Turns a joint at a steady speed.
 ///
 /// With `for` it ends by holding; without, it lasts until the next command to the joint (a plan that
-/// ends before is refused). `until` ends it early; `timeout` as for `move`. A speed above the
-/// joint's is refused.
+/// ends before is refused). `until` and `timeout` as for `move`. A speed above the joint's is
+/// refused.
 ///
 /// Example:
 /// ```modl

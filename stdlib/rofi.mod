@@ -49,13 +49,16 @@ config Snake(n: Int = 8) {
 }
 
 /// A chain of `n` modules that is closed to a ring, standing upright.
+///
+/// From one module to the next the x axis turns round, so that the joints bend by turns the one and the other way.
 config Ring(n: Int = 8) closed {
-  require n >= 4, "fewer than four modules make no ring: a shoe tilts by 90 degrees at most"
+  require n >= 4 and n % 2 == 0, "a ring has an even number of modules, four at least"
   part m[n]: Rofi
   for i in 0..n {
+    let bend = if i % 2 == 0 { 180deg / n } else { -180deg / n }
     connect m[i].b_minus_z -- m[(i + 1) % n].a_minus_z
-    set m[i].alpha = 180deg / n
-    set m[i].beta = 180deg / n
+    set m[i].alpha = bend
+    set m[i].beta = bend
   }
   base m[0]
 }
