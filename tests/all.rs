@@ -7,12 +7,9 @@ mod conflicts;
 mod designs;
 mod desk;
 mod distance;
-<<<<<<< HEAD
-mod gaits;
-=======
 mod docs;
 mod fences;
->>>>>>> 048ef66 (docs/language.md, more examples, and a test that checks every fence of the library)
+mod gaits;
 mod ground;
 mod kinematics;
 mod mass;
