@@ -13,6 +13,7 @@ pub mod check;
 
 pub mod behavior;
 pub mod geometry;
+pub mod optimize;
 pub mod plan;
 pub mod robot;
 

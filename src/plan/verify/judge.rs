@@ -2,7 +2,7 @@
 
 use super::ledger::Ledger;
 use super::walk::{Course, Ended, walk};
-use super::{Tolerances, limits, stability, travel};
+use super::{Tolerances, limits, stability, torque, travel};
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 
@@ -27,6 +27,7 @@ pub fn tracks(plan: &Plan, tracks: &Tracks) -> Verdict {
 fn on_the_way(course: &Course, ledger: &mut Ledger) {
     let mut standing = stability::Watch::new(course.settings, course.tolerances);
     let mut travel = travel::Watch::new(course.tolerances);
+    let mut torque = torque::Watch::new(course.tolerances);
     let mut samples = 0;
     let ended = walk(*course, None, course.tracks.duration, &mut |sample, _| {
         samples += 1;
@@ -34,6 +35,7 @@ fn on_the_way(course: &Course, ledger: &mut Ledger) {
             ledger.fail(lack.failure());
         }
         travel.see(sample, ledger);
+        torque.see(sample, ledger);
         true
     });
     if let Some(lack) = standing.end(course.tracks.duration) {
@@ -43,6 +45,8 @@ fn on_the_way(course: &Course, ledger: &mut Ledger) {
         ledger.fail(limit_reached(course.settings.samples_max, time));
     }
     ledger.verdict.samples = samples;
+    torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
+    torque.finish(course.settings, ledger);
     standing.finish(ledger);
     let names = |link| link_name(course, link);
     travel.finish(course.settings, names, ledger);

@@ -1,0 +1,3 @@
+//! Optimisation. The only user of clarabel; knows no robots.
+
+pub mod linear;

@@ -1,0 +1,344 @@
+//! What joints, motors and bonds have to hold, from the forces on the links.
+//!
+//! Cut the tree of links at a joint or bond: the forces on the far side (its weight, the ground's
+//! pushes) have a force and a moment about a point there, and that is what is held. Every load that
+//! has a limit is a sum of such cuts, linear in the forces.
+
+use super::model::Model;
+use super::stance::Stance;
+use crate::geometry::Vec3;
+use crate::robot::step::{Motion, Step};
+use crate::robot::{JointId, JointKind, PortRef};
+use nalgebra::DMatrix;
+
+/// Everything of a model that holds loads; compiled once for its bonds.
+pub struct Structure {
+    pub loads: Vec<Load>,
+    /// Whether some motor's load can't be told from those of its joints.
+    pub motors_open: bool,
+    cuts: Vec<Cut>,
+    /// Preorder number of each link, and the last number of those that hang on it.
+    span: Vec<(usize, usize)>,
+    /// Links of the far sides of bonds that close loops: (bond, link at a, link at b).
+    pub closing: Vec<(usize, usize, usize)>,
+}
+
+/// Something that holds a load and says how much it can.
+#[derive(Clone, Debug)]
+pub struct Load {
+    pub name: String,
+    pub kind: LoadKind,
+    pub limit: f64,
+    /// Cuts with factors.
+    pub terms: Vec<(usize, f64)>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LoadKind {
+    /// Torque or force of a joint; or of a motor, by the joint that it drives first.
+    Joint { joint: usize, turns: bool },
+    /// Pull along the normal of a bond.
+    Pull,
+    /// Moment across a bond, in any direction: the terms are three axes.
+    Moment,
+}
+
+/// Where the tree is cut, and which component is asked for.
+#[derive(Clone, Copy, Debug)]
+enum Cut {
+    /// At the joint of a step, by the joint's coordinate.
+    Step { link: usize, motion: Motion, offset: Vec3, parent: usize },
+    /// At a bond, in the frame of the near port: force or moment along an axis of it.
+    Bond { link: usize, near: usize, origin: Vec3, axis: Vec3, moment: bool },
+}
+
+/// A cut in the present posture: forces on the links beyond `link` count by `dir·f`, or by
+/// `dir·((p - at) × f)` if they are moments.
+#[derive(Clone, Copy, Debug)]
+pub struct Section {
+    pub link: usize,
+    at: Vec3,
+    dir: Vec3,
+    moment: bool,
+}
+
+impl Section {
+    /// What a force `f` at `p` with a moment `m` counts.
+    pub fn of(&self, p: &Vec3, f: &Vec3, m: &Vec3) -> f64 {
+        if self.moment { self.dir.dot(&((p - self.at).cross(f) + m)) } else { self.dir.dot(f) }
+    }
+}
+
+/// A force on a link: at a place (level axes, from the centre of mass), with a moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Push {
+    pub link: usize,
+    pub p: Vec3,
+    pub f: Vec3,
+    pub m: Vec3,
+}
+
+impl Structure {
+    pub fn new(model: &Model) -> Structure {
+        let mut structure = Structure {
+            loads: vec![],
+            motors_open: false,
+            cuts: vec![],
+            span: spans(model),
+            closing: closing(model),
+        };
+        let cuts = structure.cut_steps(model);
+        structure.joints(model, &cuts);
+        structure.motors(model, &cuts);
+        structure.bonds(model);
+        structure
+    }
+
+    /// Whether `link` hangs on `at` or is it.
+    pub fn beyond(&self, at: usize, link: usize) -> bool {
+        let ((first, last), (number, _)) = (self.span[at], self.span[link]);
+        first <= number && number <= last
+    }
+
+    /// The first link beyond a cut.
+    pub fn cut_link(&self, cut: usize) -> usize {
+        match self.cuts[cut] {
+            Cut::Step { link, .. } | Cut::Bond { link, .. } => link,
+        }
+    }
+
+    /// All cuts in a posture.
+    pub fn sections(&self, stance: &Stance) -> Vec<Section> {
+        let R = |link: usize| stance.R * stance.posture.R[link];
+        let p = |link: usize| stance.R * (stance.posture.p[link] - stance.posture.centre);
+        self.cuts
+            .iter()
+            .map(|cut| match *cut {
+                Cut::Step { link, motion, offset, parent } => match motion {
+                    Motion::Along(direction) => {
+                        Section { link, at: p(link), dir: R(parent) * direction, moment: false }
+                    }
+                    _ => {
+                        let axis = motion.axis().unwrap_or_else(Vec3::zeros);
+                        let at = p(link) - R(link) * offset;
+                        Section { link, at, dir: R(link) * axis, moment: true }
+                    }
+                },
+                Cut::Bond { link, near, origin, axis, moment } => {
+                    Section { link, at: p(near) + R(near) * origin, dir: R(near) * axis, moment }
+                }
+            })
+            .collect()
+    }
+
+    /// What every cut has to hold against these pushes.
+    pub fn held(&self, model: &Model, sections: &[Section], pushes: &[Push]) -> Vec<f64> {
+        let mut force = vec![Vec3::zeros(); model.bodies.len()];
+        let mut moment = vec![Vec3::zeros(); model.bodies.len()];
+        for push in pushes {
+            force[push.link] += push.f;
+            moment[push.link] += push.p.cross(&push.f) + push.m;
+        }
+        for step in model.kinematics.steps.iter().rev() {
+            let (f, m) = (force[step.link], moment[step.link]);
+            force[step.parent] += f;
+            moment[step.parent] += m;
+        }
+        let zero = Vec3::zeros();
+        sections.iter().map(|s| s.of(&zero, &force[s.link], &moment[s.link])).collect()
+    }
+
+    /// The size of a load from what its cuts hold; a pull is signed.
+    pub fn size(&self, load: &Load, held: &[f64]) -> f64 {
+        let term = |&(cut, factor): &(usize, f64)| factor * held[cut];
+        match load.kind {
+            LoadKind::Joint { .. } => load.terms.iter().map(term).sum::<f64>().abs(),
+            LoadKind::Pull => load.terms.iter().map(term).sum::<f64>(),
+            LoadKind::Moment => libm::sqrt(load.terms.iter().map(|t| term(t) * term(t)).sum()),
+        }
+    }
+
+    /// A joint's motion moves its cuts: what a motor has to give for a turn of the joint.
+    pub fn joint_effort(&self, joint: usize, held: &[f64], effects: &[Vec<(usize, f64)>]) -> f64 {
+        -effects[joint].iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>()
+    }
+
+    /// For each joint the cuts that it moves, with factors.
+    fn cut_steps(&mut self, model: &Model) -> Vec<Vec<(usize, f64)>> {
+        let effects = effects(model);
+        self.cuts = model
+            .kinematics
+            .steps
+            .iter()
+            .filter(|step| moves(step))
+            .map(|s| Cut::Step { link: s.link, motion: s.motion, offset: s.offset, parent: s.parent })
+            .collect();
+        effects
+    }
+
+    fn joints(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
+        for (joint, owner) in model.robot.joints().enumerate() {
+            let (effort, turns) = match owner {
+                crate::robot::JointOwner::Module { module, joint } => {
+                    let declared = &model.robot.module_type(module).joints[joint];
+                    let own = !declared.passive && declared.mimic.is_none();
+                    (declared.limits.effort.filter(|_| own), declared.kind != JointKind::Prismatic)
+                }
+                crate::robot::JointOwner::Bond(bond) => {
+                    (model.robot.hinge(bond).and_then(|h| h.limits.effort), true)
+                }
+            };
+            let Some(limit) = effort.filter(|_| !effects[joint].is_empty()) else { continue };
+            self.loads.push(Load {
+                name: model.robot.joint_name(owner),
+                kind: LoadKind::Joint { joint, turns },
+                limit,
+                terms: effects[joint].clone(),
+            });
+        }
+    }
+
+    /// With `motor = Σ factor · joint` the joints' torques are `Fᵀ` times the motors': where F has an
+    /// inverse, the motors' follow.
+    fn motors(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
+        for &(module, _) in &model.kinematics.tree.order {
+            let motors = &model.robot.module_type(module).motors;
+            if motors.iter().all(|m| m.limits.effort.is_none()) {
+                continue;
+            }
+            let mut joints: Vec<usize> = motors.iter().flat_map(|m| m.joints.iter().map(|j| j.0)).collect();
+            joints.sort_unstable();
+            joints.dedup();
+            let mut factors = DMatrix::<f64>::zeros(joints.len(), motors.len());
+            for (column, motor) in motors.iter().enumerate() {
+                for &(joint, factor) in &motor.joints {
+                    let row = joints.partition_point(|j| *j < joint);
+                    factors[(row, column)] += factor;
+                }
+            }
+            let inverse = if joints.len() == motors.len() { factors.try_inverse() } else { None };
+            let Some(inverse) = inverse else {
+                self.motors_open = true;
+                continue;
+            };
+            for (row, motor) in motors.iter().enumerate() {
+                let Some(limit) = motor.limits.effort else { continue };
+                let mut terms = Vec::new();
+                for (column, joint) in joints.iter().enumerate() {
+                    let share = inverse[(row, column)];
+                    let cuts = &effects[model.kinematics.joint(module, *joint)];
+                    terms.extend(cuts.iter().map(|&(cut, factor)| (cut, share * factor)));
+                }
+                let first = model.kinematics.joint(module, motor.joints.first().map_or(0, |j| j.0));
+                self.loads.push(Load {
+                    name: format!("{}.{}", model.robot.modules[module].name, motor.name),
+                    kind: LoadKind::Joint { joint: first, turns: true },
+                    limit,
+                    terms,
+                });
+            }
+        }
+    }
+
+    fn bonds(&mut self, model: &Model) {
+        for &(module, bond) in &model.kinematics.tree.order {
+            let Some(bond) = bond else { continue };
+            let declared = &model.robot.bonds[bond];
+            let (near, far) = match declared.b.module == module {
+                true => (declared.a, declared.b),
+                false => (declared.b, declared.a),
+            };
+            let name =
+                format!("{} -- {}", model.robot.port_name(declared.a), model.robot.port_name(declared.b));
+            let (force, moment) = holds(model, near, far);
+            let link = |port: PortRef| {
+                model.kinematics.link(port.module, model.robot.module_type(port.module).ports[port.port].link)
+            };
+            let pose = model.robot.module_type(near.module).ports[near.port].pose;
+            let cut = |axis: Vec3, moment| Cut::Bond {
+                link: link(far),
+                near: link(near),
+                origin: pose.translation.vector,
+                axis: pose.rotation * axis,
+                moment,
+            };
+            let mut add = |kind, limit, axes: &[Vec3]| {
+                let first = self.cuts.len();
+                self.cuts.extend(axes.iter().map(|axis| cut(*axis, kind == LoadKind::Moment)));
+                let terms = (first..self.cuts.len()).map(|cut| (cut, 1.0)).collect();
+                self.loads.push(Load { name: name.clone(), kind, limit, terms });
+            };
+            if let Some(limit) = force {
+                add(LoadKind::Pull, limit, &[Vec3::x()]);
+            }
+            if let Some(limit) = moment {
+                add(LoadKind::Moment, limit, &[Vec3::x(), Vec3::y(), Vec3::z()]);
+            }
+        }
+    }
+
+    /// Where a bond that closes a loop is: its port `a`, from the centre of mass.
+    pub fn closing_place(&self, model: &Model, stance: &Stance, bond: usize) -> Vec3 {
+        let a = model.robot.bonds[bond].a;
+        let port = &model.robot.module_type(a.module).ports[a.port];
+        let link = model.kinematics.link(a.module, port.link);
+        let posture = &stance.posture;
+        stance.R * (posture.R[link] * port.pose.translation.vector + posture.p[link] - posture.centre)
+    }
+}
+
+/// What the weaker of two connectors holds.
+fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
+    let connector = |port: PortRef| {
+        let index = model.robot.module_type(port.module).ports[port.port].connector;
+        &model.robot.library.connectors[index]
+    };
+    let least = |x: Option<f64>, y: Option<f64>| match (x, y) {
+        (Some(x), Some(y)) => Some(x.min(y)),
+        (x, y) => x.or(y),
+    };
+    let (a, b) = (connector(a), connector(b));
+    (least(a.holds_force, b.holds_force), least(a.holds_moment, b.holds_moment))
+}
+
+fn moves(step: &Step) -> bool {
+    step.motion != Motion::Fixed && !step.terms.is_empty()
+}
+
+/// For each joint the moving steps that it drives, numbered among the moving steps, with factors.
+pub fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
+    let count = model.robot.joints().count();
+    let mut effects = vec![Vec::new(); count];
+    for (cut, step) in model.kinematics.steps.iter().filter(|step| moves(step)).enumerate() {
+        for &(joint, factor) in &step.terms {
+            effects[JointId(joint as u32).0 as usize].push((cut, factor));
+        }
+    }
+    effects
+}
+
+fn spans(model: &Model) -> Vec<(usize, usize)> {
+    let links = model.bodies.len();
+    let mut size = vec![1usize; links];
+    for step in model.kinematics.steps.iter().rev() {
+        size[step.parent] += size[step.link];
+    }
+    // Loose links hang on nothing: an empty span each.
+    let mut first = vec![usize::MAX; links];
+    first[model.base_link()] = 0;
+    let mut next: Vec<usize> = first.iter().map(|f| f.wrapping_add(1)).collect();
+    for step in &model.kinematics.steps {
+        let number = next[step.parent];
+        next[step.parent] += size[step.link];
+        (first[step.link], next[step.link]) = (number, number + 1);
+    }
+    (0..links).map(|l| (first[l], first[l].saturating_add(size[l] - 1))).collect()
+}
+
+fn closing(model: &Model) -> Vec<(usize, usize, usize)> {
+    let link = |port: PortRef| {
+        model.kinematics.link(port.module, model.robot.module_type(port.module).ports[port.port].link)
+    };
+    let bond = |&b: &usize| (b, link(model.robot.bonds[b].a), link(model.robot.bonds[b].b));
+    model.kinematics.tree.closing.iter().map(bond).collect()
+}

@@ -1,0 +1,385 @@
+//! Whether joints, motors and bonds hold what they have to: quasi-static loads against their limits.
+//!
+//! First with the loads that the ground takes without friction: where nothing is overloaded with
+//! those, forces exist. Loads whose far side touches nothing are the same whatever the forces are.
+//! Only for others, and only where the first answer is no, the best contact forces are sought.
+
+use super::Tolerances;
+use super::forces::{Best, Question, Recipe};
+use super::ledger::{Ledger, lower};
+use super::statics::{LoadKind, Push, Section, Structure, effects};
+use super::walk::Sample;
+use crate::geometry::Vec3;
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Status};
+use crate::units::{Dimension, quantity};
+
+pub struct Watch<'a> {
+    tolerances: &'a Tolerances,
+    compiled: Option<Compiled>,
+    /// Loads over their limits at the last sample that moved, with their ratios.
+    over: Vec<(usize, f64)>,
+    /// Overloads so far: one for each load.
+    failures: Vec<Overload>,
+    recipes: [Recipe; 2],
+    joints: Vec<f64>,
+    efforts: Vec<f64>,
+    samples: usize,
+    /// Samples at which the forces of the ground do not carry the robot, so that loads are unknown.
+    unknown: usize,
+    programmes: usize,
+    friction: Option<NeedsFriction>,
+    energy: f64,
+}
+
+struct Compiled {
+    bonds: Vec<bool>,
+    structure: Structure,
+    effects: Vec<Vec<(usize, f64)>>,
+}
+
+/// A load over its limit.
+#[derive(Clone, Debug)]
+pub struct Overload {
+    pub name: String,
+    pub kind: LoadKind,
+    pub since: f64,
+    pub until: f64,
+    /// The greatest so far, and the limit; N·m or N.
+    pub value: f64,
+    pub limit: f64,
+}
+
+struct NeedsFriction {
+    time: f64,
+    without: f64,
+    with: f64,
+    name: String,
+}
+
+/// What the loads of one stance are.
+struct Loads {
+    /// Load by limit, of all loads.
+    ratios: Vec<f64>,
+    held: Vec<f64>,
+    /// Loads that are judged: for all of them it is known what they hold.
+    judged: Vec<usize>,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(tolerances: &'a Tolerances) -> Watch<'a> {
+        Watch {
+            tolerances,
+            compiled: None,
+            over: vec![],
+            failures: vec![],
+            recipes: Default::default(),
+            joints: vec![],
+            efforts: vec![],
+            samples: 0,
+            unknown: 0,
+            programmes: 0,
+            friction: None,
+            energy: 0.0,
+        }
+    }
+
+    pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
+            self.over.clear();
+            return;
+        }
+        self.samples += 1;
+        if sample.moved || self.compiled.is_none() {
+            self.compile(sample);
+            self.weigh(sample, ledger);
+        }
+        self.record(sample, ledger);
+    }
+
+    /// Overloads at a sample, by the names of what is overloaded: for finding who is to blame.
+    pub fn overloads(
+        sample: &Sample,
+        tolerances: &Tolerances,
+        ledger: &mut Ledger,
+    ) -> Vec<(String, LoadKind)> {
+        let mut watch = Watch::new(tolerances);
+        watch.see(sample, ledger);
+        watch.failures.iter().map(|f| (f.name.clone(), f.kind)).collect()
+    }
+
+    fn compile(&mut self, sample: &Sample) {
+        if self.compiled.as_ref().is_none_or(|c| c.bonds != sample.bonds) {
+            let structure = Structure::new(sample.model);
+            let effects = effects(sample.model);
+            self.compiled = Some(Compiled { bonds: sample.bonds.to_vec(), structure, effects });
+        }
+    }
+
+    fn weigh(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        // Taken out while it is used, so that the rest can be written to.
+        let Some(compiled) = self.compiled.take() else { return };
+        self.weigh_in(sample, &compiled, ledger);
+        self.compiled = Some(compiled);
+    }
+
+    fn weigh_in(&mut self, sample: &Sample, compiled: &Compiled, ledger: &mut Ledger) {
+        let structure = &compiled.structure;
+        let sections = structure.sections(sample.stance);
+        let weights = structure.held(sample.model, &sections, &weights(sample));
+        let loads = loads(structure, sample, &sections, self.tolerances);
+        if loads.judged.len() < structure.loads.len() {
+            self.unknown += 1;
+        }
+        self.work(sample, compiled, &loads.held);
+        self.over.clear();
+        for (slot, bonds) in [(0, false), (1, true)] {
+            let own = |i: &usize| bonds != matches!(structure.loads[*i].kind, LoadKind::Joint { .. });
+            let judged: Vec<usize> = loads.judged.iter().copied().filter(own).collect();
+            let Some(worst) = greatest(&judged, |i| loads.ratios[i]) else { continue };
+            if loads.ratios[worst] <= 1.0 {
+                self.margin(sample, structure, worst, loads.ratios[worst], ledger);
+                continue;
+            }
+            let question = Question {
+                model: sample.model,
+                structure,
+                stance: sample.stance,
+                sections: &sections,
+                weights: &weights,
+                loads: &judged,
+                weight: sample.model.mass * sample.world.gravity,
+                friction: sample.world.friction,
+                tolerances: self.tolerances,
+            };
+            let sure = settled_loads(structure, sample, &judged, true, self.tolerances);
+            let sure = greatest(&sure, |i| loads.ratios[i]).filter(|&i| loads.ratios[i] > 1.0);
+            let seen = if bonds { &ledger.verdict.bond_margin } else { &ledger.verdict.torque_margin };
+            let seen = seen.as_ref().map_or(0.0, |w| 1.0 - w.value);
+            let best = match sure {
+                Some(_) => None,
+                None => best(&question, &mut self.recipes[slot], seen, &mut self.programmes),
+            };
+            match best {
+                Some(best) if best.ratio <= 1.0 => {
+                    self.margin(sample, structure, best.load, best.ratio, ledger);
+                    self.needs_friction(sample, structure, (worst, loads.ratios[worst]), &best);
+                }
+                best => {
+                    let (load, ratio) = best
+                        .map_or((sure.unwrap_or(worst), loads.ratios[sure.unwrap_or(worst)]), |b| {
+                            (b.load, b.ratio)
+                        });
+                    self.margin(sample, structure, load, ratio, ledger);
+                    let all = judged.iter().copied().filter(|&i| sure.is_some() && loads.ratios[i] > 1.0);
+                    let sures: Vec<_> = all.map(|i| (i, loads.ratios[i])).collect();
+                    self.over.extend(if sures.is_empty() { vec![(load, ratio)] } else { sures });
+                }
+            }
+        }
+    }
+
+    fn margin(&self, sample: &Sample, structure: &Structure, load: usize, ratio: f64, ledger: &mut Ledger) {
+        let load = &structure.loads[load];
+        let worst = match load.kind {
+            LoadKind::Joint { .. } => &mut ledger.verdict.torque_margin,
+            LoadKind::Pull | LoadKind::Moment => &mut ledger.verdict.bond_margin,
+        };
+        lower(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
+    }
+
+    fn needs_friction(&mut self, sample: &Sample, structure: &Structure, worst: (usize, f64), best: &Best) {
+        if self.friction.as_ref().is_none_or(|f| worst.1 > f.without) {
+            self.friction = Some(NeedsFriction {
+                time: sample.time,
+                without: worst.1,
+                with: best.ratio,
+                name: structure.loads[worst.0].name.clone(),
+            });
+        }
+    }
+
+    /// Work of the motors since the sample before: what they give, not what they get back.
+    fn work(&mut self, sample: &Sample, compiled: &Compiled, held: &[f64]) {
+        let effort = |joint| compiled.structure.joint_effort(joint, held, &compiled.effects);
+        let efforts: Vec<f64> = (0..sample.joints.len()).map(effort).collect();
+        if self.joints.len() == efforts.len() {
+            for (joint, effort) in efforts.iter().enumerate() {
+                let mean = (effort + self.efforts[joint]) / 2.0;
+                self.energy += (mean * (sample.joints[joint] - self.joints[joint])).max(0.0);
+            }
+        }
+        (self.joints, self.efforts) = (sample.joints.to_vec(), efforts);
+    }
+
+    fn record(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        let Some(compiled) = &self.compiled else { return };
+        for &(index, ratio) in &self.over {
+            let load = &compiled.structure.loads[index];
+            if let LoadKind::Joint { joint, .. } = load.kind {
+                let of = |kind: &ExemptionKind| match kind {
+                    ExemptionKind::Overload(only) => only.is_none_or(|j| j as usize == joint),
+                    _ => false,
+                };
+                if ledger.excuses(CheckKind::Torque, sample.time, of) {
+                    continue;
+                }
+            }
+            let value = ratio * load.limit;
+            match self.failures.iter_mut().find(|f| f.name == load.name && f.kind == load.kind) {
+                Some(failure) => {
+                    failure.until = sample.time;
+                    failure.value = failure.value.max(value);
+                }
+                None => self.failures.push(Overload {
+                    name: load.name.clone(),
+                    kind: load.kind,
+                    since: sample.time,
+                    until: sample.time,
+                    value,
+                    limit: load.limit,
+                }),
+            }
+        }
+    }
+
+    /// The overloads found, in order of time.
+    pub fn overloaded(&self) -> &[Overload] {
+        &self.failures
+    }
+
+    pub fn finish(&self, settings: &Settings, ledger: &mut Ledger) {
+        debug_assert!(settings.sample > 0.0, "validated");
+        ledger.verdict.energy = self.energy;
+        if let Some(friction) = &self.friction {
+            ledger.note(format!(
+                "at {} {} needs friction: {:.2} of its limit without, {:.2} at best with it",
+                quantity(friction.time, Dimension::TIME),
+                friction.name,
+                friction.without,
+                friction.with
+            ));
+        }
+        if self.unknown > 0 {
+            ledger.note(format!(
+                "at {} samples the ground does not carry the robot: only what touches nothing was weighed",
+                self.unknown
+            ));
+        }
+        let stated = |bonds: bool| {
+            self.compiled.as_ref().is_some_and(|c| {
+                c.structure.loads.iter().any(|l| bonds != matches!(l.kind, LoadKind::Joint { .. }))
+            })
+        };
+        let status = |bonds| match (self.samples, stated(bonds)) {
+            (0, _) => Status::NotChecked("nothing is weighed without gravity and a ground".to_owned()),
+            (_, false) => Status::NoLimit,
+            (samples, true) => Status::Sampled(samples),
+        };
+        if self.compiled.as_ref().is_some_and(|c| c.structure.motors_open) {
+            ledger.note("torques of motors that are not as many as their joints were not checked".to_owned());
+        }
+        ledger.check(CheckKind::Torque, status(false));
+        ledger.check(CheckKind::BondLoad, status(true));
+    }
+}
+
+impl Overload {
+    pub fn failure(&self) -> Failure {
+        let (kind, dimension, what) = match self.kind {
+            LoadKind::Joint { turns: true, .. } => {
+                (CheckKind::Torque, Dimension::TORQUE, "would have to hold")
+            }
+            LoadKind::Joint { turns: false, .. } => {
+                (CheckKind::Torque, Dimension::FORCE, "would have to hold")
+            }
+            LoadKind::Pull => (CheckKind::BondLoad, Dimension::FORCE, "is pulled apart with"),
+            LoadKind::Moment => (CheckKind::BondLoad, Dimension::TORQUE, "is bent with"),
+        };
+        let words = |v| quantity(v, dimension);
+        Failure {
+            kind,
+            time: self.since,
+            until: Some(self.until),
+            at: vec![self.name.clone()],
+            message: format!(
+                "{} {what} up to {}; it holds {}",
+                self.name,
+                words(self.value),
+                words(self.limit)
+            ),
+            value: self.value,
+            limit: self.limit,
+            blame: vec![],
+            blames_start: false,
+        }
+    }
+}
+
+/// The best forces: those of the sample before, brought to balance here, do if nothing is worse than
+/// what was seen already; otherwise by a programme.
+fn best(question: &Question, recipe: &mut Recipe, seen: f64, programmes: &mut usize) -> Option<Best> {
+    if let Some(again) = question.again(recipe).filter(|again| again.ratio <= seen.min(1.0)) {
+        return Some(again);
+    }
+    *programmes += 1;
+    let best = question.best()?;
+    *recipe = best.recipe.clone();
+    Some(best)
+}
+
+/// The weights of all links.
+fn weights(sample: &Sample) -> Vec<Push> {
+    let (model, stance) = (sample.model, sample.stance);
+    let push = |&link: &usize| {
+        let body = &model.bodies[link];
+        let posture = &stance.posture;
+        let p = stance.R * (posture.R[link] * body.com + posture.p[link] - posture.centre);
+        let f = Vec3::new(0.0, 0.0, -body.mass * sample.world.gravity);
+        Push { link, p, f, m: Vec3::zeros() }
+    };
+    model.attached.iter().map(push).collect()
+}
+
+/// Loads without friction, with the ground's pushes as they spread.
+fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerances: &Tolerances) -> Loads {
+    let weight = sample.model.mass * sample.world.gravity;
+    let mut pushes = weights(sample);
+    let (mut x, mut y, mut size) = (0.0, 0.0, 1e-3_f64);
+    for touch in sample.stance.touches.iter().filter(|t| t.load > 0.0) {
+        let f = Vec3::new(0.0, 0.0, touch.load * weight);
+        pushes.push(Push { link: touch.link, p: touch.p, f, m: Vec3::zeros() });
+        (x, y) = (x + touch.load * touch.p.x, y + touch.load * touch.p.y);
+        size = size.max(touch.p.norm());
+    }
+    let held = structure.held(sample.model, sections, &pushes);
+    let ratios = structure.loads.iter().map(|load| structure.size(load, &held) / load.limit).collect();
+    let all: Vec<usize> = (0..structure.loads.len()).collect();
+    let balanced = libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held;
+    let judged = if balanced { all } else { settled_loads(structure, sample, &all, false, tolerances) };
+    Loads { ratios, held, judged }
+}
+
+/// Of some loads those that no forces of the ground can change: nothing beyond their cuts, or
+/// everything, touches it, and no loop passes through them.
+fn settled_loads(
+    structure: &Structure,
+    sample: &Sample,
+    loads: &[usize],
+    balanced: bool,
+    tolerances: &Tolerances,
+) -> Vec<usize> {
+    let near: Vec<usize> =
+        sample.stance.touches.iter().filter(|t| t.gap <= tolerances.gap_loaded).map(|t| t.link).collect();
+    let settled = |cut: usize| {
+        let at = structure.cut_link(cut);
+        let beyond = near.iter().filter(|&&link| structure.beyond(at, link)).count();
+        let looped = |&(_, a, b): &(usize, usize, usize)| structure.beyond(at, a) != structure.beyond(at, b);
+        (beyond == 0 || (beyond == near.len() && balanced)) && !structure.closing.iter().any(looped)
+    };
+    let all = |index: &usize| structure.loads[*index].terms.iter().all(|&(cut, _)| settled(cut));
+    loads.iter().copied().filter(all).collect()
+}
+
+fn greatest(loads: &[usize], ratio: impl Fn(usize) -> f64) -> Option<usize> {
+    loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })
+}
