@@ -25,7 +25,6 @@ pub fn failure_line(failure: &Failure) -> String {
 pub fn check_name(kind: CheckKind) -> &'static str {
     match kind {
         CheckKind::Form => "form",
-        CheckKind::Form => "form",
         CheckKind::Conflict => "conflict",
         CheckKind::Collision => "collision",
         CheckKind::JointRange => "joint range",
@@ -93,7 +92,6 @@ pub fn in_words(verdict: &Verdict) -> String {
 
 fn failure_code(kind: CheckKind) -> Code {
     match kind {
-        CheckKind::Form => code::NOT_VERIFIED,
         CheckKind::Form => code::NOT_VERIFIED,
         CheckKind::Conflict => code::CONFLICT,
         CheckKind::Collision => code::COLLISION,

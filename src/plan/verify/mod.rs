@@ -43,7 +43,6 @@ pub use walk::{Course, Ended, Sample, Tip, Waypoint, walk};
 use super::{
     Body, Check, CheckKind, Failure, Plan, Provenance, Settings, Status, Tracks, Verdict, World, WorldFrom,
 };
-use crate::geometry::Vec3;
 use crate::robot::{Assembly, State};
 
 /// Judges a plan under its stated worlds and settings. What it says of itself is recomputed.
@@ -103,16 +102,4 @@ fn fault(message: String) -> Failure {
         blame: vec![],
         blames_start: false,
     }
-}
-
-/// What a robot stands on: the convex hull of its contacts when it settles on level ground, as
-/// points of the world, counter-clockwise from above.
-pub fn footprint(robot: &Assembly, state: &State) -> Vec<Vec3> {
-    let tolerances = Tolerances::default();
-    let model = Model::new(robot, &state.bonds);
-    let posture = model.posture(&state.joints, &mut Vec::new());
-    let (stance, _, _) = Stance::start(&model, posture, &state.base, stance::Kept::Nothing, &tolerances);
-    let contacts = stance.touches.iter().filter(|touch| contact::counts(&model, touch));
-    let points: Vec<_> = contacts.map(|t| [t.p.x + stance.place.x, t.p.y + stance.place.y]).collect();
-    footprint::hull(&points).into_iter().map(|i| Vec3::new(points[i][0], points[i][1], 0.0)).collect()
 }
