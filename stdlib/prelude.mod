@@ -1164,8 +1164,8 @@ extern fn cycle(behaviors: List<Behavior>, phases: List<Number>, period: Time, t
 
 /// A behaviour as seen in a mirror: what the left did, the right does.
 ///
-/// The plane lies in the frame of the robot's base module. A robot that has no mirror image of
-/// itself across it is refused. Not yet available.
+/// The plane goes through the middle of the robot, along two axes of its base module's frame. A
+/// behaviour of a joint that has no mirror image is refused.
 ///
 /// Example:
 /// ```modl check

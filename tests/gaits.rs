@@ -1,12 +1,13 @@
-//! Gaits: phases that run together, mirror images checked by forward kinematics, tables.
+//! Gaits: phases that run together, mirror images checked by forward kinematics.
 
 use crate::programs::*;
 use crate::robots::{TILT, at_rest, car, chain, walk4};
-use modl::behavior::gait::{cycle, table};
+use modl::behavior::gait::cycle;
 use modl::behavior::mirror::{Lopsided, Plane, images, mirrored};
 use modl::geometry::{Pose, Vec3};
 use modl::plan::{CauseId, Command, Compare, Condition, Node, Signal, Target};
 use modl::robot::{Assembly, JointId, JointOwner, Kinematics, PortRef};
+use std::sync::Arc;
 
 const T: u32 = TILT as u32;
 
@@ -18,7 +19,7 @@ fn near(a: f64, b: f64) {
 fn a_cycle_begins_together_and_keeps_its_phases() {
     let wave = |joint| series(vec![go_in(joint, 0.5, 1.0, 0), go_in(joint, -0.5, 1.0, 1)]);
     let bodies = [(wave(T), 0.0), (wave(4 + T), 0.5), (wave(8 + T), 0.25)];
-    let s = plan(chain(3), cycle(&bodies, Some(4.0), 3, CauseId(2))).expect("it can be scheduled");
+    let s = plan(chain(3), Arc::new(cycle(&bodies, 4.0, 3, CauseId(2)))).expect("it can be scheduled");
     // The furthest way to a beginning is half a radian, in least time.
     let lead = 15.0 / 8.0 * 0.5 / 2.4086;
     near(s.tracks.duration, lead + 12.0);
@@ -100,15 +101,4 @@ fn what_has_no_mirror_image_is_named() {
     assert_eq!(error, Lopsided::Joint("m0.tilt".into()));
     let undock = act(Command::Undock { port: PortRef { module: 0, port: 3 } }, 0);
     assert_eq!(mirrored(&robot, &[true], &undock, Plane::XZ), Err(Lopsided::Docking));
-}
-
-#[test]
-fn tables_leave_what_they_do_not_name() {
-    let to = |x: f64| Some((x, CauseId(1)));
-    let rows = [vec![to(0.5), to(0.25)], vec![None, to(-0.25)], vec![None, None], vec![to(0.0)]];
-    let joints = [JointId(T), JointId(4 + T)];
-    let s = plan(chain(2), table(&joints, 0.5, &rows, CauseId(0))).expect("it can be scheduled");
-    assert_eq!(s.tracks.duration, 2.0);
-    let at = |t: f64| [T, 4 + T].map(|j| s.tracks.state(t).joints[j as usize]);
-    assert_eq!([at(0.5), at(1.0), at(1.5), at(2.0)], [[0.5, 0.25], [0.5, -0.25], [0.5, -0.25], [0.0, -0.25]]);
 }

@@ -7,7 +7,8 @@ use super::natives::{Native, pure};
 use super::robot_of::port_ref;
 use super::stop::{Eval, fault};
 use super::value::{Behavior, Callable, ConditionValue, JointValue, SignalValue, Value};
-use crate::behavior::Part;
+use crate::behavior::mirror::{Plane, mirrored};
+use crate::behavior::{Part, gait};
 use crate::plan::{Action, Command, Condition, Node, Otherwise, Profile, Signal, Target};
 use crate::robot::JointId;
 use crate::source::{Span, code};
@@ -32,6 +33,7 @@ pub const TABLE: &[Native] = &[
     pure("phase", 2, phase),
     pure("stretch", 2, stretch),
     pure("cycle", 4, cycle),
+    pure("mirror", 2, mirror),
     pure("table", 4, table),
 ];
 
@@ -303,23 +305,32 @@ fn cycle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let duration = call.positive(2, "the period of a cycle")?;
     let times = call.count(3, "the number of cycles")? as u64;
     let mut robot = None;
-    let (mut approaches, mut rounds) = (Vec::new(), Vec::new());
+    let cause = interpreter.cause(call.span, vec![(Part::Duration, call.at(2))], "");
+    let mut parts = Vec::new();
     for (body, phase) in bodies.iter().zip(phases.iter()) {
         let (Value::Behavior(body), Some(shift)) = (body, phase.as_number()) else {
             return Err(call.refuse(0, "behaviours and their phases are wanted"));
         };
         robot = interpreter.common_robot(robot.as_ref(), body.robot.as_ref(), call.at(0))?;
-        let cause = interpreter.cause(call.span, vec![(Part::Duration, call.at(2))], "");
-        let shift = shift - libm::floor(shift);
-        let body = body.node.clone();
-        approaches.push(Arc::new(Node::Approach { body: body.clone(), shift, cause }));
-        let shifted = Arc::new(Node::Phase { body, shift, cause });
-        let stretched = Arc::new(Node::Stretch { body: shifted, duration, cause });
-        rounds.push(Arc::new(Node::Repeat { body: stretched, times }));
+        parts.push((body.node.clone(), shift - libm::floor(shift)));
     }
-    // All wait until the last has come to where its cycle begins.
-    let all = vec![Arc::new(Node::Parallel(approaches)), Arc::new(Node::Parallel(rounds))];
-    Ok(behavior(robot, Node::Series(all)))
+    Ok(behavior(robot, gait::cycle(&parts, duration, times, cause)))
+}
+
+fn mirror(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let body = call.behavior(0)?;
+    let Some(design) = &body.robot else { return Ok(behavior(None, (*body.node).clone())) };
+    let Some(robot) = interpreter.robot_at(design, call.span)? else { return Ok(Value::Unknown) };
+    let plane = match call.word(1) {
+        Some("XY") => Plane::XY,
+        Some("YZ") => Plane::YZ,
+        _ => Plane::XZ,
+    };
+    let holds = vec![true; robot.assembly.bonds.len()];
+    match mirrored(&robot.assembly, &holds, &body.node, plane) {
+        Ok(node) => Ok(behavior(body.robot.clone(), (*node).clone())),
+        Err(lopsided) => Err(call.refuse(1, lopsided.to_string())),
+    }
 }
 
 fn table(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
