@@ -29,7 +29,11 @@ fn programs(all: &[Fence]) -> Vec<(&Fence, Vec<&Fence>)> {
     for fence in all {
         match fence.modl() {
             Some(tag) if tag.ends_with(".mod") => {
-                found.last_mut().unwrap_or_else(|| panic!("{}: a file of no program", fence.place)).1.push(fence);
+                found
+                    .last_mut()
+                    .unwrap_or_else(|| panic!("{}: a file of no program", fence.place))
+                    .1
+                    .push(fence);
             }
             Some(_) => found.push((fence, Vec::new())),
             None => {}

@@ -103,27 +103,49 @@ fn a_backhoe_falls_over_its_nose() {
     assert!(!stability(&verify(&dig(4))));
 }
 
-/// A chain held by its middle over the ground: how much its joints have to hold. 
+/// A chain held by its middle over the ground: how much its joints have to hold.
 fn ratio(verdict: &Verdict) -> f64 {
     1.0 - verdict.torque_margin.as_ref().expect("joints have limits").value
 }
 
 #[test]
 fn explore_torque() {
-    for (name, robot) in [("chain3", robots::chain(3)), ("snake6", robots::snake(6)), ("car", robots::car())] {
+    for (name, robot) in [("chain3", robots::chain(3)), ("snake6", robots::snake(6)), ("car", robots::car())]
+    {
         let v = verify_state(&robot, &robots::at_rest(&robot), &World::default(), &Settings::default());
         println!("A {name} {} {:?} bond {:?}", ratio(&v), v.torque_margin, v.bond_margin);
     }
     let v = verify(&Motion::new(robots::backhoe(8)).set("a0", TILT, 90.0).plan(World::default()));
-    println!("A backhoe {} {:?} {:?} {:?}", ratio(&v), v.torque_margin, v.bond_margin, v.failures.iter().map(|f| &f.message).collect::<Vec<_>>());
+    println!(
+        "A backhoe {} {:?} {:?} {:?}",
+        ratio(&v),
+        v.torque_margin,
+        v.bond_margin,
+        v.failures.iter().map(|f| &f.message).collect::<Vec<_>>()
+    );
     let legs = ["fl", "fr", "bl", "br"];
-    let m = legs.iter().fold(Motion::new(robots::walk4()), |m, leg| m.set(&format!("{leg}_hip"), TILT, -90.0));
-    let m = ["fl", "br"].iter().fold(m, |m, leg| m.set(&format!("{leg}_knee"), TILT, 30.0).set(&format!("{leg}_ankle"), TILT, -30.0));
+    let m =
+        legs.iter().fold(Motion::new(robots::walk4()), |m, leg| m.set(&format!("{leg}_hip"), TILT, -90.0));
+    let m = ["fl", "br"].iter().fold(m, |m, leg| {
+        m.set(&format!("{leg}_knee"), TILT, 30.0).set(&format!("{leg}_ankle"), TILT, -30.0)
+    });
     let v = verify(&m.plan(World::default()));
-    println!("A walk4 {} {:?} {:?} {:?} {:?}", ratio(&v), v.torque_margin, v.bond_margin, v.notes, v.failures.iter().map(|f| &f.message).collect::<Vec<_>>());
+    println!(
+        "A walk4 {} {:?} {:?} {:?} {:?}",
+        ratio(&v),
+        v.torque_margin,
+        v.bond_margin,
+        v.notes,
+        v.failures.iter().map(|f| &f.message).collect::<Vec<_>>()
+    );
     for n in 1..=4 {
-        let m = Motion::new(robots::backhoe(n+1)).set("a0", TILT, 90.0).set("a1", TILT, -90.0);
+        let m = Motion::new(robots::backhoe(n + 1)).set("a0", TILT, 90.0).set("a1", TILT, -90.0);
         let v = verify(&m.plan(World::default()));
-        println!("A out {n} {} {:?} {:?}", ratio(&v)*2.3, v.torque_margin, v.failures.iter().map(|f| &f.message).collect::<Vec<_>>());
+        println!(
+            "A out {n} {} {:?} {:?}",
+            ratio(&v) * 2.3,
+            v.torque_margin,
+            v.failures.iter().map(|f| &f.message).collect::<Vec<_>>()
+        );
     }
 }

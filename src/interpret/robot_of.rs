@@ -1,7 +1,7 @@
 //! From a design to a robot of the right wing: one assembly with its library, its start state and
 //! its kinematics.
 
-use super::design::{Design, DesignKind};
+use super::design::{Design, DesignKind, PartElement};
 use super::interpreter::Interpreter;
 use super::stop::Eval;
 use super::value::{JointValue, PortValue};
@@ -13,6 +13,9 @@ use std::sync::Arc;
 
 /// Centres nearer to each other than this are equally near: symmetry is exact only in thought.
 const TIE_DISTANCE: f64 = 1e-9;
+
+/// Parts whose masses differ by less than this part are equally heavy.
+const TIE_MASS: f64 = 1e-9;
 
 pub struct Robot {
     pub assembly: Arc<Assembly>,
@@ -99,12 +102,37 @@ impl Interpreter<'_> {
         let mut poses = vec![Pose::identity(); kinematics.link_count()];
         kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
         if named.is_none() {
-            assembly.base = central_module(&assembly, &kinematics, &poses);
+            let candidates = self.base_candidates(design, &assembly)?;
+            assembly.base = central_module(&assembly, &kinematics, &poses, &candidates);
             kinematics = Kinematics::new(&assembly, &holds, assembly.base);
             kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
         }
         let start = State { joints, bonds: holds, base: Pose::identity() };
         Ok(Some(Robot { assembly: Arc::new(assembly), start, kinematics, poses }))
+    }
+
+    /// The modules that may be the base where none is named: that of each part than which no other
+    /// is heavier. A car with a long arm stands on the car, whichever module is nearest to the centre
+    /// of mass. Where all parts are single modules, every module is a candidate.
+    fn base_candidates(&mut self, design: &Rc<Design>, assembly: &Assembly) -> Eval<Vec<usize>> {
+        let Some(parts) = design.config().and_then(|config| config.parts.get()) else { return Ok(vec![0]) };
+        let mass_of = |part: &PartElement| -> f64 {
+            let modules = part.offset..part.offset + part.design.module_count();
+            modules.flat_map(|m| &assembly.module_type(m).links).map(|link| link.mass).sum()
+        };
+        let elements: Vec<&PartElement> = parts.iter().flat_map(|group| &group.elements).collect();
+        if elements.iter().all(|part| part.design.module_count() == 1) {
+            return Ok((0..assembly.modules.len()).collect());
+        }
+        let masses: Vec<f64> = elements.iter().map(|part| mass_of(part)).collect();
+        let heaviest = masses.iter().copied().fold(0.0, f64::max) * (1.0 - TIE_MASS);
+        let mut candidates = Vec::new();
+        let heavy = elements.iter().zip(&masses).filter(|(_, mass)| **mass >= heaviest);
+        for (part, _) in heavy.filter(|(part, _)| part.design.module_count() > 0) {
+            let base = self.robot_of(&part.design)?.map_or(0, |robot| robot.assembly.base);
+            candidates.push(part.offset + base);
+        }
+        Ok(candidates)
     }
 
     /// The module types and connectors of a robot, and the type of each module.
@@ -164,8 +192,13 @@ fn start_joints(design: &Rc<Design>, assembly: &Assembly, kinematics: &Kinematic
     joints
 }
 
-/// The module whose centre of mass is nearest to that of the whole; of several the first by name.
-fn central_module(assembly: &Assembly, kinematics: &Kinematics, poses: &[Pose]) -> usize {
+/// The candidate whose centre of mass is nearest to that of the whole; of several the first by name.
+fn central_module(
+    assembly: &Assembly,
+    kinematics: &Kinematics,
+    poses: &[Pose],
+    candidates: &[usize],
+) -> usize {
     let (centre, _) = kinematics.centre_of_mass(assembly, poses);
     let distance = |module: usize| {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
@@ -175,8 +208,9 @@ fn central_module(assembly: &Assembly, kinematics: &Kinematics, poses: &[Pose]) 
         }
         (moment / mass - centre).norm()
     };
-    let distances: Vec<f64> = (0..assembly.modules.len()).map(distance).collect();
+    let distances: Vec<f64> = candidates.iter().map(|&m| distance(m)).collect();
     let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    let near = (0..distances.len()).filter(|&m| distances[m] <= least + TIE_DISTANCE);
-    near.min_by(|&a, &b| assembly.modules[a].name.cmp(&assembly.modules[b].name)).unwrap_or(0)
+    let near = candidates.iter().zip(&distances).filter(|(_, d)| **d <= least + TIE_DISTANCE);
+    let names = &assembly.modules;
+    near.map(|(&m, _)| m).min_by(|&a, &b| names[a].name.cmp(&names[b].name)).unwrap_or(0)
 }
