@@ -140,11 +140,11 @@ config Chain3 {
   port tail = m[2].bottom
 
   /// Half a wave in time `period`: the middle goes to `amplitude`, the ends to its opposite.
-  behavior half_wave(amplitude: Angle = 30deg, period: Time = 1s) allows unstable =
+  behavior half_wave(amplitude: Angle = 30deg, period: Time = 1s) =
     Pc([move(m[i].tilt, to: if i == 1 { amplitude } else { -amplitude }, in: period) for i in 0..3])
 
   /// Goes back to a straight line.
-  behavior straight(period: Time = 1s) allows unstable = Pc([move(x.tilt, to: 0deg, in: period) for x in m])
+  behavior straight(period: Time = 1s) = Pc([move(x.tilt, to: 0deg, in: period) for x in m])
 
   /// A whole wave in time `period`, from straight to straight.
   behavior sine(amplitude: Angle = 30deg, period: Time = 4s) =
@@ -164,14 +164,14 @@ config Steer3 {
   port side[4] = [front.left, front.right, back.left, back.right]
 
   /// Lifts the middle off the ground (the published pose: 0.5, -0.5 and 0.7 rad).
-  behavior stand allows unstable =
+  behavior stand =
     Pc(move(front.tilt, to: 0.5rad), move(center.tilt, to: -0.5rad), move(back.tilt, to: 0.7rad))
 
   /// Lies flat.
-  behavior flat allows unstable = Pc([move(x.tilt, to: 0deg) for x in [front, center, back]])
+  behavior flat = Pc([move(x.tilt, to: 0deg) for x in [front, center, back]])
 
   /// Steers: turns the two axles against each other by angle `a`.
-  behavior turn(a: Angle = 15deg) allows unstable = Pc(move(back.pan, to: a), move(center.pan, to: -a))
+  behavior turn(a: Angle = 15deg) = Pc(move(back.pan, to: a), move(center.pan, to: -a))
 }
 
 // On which side of the body a leg hangs that is attached by `hip`: the factor that makes a positive
@@ -284,7 +284,9 @@ config Grasper7 {
   base m
 
   /// Turns the arms so that they bend along the ground.
-  behavior neutral = Pc(move(m.left, to: 90deg), move(m.right, to: 90deg))
+  ///
+  /// On the ground they roll over their edges on the way.
+  behavior neutral allows unstable = Pc(move(m.left, to: 90deg), move(m.right, to: 90deg))
 
   /// Closes the arms around something in front (the published angles; the wrists stay 141 mm apart).
   behavior squeeze = Sc(
@@ -303,13 +305,13 @@ config Climber4 {
   base c[1]
 
   /// Gets up (the published pose).
-  behavior stand allows unstable = Pc(move(c[0].tilt, to: 80deg), move(c[1].tilt, to: -40deg), move(c[2].tilt, to: 40deg))
+  behavior stand = Pc(move(c[0].tilt, to: 80deg), move(c[1].tilt, to: -40deg), move(c[2].tilt, to: 40deg))
 
   /// Lies flat.
-  behavior flat allows unstable = Pc([move(x.tilt, to: 0deg) for x in c])
+  behavior flat = Pc([move(x.tilt, to: 0deg) for x in c])
 
   /// Raises the front by a step, while the wheels drive on at speed `v`. A negative `a` steps down.
-  behavior step(a: Angle = 70deg, v: AngularSpeed = 1rad/s) allows unstable = Pc(
+  behavior step(a: Angle = 70deg, v: AngularSpeed = 1rad/s) = Pc(
     move(c[1].tilt, to: a, in: 2s),
     move(c[2].tilt, to: -a, in: 2s),
     drive(v, 2s),
@@ -379,6 +381,8 @@ config FourLeg17(bend: Angle = 30deg) {
 }
 
 /// A spine of two modules with four legs: WALKER14. Its front half is a grasper.
+///
+/// The legs of a side stand too close to swing past each other: it treads on the spot.
 config Walker14(bend: Angle = 30deg) {
   part spine[2]: Smores
   part leg[4]  : Leg3(bend: bend)
@@ -392,11 +396,16 @@ config Walker14(bend: Angle = 30deg) {
   /// Stands on four straight legs.
   behavior stand = Pc([l.plant() for l in leg])
 
-  /// Legs `a` and `b` step forward by `swing`; then all push.
-  behavior stride(a: Int = 0, b: Int = 3, swing: Angle = 20deg) = _stride(leg, a, b, swing)
-
-  /// Walks forward in steps of the one and the other diagonal.
-  behavior walk(steps: Int = 2, swing: Angle = 15deg) = repeat(Sc(stride(0, 3, swing), stride(1, 2, swing)), steps)
+  /// Lifts the one and the other diagonal in turn.
+  behavior tread(steps: Int = 2) = repeat(
+    Sc(
+      Pc(leg[0].lift(), leg[3].lift()),
+      Pc(leg[0].plant(), leg[3].plant()),
+      Pc(leg[1].lift(), leg[2].lift()),
+      Pc(leg[1].plant(), leg[2].plant()),
+    ),
+    steps,
+  )
 }
 
 /// The published walkbot: a spine of five modules and four chains as legs, wheel face on wheel face.
@@ -414,17 +423,20 @@ config Walkbot17 {
 
   let hip: List<Joint<Angle>> = [spine[1].left, spine[1].right, spine[4].left, spine[4].right]
 
-  /// Bends a leg (0 to 3: front left, front right, back left, back right) and keeps its sole level.
-  behavior lift(i: Int, bend: Angle = 30deg) = Pc(move(leg[i].m[1].tilt, to: bend), move(leg[i].m[2].tilt, to: -bend))
+  /// Bends a leg (0 to 3: front left, front right, back left, back right) backwards and keeps its sole level.
+  behavior lift(i: Int, bend: Angle = 50deg) = Pc(move(leg[i].m[1].tilt, to: -bend), move(leg[i].m[2].tilt, to: bend))
 
   /// Stretches a leg.
   behavior plant(i: Int) = Pc(move(leg[i].m[1].tilt, to: 0deg), move(leg[i].m[2].tilt, to: 0deg))
 
   /// Legs `a` and `b`, a diagonal, step forward by `swing`; then all push.
+  ///
+  /// A bent leg is carried farther than it is to stand: nearer by, stretching would press it into the ground.
   behavior stride(a: Int = 0, b: Int = 3, swing: Angle = 20deg) = Sc(
     Pc(lift(a), lift(b)),
-    Pc(move(hip[a], to: -swing), move(hip[b], to: -swing)),
+    Pc([move(h, to: -swing - 30deg) for h in [hip[a], hip[b]]]),
     Pc(plant(a), plant(b)),
+    Pc([move(h, to: -swing) for h in [hip[a], hip[b]]]),
     Pc([move(h, by: swing) for h in hip]),
   )
 
@@ -439,7 +451,7 @@ config Snake18 {
   base seg[2].m[2]
 
   /// The chains' half waves, side by side in opposite phase.
-  behavior slither(amplitude: Angle = 30deg, period: Time = 2s, cycles: Int = 3) allows unstable =
+  behavior slither(amplitude: Angle = 30deg, period: Time = 2s, cycles: Int = 3) =
     repeat(Pc([_two_halves(seg[i], if i % 2 == 0 { amplitude } else { -amplitude }, period) for i in 0..6]), cycles)
 }
 
@@ -467,8 +479,11 @@ config Car {
     for m in [steer.front, steer.back, wheel[0].m, wheel[1].m, wheel[2].m, wheel[3].m]
   ])
 
+  /// Lifts the middle, so that turning the axles steers.
+  behavior stand = steer.stand()
+
   /// Steers: turns the axles against each other by angle `a`.
-  behavior turn(a: Angle = 15deg) allows unstable = steer.turn(a)
+  behavior turn(a: Angle = 15deg) = steer.turn(a)
 }
 
 /// A car of five modules, DRIVER5: a steering chain with two drivers at its back axle.
@@ -486,8 +501,11 @@ config Driver5 {
     Pc(spin(m.left, v, for: t), spin(m.right, v, for: t)) for m in [steer.front, steer.back, wheel[0].m, wheel[1].m]
   ])
 
+  /// Lifts the middle, so that turning the axles steers.
+  behavior stand = steer.stand()
+
   /// Steers: turns the axles against each other by angle `a`.
-  behavior turn(a: Angle = 15deg) allows unstable = steer.turn(a)
+  behavior turn(a: Angle = 15deg) = steer.turn(a)
 }
 
 /// A tank of seven modules, TANK7: four arms whose top discs are its wheels.
@@ -543,7 +561,7 @@ config Proboscis7 {
   behavior raise(a: Angle = 30deg) = move(trunk[0].tilt, to: a)
 
   /// Reaches over a step: the tip down, the next module up, then the one behind it.
-  behavior climb allows unstable = Sc(
+  behavior climb = Sc(
     Pc(move(trunk[3].tilt, to: -80deg), move(trunk[2].tilt, to: 80deg)),
     move(trunk[1].tilt, to: 80deg),
   )
@@ -559,7 +577,7 @@ config Scorpion6 {
   base s[0]
 
   /// Rises on its arms (the published pose).
-  behavior rise allows unstable = Pc(
+  behavior rise = Pc(
     move(s[0].tilt, to: 30deg),
     move(s[1].tilt, to: -20deg),
     move(s[2].tilt, to: 20deg),
