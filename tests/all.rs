@@ -1,5 +1,6 @@
 //! The one test program: a module for each room and each promise.
 
+mod acceptance;
 mod behavior;
 mod check;
 mod cli;
@@ -14,6 +15,7 @@ mod ground;
 mod kinematics;
 mod mass;
 mod motions;
+mod pages;
 mod plan_file;
 mod plan_operations;
 mod programs;

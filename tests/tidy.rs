@@ -50,7 +50,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("terminal_size", &["cli"]),
     ("std::env", &["cli"]),
     ("std::fs", &["cli"]),
-    ("std::io", &["cli"]),
+    ("std::io", &["plan", "cli"]),
     ("std::net", &[]),
     ("std::process", &["cli"]),
     ("std::thread", &["interpret"]),

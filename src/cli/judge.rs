@@ -4,10 +4,10 @@ use super::arguments::Globals;
 use super::disk::{read_at_most, read_regular};
 use super::report::{self, JsonPlan, Report};
 use super::terminal::{cancelled, listen_for_cancel, print};
+use super::verdict;
 use super::{CallError, Ending};
-use super::{stubs, verdict};
-use crate::plan::Plan;
-use crate::source::{Diagnostic, Sources, code};
+use crate::plan::{self, Plan};
+use crate::source::{Diagnostic, Sources, Span, code};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -23,15 +23,11 @@ pub fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
     let mut ok = true;
     for (file, bytes) in files.iter().zip(texts) {
         let name = file.to_string_lossy().into_owned();
-        match stubs::read_plan(&bytes) {
+        match parsed(&name, bytes) {
             Ok(plan) => ok &= judge(&name, &plan, &mut report, globals),
             Err(fault) => {
-                let diagnostic = Diagnostic::error(
-                    code::BAD_PLAN_FILE,
-                    format!("`{name}` is no sound plan file: {fault}"),
-                )
-                .hint("a plan file is written by `modl run`; what changed it since?");
-                report.add(&Sources::default(), &[diagnostic], &report::style(globals, ""), globals);
+                let (sources, diagnostic) = *fault;
+                report.add(&sources, &[diagnostic], &report::style(globals, ""), globals);
                 ok = false;
             }
         }
@@ -44,8 +40,32 @@ pub fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
+/// The plan that a file holds, or what is wrong with it and where.
+fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
+    let mut sources = Sources::default();
+    let Ok(text) = String::from_utf8(bytes) else {
+        return Err(Box::new((
+            sources,
+            Diagnostic::error(code::BAD_PLAN_FILE, format!("`{name}` is not UTF-8 text")),
+        )));
+    };
+    plan::file::read(&text).map_err(|fault| {
+        let message = format!("`{name}` is no sound plan file: {}", fault.message);
+        let mut diagnostic = Diagnostic::error(code::BAD_PLAN_FILE, message);
+        if fault.line > 0 {
+            let id = sources.add(name, &text, false);
+            let file = sources.file(id);
+            let line = file.line(fault.line);
+            // The reader stands behind what it could not take.
+            let at = file.line_start(fault.line) + fault.column.saturating_sub(1).min(line.len());
+            diagnostic = diagnostic.label(Span::new(id, at, at), "");
+        }
+        Box::new((sources, diagnostic))
+    })
+}
+
 fn judge(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> bool {
-    let verdict = stubs::verify(plan);
+    let verdict = plan::verify::verify(plan);
     if !globals.json {
         print(&verdict::text(name, plan, &verdict));
     }

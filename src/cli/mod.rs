@@ -13,7 +13,6 @@ mod output;
 mod pages;
 mod program;
 mod report;
-mod stubs;
 mod terminal;
 mod verdict;
 

@@ -64,7 +64,8 @@ fn one(
     let checked = check::check(project, &project.name);
     let mut diagnostics = checked.diagnostics.clone();
     let mut outcome = Outcome::default();
-    if !diagnostics.iter().any(Diagnostic::is_error) {
+    // What is sound in a wrong program is still checked, but nothing of it is run.
+    if matches!(task, Task::Check) || !diagnostics.iter().any(Diagnostic::is_error) {
         outcome =
             interpret::run(&checked, mode(task), project as &dyn Files, terminal, &options(task, globals));
         diagnostics.append(&mut outcome.diagnostics);
