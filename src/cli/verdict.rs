@@ -51,10 +51,20 @@ fn line(out: &mut String, text: &str) {
     out.push('\n');
 }
 
+/// To the nearest multiple of `step`: what is smaller says nothing to a reader.
+fn rounded(value: f64, step: f64) -> f64 {
+    (value / step).round() * step
+}
+
+/// A length to a hundredth of a millimetre.
+fn length(value: f64) -> String {
+    quantity(rounded(value, 1e-5), Dimension::LENGTH)
+}
+
 fn summary(verdict: &Verdict) -> String {
-    let [x, y, z] = verdict.travel.map(|v| quantity(v, Dimension::LENGTH));
+    let [x, y, z] = verdict.travel.map(length);
     let (duration, energy) = (quantity(verdict.duration, Dimension::TIME), number(verdict.energy));
-    let heading = quantity(verdict.heading, Dimension::ANGLE);
+    let heading = quantity(rounded(verdict.heading.to_degrees(), 0.01).to_radians(), Dimension::ANGLE);
     format!(
         "lasts {duration}, travels [{x}, {y}, {z}], turns {heading}, {energy}J, {} samples",
         verdict.samples
@@ -111,8 +121,7 @@ fn worst_lines(out: &mut String, verdict: &Verdict) {
             line(out, &format!("{name:<14} {}, worst after {time}{at}", show(worst.value)));
         }
     };
-    let length = |v| quantity(v, Dimension::LENGTH);
-    let percent = |v: f64| format!("{}%", number(v * 100.0));
+    let percent = |v: f64| format!("{}%", number(rounded(v * 100.0, 0.01)));
     add("clearance", &verdict.clearance, length);
     add("margin", &verdict.margin, length);
     add("torque margin", &verdict.torque_margin, percent);
