@@ -25,7 +25,7 @@ impl Interpreter<'_> {
             Value::Quantity(x, _) if x.is_infinite() => {
                 if *x > 0.0 { "infinite" } else { "-infinite" }.into()
             }
-            Value::Quantity(x, d) => quantity(*x, *d),
+            Value::Quantity(x, d) => quantity(*x, without_radians(*d)),
             Value::Text(text) => text.to_string(),
             Value::Word(word) => word.to_string(),
             Value::List(elements) => self.show_list(elements),
@@ -97,7 +97,14 @@ impl Interpreter<'_> {
     }
 }
 
-/// One unit for all three coordinates, that of the largest.
+/// Radians are dropped where that gives a dimension with a name: `2rad/s * 45mm` is a speed.
+fn without_radians(dimension: Dimension) -> Dimension {
+    let dropped = Dimension { angle: 0, ..dimension };
+    let named = dimension.name().is_none() && dropped.name().is_some();
+    if named && dimension.fits(dropped) { dropped } else { dimension }
+}
+
+/// Each coordinate with a unit of its own.
 fn show_vector(v: &Vec3, dimension: Dimension) -> String {
     let coordinate = |x: f64| if x.abs() < COORDINATE_ROUNDING { 0.0 } else { x };
     let parts: Vec<String> = v.iter().map(|&x| quantity(coordinate(x), dimension)).collect();

@@ -1,0 +1,59 @@
+--- a port is free or taken
+use std.smores.Smores
+config C { part m[3]: Smores
+  connect m[0].top -- m[1].bottom
+//        ~~~~~~~~ connected to m[1].bottom
+  connect m[0].top -- m[2].bottom
+//        ^^^^^^^^ E0301 m[0].top is taken | free ports of m[0]
+}
+
+--- parts that nothing connects
+use std.smores.Smores
+config C { part a: Smores  part b: Smores }
+//                              ^ E0305 nothing connects b with a
+
+--- a loop that is meant and one that isn't
+use std.smores.Smores
+config Ring { part m[4]: Smores
+  for i in 0..4 { connect m[i].left -- m[(i + 1) % 4].right }
+//                        ^^^^^^^^^ E0304 m[0], m[1], m[2], m[3] | `closed`
+//                                     ~~~~~~~~~~~~~~~~~~~~ the other end
+}
+
+--- a loop that does not meet
+use std.smores.Smores
+config Ring closed { part m[4]: Smores
+//          ~~~~~~ declared closed
+  for i in 0..4 { connect m[i].top -- m[(i + 1) % 4].bottom }
+//                ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0306 does not meet
+}
+
+--- initial positions within the range
+use std.smores.Smores
+config C { part m: Smores
+  set m.tilt = 120deg
+//             ^^^^^^ E0309 its range is -90deg to 90deg
+}
+
+--- requirements
+use std.smores.Body3
+config Narrow { part b: Body3
+  require distance(b.side[0], b.side[1]) > 500mm, "the legs would meet"
+//        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0308 the legs would meet
+}
+
+--- a configuration in itself
+config A { part b: A }
+//     ~ declared here
+//                 ^ E0108 a part of itself
+
+--- commands that contradict each other, and that repeat each other
+use std.smores.Smores
+config C { part m: Smores
+  behavior wrong = Pc(move(m.tilt, to: 30deg), spin(m.left, 1rad/s, for: 1s), move(m.tilt, to: 20deg))
+//                    ^^^^^^^^^^^^^^^^^^^^^^^ E0401 two commands to m.tilt
+//                                                                            ~~~~~~~~~~~~~~~~~~~~~~~ in parallel
+  behavior twice = Pc(move(m.tilt, to: 30deg), move(m.tilt, to: 30deg))
+//                    ^^^^^^^^^^^^^^^^^^^^^^^ W0003 the same command
+//                                             ~~~~~~~~~~~~~~~~~~~~~~~ in parallel
+}

@@ -1,0 +1,42 @@
+--- a plan, its parts, its reverse
+use std.smores.Smores
+config C { part m: Smores
+  behavior up = move(m.tilt, to: 30deg, in: 1s)
+  behavior down = move(m.tilt, to: 0deg, in: 2s)
+}
+let c = C()
+let p = plan(Sc(c.up(), c.down()))
+print(p.duration, p.actions, p.at(1s).angle(c.m.tilt), p.slice(1s..2s).duration)
+//> 3s 2 30deg 1s
+print((plan(c.up()) ++ c.down()).duration, reverse(plan(c.up())).end.angle(c.m.tilt))
+//> 3s 0deg
+
+--- a plan that does not end at rest
+use std.smores.Smores
+config C { part m: Smores
+  behavior b = spin(m.left, 1rad/s)
+//             ^^^^^^^^^^^^^^^^^^^^ E0407 still turns
+}
+print(plan(C().b()).duration)
+//    ~~~~~~~~~~~~~ planned here
+
+--- output stays where it belongs
+use std.smores.Smores
+config C { part m: Smores
+  behavior b = move(m.tilt, to: 10deg)
+}
+emit(C().b(), "/tmp/out.json")
+//            ^^^^^^^^^^^^^^^ E0701 output stays in the output folder
+emit(C().b(), "a/../../out.json")
+//            ^^^^^^^^^^^^^^^^^^ E0701
+
+--- behaviours of two robots
+use std.smores.Smores
+config A { part m: Smores
+  behavior b = move(m.tilt, to: 10deg)
+}
+config B { part m: Smores
+  behavior b = move(m.tilt, to: 10deg)
+}
+print(plan(Pc(A().b(), B().b())).duration)
+//         ^^^^^^^^^^^^^^^^^^^^ E0406 two robots: A and B

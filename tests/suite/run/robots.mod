@@ -1,0 +1,55 @@
+--- what a robot can be asked
+use std.smores.{Smores, Chain3, Walk4}
+print(order(Smores), order(Chain3), order(Walk4))
+//> 0 1 2
+print(count(Chain3), len(modules(Walk4, Smores)), len(ports(Smores)))
+//> 3 15 4
+
+--- parts are views of the whole
+connector Face { mates Face, turns 4 }
+module Block {
+  mass 1kg
+  link body = box(100mm, 100mm, 100mm)
+  port a: Face on body at [50mm, 0mm, 0mm] facing +X up +Z
+  port b: Face on body at [-50mm, 0mm, 0mm] facing -X up +Z
+}
+config Pair { part x: Block  part y: Block
+  connect x.a -- y.b
+  port head = y.a
+  base x
+}
+config Four { part p[2]: Pair
+  connect p[0].head -- p[1].x.b
+  base p[0]
+}
+let f = Four()
+print(f.p[1].y, pose(f.p[1].head), distance(f.p[0].x, f.p[1].y), mass(f))
+//> p[1].y at [350mm, 0mm, 0mm] 300mm 4kg
+print(com(f), Pair() == Pair(), len(ports(f)))
+//> [150mm, 0mm, 0mm] true 2
+
+--- rigidity of a truss
+use std.truss.PneumaticReel
+truss Tetra of PneumaticReel {
+  node a = [0m, 0m, 0m]
+  node b = [1m, 0m, 0m]
+  node c = [0m, 1m, 0m]
+  node d = [0m, 0m, 1m]
+  strut a -- b  strut b -- c  strut c -- a  strut a -- d  strut b -- d  strut c -- d
+}
+truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
+print(rigidity(Tetra).rank, rigidity(Tetra).rigid, rigidity(Tetra).self_stresses)
+//> 6 true 0
+print(nodes(Pyramid), struts(Pyramid), rigidity(Pyramid).rank)
+//> 34 108 96
+
+--- lattices
+use std.crystal.ExpandingCube
+lattice Bar(n: Int) of ExpandingCube = row(n)
+lattice Ell of ExpandingCube = cells("""
+  #....
+  #....
+  #####
+""")
+print(count(Bar(64)), count(Ell), mass(Ell))
+//> 64 7 7kg

@@ -1,0 +1,56 @@
+--- whole numbers are exact, quotients are numbers
+print(7 / 2, div(-7, 2), -7 % 2, 7 % -2, 2^10)
+//> 3.5 -4 1 1 1024
+print(2^100 + 1)
+//> 1267650600228229401496703205377
+print((2^100) % 1000, 9223372036854775807 + 1)
+//> 376 9223372036854775808
+print(-2^2, 2^-1)
+//> -4 0.5
+
+--- quantities keep their dimension
+print(76mm, 3m * 2m, 90deg, 2rad/s * 45mm, 9.81m/s^2)
+//> 76mm 6m^2 90deg 90mm/s 9.81m/s^2
+print(sqrt(3m * 12m), 30deg + 1turn, 1kg * 9.81m/s^2 * 2m)
+//> 6m 390deg 19.62N*m
+print(sin(30deg), atan2(1mm, -1mm), round(2.5), floor(-1.5))
+//> 0.5 135deg 3 -2
+
+--- a missing value has another
+print(first([1mm, 2mm]) else 0mm, last([]) else 3)
+//> 1mm 3
+
+--- lists and comprehensions
+print([i * j for i in 0..3 for j in 0..3 if i < j], [1, 2] ++ [3])
+//> [0, 0, 2] [1, 2, 3]
+print(sum([100g, 0.4kg]), sorted([3mm, 1mm, 2mm]), slice([1, 2, 3, 4], 1..3))
+//> 500g [1mm, 2mm, 3mm] [2, 3]
+print(min(3, 1, 2), max([40mm, 3cm]), contains([1, 2], 2), any([]), all([]))
+//> 1 40mm true false true
+
+--- texts
+let n = 3
+print("n = {n}, {n + 0.5}", join(["a", "b"], with: ", "), len(characters("modl")))
+//> n = 3, 3.5 a, b 4
+
+--- functions, defaults that depend on parameters, function values
+fn area(a: Length, b: Length = a * 2) -> Area = a * b
+fn apply(f: fn(Int) -> Int, x: Int) -> Int = f(x)
+print(area(2m), area(2m, b: 1m), apply(x => x + n, 4))
+let n = 10
+//> 8m^2 2m^2 14
+
+--- recursion with an end
+fn factorial(n: Int) -> Int = if n < 2 { 1 } else { n * factorial(n - 1) }
+print(factorial(25))
+//> 15511210043330985984000000
+
+--- lets are evaluated when first needed
+let a = b + 1
+let b = 2
+print(a)
+//> 3
+
+--- equality
+print(1 == 1.0, "a" == "a", [1, 2] == [1, 2], 1mm < 2mm, true and not false)
+//> true true true true true
