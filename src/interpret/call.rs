@@ -189,6 +189,9 @@ impl Interpreter<'_> {
         self.fill(&declared.params, args, &mut frame)?;
         let body = self.eval(&declared.body, &mut frame)?;
         let Value::Behavior(behavior) = body else { return Ok(Value::Unknown) };
+        // One that only waits still is a behaviour of this robot.
+        let robot = Some(behavior.robot.clone().unwrap_or_else(|| object.robot.clone()));
+        let behavior = Rc::new(Behavior { robot, node: behavior.node.clone() });
         self.exempt(&behavior, &declared.allows, &mut frame)
     }
 

@@ -335,8 +335,8 @@ impl Interpreter<'_> {
     fn cycle(&self, def: DefId, span: Span) -> Stop {
         let declared = self.program.def(def);
         Diagnostic::error(code::DECLARATION_CYCLE, format!("the value of `{}` needs itself", declared.name))
+            .label(span, "needed here, before it has a value")
             .label(declared.span, "declared here")
-            .label(span, "and needed here, before it has a value")
             .into()
     }
 
