@@ -11,7 +11,7 @@ use crate::source::{Code, Diagnostic, Label, Span, code};
 use crate::units::{Dimension, display, quantity};
 use std::collections::BTreeSet;
 
-/// Failures of one plan that are reported; the rest is counted.
+/// Failures that are told one by one; the rest is counted.
 const FAILURES_SHOWN: usize = 8;
 
 fn seconds(t: f64) -> String {
@@ -109,20 +109,38 @@ fn failure_code(kind: CheckKind) -> Code {
 }
 
 impl Interpreter<'_> {
-    /// Reports every failure at what is to blame for it.
+    /// Reports the failures at what is to blame for them: one finding for all of a kind that the same
+    /// commands caused. What is found after a fall follows from it and is not told.
     pub fn report_failures(&mut self, planned: &Planned, verdict: &Verdict, span: Span) {
-        for failure in verdict.failures.iter().take(FAILURES_SHOWN) {
-            let diagnostic = self.failure(planned, failure, span);
-            self.add_report(diagnostic);
+        let fall = verdict.failures.iter().filter(|f| f.kind == CheckKind::Stability).map(|f| f.time);
+        let fall = fall.fold(f64::INFINITY, f64::min);
+        let mut told: Vec<(&Failure, Vec<&Failure>)> = Vec::new();
+        for failure in verdict.failures.iter().filter(|f| f.time <= fall) {
+            let same = |other: &Failure| other.kind == failure.kind && other.blame == failure.blame;
+            match told.iter_mut().find(|(first, _)| same(first)) {
+                Some((_, more)) => more.push(failure),
+                None => told.push((failure, Vec::new())),
+            }
         }
-        if let Some(rest) = verdict.failures.len().checked_sub(FAILURES_SHOWN + 1) {
-            let message = format!("{} more failures of this plan", rest + 1);
-            self.add_report(Diagnostic::error(code::NOT_VERIFIED, message).label(span, "of this plan"));
+        for (failure, more) in told {
+            let mut diagnostic = self.failure(planned, failure, span);
+            for other in more.iter().take(FAILURES_SHOWN) {
+                diagnostic = diagnostic.hint(format!("also {}", failure_line(other)));
+            }
+            if more.len() > FAILURES_SHOWN {
+                diagnostic = diagnostic.hint(format!("and {} more like these", more.len() - FAILURES_SHOWN));
+            }
+            self.add_report(diagnostic);
         }
     }
 
     fn failure(&self, planned: &Planned, failure: &Failure, span: Span) -> Diagnostic {
-        let message = format!("{}, at t = {}", failure.message, seconds(failure.time));
+        let time = seconds(failure.time);
+        let message = if failure.message.contains(&time) {
+            failure.message.clone()
+        } else {
+            format!("{}, at t = {time}", failure.message)
+        };
         let mut diagnostic = Diagnostic::error(failure_code(failure.kind), message);
         let records: Vec<&CauseRecord> =
             failure.blame.iter().map(|id| self.causes.get(planned.causes[id.0 as usize])).collect();
