@@ -141,6 +141,38 @@ fn a_program_writes_the_same_bytes_every_time() {
     assert_eq!(first.host.written, second.host.written);
 }
 
+/// The length of a line's last word, in millimetres.
+fn last_length(line: &str) -> f64 {
+    let word = line.rsplit(' ').next().expect("a line has words");
+    word.trim_end_matches("mm").parse().expect("a length in millimetres")
+}
+
+#[test]
+fn the_square_comes_back_to_where_it_began() {
+    let text = include_str!("../examples/square.mod");
+    let ran = run_text(text, Mode::Run);
+    assert_eq!(ran.host.printed[0], "order 1 modules 1 mass 557.292g");
+    let line = &ran.host.printed[1];
+    // 45.3 mm of wheel radius at 2 rad/s for 5 s.
+    let side = line.split(" once").next().expect("a line has a beginning");
+    assert!((last_length(side) - 453.0).abs() < 0.1, "{line}");
+    assert!(last_length(line) < 20.0, "{line}");
+}
+
+/// The planner is not there yet; what is wrong with its argument is told all the same.
+#[test]
+fn a_lattice_in_two_pieces_is_refused_where_it_is_made() {
+    let program = "use std.crystal.ExpandingCube\n\
+                   lattice Row of ExpandingCube = row(9)\n\
+                   lattice Split of ExpandingCube = cells(\"##.##\")\n\
+                   let p = squeeze(Row(), Split())\n";
+    let ran = run_text(program, Mode::Run);
+    let [diagnostic] = &ran.outcome.diagnostics[..] else { panic!("{:?}", ran.outcome.diagnostics) };
+    assert_eq!(diagnostic.code.0, "E0313");
+    let span = diagnostic.span().expect("a place");
+    assert_eq!(ran.sources.text(span), "Split()");
+}
+
 #[test]
 fn a_snake_of_three_hundred_modules_is_elaborated_at_once() {
     // Steps stand in for time: they do not depend on the machine.
