@@ -269,6 +269,79 @@ fn new_overwrites_nothing() {
 }
 
 #[test]
+fn a_new_project_runs_is_verified_and_passes_its_test() {
+    let s = Sandbox::new(&[]);
+    assert_eq!(s.run(&["new", "rover"]).code, 0);
+    let ran = s.run(&["run", "rover/main.mod"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.err.contains("wrote out/drive.plan.json"), "{}", ran.err);
+    let verified = s.run(&["verify", "out/drive.plan.json"]);
+    assert!(verified.code == 0 && verified.out.contains("verified"), "{}{}", verified.out, verified.err);
+    let tested = s.run(&["test", "rover/main.mod"]);
+    assert!(tested.code == 0 && tested.out.contains("1 passed, 0 failed"), "{}{}", tested.out, tested.err);
+}
+
+const TESTS: &[u8] =
+    b"print(1)\ntest \"one is one\" { expect 1 == 1 }\ntest \"one is two\" { expect 1 == 2 }\n";
+
+#[test]
+fn tests_are_counted_and_filtered_and_statements_are_not_run() {
+    let s = Sandbox::new(&[("t.mod", TESTS)]);
+    let all = s.run(&["test", "t.mod"]);
+    assert_eq!(all.code, 1);
+    assert!(all.out.ends_with("1 passed, 1 failed\n") && !all.out.starts_with('1'), "{}", all.out);
+    assert!(all.err.contains("E0507"), "{}", all.err);
+    let one = s.run(&["test", "t.mod", "--filter", "is one"]);
+    assert!(one.code == 0 && one.out.ends_with("1 passed, 0 failed\n"), "{}", one.out);
+    let object = json(&s.run(&["test", "--json", "t.mod"]));
+    assert_eq!(
+        object["tests"][1],
+        serde_json::json!({ "file": "t.mod", "name": "one is two", "passed": false })
+    );
+}
+
+#[test]
+fn limits_can_be_set() {
+    let s = Sandbox::new(&[("a.mod", b"print(sum([i for i in 0..1000]))\n")]);
+    let ran = s.run(&["run", "a.mod", "--max-steps", "100"]);
+    assert!(ran.code == 1 && ran.err.contains("E0504"), "{}", ran.err);
+    assert_eq!(s.run(&["run", "a.mod"]).out, "499500\n");
+    assert_eq!(json(&s.run(&["run", "a.mod", "--json"]))["printed"], serde_json::json!(["499500"]));
+}
+
+/// A program that writes a small plan to a path.
+fn writing_to(path: &str) -> Vec<u8> {
+    let robot = "use std.smores.Smores\nconfig C {\n  part m: Smores\n  behavior b = spin(m.left, 1rad/s, for: 1s)\n}\n";
+    format!("{robot}emit(C().b(), \"{path}\")\n").into_bytes()
+}
+
+#[test]
+fn output_stays_in_its_folder() {
+    for path in ["../x.json", "a/../../x.json", "/tmp/modl-x.json", "", ".", "a/.."] {
+        let s = Sandbox::new(&[("project/a.mod", &writing_to(path))]);
+        let ran = s.run(&["run", "project/a.mod", "--out", "project/out"]);
+        assert_eq!(ran.code, 1, "{path}: {}", ran.err);
+        assert!(ran.err.contains("E0701") || ran.err.contains("E0702"), "{path}: {}", ran.err);
+        let left: Vec<_> =
+            fs::read_dir(s.path("project")).expect("there").map(|e| e.expect("readable").path()).collect();
+        assert!(!s.path("x.json").exists() && left.len() <= 2, "{path}: {left:?}");
+    }
+    let s = Sandbox::new(&[("a.mod", &writing_to("./deep/er/x.json"))]);
+    let ran = s.run(&["run", "a.mod"]);
+    assert!(ran.code == 0 && s.path("out/deep/er/x.json").exists(), "{}", ran.err);
+    assert_eq!(fs::read_dir(s.path("out/deep/er")).expect("there").count(), 1, "nothing is left beside it");
+}
+
+#[test]
+fn what_cannot_be_written_is_told() {
+    let s = Sandbox::new(&[("a.mod", &writing_to("taken")), ("out/taken/x", b""), ("file", b"")]);
+    for out in ["out", "file"] {
+        let ran = s.run(&["run", "a.mod", "--out", out]);
+        assert!(ran.code == 1 && ran.err.contains("E0702"), "{out}: {}", ran.err);
+    }
+}
+
+#[test]
 fn what_is_no_plan_file_is_told_so() {
     let s = Sandbox::new(&[("no.json", b"{\"plan\": 1}"), ("bytes.json", b"\xff\x00")]);
     for file in ["no.json", "bytes.json"] {
@@ -317,6 +390,43 @@ mod unix {
             assert!(ran.code == 1 && ran.err.contains("E0105"), "{file}: {}", ran.err);
         }
         assert_eq!(s.run(&["check", "project/d.mod"]).err, "", "a link inside is fine");
+    }
+
+    #[test]
+    fn links_do_not_lead_out_of_the_output_folder() {
+        let s = Sandbox::new(&[
+            ("a.mod", &writing_to("away/x.json")),
+            ("b.mod", &writing_to("x.json")),
+            ("there/y", b""),
+        ]);
+        fs::create_dir(s.path("out")).expect("a folder");
+        symlink("../there", s.path("out/away")).expect("a link");
+        symlink("../there/x.json", s.path("out/x.json")).expect("a link to nothing");
+        for file in ["a.mod", "b.mod"] {
+            let ran = s.run(&["run", file]);
+            assert!(ran.code == 1 && ran.err.contains("E0701"), "{file}: {}", ran.err);
+        }
+        assert_eq!(fs::read_dir(s.path("there")).expect("there").count(), 1);
+    }
+
+    #[test]
+    fn an_interrupted_run_ends_soon_and_leaves_nothing() {
+        let endless: &[u8] =
+            b"fn f(n: Int) -> Int = if n < 1 { 1 } else { f(n - 1) + f(n - 1) }\nprint(f(60))\n";
+        let s = Sandbox::new(&[("a.mod", endless)]);
+        let mut command = s.command(&["run", "a.mod", "--max-steps", "1000000000000"]);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("runs");
+        // It listens once it has begun; until then the signal ends it as any process.
+        let status = loop {
+            let sent =
+                Command::new("kill").args(["-INT", &child.id().to_string()]).stderr(Stdio::null()).status();
+            sent.expect("there is a kill");
+            if let Some(status) = child.try_wait().expect("it can be asked") {
+                break status;
+            }
+        };
+        assert!(status.code().is_none_or(|code| code == 130), "{status}");
+        assert!(!s.path("out").exists());
     }
 
     #[test]
