@@ -183,8 +183,17 @@ fn program(name: &str, made: &str, pose: &Value) -> String {
         }
     }
     let any = first.as_object().expect("modules").keys().next().expect("a module");
+    let base = expected_first(pose);
+    text.push_str(&format!("  base c.{}\n", path_of(name, base)));
     text.push_str(&format!("  behavior hold = move(c.{}.tilt, by: 0deg, in: 1ms)\n}}\n", path_of(name, any)));
     text
+}
+
+/// The module that stands at the origin of the truth's poses.
+fn expected_first(pose: &Value) -> &str {
+    let modules = pose["chassis_pose_in_first_module"].as_object().expect("modules");
+    let first = modules.iter().find(|(_, p)| pose_from(p).translation.vector.norm() < 1e-12);
+    first.expect("one module is the first").0
 }
 
 fn floating(name: &str, made: &str, pose: &Value) -> Plan {
@@ -210,12 +219,7 @@ fn modules_stand_where_the_truth_has_them() {
             let index = robot.modules.iter().position(|m| m.name == path);
             kinematics.module_pose(index.unwrap_or_else(|| panic!("{name} has no {path}")), &links)
         };
-        // The first module of the truth is the one that stands at its origin.
-        let first = expected
-            .iter()
-            .find(|(_, p)| pose_from(p).translation.vector.norm() < 1e-12)
-            .map(|(module, p)| pose_of(module) * pose_from(p).inverse())
-            .expect("one module is the first");
+        let first = pose_of(expected_first(pose));
         for (module, p) in expected {
             let (want, have) = (pose_from(p), first.inverse() * pose_of(module));
             let apart = want.inverse() * have;
@@ -233,4 +237,79 @@ fn pose_from(p: &Value) -> Pose {
     let (t, q) = (numbers("position"), numbers("quat_wxyz"));
     let rotation = UnitQuaternion::new_normalize(Quaternion::new(q[0], q[1], q[2], q[3]));
     Pose::from_parts(Translation3::new(t[0], t[1], t[2]), rotation)
+}
+
+/// In millimetres: the margin on the ground that holds the first module upright by the footprint and
+/// by the paper's rule, and the centre of mass along the ground.
+struct Judged {
+    footprint: f64,
+    centres: f64,
+    com: [f64; 2],
+}
+
+fn judged(name: &str, made: &str, pose: &Value) -> Judged {
+    let text = program(name, made, pose)
+        + "let held = world(ground: fixed)\n\
+           print(verify(T(), world: held).margin)\n\
+           print(verify(T(), world: held, stability: centres).margin)\n\
+           print(com(T()).x)\nprint(com(T()).y)\n";
+    let desk = run_clean(&text);
+    let values: Vec<f64> = desk.printed.iter().map(|line| millimetres(line)).collect();
+    let [footprint, centres, x, y] = values[..] else { panic!("four values: {values:?}") };
+    Judged { footprint, centres, com: [x, y] }
+}
+
+/// A length as `print` shows it.
+fn millimetres(text: &str) -> f64 {
+    let number = |text: &str| text.parse::<f64>().unwrap_or_else(|_| panic!("no length: {text}"));
+    if text == "infinite" {
+        return f64::INFINITY;
+    }
+    match text.strip_suffix("mm") {
+        Some(text) => number(text),
+        None => number(text.trim_end_matches('m')) * 1e3,
+    }
+}
+
+/// How far the footprints may be apart, mm. The truth has the wheels as polygons and takes every corner
+/// within the contact tolerance of the ground, so its wheels touch up to sqrt(2 R t - t²) before and
+/// behind their lowest point (R = 45.3, t = 4); here wheels are exact circles and touch at that point.
+const FOOTPRINT_APART: f64 = 18.62;
+
+/// LEG3 lifted rests on a disc 3.8 mm below the wheels, within 0.2 mm of the contact tolerance: whether
+/// the wheels touch is decided by the corners of the truth's polygons.
+const UNDECIDED: (&str, &str) = ("LEG3", "lift");
+
+#[test]
+fn margins_and_centres_of_mass_are_those_of_the_truth() {
+    let mut wrong = String::new();
+    for (name, made, pose) in poses() {
+        let have = judged(name, made, pose);
+        let shown = pose["pose"].as_str().expect("a name");
+        let millimetres = |v: &Value| v.as_f64().map(|m| m * 1e3);
+        let mut compare = |what: &str, have: f64, want: f64, within: f64| {
+            if (have - want).abs() > within {
+                wrong.push_str(&format!("{name} {shown}: {what} {have}, in the truth {want}\n"));
+            }
+        };
+        // The truth is printed to a micrometre, and so is what the program prints.
+        for (axis, have) in have.com.iter().enumerate() {
+            let want = millimetres(&pose["com_after_raise_m"][axis]).expect("a number");
+            compare("centre of mass", *have, want, 2e-3);
+        }
+        // The paper's rule: exact inside. Outside, the truth measures to the lines through the edges and
+        // we to the hull itself, which is not nearer.
+        if let Some(want) = millimetres(&pose["paper_rule"]["margin_m"]) {
+            match want < 0.0 {
+                true => compare("centres", have.centres.min(want), have.centres, 0.0),
+                false => compare("centres", have.centres, want, 2e-3),
+            }
+        }
+        if let Some(want) = millimetres(&pose["footprint_fixed_root"]["margin_m"])
+            && (name, shown) != UNDECIDED
+        {
+            compare("footprint", have.footprint, want, FOOTPRINT_APART);
+        }
+    }
+    assert!(wrong.is_empty(), "\n{wrong}");
 }

@@ -54,7 +54,22 @@ impl Interpreter<'_> {
                 Record::Frame(nodes, struts) => frame_field(nodes, struts, field.as_str()),
                 Record::Rigidity(truss) => rigidity_field(truss, field.as_str()),
             }),
-            _ => Ok(Value::Unknown),
+            Value::Vec3(v, dimension) => Ok(match field.as_str() {
+                "x" => Value::Quantity(v.x, *dimension),
+                "y" => Value::Quantity(v.y, *dimension),
+                "z" => Value::Quantity(v.z, *dimension),
+                other => unreachable!("check knows no field `{other}` of a vector"),
+            }),
+            Value::Range(ends) => Ok(match field.as_str() {
+                "from" => ends.0.clone(),
+                "to" => ends.1.clone(),
+                other => unreachable!("check knows no field `{other}` of a range"),
+            }),
+            Value::Pose(pose) => Ok(match field.as_str() {
+                "position" => Value::Vec3(pose.translation.vector, Dimension::LENGTH),
+                other => unreachable!("check knows no field `{other}` of a pose"),
+            }),
+            _ => unreachable!("check gives fields to records, vectors, ranges and poses only"),
         }
     }
 
