@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Buffer {
     pub printed: Vec<String>,
     pub written: BTreeMap<String, Vec<u8>>,
+    pub progress: Vec<String>,
 }
 
 impl Host for Buffer {
@@ -23,7 +24,9 @@ impl Host for Buffer {
         Ok(path.to_string())
     }
 
-    fn progress(&mut self, _: &str) {}
+    fn progress(&mut self, line: &str) {
+        self.progress.push(line.to_string());
+    }
 
     fn cancelled(&self) -> bool {
         false
@@ -139,6 +142,16 @@ fn a_program_writes_the_same_bytes_every_time() {
     let (first, second) = (run_text(program, Mode::Run), run_text(program, Mode::Run));
     assert_eq!(first.outcome.written, ["b.plan.json"], "{:?}", first.outcome.diagnostics);
     assert_eq!(first.host.written, second.host.written);
+}
+
+#[test]
+fn what_is_verified_and_then_written_is_judged_once() {
+    let program = "use std.smores.Smores\n\
+                   config C { part m: Smores\n  behavior b = move(m.tilt, to: 10deg)\n}\n\
+                   print(verify(C().b()).ok)\nemit(C().b(), \"b.plan.json\")\n";
+    let ran = run_text(program, Mode::Run);
+    assert_eq!(ran.host.printed, ["true"], "{:?}", ran.outcome.diagnostics);
+    assert_eq!(ran.host.progress, ["verifying C"]);
 }
 
 /// The length of a line's last word, in millimetres.

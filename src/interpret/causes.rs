@@ -32,16 +32,24 @@ impl CauseRecord {
     }
 }
 
-/// All causes of a run. A plan gets a table of its own, of those that it names.
+/// All causes of a run, each once: the same call gives the same behaviour. A plan gets a table of its
+/// own, of those that it names.
 #[derive(Default)]
 pub struct Causes {
     records: Vec<CauseRecord>,
+    /// By what tells causes apart; the arguments stand within the span.
+    known: HashMap<(Span, Rc<str>, Option<Span>), CauseId>,
 }
 
 impl Causes {
     pub fn add(&mut self, record: CauseRecord) -> CauseId {
-        self.records.push(record);
-        CauseId(u32::try_from(self.records.len() - 1).expect("causes are counted in 32 bits"))
+        let id = CauseId(u32::try_from(self.records.len()).expect("causes are counted in 32 bits"));
+        let key = (record.span, record.instance.clone(), record.caller);
+        let known = *self.known.entry(key).or_insert(id);
+        if known == id {
+            self.records.push(record);
+        }
+        known
     }
 
     pub fn get(&self, id: CauseId) -> &CauseRecord {
