@@ -125,7 +125,7 @@ impl Motion {
     }
 }
 
-fn cause(n: usize) -> modl::plan::Cause {
+pub fn cause(n: usize) -> modl::plan::Cause {
     modl::plan::Cause {
         file: "test.mod".into(),
         line: n + 1,

@@ -27,6 +27,7 @@ pub mod unfit;
 pub mod file;
 mod finite;
 mod form;
+pub mod sound;
 pub mod validate;
 
 use crate::robot::Library;

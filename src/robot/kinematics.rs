@@ -165,12 +165,14 @@ impl Kinematics {
 
     /// How far the bonds that close loops are from doing so.
     pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
-        let residual = |&bond: &usize| {
-            let Pair { p, q } = self.mated(robot, bond, joints, poses);
-            let error = p.inverse() * q;
-            Residual { bond, distance: error.translation.vector.norm(), angle: error.rotation.angle() }
-        };
-        self.tree.closing.iter().map(residual).collect()
+        self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
+    }
+
+    /// How far two ports are from being mated by a bond, whether it holds or not.
+    pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
+        let Pair { p, q } = self.mated(robot, bond, joints, poses);
+        let error = p.inverse() * q;
+        Residual { bond, distance: error.translation.vector.norm(), angle: error.rotation.angle() }
     }
 
     /// Where the second port of a bond should be, and where it is.

@@ -54,8 +54,6 @@ pub struct Best {
     pub bound: f64,
     /// Sizes of the columns, for the next sample.
     pub recipe: Recipe,
-    /// What every cut holds.
-    pub held: Vec<f64>,
 }
 
 /// Which contacts pushed how much: where the contacts stay the same, nearly the same forces do.
@@ -250,7 +248,7 @@ impl Question<'_> {
         };
         let worst = self.loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })?;
         let recipe = Recipe { contacts: contacts.iter().map(|t| (t.feature, t.k)).collect(), sizes };
-        Some(Best { ratio: ratio(worst), load: worst, bound, recipe, held })
+        Some(Best { ratio: ratio(worst), load: worst, bound, recipe })
     }
 
     /// The nearest sizes that balance, measured by the sizes themselves; `None` where one would have

@@ -1,8 +1,8 @@
 //! The judgement of an articulated robot's plan: one walk, watched by every check.
 
 use super::ledger::Ledger;
-use super::walk::{Course, Ended, walk};
-use super::{Tolerances, limits, stability, torque, travel};
+use super::walk::{Course, Ended, Waypoint, walk};
+use super::{Tolerances, blame, docking, limits, stability, torque, travel};
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 
@@ -18,19 +18,32 @@ pub fn tracks(plan: &Plan, tracks: &Tracks) -> Verdict {
         tolerances: &tolerances,
         held: None,
     };
-    on_the_way(&course, &mut ledger);
+    docking::judge(&course, &mut ledger);
+    let waypoints = on_the_way(&course, &mut ledger);
+    blame::blame(&course, &waypoints, ledger.failures_mut());
+    ledger.check(CheckKind::Form, Status::Proved);
+    // Conflicts are found where a behaviour becomes a plan: here each joint has one track.
+    ledger.check(CheckKind::Conflict, Status::Proved);
+    // After its last segment a joint holds.
     ledger.check(CheckKind::Rest, Status::Proved);
     ledger.finish()
 }
 
-/// Everything that is judged from sample to sample.
-fn on_the_way(course: &Course, ledger: &mut Ledger) {
+/// Waypoints that are kept for walking parts of the way again.
+const WAYPOINTS_MAX: usize = 16;
+
+/// Everything that is judged from sample to sample. Returns places to walk on from.
+fn on_the_way(course: &Course, ledger: &mut Ledger) -> Vec<Waypoint> {
+    let mut loops = docking::Watch::new(course);
+    let mut waypoints = Waypoints { kept: vec![], stride: 1, next: 0 };
     let mut standing = stability::Watch::new(course.settings, course.tolerances);
     let mut travel = travel::Watch::new(course.tolerances);
     let mut torque = torque::Watch::new(course.tolerances);
     let mut samples = 0;
-    let ended = walk(*course, None, course.tracks.duration, &mut |sample, _| {
+    let ended = walk(*course, None, course.tracks.duration, &mut |sample, waypoint| {
+        waypoints.pass(samples, waypoint);
         samples += 1;
+        loops.see(sample);
         if let Some(lack) = standing.see(sample, ledger) {
             ledger.fail(lack.failure());
         }
@@ -46,10 +59,38 @@ fn on_the_way(course: &Course, ledger: &mut Ledger) {
     }
     ledger.verdict.samples = samples;
     torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
-    torque.finish(course.settings, ledger);
+    torque.finish(ledger);
     standing.finish(ledger);
     let names = |link| link_name(course, link);
-    travel.finish(course.settings, names, ledger);
+    travel.finish(names, ledger);
+    loops.finish(ledger);
+    waypoints.kept
+}
+
+/// Waypoints at even distances, however long the way is.
+struct Waypoints {
+    kept: Vec<Waypoint>,
+    /// One in so many samples is kept.
+    stride: usize,
+    next: usize,
+}
+
+impl Waypoints {
+    fn pass(&mut self, sample: usize, waypoint: &dyn Fn() -> Waypoint) {
+        if sample < self.next {
+            return;
+        }
+        if self.kept.len() == WAYPOINTS_MAX {
+            let mut odd = false;
+            self.kept.retain(|_| {
+                odd = !odd;
+                odd
+            });
+            self.stride *= 2;
+        }
+        self.kept.push(waypoint());
+        self.next = sample + self.stride;
+    }
 }
 
 fn link_name(course: &Course, link: usize) -> String {

@@ -63,6 +63,10 @@ impl<'a> Ledger<'a> {
         }
     }
 
+    pub fn failures_mut(&mut self) -> &mut [Failure] {
+        &mut self.verdict.failures
+    }
+
     /// Records a check: failed if there is a failure of its kind, exempt if one was excused.
     pub fn check(&mut self, kind: CheckKind, otherwise: Status) {
         let failed = self.verdict.failures.iter().any(|f| f.kind == kind);

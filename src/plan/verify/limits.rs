@@ -5,7 +5,7 @@ use super::Tolerances;
 use super::extremum::{elevated, greatest};
 use super::ledger::{Ledger, lower};
 use crate::plan::polynomial::derivative;
-use crate::plan::{CauseId, CheckKind, Failure, Segment, Status, Tracks};
+use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner, Limits};
 use crate::units::{Dimension, quantity};
 
@@ -33,7 +33,6 @@ pub fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
         range(tracks, drive, &pieces, tolerances, ledger);
         speed(drive, &pieces, tolerances, ledger);
         acceleration(drive, &pieces, tolerances, ledger);
-        jumps(tracks, drive, &pieces, tolerances, ledger);
     }
     let status = |stated: bool| if stated { Status::Proved } else { Status::NoLimit };
     ledger.check(CheckKind::JointRange, status(drives.iter().any(|d| d.limits.range.is_some())));
@@ -225,22 +224,6 @@ fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger
     ledger.fail(failure(CheckKind::Acceleration, drive, time, message, (value, limit), piece));
 }
 
-/// A joint that is somewhere else at once is no motion.
-fn jumps(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
-    let mut at: f64 = drive.terms.iter().map(|&(joint, factor)| factor * tracks.start.joints[joint]).sum();
-    for piece in pieces {
-        let jump = piece.control[0] - at;
-        if jump.abs() > tolerances.jump {
-            let dimension = if drive.turns { Dimension::ANGLE } else { Dimension::LENGTH };
-            let message = format!("{} jumps by {}", drive.name, quantity(jump, dimension));
-            let values = (jump.abs(), tolerances.jump);
-            ledger.fail(failure(CheckKind::Speed, drive, piece.start, message, values, piece));
-            return;
-        }
-        at = piece.control[piece.control.len() - 1];
-    }
-}
-
 fn greatest_size(control: &[f64]) -> (f64, f64) {
     let up = greatest(control);
     let negated: Vec<f64> = control.iter().map(|c| -c).collect();
@@ -267,11 +250,4 @@ fn failure(
         blame: piece.cause.into_iter().collect(),
         blames_start: false,
     }
-}
-
-/// The segment that moves a joint at a time, or moved it last before.
-pub fn moved_by(tracks: &Tracks, joint: usize, t: f64) -> Option<&Segment> {
-    let track = tracks.track(JointId(joint as u32))?;
-    let begun = track.segments.partition_point(|s| s.start <= t);
-    track.segments[..begun].last()
 }

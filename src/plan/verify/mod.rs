@@ -31,6 +31,8 @@ mod torque;
 mod travel;
 
 mod area;
+mod blame;
+mod docking;
 mod judge;
 
 pub use area::area;
@@ -42,11 +44,16 @@ pub use walk::{Course, Ended, Sample, Tip, Waypoint, walk};
 
 use super::{
     Body, Check, CheckKind, Failure, Plan, Provenance, Settings, Status, Tracks, Verdict, World, WorldFrom,
+    sound,
 };
 use crate::robot::{Assembly, State};
 
 /// Judges a plan under its stated worlds and settings. What it says of itself is recomputed.
 pub fn verify(plan: &Plan) -> Verdict {
+    let faults = sound::faults(plan);
+    if !faults.is_empty() {
+        return unsound(faults);
+    }
     match &plan.body {
         Body::Tracks(tracks) => judge::tracks(plan, tracks),
         Body::Stages(_) => unjudged("plans of lattices"),
@@ -85,6 +92,15 @@ fn unjudged(what: &str) -> Verdict {
     Verdict {
         checks: vec![Check { kind: CheckKind::Form, status: Status::NotChecked(why.clone()) }],
         failures: vec![fault(why)],
+        ..Verdict::default()
+    }
+}
+
+/// A plan that means nothing is judged no further.
+fn unsound(faults: Vec<String>) -> Verdict {
+    Verdict {
+        checks: vec![Check { kind: CheckKind::Form, status: Status::Failed }],
+        failures: faults.into_iter().map(fault).collect(),
         ..Verdict::default()
     }
 }

@@ -74,6 +74,11 @@ impl<'a> Watch<'a> {
         self.ended(sample.time)
     }
 
+    /// Whether support is missing at the moment.
+    pub fn lacking(&self) -> bool {
+        self.lack.is_some()
+    }
+
     /// What is left at the end of the plan: support must be back by then.
     pub fn end(&mut self, t: f64) -> Option<Lack> {
         self.lack.take().map(|lack| Lack { until: t, ..lack })

@@ -27,6 +27,8 @@ pub struct Stance {
     pub patches: Vec<Patch>,
     /// Whether the base is held because the support was lost.
     pub held: bool,
+    /// While it is held: what stood on the ground before, each as if it carried the same.
+    anchors: Vec<Touch>,
 }
 
 /// What a change of posture does to a stance, before it is decided whether that is a tip.
@@ -82,6 +84,7 @@ impl Stance {
             touches: vec![],
             patches: vec![],
             held: false,
+            anchors: vec![],
         };
         if kept != Kept::Nothing {
             stance.touch(model, tolerances);
@@ -99,16 +102,15 @@ impl Stance {
         (stance, up - rest.height, turned)
     }
 
-    /// Follows a change of posture: turned as the masses and contacts were, then settled. A held
-    /// robot is only lowered.
+    /// Follows a change of posture: turned as the masses and contacts were, then settled. While a
+    /// robot is held, the contacts are those that it stood on before.
     pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Attempt {
         let mut R = self.R * align(model, &self.posture, &posture);
         let mut features = model.placed(&posture, &R);
-        if !self.held {
-            let turn = guess(&features, &self.touches, tolerances);
-            R = turn * R;
-            features = features.iter().map(|f| f.placed(&turn, &Vec3::zeros())).collect();
-        }
+        let contacts = if self.held { &self.anchors } else { &self.touches };
+        let turn = guess(&features, contacts, tolerances);
+        R = turn * R;
+        features = features.iter().map(|f| f.placed(&turn, &Vec3::zeros())).collect();
         let moved = self.features.iter().zip(&features).map(|(a, b)| a.moved(b));
         let motion = moved.fold(0.0, f64::max);
         let up = height(&features, &Vec3::z());
@@ -127,6 +129,7 @@ impl Stance {
         let rest = attempt.rest.clone();
         let mut next = self.lowered(attempt);
         next.held = false;
+        next.anchors.clear();
         next.turn(&rest);
         next.touch(model, tolerances);
         let (place, slips) = carry(model, self, &next.posture, &next.R, next.height, &next.patches);
@@ -137,6 +140,11 @@ impl Stance {
     /// The robot held as it would be without falling, lowered to touch the ground.
     pub fn holding(&self, model: &Model, attempt: Attempt, tolerances: &Tolerances) -> Stance {
         let mut next = self.lowered(attempt);
+        if !self.held {
+            // Loads say little where the centre of mass leaves the edge: all that stood there counts.
+            let near = self.touches.iter().filter(|t| t.gap <= tolerances.gap_loaded);
+            next.anchors = near.map(|t| Touch { load: 1.0, ..*t }).collect();
+        }
         next.held = true;
         next.touch(model, tolerances);
         next
@@ -185,6 +193,7 @@ impl Stance {
             touches: vec![],
             patches: vec![],
             held: self.held,
+            anchors: self.anchors.clone(),
         }
     }
 

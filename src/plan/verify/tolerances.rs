@@ -32,8 +32,6 @@ pub struct Tolerances {
     pub motion_sample: f64,
     /// Relative excess over a limit that is rounding of the plan's own numbers.
     pub limit: f64,
-    /// A joint whose position jumps by less stands still (rad or m).
-    pub jump: f64,
     /// A change of speed at once that is rounding (rad/s or m/s).
     pub speed_jump: f64,
     /// Loops that the bonds close may be open by this, where the connector states no capture.
@@ -68,7 +66,6 @@ impl Default for Tolerances {
             turn_sample: 5.0 * degree,
             motion_sample: 0.02,
             limit: 1e-9,
-            jump: 1e-9,
             speed_jump: 1e-6,
             closure_distance: 1e-3,
             closure_angle: degree,

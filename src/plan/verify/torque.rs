@@ -10,7 +10,7 @@ use super::ledger::{Ledger, lower};
 use super::statics::{LoadKind, Push, Section, Structure, effects};
 use super::walk::Sample;
 use crate::geometry::Vec3;
-use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Status};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
 use crate::units::{Dimension, quantity};
 
 pub struct Watch<'a> {
@@ -36,6 +36,10 @@ struct Compiled {
     structure: Structure,
     effects: Vec<Vec<(usize, f64)>>,
 }
+
+/// Where the best forces found are too much, and yet no proof was found that there are none.
+const UNDECIDED: &str =
+    "an overload was not proved: the best contact forces found are within rounding of the limit";
 
 /// A load over its limit.
 #[derive(Clone, Debug)]
@@ -96,17 +100,6 @@ impl<'a> Watch<'a> {
         self.record(sample, ledger);
     }
 
-    /// Overloads at a sample, by the names of what is overloaded: for finding who is to blame.
-    pub fn overloads(
-        sample: &Sample,
-        tolerances: &Tolerances,
-        ledger: &mut Ledger,
-    ) -> Vec<(String, LoadKind)> {
-        let mut watch = Watch::new(tolerances);
-        watch.see(sample, ledger);
-        watch.failures.iter().map(|f| (f.name.clone(), f.kind)).collect()
-    }
-
     fn compile(&mut self, sample: &Sample) {
         if self.compiled.as_ref().is_none_or(|c| c.bonds != sample.bonds) {
             let structure = Structure::new(sample.model);
@@ -165,6 +158,9 @@ impl<'a> Watch<'a> {
                     self.needs_friction(sample, structure, (worst, loads.ratios[worst]), &best);
                 }
                 best => {
+                    if best.as_ref().is_some_and(|b| b.bound <= 1.0) {
+                        ledger.note(UNDECIDED.to_owned());
+                    }
                     let (load, ratio) = best
                         .map_or((sure.unwrap_or(worst), loads.ratios[sure.unwrap_or(worst)]), |b| {
                             (b.load, b.ratio)
@@ -247,8 +243,7 @@ impl<'a> Watch<'a> {
         &self.failures
     }
 
-    pub fn finish(&self, settings: &Settings, ledger: &mut Ledger) {
-        debug_assert!(settings.sample > 0.0, "validated");
+    pub fn finish(&self, ledger: &mut Ledger) {
         ledger.verdict.energy = self.energy;
         if let Some(friction) = &self.friction {
             ledger.note(format!(
@@ -313,6 +308,13 @@ impl Overload {
             blames_start: false,
         }
     }
+}
+
+/// Whether something of this name is overloaded in a sample: for finding who is to blame.
+pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
+    let mut watch = Watch::new(tolerances);
+    watch.see(sample, ledger);
+    watch.failures.iter().any(|f| f.name == name)
 }
 
 /// The best forces: those of the sample before, brought to balance here, do if nothing is worse than

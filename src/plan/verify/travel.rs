@@ -1,10 +1,11 @@
 //! Where the robot gets to, and what slips on the way; and with a held base, what goes underground.
 
 use super::Tolerances;
+use super::contact::Touch;
 use super::ledger::Ledger;
 use super::walk::Sample;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Status, Worst};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
 use crate::units::{Dimension, quantity};
 
 pub struct Watch<'a> {
@@ -76,12 +77,7 @@ impl<'a> Watch<'a> {
     }
 
     fn sink(&mut self, sample: &Sample, ledger: &mut Ledger) {
-        let deepest = sample.stance.touches.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
-        let sunk = deepest.filter(|t| {
-            let module = sample.model.bodies[t.link].module;
-            -t.gap > sample.model.robot.module_type(module).touch
-        });
-        match sunk {
+        match sunk(sample) {
             Some(touch) => {
                 let since = self.sunk.as_ref().map_or(sample.time, |s| s.3);
                 if self.sunk.as_ref().is_none_or(|s| -touch.gap > s.0) {
@@ -109,7 +105,7 @@ impl<'a> Watch<'a> {
         });
     }
 
-    pub fn finish(&mut self, settings: &Settings, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
+    pub fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
         self.risen(end, ledger);
         if let Some(start) = self.start {
@@ -124,7 +120,6 @@ impl<'a> Watch<'a> {
             time: end,
             at: vec![names(link)],
         });
-        debug_assert!(settings.sample > 0.0, "validated");
         let settles = self.grounds.contains(&Ground::Settle);
         let fixed = self.grounds.contains(&Ground::Fixed);
         ledger.check(
@@ -144,4 +139,13 @@ impl<'a> Watch<'a> {
             },
         );
     }
+}
+
+/// The deepest touch that is further underground than its module may be.
+pub fn sunk<'s>(sample: &Sample<'s>) -> Option<&'s Touch> {
+    let deepest = sample.stance.touches.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
+    deepest.filter(|t| {
+        let module = sample.model.bodies[t.link].module;
+        -t.gap > sample.model.robot.module_type(module).touch
+    })
 }
