@@ -4,6 +4,7 @@ mod acceptance;
 mod behavior;
 mod check;
 mod cli;
+mod collision;
 mod conflicts;
 mod designs;
 mod desk;

@@ -4,7 +4,7 @@
 //! need: for any unit `n` the gap along it, `-h_B(-n) - h_A(n)`, is a lower bound of the signed
 //! distance from A to B, and the greatest of them is that distance.
 
-use super::Vec3;
+use super::{Pose, Vec3};
 /// Directions this near to a cylinder's axis are along it: what is left across it is rounding.
 const TOL_STRAIGHT: f64 = 1e-9;
 
@@ -101,6 +101,19 @@ impl Part {
             Form::Points(points) => farthest(points, n),
         };
         self.centre + from_centre
+    }
+
+    /// The part in the frame in which its own frame has this pose.
+    pub fn moved(&self, X: &Pose) -> Part {
+        let turn = |v: &Vec3| X.rotation * v;
+        let form = match &self.form {
+            Form::Box(e) => Form::Box([turn(&e[0]), turn(&e[1]), turn(&e[2])]),
+            Form::Cylinder(half, unit, radius) => Form::Cylinder(turn(half), turn(unit), *radius),
+            Form::Capsule(half, radius) => Form::Capsule(turn(half), *radius),
+            Form::Sphere(radius) => Form::Sphere(*radius),
+            Form::Points(points) => Form::Points(points.iter().map(turn).collect()),
+        };
+        Part { form, centre: X.transform_point(&self.centre.into()).coords, radius: self.radius }
     }
 
     /// The part shrunk or grown about its centre.

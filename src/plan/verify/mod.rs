@@ -30,12 +30,23 @@ mod statics;
 mod torque;
 mod travel;
 
+mod bodies;
+mod frame;
+mod levels;
+mod pairs;
+mod search;
+mod swing;
+
+pub mod collision;
+
 mod area;
 mod blame;
 mod docking;
 mod judge;
 
 pub use area::area;
+pub use bodies::{Bodies, UnsoundLink};
+pub use collision::{Collision, Findings, Precision};
 pub use contact::{Patch, Touch};
 pub use model::Model;
 pub use stance::Stance;

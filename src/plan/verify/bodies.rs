@@ -1,0 +1,219 @@
+//! What can collide: the convex parts of all links, and which pairs may meet.
+
+use crate::geometry::distance::between_parts;
+use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
+use crate::robot::{Assembly, JointKind, Kinematics, ModuleType};
+use std::collections::BTreeMap;
+
+/// A part this near to being round about a joint's axis is carried by the link before, m.
+const TOL_ROUND: f64 = 1e-9;
+
+/// A link whose shape can't be judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnsoundLink {
+    pub module: String,
+    pub link: String,
+    pub why: Unsound,
+}
+
+/// The convex parts of a robot's links.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// In order of link.
+    pub bodies: Vec<Body>,
+    /// Index of the first body of each module, and one more at the end.
+    first: Vec<usize>,
+    /// Of each module, a bound on how far any point of it is from its body link's origin, m.
+    pub reach: Vec<f64>,
+    /// Pairs of links of each kind that need not be apart.
+    rules: Vec<Rules>,
+    kind_of: Vec<usize>,
+}
+
+/// One convex part of a link.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// In the frame of the carrier.
+    pub part: Part,
+    /// The link it belongs to, by the numbering of [`Kinematics`].
+    pub link: usize,
+    /// The link it moves with. A disc that turns about its own axis goes nowhere: it is carried by
+    /// the link that bears the axis.
+    pub carrier: usize,
+    pub module: usize,
+    /// Distance of the part's farthest point from the carrier's origin, m.
+    pub reach: f64,
+}
+
+/// What holds between two links of one module.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rule {
+    /// They may come as near as `touch` allows.
+    Apart,
+    /// A joint joins them: they may overlap by this much and `touch`, m.
+    Joined(f64),
+    /// They meet by design.
+    Touching,
+}
+
+#[derive(Clone, Debug)]
+struct Rules {
+    pairs: BTreeMap<(usize, usize), Rule>,
+    touch: f64,
+}
+
+impl Bodies {
+    /// Refuses a robot of which a link's shape is no solid.
+    pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Result<Bodies, UnsoundLink> {
+        let kinds: Vec<Kind> = robot.library.modules.iter().map(Kind::new).collect::<Result<_, _>>()?;
+        let mut all = Bodies {
+            bodies: vec![],
+            first: vec![0],
+            reach: vec![],
+            rules: kinds.iter().map(|k| k.rules.clone()).collect(),
+            kind_of: robot.modules.iter().map(|m| m.kind).collect(),
+        };
+        for (module, instance) in robot.modules.iter().enumerate() {
+            let kind = &kinds[instance.kind];
+            let bodies = kind.bodies.iter().map(|(link, carrier, part)| Body {
+                part: part.clone(),
+                link: kinematics.link(module, *link),
+                carrier: kinematics.link(module, *carrier),
+                module,
+                reach: part.centre.norm() + part.radius,
+            });
+            all.bodies.extend(bodies);
+            all.first.push(all.bodies.len());
+            all.reach.push(kind.reach);
+        }
+        Ok(all)
+    }
+
+    /// The bodies of a module.
+    pub fn of(&self, module: usize) -> std::ops::Range<usize> {
+        self.first[module]..self.first[module + 1]
+    }
+
+    /// What holds between two links of one module, by their indices there.
+    pub fn rule(&self, module: usize, a: usize, b: usize) -> Rule {
+        let pair = (a.min(b), a.max(b));
+        self.rules[self.kind_of[module]].pairs.get(&pair).copied().unwrap_or(Rule::Apart)
+    }
+
+    /// How deep two modules may be in each other, m: the smaller of what the two allow.
+    pub fn touch(&self, a: usize, b: usize) -> f64 {
+        let touch = |module: usize| self.rules[self.kind_of[module]].touch;
+        f64::min(touch(a), touch(b))
+    }
+
+    /// Signed distance between two links whose world poses are at hand, m.
+    pub fn distance(&self, a: usize, b: usize, poses: &[Pose]) -> f64 {
+        let of = |link: usize| self.bodies.iter().filter(move |body| body.link == link);
+        let mut least = f64::INFINITY;
+        for x in of(a) {
+            for y in of(b) {
+                let X_AB = poses[x.carrier].inverse() * poses[y.carrier];
+                least = least.min(between_parts(&x.part, &y.part, &X_AB).distance);
+            }
+        }
+        least
+    }
+}
+
+/// A module type, compiled.
+struct Kind {
+    /// Link, carrier, part in the carrier's frame.
+    bodies: Vec<(usize, usize, Part)>,
+    rules: Rules,
+    reach: f64,
+}
+
+impl Kind {
+    fn new(kind: &ModuleType) -> Result<Kind, UnsoundLink> {
+        let mut bodies = vec![];
+        let mut solids = vec![];
+        for (index, link) in kind.links.iter().enumerate() {
+            let solid = Solid::new(&link.collides).or_else(|why| match why {
+                Unsound::Empty => Ok(Solid::default()),
+                why => Err(UnsoundLink { module: kind.name.clone(), link: link.name.clone(), why }),
+            })?;
+            bodies.extend(solid.parts.iter().map(|part| carried(kind, index, part)));
+            solids.push(solid);
+        }
+        let mut pairs = BTreeMap::new();
+        for joint in &kind.joints {
+            let (a, b) = (joint.parent.min(joint.child), joint.parent.max(joint.child));
+            pairs.insert((a, b), Rule::Joined(drawn_overlap(kind, &solids, a, b)));
+        }
+        pairs.extend(kind.touching.iter().map(|&(a, b)| ((a.min(b), a.max(b)), Rule::Touching)));
+        Ok(Kind { reach: reach(kind, &solids), bodies, rules: Rules { pairs, touch: kind.touch } })
+    }
+}
+
+/// The link that a part moves with, and the part in its frame.
+fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) {
+    for joint in kind.joints.iter().filter(|j| j.kind == JointKind::Revolute) {
+        let other = match (joint.parent == link, joint.child == link) {
+            (true, _) => joint.child,
+            (_, true) => joint.parent,
+            _ => continue,
+        };
+        let X_LJ = kind.links[link].pose.inverse() * joint.pose;
+        let axis = X_LJ.rotation * joint.axis;
+        if part.is_round_about(&X_LJ.translation.vector, &axis, TOL_ROUND) {
+            let X_OL = kind.links[other].pose.inverse() * kind.links[link].pose;
+            return (link, other, part.moved(&X_OL));
+        }
+    }
+    (link, link, part.clone())
+}
+
+/// How deep two links are in each other as drawn, m; 0 where they are apart.
+fn drawn_overlap(kind: &ModuleType, solids: &[Solid], a: usize, b: usize) -> f64 {
+    let X_AB = kind.links[a].pose.inverse() * kind.links[b].pose;
+    let pairs = solids[a].parts.iter().flat_map(|p| solids[b].parts.iter().map(move |q| (p, q)));
+    pairs.map(|(p, q)| -between_parts(p, q, &X_AB).distance).fold(0.0, f64::max)
+}
+
+/// Farthest that any point of the module can be from its body's origin: by the joints' arms, however
+/// they turn, and the greatest travel of slides.
+fn reach(kind: &ModuleType, solids: &[Solid]) -> f64 {
+    let mut arm = vec![f64::INFINITY; kind.links.len()];
+    arm[0] = 0.0;
+    // As often as there are joints: then every link has been reached from its neighbours.
+    for _ in &kind.joints {
+        for joint in &kind.joints {
+            let at = |link: usize| kind.links[link].pose.translation.vector;
+            let axis = joint.pose.rotation * joint.axis;
+            let from_axis = |p: Vec3| {
+                let d = p - joint.pose.translation.vector;
+                d - axis * axis.dot(&d)
+            };
+            let span = match joint.kind {
+                JointKind::Revolute => {
+                    let (a, b) = (at(joint.parent), at(joint.child));
+                    from_axis(a).norm() + from_axis(b).norm() + axis.dot(&(b - a)).abs()
+                }
+                JointKind::Fixed => (at(joint.child) - at(joint.parent)).norm(),
+                JointKind::Prismatic => {
+                    let travel = joint.limits.range.map_or(f64::INFINITY, |(low, high)| high.max(-low));
+                    (at(joint.child) - at(joint.parent)).norm() + travel
+                }
+            };
+            arm[joint.child] = arm[joint.child].min(arm[joint.parent] + span);
+            arm[joint.parent] = arm[joint.parent].min(arm[joint.child] + span);
+        }
+    }
+    let corner = |part: &Part| {
+        let directions = [Vec3::x(), Vec3::y(), Vec3::z()];
+        // The corner of a box around the part that is farthest from the origin.
+        let far = |n: &Vec3| {
+            let along = part.centre.dot(n);
+            (along + part.reach(n)).abs().max((along - part.reach(&-n)).abs())
+        };
+        let box_reach = directions.iter().map(|n| far(n) * far(n)).sum::<f64>().sqrt();
+        box_reach.min(part.centre.norm() + part.radius)
+    };
+    let links = solids.iter().zip(&arm).filter(|(solid, _)| !solid.parts.is_empty());
+    links.map(|(s, arm)| arm + s.parts.iter().map(corner).fold(0.0, f64::max)).fold(0.0, f64::max)
+}

@@ -1,0 +1,163 @@
+//! From which module to look at a pair of modules so that the bounds on their motion are tight.
+//!
+//! How far a link strays from uniform motion is bounded by a sum over the joints between it and the
+//! frame it is looked at from; from the far end of a long snake that sum is hopeless. A centroid
+//! splits the tree of modules into halves at most; pairs on different sides of it are looked at from
+//! it, and each side is split again. So every pair has one frame on the path between its two
+//! modules, its sums run over that path alone, and there are only log₂ n frames for each link.
+
+use crate::robot::{Assembly, Kinematics};
+
+const NOWHERE: u32 = u32::MAX;
+
+#[derive(Clone, Debug)]
+pub struct Levels {
+    pub levels: Vec<Level>,
+    /// For each level, the centroid that each module is looked at from.
+    centroids: Vec<Vec<u32>>,
+}
+
+/// All modules that are not yet centroids themselves, each seen from the centroid of its part.
+#[derive(Clone, Debug, Default)]
+pub struct Level {
+    /// The body link of each centroid.
+    pub origins: Vec<usize>,
+    /// From links already reached to their neighbours.
+    pub hops: Vec<Hop>,
+    /// The body link that each link is looked at from.
+    pub origin_of: Vec<u32>,
+}
+
+/// From one link to a neighbour over a step of the kinematics.
+#[derive(Clone, Copy, Debug)]
+pub struct Hop {
+    pub from: u32,
+    pub to: u32,
+    /// Index in [`Kinematics::steps`].
+    pub step: u32,
+    /// Distances of the two links' origins from the joint's axis, m.
+    pub out: f64,
+    pub back: f64,
+}
+
+impl Levels {
+    /// For the modules that `kinematics` reaches.
+    pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Levels {
+        let modules = robot.modules.len();
+        let neighbours = neighbours(robot, kinematics);
+        let mut centroids: Vec<Vec<u32>> = Vec::new();
+        let mut taken = vec![false; modules];
+        let mut parts = vec![kinematics.tree.order[0].0];
+        while !parts.is_empty() {
+            let mut seen_from = vec![NOWHERE; modules];
+            let mut next = Vec::new();
+            for &start in &parts {
+                let part = reach(&neighbours, &taken, start);
+                let centroid = centroid(&part);
+                part.iter().for_each(|(module, _)| seen_from[*module] = centroid as u32);
+                taken[centroid] = true;
+                next.extend(neighbours[centroid].iter().filter(|m| !taken[**m]));
+            }
+            centroids.push(seen_from);
+            parts = next;
+        }
+        let levels = centroids.iter().map(|seen_from| Level::new(kinematics, seen_from)).collect();
+        Levels { levels, centroids }
+    }
+
+    /// The level at which a centroid lies between two modules, or is one of them. A module is looked
+    /// at from itself.
+    pub fn between(&self, a: usize, b: usize) -> usize {
+        let same = |level: &&Vec<u32>| level[a] == level[b] && level[a] != NOWHERE;
+        self.centroids.iter().take_while(same).count() - 1
+    }
+
+    /// The body link that a link is looked at from.
+    pub fn origin(&self, level: usize, link: usize) -> usize {
+        self.levels[level].origin_of[link] as usize
+    }
+}
+
+/// The module in the middle of all that `kinematics` reaches.
+pub fn middle(robot: &Assembly, kinematics: &Kinematics) -> usize {
+    let taken = vec![false; robot.modules.len()];
+    let neighbours = neighbours(robot, kinematics);
+    centroid(&reach(&neighbours, &taken, kinematics.root))
+}
+
+fn neighbours(robot: &Assembly, kinematics: &Kinematics) -> Vec<Vec<usize>> {
+    let mut neighbours = vec![Vec::new(); robot.modules.len()];
+    for &(module, bond) in &kinematics.tree.order {
+        let Some(bond) = bond.map(|b| &robot.bonds[b]) else { continue };
+        let other = if bond.a.module == module { bond.b.module } else { bond.a.module };
+        neighbours[module].push(other);
+        neighbours[other].push(module);
+    }
+    neighbours
+}
+
+impl Level {
+    fn new(kinematics: &Kinematics, seen_from: &[u32]) -> Level {
+        let mut joined = vec![Vec::new(); kinematics.link_count()];
+        for (index, step) in kinematics.steps.iter().enumerate() {
+            joined[step.parent].push((index, step.link));
+            joined[step.link].push((index, step.parent));
+        }
+        let mut level = Level { origin_of: vec![NOWHERE; kinematics.link_count()], ..Level::default() };
+        let mut centroids: Vec<u32> = seen_from.iter().copied().filter(|c| *c != NOWHERE).collect();
+        centroids.sort_unstable();
+        centroids.dedup();
+        for centroid in centroids {
+            let origin = kinematics.link(centroid as usize, 0);
+            level.origins.push(origin);
+            level.origin_of[origin] = origin as u32;
+            let mut frontier = vec![origin];
+            while let Some(from) = frontier.pop() {
+                for &(index, to) in &joined[from] {
+                    let beyond = seen_from[kinematics.module_of(to)] != centroid;
+                    if beyond || level.origin_of[to] != NOWHERE {
+                        continue;
+                    }
+                    level.origin_of[to] = origin as u32;
+                    frontier.push(to);
+                    let step = &kinematics.steps[index];
+                    let (near, far) = (step.shift.norm(), step.offset.norm());
+                    let (out, back) = if step.parent == from { (near, far) } else { (far, near) };
+                    level.hops.push(Hop { from: from as u32, to: to as u32, step: index as u32, out, back });
+                }
+            }
+        }
+        level
+    }
+}
+
+/// The modules connected with `start`, each with the index of its predecessor in the list.
+fn reach(neighbours: &[Vec<usize>], taken: &[bool], start: usize) -> Vec<(usize, usize)> {
+    let mut part = vec![(start, 0)];
+    let mut next = 0;
+    while next < part.len() {
+        let (module, before) = part[next];
+        let back = part[before].0;
+        for &other in &neighbours[module] {
+            if !taken[other] && other != back {
+                part.push((other, next));
+            }
+        }
+        next += 1;
+    }
+    part
+}
+
+/// The module whose removal leaves the smallest greatest piece; the first in the list of equals.
+fn centroid(part: &[(usize, usize)]) -> usize {
+    let mut below = vec![1usize; part.len()];
+    let mut greatest = vec![0usize; part.len()];
+    for index in (1..part.len()).rev() {
+        let before = part[index].1;
+        below[before] += below[index];
+        greatest[before] = greatest[before].max(below[index]);
+    }
+    let remains = |index: usize| greatest[index].max(part.len() - below[index]);
+    let best = (0..part.len()).min_by_key(|index| remains(*index)).expect("a part has a module");
+    part[best].0
+}

@@ -1,0 +1,325 @@
+//! The search for collisions and for the clearance by halving stretches of time.
+
+use super::bodies::{Bodies, Rule};
+use super::collision::{Collision, Excuse, Findings, Precision};
+use super::frame::Frame;
+use super::levels::{self, Levels};
+use super::pairs::{self, BodyPair, ModulePair, View};
+use super::swing::Swings;
+use crate::geometry::Vec3;
+use crate::plan::{Exemption, Status, Tracks, Worst};
+use crate::robot::{Assembly, Kinematics};
+use std::collections::{BTreeMap, BTreeSet};
+
+pub struct Search<'a> {
+    robot: &'a Assembly,
+    bodies: Bodies,
+    swings: Swings,
+    /// Where segments begin and end: stretches are cut there rather than anywhere.
+    instants: Vec<f64>,
+    precision: Precision,
+    samples_max: usize,
+    samples: usize,
+    clearance: Option<Nearest>,
+    /// By pair of modules, and whether excused.
+    collisions: BTreeMap<(usize, usize, bool), Collision>,
+    used: BTreeSet<usize>,
+    frame: Frame,
+}
+
+struct Nearest {
+    distance: f64,
+    time: f64,
+    modules: (usize, usize),
+}
+
+/// A part of the robot that hangs together, over a window of time.
+struct Region<'a> {
+    kinematics: Kinematics,
+    levels: Levels,
+    /// The pairs of links that carry mated ports.
+    mated: BTreeSet<(usize, usize)>,
+    excused: &'a [Excuse],
+}
+
+/// What is left to be told apart.
+#[derive(Clone, Default)]
+struct Open {
+    modules: Vec<ModulePair>,
+    bodies: Vec<BodyPair>,
+}
+
+impl<'a> Search<'a> {
+    pub fn new(tracks: &'a Tracks, bodies: Bodies, precision: Precision, samples_max: usize) -> Search<'a> {
+        Search {
+            robot: &tracks.robot,
+            bodies,
+            swings: Swings::new(tracks),
+            instants: tracks.instants(),
+            precision,
+            samples_max,
+            samples: 0,
+            clearance: None,
+            collisions: BTreeMap::new(),
+            used: BTreeSet::new(),
+            frame: Frame::default(),
+        }
+    }
+
+    /// A window in which bonds stay as they are. Parts that do not hang together are judged each by
+    /// itself: how they lie to one another is unknown.
+    pub fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
+        let mut seen = vec![false; self.robot.modules.len()];
+        while let Some(first) = seen.iter().position(|seen| !seen) {
+            let part = Kinematics::new(self.robot, bonds, first);
+            part.tree.order.iter().for_each(|(module, _)| seen[*module] = true);
+            // From the middle of the part, paths are short and numbers small.
+            let kinematics = Kinematics::new(self.robot, bonds, levels::middle(self.robot, &part));
+            let levels = Levels::new(self.robot, &kinematics);
+            let mated = mated(self.robot, bonds, &kinematics);
+            let region = Region { kinematics, levels, mated, excused };
+            let open = self.all_pairs(&region);
+            self.guess_clearance(&region, window.0, &open);
+            self.examine(&region, window.0, window.1, open);
+        }
+    }
+
+    pub fn findings(self, exemptions: &[Exemption]) -> Findings {
+        let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
+        collisions.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.modules.cmp(&b.modules)));
+        let status = if self.samples >= self.samples_max {
+            Status::Sampled(self.samples)
+        } else if collisions.iter().any(|c| !c.exempt) {
+            Status::Failed
+        } else if collisions.is_empty() {
+            Status::Proved
+        } else {
+            Status::Exempt
+        };
+        let name = |module: usize| self.robot.modules[module].name.clone();
+        let clearance = self.clearance.map(|nearest| {
+            let (a, b) = nearest.modules;
+            let at = if a == b { vec![name(a)] } else { vec![name(a), name(b)] };
+            Worst { value: nearest.distance, time: nearest.time, at }
+        });
+        let used = self.used.into_iter().filter(|index| *index < exemptions.len()).collect();
+        Findings { status, collisions, clearance, samples: self.samples, used }
+    }
+
+    fn all_pairs(&self, region: &Region) -> Open {
+        let modules: Vec<usize> = region.kinematics.tree.order.iter().map(|(module, _)| *module).collect();
+        let mut open = Open::default();
+        for (i, &a) in modules.iter().enumerate() {
+            self.expand(region, a, a, &mut open.bodies);
+            for &b in &modules[..i] {
+                let level = region.levels.between(a, b) as u32;
+                open.modules.push(ModulePair { a: a.min(b) as u32, b: a.max(b) as u32, level });
+            }
+        }
+        open
+    }
+
+    /// The pairs of bodies of two modules, or of one, that may not meet.
+    fn expand(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
+        let level = region.levels.between(m, n) as u32;
+        let touch = self.bodies.touch(m, n);
+        let first = region.kinematics.link(m, 0);
+        for a in self.bodies.of(m) {
+            for b in self.bodies.of(n) {
+                let (x, y) = (self.bodies.bodies[a].link, self.bodies.bodies[b].link);
+                if (m == n && x >= y) || region.mated.contains(&(x, y)) {
+                    continue;
+                }
+                let rule = if m == n { self.bodies.rule(m, x - first, y - first) } else { Rule::Apart };
+                let (counts, allowed) = match rule {
+                    Rule::Apart => (true, touch),
+                    Rule::Joined(overlap) => (false, touch + overlap),
+                    Rule::Touching => continue,
+                };
+                let (a, b) = (a as u32, b as u32);
+                out.push(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() });
+            }
+        }
+    }
+
+    /// Measures within modules and between neighbours at one instant, so that the search begins with
+    /// a clearance that few pairs can beat.
+    fn guess_clearance(&mut self, region: &Region, time: f64, open: &Open) {
+        self.frame.set(&region.kinematics, &self.swings, time, time);
+        let mut near = open.bodies.clone();
+        for &(module, bond) in &region.kinematics.tree.order {
+            let Some(bond) = bond.map(|b| &self.robot.bonds[b]) else { continue };
+            let (a, b) = (bond.a.module, bond.b.module);
+            debug_assert!(module == a || module == b);
+            self.expand(region, a.min(b), a.max(b), &mut near);
+        }
+        for pair in near.iter_mut().filter(|pair| pair.counts) {
+            let enough = self.clearance.as_ref().map_or(f64::MAX, |c| c.distance);
+            self.measure(pair, enough, time);
+        }
+    }
+
+    /// Tells apart what can be over `from..to`, and goes on with the rest in two parts.
+    fn examine(&mut self, region: &Region, from: f64, to: f64, open: Open) {
+        if self.samples >= self.samples_max {
+            return;
+        }
+        self.samples += 1;
+        let Open { mut modules, mut bodies } = open;
+        self.look(region, from, to, &modules, &bodies);
+        modules.retain(|pair| self.keeps(region, pair, &mut bodies));
+        bodies.retain_mut(|pair| !self.tells_apart(region, pair, to - from));
+        let done = modules.is_empty() && bodies.is_empty();
+        if done || to - from <= self.precision.tol_time {
+            return;
+        }
+        let cut = self.cut(from, to);
+        let rest = Open { modules, bodies };
+        self.examine(region, from, cut, rest.clone());
+        self.examine(region, cut, to, rest);
+    }
+
+    /// Brings the frame to the middle of a stretch, with the levels at which pairs are open.
+    fn look(&mut self, region: &Region, from: f64, to: f64, modules: &[ModulePair], bodies: &[BodyPair]) {
+        self.frame.set(&region.kinematics, &self.swings, from, to);
+        let mut used = vec![false; region.levels.levels.len()];
+        modules.iter().for_each(|pair| used[pair.level as usize] = true);
+        bodies.iter().for_each(|pair| used[pair.level as usize] = true);
+        for level in (0..used.len()).filter(|level| used[*level]) {
+            self.frame.strays(&region.kinematics, &region.levels, level);
+        }
+    }
+
+    /// Where to cut a stretch: at an event in its middle half, or in the middle.
+    fn cut(&self, from: f64, to: f64) -> f64 {
+        let (middle, quarter) = ((from + to) / 2.0, (to - from) / 4.0);
+        let after = self.instants.partition_point(|t| *t < middle);
+        let around = self.instants[after.saturating_sub(1)..].iter().take(2).copied();
+        let near = around.filter(|t| (t - middle).abs() < quarter);
+        near.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs())).unwrap_or(middle)
+    }
+
+    /// Whether a pair of modules stays open as such. Where their balls are so near in the middle that
+    /// halving would not help soon, its bodies are added to `bodies` instead.
+    fn keeps(&self, region: &Region, pair: &ModulePair, bodies: &mut Vec<BodyPair>) -> bool {
+        let (a, b) = (pair.a as usize, pair.b as usize);
+        let bound = pairs::modules(&self.view(region), &self.bodies, pair);
+        let need = self.need(region, a, b, true, self.bodies.touch(a, b));
+        if bound.least >= need {
+            return false;
+        }
+        let hopeful = bound.middle >= need + (bound.middle - bound.least) / 4.0;
+        if !hopeful {
+            self.expand(region, a, b, bodies);
+        }
+        hopeful
+    }
+
+    /// Whether two bodies are as far apart as needed over the whole stretch of this length.
+    fn tells_apart(&mut self, region: &Region, pair: &mut BodyPair, length: f64) -> bool {
+        let (a, b) = (pair.a as usize, pair.b as usize);
+        let need = self.need_of(region, pair);
+        let mut bound =
+            pairs::balls(&self.view(region), &self.bodies.bodies[a], &self.bodies.bodies[b], pair.level);
+        if bound.least >= need {
+            return true;
+        }
+        if pair.normal != Vec3::zeros() {
+            bound = self.slab(region, pair);
+            // If it fails by motion alone, another direction would not help before the stretch is
+            // a quarter.
+            if bound.least >= need || bound.middle >= need + (bound.middle - bound.least) / 4.0 {
+                return bound.least >= need;
+            }
+        }
+        let time = self.frame.stretch.middle;
+        let distance = self.measure(pair, need + 2.0 * (bound.middle - bound.least), time);
+        if distance < -pair.allowed {
+            self.collide(region, pair, distance, length <= self.precision.tol_time);
+        }
+        self.slab(region, pair).least >= self.need_of(region, pair)
+    }
+
+    fn view<'v>(&'v self, region: &'v Region) -> View<'v> {
+        View { frame: &self.frame, levels: &region.levels, kinematics: &region.kinematics }
+    }
+
+    fn slab(&self, region: &Region, pair: &BodyPair) -> pairs::Bound {
+        let (a, b) = (pair.a as usize, pair.b as usize);
+        pairs::slab(&self.view(region), &self.bodies.bodies[a], &self.bodies.bodies[b], pair)
+    }
+
+    fn need_of(&self, region: &Region, pair: &BodyPair) -> f64 {
+        let module = |body: u32| self.bodies.bodies[body as usize].module;
+        self.need(region, module(pair.a), module(pair.b), pair.counts, pair.allowed)
+    }
+
+    /// The distance that two bodies of these modules must be proved to have: none deeper than
+    /// allowed, none nearer than the clearance if that is more. Once they are known to collide only
+    /// the greatest depth is looked for.
+    fn need(&self, region: &Region, a: usize, b: usize, counts: bool, allowed: f64) -> f64 {
+        if !self.collisions.is_empty()
+            && let Some(known) = self.collisions.get(&(a, b, self.excuse(region, a, b).is_some()))
+        {
+            return -known.depth - self.precision.tol_clearance;
+        }
+        let free = -allowed - self.precision.tol_depth;
+        let clearance = self.clearance.as_ref().map_or(f64::MAX, |c| c.distance);
+        if counts { free.max(clearance - self.precision.tol_clearance) } else { free }
+    }
+
+    fn excuse<'r>(&self, region: &Region<'r>, a: usize, b: usize) -> Option<&'r Excuse> {
+        region.excused.iter().find(|excuse| excuse.covers(a, b))
+    }
+
+    /// Measures in the middle and keeps the least.
+    fn measure(&mut self, pair: &mut BodyPair, enough: f64, time: f64) -> f64 {
+        let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
+        let distance = pairs::measure(&self.frame, a, b, pair, enough);
+        if pair.counts && self.clearance.as_ref().is_none_or(|c| distance < c.distance) {
+            self.clearance = Some(Nearest { distance, time, modules: (a.module, b.module) });
+        }
+        distance
+    }
+
+    /// A penetration in the middle. It is the first of its pair of modules if the stretch is short
+    /// enough to be an instant: all before has been told apart.
+    fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: bool) {
+        let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
+        let excuse = self.excuse(region, a.module, b.module);
+        let key = (a.module, b.module, excuse.is_some());
+        let (depth, time) = (-distance, self.frame.stretch.middle);
+        if let Some(known) = self.collisions.get_mut(&key) {
+            if depth > known.depth {
+                (known.depth, known.deepest) = (depth, time);
+            }
+        } else if instant {
+            self.used.extend(excuse.map(|excuse| excuse.index));
+            let link = |link: usize, module: usize| link - region.kinematics.link(module, 0);
+            let collision = Collision {
+                modules: (a.module, b.module),
+                links: (link(a.link, a.module), link(b.link, b.module)),
+                time,
+                depth,
+                deepest: time,
+                allowed: pair.allowed,
+                exempt: excuse.is_some(),
+            };
+            self.collisions.insert(key, collision);
+        }
+    }
+}
+
+/// Links that carry mated ports of bonds that hold, both ways round.
+fn mated(robot: &Assembly, bonds: &[bool], kinematics: &Kinematics) -> BTreeSet<(usize, usize)> {
+    let holding = robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds);
+    holding
+        .flat_map(|(bond, _)| {
+            let link = |at: crate::robot::PortRef| {
+                kinematics.link(at.module, robot.module_type(at.module).ports[at.port].link)
+            };
+            let (a, b) = (link(bond.a), link(bond.b));
+            [(a, b), (b, a)]
+        })
+        .collect()
+}
