@@ -29,4 +29,5 @@ mod syntax;
 mod syntax_random;
 mod tidy;
 mod tree;
+mod urdf;
 mod verify;

@@ -110,6 +110,27 @@ fn spanning(size: f64) -> Vec<Vec3> {
     vec![Vec3::zeros(), Vec3::x() * size, Vec3::y() * size, Vec3::z() * size]
 }
 
+/// A direction that tells two parts apart must be had even where faces are parallel and rims in one
+/// plane, as in robots they mostly are.
+#[test]
+fn the_parts_of_a_robot_at_rest_are_told_apart() {
+    let robot = crate::robots::car();
+    let kinematics = modl::robot::Kinematics::new(&robot, &[true; 6], 0);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(&[0.0; 28], &Pose::identity(), &mut poses);
+    let solids: Vec<Solid> = (0..35)
+        .map(|l| Solid::new(&robot.module_type(0).links[l % 5].collides).expect("a sound shape"))
+        .collect();
+    for (i, j) in (0..35).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        let X_AB = poses[i].inverse() * poses[j];
+        for (a, b) in solids[i].parts.iter().flat_map(|a| solids[j].parts.iter().map(move |b| (a, b))) {
+            let found = between_parts(a, b, &X_AB);
+            let gap = modl::geometry::distance::gap_along(a, b, &X_AB, &found.normal);
+            assert!((found.distance - gap).abs() < 1e-7, "links {i} and {j}: {found:?}, gap {gap}");
+        }
+    }
+}
+
 fn any_part() -> impl Strategy<Value = Solid> {
     let size = 0.02..0.1f64;
     let axis =
