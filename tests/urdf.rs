@@ -143,7 +143,8 @@ json.dump(out, sys.stdout)
 fn an_independent_library_has_the_same_link_poses() {
     let Some(python) = python() else {
         let why = "no Python with pinocchio (.ci/run installs it)";
-        writeln!(std::io::stderr(), "skipped: link poses against another library: {why}").expect("stderr is open");
+        writeln!(std::io::stderr(), "skipped: link poses against another library: {why}")
+            .expect("stderr is open");
         return;
     };
     let mut seed = 7u64;

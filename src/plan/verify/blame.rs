@@ -13,7 +13,7 @@ use crate::plan::{CauseId, CheckKind, Failure, Tracks};
 use crate::robot::{JointId, JointOwner};
 
 /// Actions that are named, and that are tried.
-const BLAMED_MAX: usize = 3;
+pub const BLAMED_MAX: usize = 3;
 const TRIED_MAX: usize = 24;
 
 /// Failures for which the blame is sought; the rest name whoever moves.
@@ -23,10 +23,10 @@ const FAILURES_MAX: usize = 12;
 const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame.
-struct Suspect {
-    joint: usize,
-    start: f64,
-    cause: CauseId,
+pub struct Suspect {
+    pub joint: usize,
+    pub start: f64,
+    pub cause: CauseId,
     /// Whether it moves at the time of the failure.
     moving: bool,
 }
@@ -40,7 +40,7 @@ pub fn blame(course: &Course, waypoints: &[Waypoint], failures: &mut [Failure]) 
             continue;
         }
         sought += 1;
-        if sought <= FAILURES_MAX && failure.kind != CheckKind::JointRange {
+        if sought <= FAILURES_MAX && ![CheckKind::JointRange, CheckKind::Collision].contains(&failure.kind) {
             for suspect in suspects.iter().take(TRIED_MAX) {
                 let named = failure.blame.contains(&suspect.cause);
                 if !named && removes(course, waypoints, suspect, failure) {
@@ -64,7 +64,7 @@ pub fn blame(course: &Course, waypoints: &[Waypoint], failures: &mut [Failure]) 
 }
 
 /// Actions begun before a time, latest first.
-fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
+pub fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
     let mut found = Vec::new();
     for track in &tracks.tracks {
         let begun = track.segments.partition_point(|s| s.start < t);

@@ -2,7 +2,7 @@
 
 use super::ledger::Ledger;
 use super::walk::{Course, Ended, Waypoint, walk};
-use super::{Tolerances, blame, docking, limits, stability, torque, travel};
+use super::{Tolerances, blame, docking, limits, meeting, stability, torque, travel};
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 
@@ -20,6 +20,7 @@ pub fn tracks(plan: &Plan, tracks: &Tracks) -> Verdict {
     };
     docking::judge(&course, &mut ledger);
     let waypoints = on_the_way(&course, &mut ledger);
+    meeting::judge(&course, &mut ledger);
     blame::blame(&course, &waypoints, ledger.failures_mut());
     ledger.check(CheckKind::Form, Status::Proved);
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.

@@ -43,6 +43,7 @@ mod area;
 mod blame;
 mod docking;
 mod judge;
+mod meeting;
 
 pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};
