@@ -2,7 +2,7 @@
 
 use crate::geometry::distance::between_parts;
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
-use crate::robot::{Assembly, JointKind, Kinematics, ModuleType};
+use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 use std::collections::BTreeMap;
 
 /// A part this near to being round about a joint's axis is carried by the link before, m.
@@ -152,12 +152,9 @@ impl Kind {
 
 /// The link that a part moves with, and the part in its frame.
 fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) {
-    for joint in kind.joints.iter().filter(|j| j.kind == JointKind::Revolute) {
-        let other = match (joint.parent == link, joint.child == link) {
-            (true, _) => joint.child,
-            (_, true) => joint.parent,
-            _ => continue,
-        };
+    let borne = |joint: &&Joint| joint.kind == JointKind::Revolute && joint.child == link;
+    for joint in kind.joints.iter().filter(borne) {
+        let other = joint.parent;
         let X_LJ = kind.links[link].pose.inverse() * joint.pose;
         let axis = X_LJ.rotation * joint.axis;
         if part.is_round_about(&X_LJ.translation.vector, &axis, TOL_ROUND) {
