@@ -2,12 +2,12 @@
 use std.gaits
 use std.smores.Chain3
 
-config Worm(n: Int = 3) {
+config Worm(n: Int = 2) {
   part seg[n]: Chain3
   for i in 0..n - 1 { connect seg[i].tail -- seg[i + 1].head }
 
-  behavior crawl(cycles: Int = 2) allows unstable =
-    gaits.wave([m.tilt for s in seg for m in s.m], amplitude: 20deg, waves: 1.5, cycles: cycles)
+  behavior crawl(cycles: Int = 2) =
+    gaits.wave([m.tilt for s in seg for m in s.m], amplitude: 15deg, waves: 2, cycles: cycles)
 }
 
 let w = Worm()

@@ -22,6 +22,7 @@ mod pages;
 mod plan_file;
 mod plan_operations;
 mod programs;
+mod reference;
 mod render;
 mod robots;
 mod suite;
