@@ -26,14 +26,10 @@ const WAITING: &[Code] = &[
     code::ARGUMENTS,
     code::OTHER_ROBOT,
     code::COLLISION,
-    code::FALL,
-    code::OVERLOAD,
-    code::LIMIT_EXCEEDED,
     code::BOND_OVERLOAD,
     code::DOCK_MISS,
     code::FALLS_APART,
     code::CLOSURE,
-    code::UNNEEDED_EXEMPTION,
     code::START_SETTLES,
 ];
 
