@@ -4,6 +4,7 @@ use super::ast::*;
 use super::parse::{Node, Rule};
 use crate::source::{Code, Diagnostic, FileId, Span, Symbol};
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// Builds the tree of one file, piece by piece.
 pub(super) struct Builder<'t> {
@@ -25,7 +26,7 @@ pub(super) struct Builder<'t> {
     pub(super) type_depth: usize,
     /// The base of the piece in which deep nesting was told last.
     pub(super) deep_told: Option<usize>,
-    symbols: HashMap<&'t str, Symbol>,
+    symbols: HashMap<&'t str, Symbol, BuildHasherDefault<NameHasher>>,
 }
 
 impl<'t> Builder<'t> {
@@ -42,7 +43,7 @@ impl<'t> Builder<'t> {
             depth: 0,
             type_depth: 0,
             deep_told: None,
-            symbols: HashMap::new(),
+            symbols: HashMap::default(),
         }
     }
 
@@ -117,6 +118,27 @@ impl<'t> Builder<'t> {
             .map(|comment| doc_line(&self.text[comment.span.range()]))
             .collect();
         (!lines.is_empty()).then(|| lines.join("\n"))
+    }
+}
+
+/// FNV-1a: names are short, and nobody gains by making those of his own file collide.
+struct NameHasher(u64);
+
+impl Default for NameHasher {
+    fn default() -> NameHasher {
+        NameHasher(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Hasher for NameHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
     }
 }
 

@@ -101,7 +101,7 @@ impl Builder<'_> {
     fn infixes(&mut self, mut left: Tall, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         let mut previous = None;
         while let Some(node) = nodes.peek() {
-            if !matches!(node.as_rule(), Rule::op | Rule::sum_op | Rule::linear_op) {
+            if !matches!(node.as_rule(), Rule::op | Rule::word_op | Rule::sum_op | Rule::linear_op) {
                 break;
             }
             let (op, strength) = infix(node.as_str());

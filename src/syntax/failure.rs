@@ -94,6 +94,10 @@ pub(super) fn explain(
         in_text = true;
     }
     found = found.min(tokens.len());
+    // A sign that could have begun an operator was looked at, and nothing was tried behind it.
+    if failure.wanted.is_empty() && found > 0 && tokens[found - 1].end == failure.at {
+        found -= 1;
+    }
     // Behind a reserved word the grammar only asks whether the word goes on: the word is the mistake.
     if let Some(before) = found.checked_sub(1).map(|before| tokens[before])
         && before.end == failure.at
@@ -322,7 +326,7 @@ impl Mistake<'_> {
 
     /// Whether the place follows a whole operand.
     fn wants_operator(&self) -> bool {
-        self.wants("*") && self.wants("..")
+        self.wants("*") && self.wants("^") || self.failure.wanted.is_empty()
     }
 
     /// `{ a: 1 }`, or `{` where an expression is wanted.

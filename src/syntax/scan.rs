@@ -1,8 +1,8 @@
 //! The first walk over a text: comments, brackets, characters, and where items begin.
 //!
 //! What is found wrong here is told here, and the places are noted, so that the parser keeps silent
-//! about what follows from it. The parser gets a text of the same length in which characters that
-//! have no place in a program are replaced by what was probably meant.
+//! about what follows from it. The parser gets a text of the same length in which comments are blanks
+//! and characters that have no place in a program are replaced by what was probably meant.
 
 use super::ast::{Comment, CommentKind};
 use super::characters;
@@ -181,6 +181,7 @@ impl<'t> Scanner<'t> {
         let end = token.start + text.trim_end_matches('\r').len();
         self.scan.comments.push(Comment { span: self.span(token.start, end), kind });
         self.hidden_characters(token);
+        self.replace(token.start, token.end, ' ');
     }
 
     fn block_comment(&mut self, token: Token, depth: usize) {
@@ -190,9 +191,8 @@ impl<'t> Scanner<'t> {
         if depth > NESTING_MAX {
             let opener = self.span(token.start, token.start + 2);
             self.report(explain::too_deep(opener, "this comment"));
-            // The comment says nothing to the grammar, so nothing is lost with it.
-            self.replace(token.start, token.end, ' ');
         }
+        self.replace(token.start, token.end, ' ');
     }
 
     fn text(&mut self, token: Token, depth: usize) {
