@@ -302,9 +302,7 @@ fn links_between_pages_lead_somewhere() {
         let folder = Path::new(file).parent().expect("a file has a folder");
         for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
             let target = target.split('#').next().unwrap_or("");
-            // The reference is made from the declarations in `stdlib/`.
-            let made = target.starts_with("reference/");
-            let outside = made || target.is_empty() || target.contains("://") || target.contains(' ');
+            let outside = target.is_empty() || target.contains("://") || target.contains(' ');
             if !outside && !root().join(folder).join(target).exists() {
                 faults.push(format!("{file}: {target}"));
             }
