@@ -317,10 +317,16 @@ pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: 
     watch.failures.iter().any(|f| f.name == name)
 }
 
+/// Programmes that are solved for the sake of an exact margin; after these only where it is open
+/// whether forces exist at all.
+const PROGRAMMES_FOR_MARGIN: usize = 50;
+
 /// The best forces: those of the sample before, brought to balance here, do if nothing is worse than
 /// what was seen already; otherwise by a programme.
 fn best(question: &Question, recipe: &mut Recipe, seen: f64, programmes: &mut usize) -> Option<Best> {
-    if let Some(again) = question.again(recipe).filter(|again| again.ratio <= seen.min(1.0)) {
+    // With many programmes solved, forces that will do are enough, and the margin is that of these.
+    let enough = if *programmes < PROGRAMMES_FOR_MARGIN { seen.min(1.0) } else { 1.0 };
+    if let Some(again) = question.again(recipe).filter(|again| again.ratio <= enough) {
         return Some(again);
     }
     *programmes += 1;
