@@ -429,16 +429,17 @@ config Walkbot17 {
   /// Stretches a leg.
   behavior plant(i: Int) = Pc(move(leg[i].m[1].tilt, to: 0deg), move(leg[i].m[2].tilt, to: 0deg))
 
-  /// Legs `a` and `b`, a diagonal, step forward by `swing`; then all push.
+  /// Leg `i` steps forward by `swing`.
   ///
   /// A bent leg is carried farther than it is to stand: nearer by, stretching would press it into the ground.
-  behavior stride(a: Int = 0, b: Int = 3, swing: Angle = 20deg) = Sc(
-    Pc(lift(a), lift(b)),
-    Pc([move(h, to: -swing - 30deg) for h in [hip[a], hip[b]]]),
-    Pc(plant(a), plant(b)),
-    Pc([move(h, to: -swing) for h in [hip[a], hip[b]]]),
-    Pc([move(h, by: swing) for h in hip]),
-  )
+  behavior step(i: Int, swing: Angle = 20deg) =
+    Sc(lift(i), move(hip[i], to: -swing - 25deg), plant(i), move(hip[i], to: -swing))
+
+  /// Legs `a` and `b`, a diagonal, step one after the other; then all push.
+  ///
+  /// On two legs alone the spine's torsion would rest on the friction of the feet.
+  behavior stride(a: Int = 0, b: Int = 3, swing: Angle = 20deg) =
+    Sc(step(a, swing), step(b, swing), Pc([move(h, by: swing) for h in hip]))
 
   /// Walks forward in steps of the one and the other diagonal.
   behavior walk(steps: Int = 2, swing: Angle = 20deg) = repeat(Sc(stride(0, 3, swing), stride(1, 2, swing)), steps)

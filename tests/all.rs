@@ -2,6 +2,7 @@
 
 mod acceptance;
 mod behavior;
+mod behaviors_of_designs;
 mod check;
 mod cli;
 mod collision;
