@@ -4,8 +4,11 @@
 //! `cargo bench --bench kinematics`. The other libraries are used if `MODL_PYTHON` or
 //! `target/python/bin/python` has them (`.ci/run` makes that environment).
 
+#![allow(non_snake_case)]
+
 #[path = "../tests/robots.rs"]
 mod robots;
+#[allow(dead_code, unused_imports)]
 #[path = "../tests/urdf.rs"]
 mod urdf;
 
@@ -20,7 +23,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 /// Runs of which the fastest counts: the machine is shared.
-const RUNS: usize = 15;
+const RUNS: usize = 9;
 
 fn main() {
     place();

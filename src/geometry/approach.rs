@@ -24,8 +24,8 @@ pub fn approach(a: &Part, b: &Part, X_AB: &Pose, towards: &Vec3, enough: f64) ->
     // The point of the difference (b minus a) that is lowest along v.
     let lowest =
         |v: &Vec3| X_AB.transform_point(&b.core_support(&(R_BA * -v)).into()).coords - a.core_support(v);
-    let mut simplex = vec![lowest(towards)];
-    let mut nearest = simplex[0];
+    let mut simplex = Simplex { corners: [lowest(towards); 4], count: 1 };
+    let mut nearest = simplex.corners[0];
     let mut gap = Nearness { distance: f64::NEG_INFINITY, normal: Vec3::x() };
     for _ in 0..ROUNDS_MAX {
         let distance = nearest.norm();
@@ -39,10 +39,11 @@ pub fn approach(a: &Part, b: &Part, X_AB: &Pose, towards: &Vec3, enough: f64) ->
             gap = Nearness { distance: along, normal };
         }
         let close = distance - gap.distance <= TOL_BRACKET.0 * distance + TOL_BRACKET.1;
-        if close || gap.distance >= enough || simplex.contains(&point) {
+        if close || gap.distance >= enough || simplex.known().contains(&point) {
             break;
         }
-        simplex.push(point);
+        simplex.corners[simplex.count] = point;
+        simplex.count += 1;
         match reduce(&mut simplex, gap.distance > TOL_ORIGIN) {
             Some(next) if next.norm() < distance => nearest = next,
             Some(_) => break,
@@ -56,34 +57,52 @@ pub fn approach(a: &Part, b: &Part, X_AB: &Pose, towards: &Vec3, enough: f64) ->
     Some(Nearness { distance, normal: gap.normal })
 }
 
+/// Up to four points of the difference.
+struct Simplex {
+    corners: [Vec3; 4],
+    count: usize,
+}
+
+impl Simplex {
+    fn known(&self) -> &[Vec3] {
+        &self.corners[..self.count]
+    }
+
+    fn keep(&mut self, carriers: &[usize]) {
+        let corners = self.corners;
+        carriers.iter().enumerate().for_each(|(to, from)| self.corners[to] = corners[*from]);
+        self.count = carriers.len();
+    }
+}
+
 /// The point of a simplex nearest to the origin; leaves in the simplex only the corners that carry
 /// it. `None` where the origin is inside, which can't be where the bodies are known to be `apart`.
-fn reduce(simplex: &mut Vec<Vec3>, apart: bool) -> Option<Vec3> {
-    let corners = simplex.clone();
-    let count = corners.len();
+fn reduce(simplex: &mut Simplex, apart: bool) -> Option<Vec3> {
+    let corners = simplex.corners;
+    let count = simplex.count;
     if count == 4 && !apart && holds_origin(&corners) {
         return None;
     }
-    let mut best = (f64::INFINITY, Vec3::zeros(), vec![]);
-    let mut offer = |point: Vec3, carriers: &[usize]| {
+    let mut best = (f64::INFINITY, Vec3::zeros(), [0; 3], 0);
+    let mut offer = |point: Vec3, carriers: [usize; 3], carrying: usize| {
         if point.norm_squared() < best.0 {
-            best = (point.norm_squared(), point, carriers.to_vec());
+            best = (point.norm_squared(), point, carriers, carrying);
         }
     };
     for i in 0..count {
-        offer(corners[i], &[i]);
+        offer(corners[i], [i, 0, 0], 1);
         for j in 0..i {
             if let Some(point) = on_edge(&corners[i], &corners[j]) {
-                offer(point, &[i, j]);
+                offer(point, [i, j, 0], 2);
             }
             for k in 0..j {
                 if let Some(point) = on_face(&corners[i], &corners[j], &corners[k]) {
-                    offer(point, &[i, j, k]);
+                    offer(point, [i, j, k], 3);
                 }
             }
         }
     }
-    *simplex = best.2.iter().map(|i| corners[*i]).collect();
+    simplex.keep(&best.2[..best.3]);
     Some(best.1)
 }
 

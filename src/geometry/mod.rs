@@ -1,6 +1,7 @@
 //! Poses, shapes and distances. The only user of parry; knows no robots.
 #![allow(non_snake_case)]
 
+pub mod angle;
 pub mod json;
 pub mod pose;
 pub mod shape;

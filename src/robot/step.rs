@@ -4,6 +4,7 @@
 //! axis passes the child's frame at `-offset`, which is zero for most modules and then costs nothing.
 
 use super::{JointKind, ModuleType};
+use crate::geometry::angle::sin_cos;
 use crate::geometry::{Pose, Vec3};
 use nalgebra::{Quaternion, UnitQuaternion};
 
@@ -113,7 +114,11 @@ impl Step {
     }
 
     /// The joint's position: radians or metres.
+    #[inline]
     pub fn position(&self, joints: &[f64]) -> f64 {
+        if let [(joint, factor)] = self.terms[..] {
+            return factor * joints[joint];
+        }
         self.terms.iter().map(|&(joint, factor)| factor * joints[joint]).sum()
     }
 
@@ -127,7 +132,10 @@ impl Step {
             Motion::Along(direction) => shift += direction * self.position(joints),
             _ => rotation = self.rotated(rotation, self.position(joints)),
         }
-        let mut p = X_WA.translation.vector + X_WA.rotation * shift;
+        let mut p = X_WA.translation.vector;
+        if shift != Vec3::zeros() {
+            p += X_WA.rotation * shift;
+        }
         if self.offset_from_axis {
             p += rotation * self.offset;
         }
@@ -137,7 +145,7 @@ impl Step {
     /// `R · Rot(axis, angle)`; an axis of the frame costs half the products.
     #[inline]
     fn rotated(&self, R: UnitQuaternion<f64>, angle: f64) -> UnitQuaternion<f64> {
-        let (s, c) = libm::sincos(0.5 * angle);
+        let (s, c) = sin_cos(0.5 * angle);
         let (w, x, y, z) = (R.w, R.i, R.j, R.k);
         let product = match self.motion {
             Motion::X(sign) => {

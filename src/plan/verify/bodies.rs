@@ -3,7 +3,6 @@
 use crate::geometry::distance::between_parts;
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
-use std::collections::BTreeMap;
 
 /// A part this near to being round about a joint's axis is carried by the link before, m.
 const TOL_ROUND: f64 = 1e-9;
@@ -25,9 +24,21 @@ pub struct Bodies {
     first: Vec<usize>,
     /// Of each module, a bound on how far any point of it is from its body link's origin, m.
     pub reach: Vec<f64>,
-    /// Pairs of links of each kind that need not be apart.
-    rules: Vec<Rules>,
+    kinds: Vec<Kind>,
     kind_of: Vec<usize>,
+}
+
+/// Two bodies of one module, by their indices among its bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inner {
+    pub a: usize,
+    pub b: usize,
+    /// Whether they count for the clearance: two links that a joint joins do not.
+    pub counts: bool,
+    /// Deeper than this is a collision, m.
+    pub allowed: f64,
+    /// Their distance, m, if no joint can change it: wheels on an axle, and what turns about it.
+    pub fixed: Option<f64>,
 }
 
 /// One convex part of a link.
@@ -45,23 +56,6 @@ pub struct Body {
     pub reach: f64,
 }
 
-/// What holds between two links of one module.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rule {
-    /// They may come as near as `touch` allows.
-    Apart,
-    /// A joint joins them: they may overlap by this much and `touch`, m.
-    Joined(f64),
-    /// They meet by design.
-    Touching,
-}
-
-#[derive(Clone, Debug)]
-struct Rules {
-    pairs: BTreeMap<(usize, usize), Rule>,
-    touch: f64,
-}
-
 impl Bodies {
     /// Refuses a robot of which a link's shape is no solid.
     pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Result<Bodies, UnsoundLink> {
@@ -70,7 +64,7 @@ impl Bodies {
             bodies: vec![],
             first: vec![0],
             reach: vec![],
-            rules: kinds.iter().map(|k| k.rules.clone()).collect(),
+            kinds: vec![],
             kind_of: robot.modules.iter().map(|m| m.kind).collect(),
         };
         for (module, instance) in robot.modules.iter().enumerate() {
@@ -86,6 +80,7 @@ impl Bodies {
             all.first.push(all.bodies.len());
             all.reach.push(kind.reach);
         }
+        all.kinds = kinds;
         Ok(all)
     }
 
@@ -94,21 +89,23 @@ impl Bodies {
         self.first[module]..self.first[module + 1]
     }
 
-    /// What holds between two links of one module, by their indices there.
-    pub fn rule(&self, module: usize, a: usize, b: usize) -> Rule {
-        let pair = (a.min(b), a.max(b));
-        self.rules[self.kind_of[module]].pairs.get(&pair).copied().unwrap_or(Rule::Apart)
+    /// The pairs of bodies within a module that may not meet, or not deeper than they are drawn.
+    pub fn inner(&self, module: usize) -> &[Inner] {
+        &self.kinds[self.kind_of[module]].inner
     }
 
     /// How deep two modules may be in each other, m: the smaller of what the two allow.
     pub fn touch(&self, a: usize, b: usize) -> f64 {
-        let touch = |module: usize| self.rules[self.kind_of[module]].touch;
+        let touch = |module: usize| self.kinds[self.kind_of[module]].touch;
         f64::min(touch(a), touch(b))
     }
 
     /// Signed distance between two links whose world poses are at hand, m.
     pub fn distance(&self, a: usize, b: usize, poses: &[Pose]) -> f64 {
-        let of = |link: usize| self.bodies.iter().filter(move |body| body.link == link);
+        let of = |link: usize| {
+            let from = self.bodies.partition_point(|body| body.link < link);
+            self.bodies[from..].iter().take_while(move |body| body.link == link)
+        };
         let mut least = f64::INFINITY;
         for x in of(a) {
             for y in of(b) {
@@ -121,10 +118,12 @@ impl Bodies {
 }
 
 /// A module type, compiled.
+#[derive(Clone, Debug)]
 struct Kind {
     /// Link, carrier, part in the carrier's frame.
     bodies: Vec<(usize, usize, Part)>,
-    rules: Rules,
+    inner: Vec<Inner>,
+    touch: f64,
     reach: f64,
 }
 
@@ -140,14 +139,47 @@ impl Kind {
             bodies.extend(solid.parts.iter().map(|part| carried(kind, index, part)));
             solids.push(solid);
         }
-        let mut pairs = BTreeMap::new();
-        for joint in &kind.joints {
-            let (a, b) = (joint.parent.min(joint.child), joint.parent.max(joint.child));
-            pairs.insert((a, b), Rule::Joined(drawn_overlap(kind, &solids, a, b)));
+        let mut inner = vec![];
+        for b in 0..bodies.len() {
+            for a in 0..b {
+                inner.extend(pair(kind, &solids, &bodies, (a, b)));
+            }
         }
-        pairs.extend(kind.touching.iter().map(|&(a, b)| ((a.min(b), a.max(b)), Rule::Touching)));
-        Ok(Kind { reach: reach(kind, &solids), bodies, rules: Rules { pairs, touch: kind.touch } })
+        Ok(Kind { reach: reach(kind, &solids), bodies, inner, touch: kind.touch })
     }
+}
+
+/// What holds between two bodies of a module; nothing where they are of one link, or meet by design.
+fn pair(
+    kind: &ModuleType,
+    solids: &[Solid],
+    bodies: &[(usize, usize, Part)],
+    (a, b): (usize, usize),
+) -> Option<Inner> {
+    let (x, y) = (&bodies[a], &bodies[b]);
+    let links = |p: usize, q: usize| (p, q) == (x.0, y.0) || (q, p) == (x.0, y.0);
+    if x.0 == y.0 || kind.touching.iter().any(|&(p, q)| links(p, q)) {
+        return None;
+    }
+    let joined = kind.joints.iter().any(|j| links(j.parent, j.child));
+    let allowed = kind.touch + if joined { drawn_overlap(kind, solids, x.0, y.0) } else { 0.0 };
+    let fixed = stay(kind, x, y).then(|| {
+        let X_AB = kind.links[x.1].pose.inverse() * kind.links[y.1].pose;
+        between_parts(&x.2, &y.2, &X_AB).distance
+    });
+    Some(Inner { a, b, counts: !joined, allowed, fixed })
+}
+
+/// Whether no joint changes how two bodies lie to one another: they have one carrier, or turn against
+/// each other about an axis about which one of them is round.
+fn stay(kind: &ModuleType, x: &(usize, usize, Part), y: &(usize, usize, Part)) -> bool {
+    let about = |joint: &Joint, body: &(usize, usize, Part)| {
+        let X_LJ = kind.links[body.1].pose.inverse() * joint.pose;
+        body.2.is_round_about(&X_LJ.translation.vector, &(X_LJ.rotation * joint.axis), TOL_ROUND)
+    };
+    let mut revolute = kind.joints.iter().filter(|j| j.kind == JointKind::Revolute);
+    let joins = |j: &Joint| (j.parent, j.child) == (x.1, y.1) || (j.child, j.parent) == (x.1, y.1);
+    x.1 == y.1 || revolute.any(|j| joins(j) && (about(j, x) || about(j, y)))
 }
 
 /// The link that a part moves with, and the part in its frame.

@@ -22,6 +22,8 @@ pub struct Frame {
     poses: Vec<Pose>,
     /// World orientation, position, angular velocity (rad/s) and velocity (m/s) of each link.
     pub links: Vec<Moving>,
+    /// Of each step of the kinematics.
+    joints: Vec<JointStretch>,
     /// Of each level that was asked for: how each link strays.
     strays: Vec<Vec<Stray>>,
     known: Vec<bool>,
@@ -60,6 +62,10 @@ impl Frame {
         for step in &kinematics.steps {
             self.links[step.link] = self.moving(step);
         }
+        let mut joints = std::mem::take(&mut self.joints);
+        joints.clear();
+        joints.extend(kinematics.steps.iter().map(|step| self.joint(step)));
+        self.joints = joints;
         self.known.clear();
     }
 
@@ -101,9 +107,9 @@ impl Frame {
             let origin = &self.links[plan.origin_of[hop.to as usize] as usize];
             let spin = |link: u32| (self.links[link as usize].spin - origin.spin).norm();
             let (before, after) = (spin(hop.from), spin(hop.to));
-            let joint = self.joint(step);
+            let joint = &self.joints[hop.step as usize];
             strays[hop.to as usize] =
-                strays[hop.from as usize].beyond(step, &joint, (hop.out, hop.back), (before, after));
+                strays[hop.from as usize].beyond(step, joint, (hop.out, hop.back), (before, after));
         }
         self.strays[level] = strays;
     }
@@ -128,6 +134,8 @@ impl Frame {
     }
 }
 
+/// The joint of a step over the stretch.
+#[derive(Clone, Copy, Debug, Default)]
 struct JointStretch {
     rate: f64,
     stray: f64,

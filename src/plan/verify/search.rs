@@ -1,6 +1,6 @@
 //! The search for collisions and for the clearance by halving stretches of time.
 
-use super::bodies::{Bodies, Rule};
+use super::bodies::Bodies;
 use super::collision::{Collision, Excuse, Findings, Precision};
 use super::frame::Frame;
 use super::levels::{self, Levels};
@@ -78,6 +78,7 @@ impl<'a> Search<'a> {
             let levels = Levels::new(self.robot, &kinematics);
             let mated = mated(self.robot, bonds, &kinematics);
             let region = Region { kinematics, levels, mated, excused };
+            self.fixed_pairs(&region, window.0);
             let open = self.all_pairs(&region);
             self.guess_clearance(&region, window.0, &open);
             self.examine(&region, window.0, window.1, open);
@@ -110,7 +111,7 @@ impl<'a> Search<'a> {
         let modules: Vec<usize> = region.kinematics.tree.order.iter().map(|(module, _)| *module).collect();
         let mut open = Open::default();
         for (i, &a) in modules.iter().enumerate() {
-            self.expand(region, a, a, &mut open.bodies);
+            self.within(region, a, &mut open.bodies);
             for &b in &modules[..i] {
                 let level = region.levels.between(a, b) as u32;
                 open.modules.push(ModulePair { a: a.min(b) as u32, b: a.max(b) as u32, level });
@@ -119,25 +120,53 @@ impl<'a> Search<'a> {
         open
     }
 
-    /// The pairs of bodies of two modules, or of one, that may not meet.
+    /// Pairs within a module whose distance no joint changes: known once and for all.
+    fn fixed_pairs(&mut self, region: &Region, time: f64) {
+        self.frame.stretch.middle = time;
+        for &(module, _) in &region.kinematics.tree.order {
+            let first = self.bodies.of(module).start;
+            for index in 0..self.bodies.inner(module).len() {
+                let inner = self.bodies.inner(module)[index];
+                let Some(distance) = inner.fixed else { continue };
+                let (a, b) = ((first + inner.a) as u32, (first + inner.b) as u32);
+                let pair = BodyPair {
+                    a,
+                    b,
+                    level: 0,
+                    counts: inner.counts,
+                    allowed: inner.allowed,
+                    normal: Vec3::zeros(),
+                };
+                self.count(&pair, distance, time);
+                if distance < -inner.allowed {
+                    self.collide(region, &pair, distance, true);
+                }
+            }
+        }
+    }
+
+    /// The pairs of bodies within a module that joints move.
+    fn within(&self, region: &Region, module: usize, out: &mut Vec<BodyPair>) {
+        let level = region.levels.between(module, module) as u32;
+        let first = self.bodies.of(module).start;
+        for inner in self.bodies.inner(module).iter().filter(|inner| inner.fixed.is_none()) {
+            let (a, b) = ((first + inner.a) as u32, (first + inner.b) as u32);
+            let (counts, allowed) = (inner.counts, inner.allowed);
+            out.push(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() });
+        }
+    }
+
+    /// The pairs of bodies of two modules; mated ones may meet.
     fn expand(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(m, n) as u32;
-        let touch = self.bodies.touch(m, n);
-        let first = region.kinematics.link(m, 0);
+        let allowed = self.bodies.touch(m, n);
         for a in self.bodies.of(m) {
             for b in self.bodies.of(n) {
-                let (x, y) = (self.bodies.bodies[a].link, self.bodies.bodies[b].link);
-                if (m == n && x >= y) || region.mated.contains(&(x, y)) {
-                    continue;
+                let links = (self.bodies.bodies[a].link, self.bodies.bodies[b].link);
+                if !region.mated.contains(&links) {
+                    let (a, b) = (a as u32, b as u32);
+                    out.push(BodyPair { a, b, level, counts: true, allowed, normal: Vec3::zeros() });
                 }
-                let rule = if m == n { self.bodies.rule(m, x - first, y - first) } else { Rule::Apart };
-                let (counts, allowed) = match rule {
-                    Rule::Apart => (true, touch),
-                    Rule::Joined(overlap) => (false, touch + overlap),
-                    Rule::Touching => continue,
-                };
-                let (a, b) = (a as u32, b as u32);
-                out.push(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() });
             }
         }
     }
@@ -276,10 +305,16 @@ impl<'a> Search<'a> {
     fn measure(&mut self, pair: &mut BodyPair, enough: f64, time: f64) -> f64 {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let distance = pairs::measure(&self.frame, a, b, pair, enough);
-        if pair.counts && self.clearance.as_ref().is_none_or(|c| distance < c.distance) {
-            self.clearance = Some(Nearest { distance, time, modules: (a.module, b.module) });
-        }
+        self.count(pair, distance, time);
         distance
+    }
+
+    /// Keeps the least distance.
+    fn count(&mut self, pair: &BodyPair, distance: f64, time: f64) {
+        if pair.counts && self.clearance.as_ref().is_none_or(|c| distance < c.distance) {
+            let modules = [pair.a, pair.b].map(|body| self.bodies.bodies[body as usize].module);
+            self.clearance = Some(Nearest { distance, time, modules: (modules[0], modules[1]) });
+        }
     }
 
     /// A penetration in the middle. It is the first of its pair of modules if the stretch is short
