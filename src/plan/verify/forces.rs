@@ -91,6 +91,13 @@ impl Question<'_> {
         self.answer(&contacts, &columns, &recipe.sizes, f64::NEG_INFINITY)
     }
 
+    /// Coefficients of the linear programme: what solving it costs.
+    pub fn effort(&self) -> usize {
+        let columns = self.columns(&self.contacts());
+        let rows: usize = self.loads.iter().map(|&i| parts(&self.structure.loads[i]).len()).sum();
+        rows.saturating_mul(columns.len())
+    }
+
     /// The least greatest load by linear programming; `None` where no forces balance the weight, or
     /// the solver did not get there.
     pub fn best(&self) -> Option<Best> {
