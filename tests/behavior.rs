@@ -28,7 +28,7 @@ fn done(program: Arc<Node>) -> Scheduled {
 }
 
 fn refused(program: Arc<Node>) -> Reason {
-    plan(chain(3), program).err().expect("the program can't be scheduled").reason
+    plan(chain(3), program).expect_err("the program can't be scheduled").reason
 }
 
 fn at(s: &Scheduled, joint: u32, t: f64) -> f64 {

@@ -14,7 +14,10 @@ const L: u32 = LEFT as u32;
 const F: u32 = FRONT as u32;
 const T: u32 = TILT as u32;
 
-fn pairs(found: &Conflicts) -> (Vec<(u32, u32)>, Vec<(u32, u32)>) {
+/// Causes in pairs: those in conflict, or those that say the same.
+type Pairs = Vec<(u32, u32)>;
+
+fn pairs(found: &Conflicts) -> (Pairs, Pairs) {
     let of = |list: &[modl::behavior::Conflict]| list.iter().map(|c| (c.first.0, c.second.0)).collect();
     (of(&found.errors), of(&found.warnings))
 }

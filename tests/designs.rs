@@ -15,9 +15,12 @@ use std::sync::LazyLock;
 static TRUTH: LazyLock<Value> =
     LazyLock::new(|| serde_json::from_str(include_str!("truth/smores.json")).expect("the truth is JSON"));
 
+/// Names of modules in the truth, and their paths in the library's design.
+type Names = &'static [(&'static str, &'static str)];
+
 /// A design of the truth: its name there, how the library makes it, and the path of each of its
 /// modules under the names of the truth.
-const DESIGNS: &[(&str, &str, &[(&str, &str)])] = &[
+const DESIGNS: &[(&str, &str, Names)] = &[
     ("DRIVER1", "Driver1", &[("m", "m")]),
     ("CHAIN3", "Chain3", &[("head", "m[0]"), ("mid", "m[1]"), ("tail", "m[2]")]),
     ("LEG3", "Leg3", &[("hip", "thigh"), ("knee", "shin"), ("ankle", "foot")]),
@@ -129,7 +132,7 @@ const DESIGNS: &[(&str, &str, &[(&str, &str)])] = &[
     ),
 ];
 
-const BACKHOE: &[(&str, &str)] = &[
+const BACKHOE: Names = &[
     ("center", "car.steer.center"),
     ("front", "car.steer.front"),
     ("back", "car.steer.back"),

@@ -199,7 +199,7 @@ fn an_arching_chain_draws_itself_together() {
 fn a_snake_rises_without_tipping() {
     let travels = [0.04, 0.02, 0.01].map(|step| {
         let m = Motion::new(first_based(robots::snake(6)));
-        let tilt = |i: usize| if i % 2 == 0 { 60.0 } else { -60.0 };
+        let tilt = |i: usize| if i.is_multiple_of(2) { 60.0 } else { -60.0 };
         let wave = (0..6).fold(m, |m, i| m.smooth(&format!("s{i}"), TILT, tilt(i), 0.0, 1.0));
         let seen = seen(&wave, step);
         assert!(seen.tips.is_empty());

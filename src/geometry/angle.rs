@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1.5 * (1u64 << 52) as f64;
 /// Sine and cosine of an angle in radians, to about one unit in the last place.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    if !(angle.abs() <= ANGLE_MAX) {
+    if angle.is_nan() || angle.abs() > ANGLE_MAX {
         return libm::sincos(angle);
     }
     let turns = (angle * FRAC_2_PI + ROUNDING) - ROUNDING;

@@ -197,7 +197,8 @@ impl Question<'_> {
         problem.costs[n] = 1.0;
         let balances: Vec<_> = columns.iter().map(|c| self.balance(c)).collect();
         for axis in 0..6 {
-            let terms = (0..n).filter(|&k| balances[k][axis] != 0.0).map(|k| (k, balances[k][axis]));
+            let share = |balance: &Vector6<f64>| balance[axis];
+            let terms = balances.iter().map(share).enumerate().filter(|(_, share)| *share != 0.0);
             problem.equal.push((terms.collect(), if axis == 2 { 1.0 } else { 0.0 }));
         }
         for row in rows {

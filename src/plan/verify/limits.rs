@@ -55,7 +55,7 @@ fn drives(robot: &Assembly) -> Vec<Drive> {
                 let kind = declared.kind;
                 let terms = crate::robot::step::driven(robot.module_type(module), joint, firsts[module]);
                 let turns = kind == JointKind::Revolute;
-                (kind != JointKind::Fixed).then(|| Drive { name, limits: declared.limits, terms, turns })
+                (kind != JointKind::Fixed).then_some(Drive { name, limits: declared.limits, terms, turns })
             }
             JointOwner::Bond(bond) => {
                 let limits = robot.hinge(bond)?.limits;
