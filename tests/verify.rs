@@ -176,7 +176,10 @@ fn two_diagonal_legs_carry_a_walker_only_with_friction() {
     assert!((ratio(&verdict) - 0.95).abs() < 0.005, "{}", ratio(&verdict));
     assert!(verdict.notes.iter().any(|n| n.contains("needs friction: 1.90")), "{:?}", verdict.notes);
     let icy = World { friction: 0.0, ..World::default() };
-    fails(&verify(&on_two_legs(hold_nothing(robots::walk4())).plan(icy)), CheckKind::Torque);
+    let slippery = verify(&on_two_legs(hold_nothing(robots::walk4())).plan(icy));
+    fails(&slippery, CheckKind::Torque);
+    // That no forces do is proved by the multipliers.
+    assert!(slippery.notes.iter().all(|n| !n.contains("not proved")), "{:?}", slippery.notes);
 }
 
 #[test]
@@ -379,4 +382,19 @@ fn corrupted_plans_are_refused_as_values() {
         p.library = Arc::new(library);
         t.robot.library = p.library.clone();
     });
+}
+
+#[test]
+fn a_long_snake_is_carried_by_contact_forces_that_are_spread_as_it_needs() {
+    // Spread as over elastic ground, the loads would bend the middle of three hundred modules by
+    // more than the joints hold: the whole leans by the half pitch between its contacts' centre and
+    // its centre of mass.
+    let n = 300;
+    let snake = (0..n).fold(Motion::new(hold_nothing(robots::snake(n))), |m, i| {
+        m.set(&format!("s{i}"), TILT, if i % 2 == 0 { -2.0 } else { 2.0 })
+    });
+    let verdict = judged(snake);
+    passes(&verdict);
+    assert!(verdict.notes.iter().any(|n| n.contains("spread evenly")), "{:?}", verdict.notes);
+    assert!(verdict.notes.iter().all(|n| !n.contains("needs friction")), "{:?}", verdict.notes);
 }

@@ -89,7 +89,10 @@ fn removes(course: &Course, waypoints: &[Waypoint], suspect: &Suspect, failure: 
     let mut standing = stability::Watch::new(course.settings, course.tolerances);
     let mut ledger = Ledger::new(course.exemptions, course.tracks.duration);
     let mut failed = false;
-    walk(held, from, until, &mut |sample, _| {
+    walk(held, from, course.tracks.duration, &mut |sample, _| {
+        if sample.time > until {
+            return false;
+        }
         let late = sample.time >= failure.time;
         failed |= match failure.kind {
             CheckKind::Stability => {

@@ -10,37 +10,25 @@ use super::Tolerances;
 use super::contact::Touch;
 use super::footprint;
 use super::model::Model;
+use super::programme::Programme;
 use super::stance::Stance;
-use super::statics::{Load, LoadKind, Push, Section, Structure};
+use super::statics::{Push, Section, Structure};
 use crate::geometry::Vec3;
-use crate::optimize::linear::{Problem, linear_program};
+use crate::optimize::linear::linear_program;
 use nalgebra::{Matrix6, Vector6};
 
 /// The half diagonal of the square inside the unit circle.
 const INSCRIBED: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Coefficients of a programme that is still tried.
-const SIZE_MAX: usize = 4_000_000;
-
-/// Directions in which a moment is bounded in the programme; its true size is judged afterwards.
-const DIRECTIONS: [[f64; 3]; 9] = [
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [INSCRIBED, INSCRIBED, 0.0],
-    [INSCRIBED, -INSCRIBED, 0.0],
-    [INSCRIBED, 0.0, INSCRIBED],
-    [INSCRIBED, 0.0, -INSCRIBED],
-    [0.0, INSCRIBED, INSCRIBED],
-    [0.0, INSCRIBED, -INSCRIBED],
-];
+/// Columns of a programme that is still tried.
+const COLUMNS_MAX: usize = 100_000;
 
 /// A unit of a force that may act: an edge of a contact's pyramid, or a component of what a bond that
 /// closes a loop transmits.
-struct Column {
-    pushes: Vec<Push>,
+pub struct Column {
+    pub pushes: Vec<Push>,
     /// It may also act the other way round.
-    free: bool,
+    pub free: bool,
 }
 
 /// What forces can do.
@@ -59,9 +47,16 @@ pub struct Best {
 /// Which contacts pushed how much: where the contacts stay the same, nearly the same forces do.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Recipe {
+    /// Feature and point, in order.
     contacts: Vec<(usize, u8)>,
-    sizes: Vec<f64>,
+    /// Of each contact, along the edges of its pyramid.
+    pushes: Vec<[f64; EDGES]>,
+    /// Of the bonds that close loops.
+    loops: Vec<f64>,
 }
+
+/// Edges of the pyramid within which a contact pushes.
+const EDGES: usize = 4;
 
 /// One question about one stance.
 pub struct Question<'a> {
@@ -69,6 +64,8 @@ pub struct Question<'a> {
     pub structure: &'a Structure,
     pub stance: &'a Stance,
     pub sections: &'a [Section],
+    /// The weights of the links.
+    pub pushed_down: &'a [Push],
     /// What the cuts hold against the weights alone.
     pub weights: &'a [f64],
     /// The loads that count.
@@ -83,19 +80,21 @@ impl Question<'_> {
     /// The forces of a recipe, brought to balance here: a quick answer, or none.
     pub fn again(&self, recipe: &Recipe) -> Option<Best> {
         let contacts = self.contacts();
-        let same = contacts.iter().map(|t| (t.feature, t.k)).eq(recipe.contacts.iter().copied());
         let columns = self.columns(&contacts);
-        if !same || columns.len() != recipe.sizes.len() {
-            return None;
+        let mut sizes = Vec::with_capacity(columns.len());
+        for touch in &contacts {
+            // What touches anew pushes nothing yet; what left is missed, and the others take it over.
+            let place = recipe.contacts.binary_search(&(touch.feature, touch.k));
+            sizes.extend(place.map_or([0.0; EDGES], |at| recipe.pushes[at]));
         }
-        self.answer(&contacts, &columns, &recipe.sizes, f64::NEG_INFINITY)
+        let loops = columns.len() - sizes.len();
+        sizes.extend(if recipe.loops.len() == loops { recipe.loops.clone() } else { vec![0.0; loops] });
+        self.answer(&contacts, &columns, &sizes, f64::NEG_INFINITY)
     }
 
-    /// Coefficients of the linear programme: what solving it costs.
+    /// How large the linear programme is: what solving it costs.
     pub fn effort(&self) -> usize {
-        let columns = self.columns(&self.contacts());
-        let rows: usize = self.loads.iter().map(|&i| parts(&self.structure.loads[i]).len()).sum();
-        rows.saturating_mul(columns.len())
+        self.columns(&self.contacts()).len() + self.loads.len()
     }
 
     /// The least greatest load by linear programming; `None` where no forces balance the weight, or
@@ -103,13 +102,12 @@ impl Question<'_> {
     pub fn best(&self) -> Option<Best> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
-        let rows = self.rows(&columns);
-        if rows.len().saturating_mul(columns.len()) > SIZE_MAX {
+        if columns.len() > COLUMNS_MAX {
             return None;
         }
-        let problem = self.problem(&columns, &rows);
-        let solution = linear_program(&problem).ok()?;
-        let bound = self.bound(&columns, &rows, &solution.y, &solution.z);
+        let programme = Programme::new(self, &columns);
+        let solution = linear_program(&programme.problem).ok()?;
+        let bound = programme.bound(self, &columns, &solution);
         self.answer(&contacts, &columns, &solution.x[..columns.len()], bound)
     }
 
@@ -127,6 +125,7 @@ impl Question<'_> {
             let points: Vec<_> = own.iter().map(|t| [t.p.x, t.p.y]).collect();
             chosen.extend(footprint::hull(&points).into_iter().map(|i| *own[i]));
         }
+        chosen.sort_by_key(|t| (t.feature, t.k));
         chosen
     }
 
@@ -152,93 +151,14 @@ impl Question<'_> {
         columns
     }
 
-    /// Sums of cuts that must stay within limits, both ways round unless they are pulls:
-    /// (coefficient of each column, the weights' share), in parts of the limit.
-    fn rows(&self, columns: &[Column]) -> Vec<Row> {
-        let mut rows = Vec::new();
-        for &index in self.loads {
-            let load = &self.structure.loads[index];
-            for (terms, two_sided) in parts(load) {
-                let coefficients = columns.iter().map(|column| self.effect(column, &terms) / load.limit);
-                let held = terms.iter().map(|&(cut, factor)| factor * self.weights[cut]);
-                let constant = held.sum::<f64>() / load.limit;
-                rows.push(Row { coefficients: coefficients.collect(), constant, two_sided });
-            }
-        }
-        rows
-    }
-
-    fn effect(&self, column: &Column, terms: &[(usize, f64)]) -> f64 {
-        let mut sum = 0.0;
-        for &(cut, factor) in terms {
-            let section = &self.sections[cut];
-            for push in &column.pushes {
-                if self.structure.beyond(section.link, push.link) {
-                    sum += factor * section.of(&push.p, &push.f, &push.m);
-                }
-            }
-        }
-        sum
-    }
-
     /// Force and moment of a column about the centre of mass, in parts of the weight.
-    fn balance(&self, column: &Column) -> Vector6<f64> {
+    pub fn balance(&self, column: &Column) -> Vector6<f64> {
         let mut sum = Vector6::zeros();
         for push in column.pushes.iter().filter(|_| !column.free) {
             let (f, m) = (push.f / self.weight, push.p.cross(&push.f) / self.weight);
             sum += Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
         }
         sum
-    }
-
-    fn problem(&self, columns: &[Column], rows: &[Row]) -> Problem {
-        let n = columns.len();
-        let mut problem = Problem { costs: vec![0.0; n + 1], ..Problem::default() };
-        problem.costs[n] = 1.0;
-        let balances: Vec<_> = columns.iter().map(|c| self.balance(c)).collect();
-        for axis in 0..6 {
-            let share = |balance: &Vector6<f64>| balance[axis];
-            let terms = balances.iter().map(share).enumerate().filter(|(_, share)| *share != 0.0);
-            problem.equal.push((terms.collect(), if axis == 2 { 1.0 } else { 0.0 }));
-        }
-        for row in rows {
-            for sign in row.signs() {
-                let nonzero = (0..n).filter(|&k| row.coefficients[k] != 0.0);
-                let mut terms: Vec<_> = nonzero.map(|k| (k, sign * row.coefficients[k])).collect();
-                terms.push((n, -1.0));
-                problem.at_most.push((terms, -sign * row.constant));
-            }
-        }
-        let pushing = (0..n).filter(|&k| !columns[k].free);
-        problem.at_most.extend(pushing.map(|k| (vec![(k, -1.0)], 0.0)));
-        problem
-    }
-
-    /// A bound from multipliers, whoever made them: for any weights `z ≥ 0` of the rows that sum to 1
-    /// and any `y`, `s ≥ Σ z row = Σ λ (zᵀ row + yᵀ balance) - y·weight`, and the sizes λ of contact
-    /// forces sum to 1, so the least coefficient bounds the sum.
-    fn bound(&self, columns: &[Column], rows: &[Row], y: &[f64], z: &[f64]) -> f64 {
-        let count: usize = rows.iter().map(|row| row.signs().len()).sum();
-        let z: Vec<f64> = z[..count].iter().map(|z| z.max(0.0)).collect();
-        let total: f64 = z.iter().sum();
-        if total <= 0.0 {
-            return f64::NEG_INFINITY;
-        }
-        let y = Vector6::from_iterator((0..6).map(|i| y[i] / total));
-        let mut coefficients: Vec<f64> = columns.iter().map(|c| y.dot(&self.balance(c))).collect();
-        let mut constant = -y[2];
-        let signed = rows.iter().flat_map(|row| row.signs().iter().map(move |sign| (row, *sign)));
-        for ((row, sign), z) in signed.zip(&z) {
-            let share = sign * z / total;
-            constant += share * row.constant;
-            coefficients.iter_mut().zip(&row.coefficients).for_each(|(c, r)| *c += share * r);
-        }
-        let loops = columns.iter().zip(&coefficients).filter(|(c, _)| c.free);
-        if loops.map(|(_, c)| c.abs()).fold(0.0, f64::max) > self.tolerances.balance {
-            return f64::NEG_INFINITY;
-        }
-        let pushes = columns.iter().zip(&coefficients).filter(|(c, _)| !c.free);
-        constant + pushes.map(|(_, c)| *c).fold(f64::INFINITY, f64::min)
     }
 
     /// Forces near the given ones that balance to the last digits, and the loads that they make.
@@ -255,7 +175,10 @@ impl Question<'_> {
             self.structure.size(load, &held) / load.limit
         };
         let worst = self.loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })?;
-        let recipe = Recipe { contacts: contacts.iter().map(|t| (t.feature, t.k)).collect(), sizes };
+        let (pushes, loops) = sizes.split_at(contacts.len() * EDGES);
+        let pushes = pushes.chunks_exact(EDGES).map(|c| [c[0], c[1], c[2], c[3]]).collect();
+        let names = contacts.iter().map(|t| (t.feature, t.k)).collect();
+        let recipe = Recipe { contacts: names, pushes, loops: loops.to_vec() };
         Some(Best { ratio: ratio(worst), load: worst, bound, recipe })
     }
 
@@ -284,29 +207,5 @@ impl Question<'_> {
         balances.iter().zip(&sizes).for_each(|(b, s)| missing -= b * *s);
         let pushing = columns.iter().zip(&sizes).all(|(c, s)| c.free || *s >= 0.0);
         (missing.norm() <= self.tolerances.balance && pushing).then_some(sizes)
-    }
-}
-
-struct Row {
-    coefficients: Vec<f64>,
-    constant: f64,
-    two_sided: bool,
-}
-
-impl Row {
-    fn signs(&self) -> &'static [f64] {
-        if self.two_sided { &[1.0, -1.0] } else { &[1.0] }
-    }
-}
-
-/// A load as linear parts: one, or for a moment its components in several directions.
-fn parts(load: &Load) -> Vec<(Vec<(usize, f64)>, bool)> {
-    match load.kind {
-        LoadKind::Joint { .. } => vec![(load.terms.clone(), true)],
-        LoadKind::Pull => vec![(load.terms.clone(), false)],
-        LoadKind::Moment => DIRECTIONS
-            .iter()
-            .map(|d| (load.terms.iter().zip(d).map(|(&(cut, _), d)| (cut, *d)).collect(), true))
-            .collect(),
     }
 }

@@ -25,6 +25,7 @@ mod sample;
 mod walk;
 
 mod forces;
+mod programme;
 mod stability;
 mod statics;
 mod torque;

@@ -31,8 +31,9 @@ pub struct Lack {
     pub drop: Option<f64>,
     /// Least margin, m, or none where the contacts span no area.
     pub margin: Option<f64>,
-    /// Names of the modules at the edge.
-    pub edge: Vec<String>,
+    /// The parts at the edge, in words, and their modules.
+    pub edge: String,
+    pub modules: Vec<String>,
 }
 
 impl<'a> Watch<'a> {
@@ -60,9 +61,9 @@ impl<'a> Watch<'a> {
         let excuse = |kind: &ExemptionKind| *kind == ExemptionKind::Unstable;
         let stands = support.as_ref().is_some_and(|s| s.0.distance >= -self.tolerances.margin);
         if let Some(tip) = sample.tip.filter(|tip| !tip.excused) {
-            let edge = tip.edge.iter().map(|&l| sample.model.module_name(l).to_owned()).collect();
-            let lack = Lack { since: tip.time, until: tip.time, drop: Some(tip.fall), margin: None, edge };
-            self.lack = Some(lack);
+            let (edge, modules) = (edge_words(sample, &tip.edge), edge_names(sample, &tip.edge));
+            let (since, drop) = (tip.time, Some(tip.fall));
+            self.lack = Some(Lack { since, until: since, drop, margin: None, edge, modules });
         }
         if sample.tip.is_some_and(|tip| tip.excused) {
             ledger.excuses(CheckKind::Stability, sample.tip.map_or(0.0, |t| t.time), excuse);
@@ -95,14 +96,16 @@ impl<'a> Watch<'a> {
     }
 
     fn lacks(&mut self, sample: &Sample, support: Option<(Margin, [usize; 2])>) {
-        let names = support.as_ref().map(|s| edge_names(sample, &s.1));
-        let margin = support.map(|s| s.0.distance);
+        let links = support.as_ref().map_or(&[][..], |s| &s.1);
+        let (edge, modules) = (edge_words(sample, links), edge_names(sample, links));
+        let margin = support.as_ref().map(|s| s.0.distance);
         let lack = self.lack.get_or_insert_with(|| Lack {
             since: sample.time,
             until: sample.time,
             drop: None,
             margin,
-            edge: names.unwrap_or_default(),
+            edge,
+            modules,
         });
         lack.until = sample.time;
         lack.margin = match (lack.margin, margin) {
@@ -159,9 +162,9 @@ impl<'a> Watch<'a> {
             });
         }
         if let Some(tip) = sample.tip {
-            let edge: Vec<_> = tip.edge.iter().map(|&l| sample.model.module_name(l)).collect();
+            let edge = edge_words(sample, &tip.edge);
             let drop = quantity(tip.fall, Dimension::LENGTH);
-            ledger.verdict.events.push((tip.time, format!("tips over {}, drops {drop}", edge.join(" and "))));
+            ledger.verdict.events.push((tip.time, format!("tips over {edge}, drops {drop}")));
         }
     }
 }
@@ -169,10 +172,7 @@ impl<'a> Watch<'a> {
 impl Lack {
     pub fn failure(&self) -> Failure {
         let time = |t| quantity(t, Dimension::TIME);
-        let edge = match self.edge.as_slice() {
-            [] => String::new(),
-            names => format!(" over {}", names.join(" and ")),
-        };
+        let edge = if self.edge.is_empty() { String::new() } else { format!(" over {}", self.edge) };
         let (message, value) = match (self.drop, self.margin) {
             (Some(drop), _) => {
                 let words = quantity(drop, Dimension::LENGTH);
@@ -188,13 +188,11 @@ impl Lack {
                 (format!("what supports the robot spans no area from {from}"), 0.0)
             }
         };
-        let mut at = self.edge.clone();
-        at.dedup();
         Failure {
             kind: CheckKind::Stability,
             time: self.since,
             until: Some(self.until),
-            at,
+            at: self.modules.clone(),
             message,
             value,
             limit: 0.0,
@@ -204,10 +202,23 @@ impl Lack {
     }
 }
 
-fn edge_names(sample: &Sample, links: &[usize; 2]) -> Vec<String> {
+/// Modules of the links at an edge.
+fn edge_names(sample: &Sample, links: &[usize]) -> Vec<String> {
     let mut names: Vec<String> = links.iter().map(|&l| sample.model.module_name(l).to_owned()).collect();
     names.dedup();
     names
+}
+
+/// An edge by the modules at its ends; where they are one module, by its parts.
+fn edge_words(sample: &Sample, links: &[usize]) -> String {
+    let names = edge_names(sample, links);
+    let [module] = names.as_slice() else { return names.join(" and ") };
+    let part = |&link: &usize| {
+        let body = &sample.model.bodies[link];
+        let index = link - sample.model.kinematics.link(body.module, 0);
+        sample.model.robot.module_type(body.module).links[index].name.clone()
+    };
+    format!("{module} ({})", links.iter().map(part).collect::<Vec<_>>().join(" and "))
 }
 
 /// The paper's rule: the mean of the modules' centres (it takes them for equally heavy) in the hull

@@ -57,9 +57,9 @@ enum Cut {
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
     pub link: usize,
-    at: Vec3,
-    dir: Vec3,
-    moment: bool,
+    pub at: Vec3,
+    pub dir: Vec3,
+    pub moment: bool,
 }
 
 impl Section {

@@ -30,7 +30,7 @@ pub struct Watch<'a> {
     effort: usize,
     /// Samples at which it was not decided whether forces exist that overload nothing.
     undecided: usize,
-    friction: Option<NeedsFriction>,
+    uneven: Option<Uneven>,
     energy: f64,
 }
 
@@ -56,12 +56,18 @@ pub struct Overload {
     pub limit: f64,
 }
 
-struct NeedsFriction {
+/// Where the contact forces must not be spread evenly.
+struct Uneven {
     time: f64,
-    without: f64,
-    with: f64,
     name: String,
+    /// Greatest load by its limit with even forces without friction, and with the best forces.
+    even: f64,
+    best: f64,
+    needs_friction: bool,
 }
+
+/// Another such place is looked at only where it is that much worse.
+const UNEVEN_STEP: f64 = 1.1;
 
 /// What the loads of one stance are.
 struct Loads {
@@ -86,7 +92,7 @@ impl<'a> Watch<'a> {
             unknown: 0,
             effort: 0,
             undecided: 0,
-            friction: None,
+            uneven: None,
             energy: 0.0,
         }
     }
@@ -122,7 +128,8 @@ impl<'a> Watch<'a> {
     fn weigh_in(&mut self, sample: &Sample, compiled: &Compiled, ledger: &mut Ledger) {
         let structure = &compiled.structure;
         let sections = structure.sections(sample.stance);
-        let weights = structure.held(sample.model, &sections, &weights(sample));
+        let pushed_down = weights(sample);
+        let weights = structure.held(sample.model, &sections, &pushed_down);
         let loads = loads(structure, sample, &sections, self.tolerances);
         if loads.judged.len() < structure.loads.len() {
             self.unknown += 1;
@@ -142,6 +149,7 @@ impl<'a> Watch<'a> {
                 structure,
                 stance: sample.stance,
                 sections: &sections,
+                pushed_down: &pushed_down,
                 weights: &weights,
                 loads: &judged,
                 weight: sample.model.mass * sample.world.gravity,
@@ -163,7 +171,7 @@ impl<'a> Watch<'a> {
             match best {
                 Some(best) if best.ratio <= 1.0 => {
                     self.margin(sample, structure, best.load, best.ratio, ledger);
-                    self.needs_friction(sample, structure, (worst, loads.ratios[worst]), &best);
+                    self.uneven(sample.time, question, (worst, loads.ratios[worst]), &best);
                 }
                 best => {
                     if best.as_ref().is_some_and(|b| b.bound <= 1.0) {
@@ -191,15 +199,16 @@ impl<'a> Watch<'a> {
         lower(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
     }
 
-    fn needs_friction(&mut self, sample: &Sample, structure: &Structure, worst: (usize, f64), best: &Best) {
-        if self.friction.as_ref().is_none_or(|f| worst.1 > f.without) {
-            self.friction = Some(NeedsFriction {
-                time: sample.time,
-                without: worst.1,
-                with: best.ratio,
-                name: structure.loads[worst.0].name.clone(),
-            });
+    /// Remembers where the loads of even contact forces were too great, and whether others without
+    /// friction would do.
+    fn uneven(&mut self, time: f64, question: Question, worst: (usize, f64), best: &Best) {
+        if self.uneven.as_ref().is_some_and(|u| worst.1 <= UNEVEN_STEP * u.even) {
+            return;
         }
+        let name = question.structure.loads[worst.0].name.clone();
+        let slippery = Question { friction: 0.0, ..question };
+        let needs_friction = slippery.best().is_none_or(|b| b.ratio > 1.0);
+        self.uneven = Some(Uneven { time, even: worst.1, best: best.ratio, name, needs_friction });
     }
 
     /// Work of the motors since the sample before: what they give, not what they get back.
@@ -253,14 +262,18 @@ impl<'a> Watch<'a> {
 
     pub fn finish(&self, ledger: &mut Ledger) {
         ledger.verdict.energy = self.energy;
-        if let Some(friction) = &self.friction {
-            ledger.note(format!(
-                "at {} {} needs friction: {:.2} of its limit without, {:.2} at best with it",
-                quantity(friction.time, Dimension::TIME),
-                friction.name,
-                friction.without,
-                friction.with
-            ));
+        if let Some(uneven) = &self.uneven {
+            let (time, name) = (quantity(uneven.time, Dimension::TIME), &uneven.name);
+            let ratios = format!("{:.2} of its limit", uneven.even);
+            ledger.note(match uneven.needs_friction {
+                true => {
+                    format!("at {time} {name} needs friction: {ratios} without, {:.2} at best with it", uneven.best)
+                }
+                false => format!(
+                    "at {time} {name} would hold {ratios} if the ground's forces were spread evenly, {:.2} at best",
+                    uneven.best
+                ),
+            });
         }
         if self.unknown > 0 {
             ledger.note(format!(
@@ -329,10 +342,10 @@ pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: 
     watch.failures.iter().any(|f| f.name == name)
 }
 
-/// Work (coefficients of the programmes solved) that is done for the sake of an exact margin; after
-/// that only where it is open whether forces exist at all. About 500 programmes of a walker of 15
-/// modules, two of a snake of 300.
-const EFFORT_FOR_MARGIN: usize = 4_000_000;
+/// Work (columns and loads of the programmes solved) that is done for the sake of an exact margin;
+/// after that only where it is open whether forces exist at all. About 500 programmes of a walker of
+/// 15 modules, 20 of a snake of 300.
+const EFFORT_FOR_MARGIN: usize = 60_000;
 
 /// The best forces: those of the sample before, brought to balance here, do if nothing is worse than
 /// what was seen already; otherwise by a programme.

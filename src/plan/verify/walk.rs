@@ -283,7 +283,7 @@ impl<'a> Walker<'a> {
             None => over.touches.iter().filter(|x| x.gap <= tolerances.gap_exact).map(|x| x.link).collect(),
         };
         edge.dedup();
-        let excused = excused(self.course.exemptions, fallen);
+        let excused = fallen < self.course.tracks.duration && excused(self.course.exemptions, fallen);
         Tip { time: fallen, fall, motion, edge, excused }
     }
 

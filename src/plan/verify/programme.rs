@@ -1,0 +1,228 @@
+//! The linear programme of the least greatest load, kept sparse: what is passed on at every cut of
+//! the tree is a variable of its own, so that a robot of hundreds of modules is no denser than a
+//! small one.
+
+use super::forces::{Column, Question};
+use super::statics::{Load, LoadKind};
+use crate::geometry::Vec3;
+use crate::optimize::linear::{Problem, Solution};
+use nalgebra::Vector6;
+
+const HALF_ROOT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// Directions in which a moment is bounded; its true size is judged afterwards.
+const DIRECTIONS: [[f64; 3]; 9] = [
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [HALF_ROOT, HALF_ROOT, 0.0],
+    [HALF_ROOT, -HALF_ROOT, 0.0],
+    [HALF_ROOT, 0.0, HALF_ROOT],
+    [HALF_ROOT, 0.0, -HALF_ROOT],
+    [0.0, HALF_ROOT, HALF_ROOT],
+    [0.0, HALF_ROOT, -HALF_ROOT],
+];
+
+/// Forces are in parts of the weight, moments in parts of the weight times a metre. Columns: sizes of
+/// the pushes, then six for every node but the first, then the greatest load.
+pub struct Programme {
+    pub problem: Problem,
+    rows: Vec<Row>,
+}
+
+/// A piece of the robot between cuts.
+struct Node {
+    parent: usize,
+    /// Where its moments are taken about.
+    place: Vec3,
+    /// Of its own links.
+    weight: Vector6<f64>,
+}
+
+/// A load in one direction: `Σ g·(force, moment beyond the cut) ≤ s`, by cut; the moment about the
+/// centre of mass.
+struct Row {
+    terms: Vec<(usize, Vector6<f64>)>,
+    /// The share of the weights.
+    constant: f64,
+}
+
+impl Programme {
+    pub fn new(question: &Question, columns: &[Column]) -> Programme {
+        let (nodes, node_of) = nodes(question);
+        let rows = rows(question);
+        let first = |node: usize| columns.len() + 6 * (node - 1);
+        let last = columns.len() + 6 * (nodes.len() - 1);
+        let mut problem = Problem { costs: vec![0.0; last + 1], ..Problem::default() };
+        problem.costs[last] = 1.0;
+        problem.equal = balances(question, columns, &nodes, &node_of);
+        for row in &rows {
+            let mut terms = vec![(last, -1.0)];
+            for (link, g) in &row.terms {
+                let node = node_of[*link];
+                let local = about(g, &nodes[node].place);
+                terms.extend((0..6).filter(|&i| local[i] != 0.0).map(|i| (first(node) + i, local[i])));
+            }
+            problem.at_most.push((terms, 0.0));
+        }
+        let pushing = (0..columns.len()).filter(|&k| !columns[k].free);
+        problem.at_most.extend(pushing.map(|k| (vec![(k, -1.0)], 0.0)));
+        Programme { problem, rows }
+    }
+
+    /// A bound from multipliers, whoever made them: for any weights `z ≥ 0` of the rows that sum to 1
+    /// and any `y`, `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ
+    /// of the contacts' pushes sum to 1, so that the least coefficient bounds the sum.
+    pub fn bound(&self, question: &Question, columns: &[Column], solution: &Solution) -> f64 {
+        let z: Vec<f64> = solution.z[..self.rows.len()].iter().map(|z| z.max(0.0)).collect();
+        let total: f64 = z.iter().sum();
+        if total <= 0.0 {
+            return f64::NEG_INFINITY;
+        }
+        // What a unit force and moment on each link add to the weighted rows.
+        let model = question.model;
+        let mut field = vec![Vector6::zeros(); model.bodies.len()];
+        let mut constant = 0.0;
+        for (row, z) in self.rows.iter().zip(&z) {
+            constant += z / total * row.constant;
+            row.terms.iter().for_each(|(link, g)| field[*link] += g * (z / total));
+        }
+        for step in &model.kinematics.steps {
+            let inherited = field[step.parent];
+            field[step.link] += inherited;
+        }
+        let y = Vector6::from_iterator((0..6).map(|i| solution.y[i] / total));
+        // The last node's equations are those of the root, about the centre of mass.
+        let mut least = f64::INFINITY;
+        for column in columns {
+            let own: f64 = column.pushes.iter().map(|p| field[p.link].dot(&wrench(question, p))).sum();
+            let coefficient = own + y.dot(&question.balance(column));
+            if !column.free {
+                least = least.min(coefficient);
+            } else if coefficient.abs() > question.tolerances.balance {
+                return f64::NEG_INFINITY;
+            }
+        }
+        constant - y[2] + least
+    }
+}
+
+fn wrench(question: &Question, push: &super::statics::Push) -> Vector6<f64> {
+    let (f, m) = (push.f / question.weight, (push.p.cross(&push.f) + push.m) / question.weight);
+    Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+}
+
+/// `g·(F, M about the origin)` as a functional of (F, M about `place`).
+fn about(g: &Vector6<f64>, place: &Vec3) -> Vector6<f64> {
+    let (force, moment) = (g.fixed_rows::<3>(0).into_owned(), g.fixed_rows::<3>(3).into_owned());
+    let force = force + moment.cross(place);
+    Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+}
+
+/// (F, M about the origin) taken about `place`.
+fn taken_about(w: &Vector6<f64>, place: &Vec3) -> Vector6<f64> {
+    let (f, m) = (w.fixed_rows::<3>(0).into_owned(), w.fixed_rows::<3>(3).into_owned());
+    let m = m - place.cross(&f);
+    Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+}
+
+/// The pieces of the tree between the cuts of the loads, the root's first, parents before children;
+/// and the piece of every link.
+fn nodes(question: &Question) -> (Vec<Node>, Vec<usize>) {
+    let model = question.model;
+    let mut cut = vec![false; model.bodies.len()];
+    for &load in question.loads {
+        for &(index, _) in &question.structure.loads[load].terms {
+            cut[question.sections[index].link] = true;
+        }
+    }
+    let mut node_of = vec![0; model.bodies.len()];
+    let mut nodes = vec![Node { parent: 0, place: Vec3::zeros(), weight: Vector6::zeros() }];
+    let stance = question.stance;
+    for step in &model.kinematics.steps {
+        let parent = node_of[step.parent];
+        node_of[step.link] = parent;
+        if cut[step.link] {
+            let place = stance.R * (stance.posture.p[step.link] - stance.posture.centre);
+            node_of[step.link] = nodes.len();
+            nodes.push(Node { parent, place, weight: Vector6::zeros() });
+        }
+    }
+    for push in question.pushed_down {
+        nodes[node_of[push.link]].weight += wrench(question, push);
+    }
+    (nodes, node_of)
+}
+
+/// What a piece gets from its children, from the ground and by its weight, it passes on; the root has
+/// no one to pass it on to. The root's equations come first.
+fn balances(
+    question: &Question,
+    columns: &[Column],
+    nodes: &[Node],
+    node_of: &[usize],
+) -> Vec<(Vec<(usize, f64)>, f64)> {
+    let first = |node: usize| columns.len() + 6 * (node - 1);
+    let mut equal: Vec<(Vec<(usize, f64)>, f64)> = Vec::with_capacity(6 * nodes.len());
+    for node in nodes {
+        equal.extend((0..6).map(|i| (Vec::new(), -taken_about(&node.weight, &node.place)[i])));
+    }
+    for (k, column) in columns.iter().enumerate() {
+        for push in &column.pushes {
+            let node = node_of[push.link];
+            let local = taken_about(&wrench(question, push), &nodes[node].place);
+            (0..6).filter(|&i| local[i] != 0.0).for_each(|i| equal[6 * node + i].0.push((k, local[i])));
+        }
+    }
+    for (index, node) in nodes.iter().enumerate().skip(1) {
+        // To the parent, whose place is elsewhere: the force has a moment there.
+        let arm = node.place - nodes[node.parent].place;
+        for i in 0..6 {
+            equal[6 * node.parent + i].0.push((first(index) + i, 1.0));
+            equal[6 * index + i].0.push((first(index) + i, -1.0));
+        }
+        let cross =
+            [(0, 1, -arm.z), (0, 2, arm.y), (1, 0, arm.z), (1, 2, -arm.x), (2, 0, -arm.y), (2, 1, arm.x)];
+        for (row, column, value) in cross.into_iter().filter(|c| c.2 != 0.0) {
+            equal[6 * node.parent + 3 + row].0.push((first(index) + column, value));
+        }
+    }
+    equal
+}
+
+/// Every load, both ways round unless it is a pull, in parts of its limit.
+fn rows(question: &Question) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for &index in question.loads {
+        let load = &question.structure.loads[index];
+        for (terms, both) in parts(load) {
+            for sign in if both { &[1.0, -1.0][..] } else { &[1.0] } {
+                let term = |&(cut, factor): &(usize, f64)| {
+                    let section = &question.sections[cut];
+                    let scale = sign * factor * question.weight / load.limit;
+                    let (f, m) = match section.moment {
+                        true => (section.at.cross(&section.dir), section.dir),
+                        false => (section.dir, Vec3::zeros()),
+                    };
+                    (section.link, Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z) * scale)
+                };
+                let held = terms.iter().map(|&(cut, factor)| factor * question.weights[cut]);
+                let constant = sign * held.sum::<f64>() / load.limit;
+                rows.push(Row { terms: terms.iter().map(term).collect(), constant });
+            }
+        }
+    }
+    rows
+}
+
+/// A load as linear parts: one, or for a moment its components in several directions.
+fn parts(load: &Load) -> Vec<(Vec<(usize, f64)>, bool)> {
+    match load.kind {
+        LoadKind::Joint { .. } => vec![(load.terms.clone(), true)],
+        LoadKind::Pull => vec![(load.terms.clone(), false)],
+        LoadKind::Moment => DIRECTIONS
+            .iter()
+            .map(|d| (load.terms.iter().zip(d).map(|(&(cut, _), d)| (cut, *d)).collect(), true))
+            .collect(),
+    }
+}
