@@ -99,7 +99,7 @@ impl<'a> Watch<'a> {
         let links = support.as_ref().map_or(&[][..], |s| &s.1);
         let (edge, modules) = (edge_words(sample, links), edge_names(sample, links));
         let margin = support.as_ref().map(|s| s.0.distance);
-        let lack = self.lack.get_or_insert_with(|| Lack {
+        let lack = self.lack.get_or_insert(Lack {
             since: sample.time,
             until: sample.time,
             drop: None,
