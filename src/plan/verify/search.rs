@@ -11,6 +11,9 @@ use crate::plan::{Exemption, Status, Tracks, Worst};
 use crate::robot::{Assembly, Kinematics};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Balls of modules nearly meet where they are this part of their radii apart.
+const NEARLY: f64 = 1.0 / 16.0;
+
 pub struct Search<'a> {
     robot: &'a Assembly,
     bodies: Bodies,
@@ -228,8 +231,9 @@ impl<'a> Search<'a> {
         near.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs())).unwrap_or(middle)
     }
 
-    /// Whether a pair of modules stays open as such. Where their balls are so near in the middle that
-    /// halving would not help soon, its bodies are added to `bodies` instead.
+    /// Whether a pair of modules stays open as such. Only where their balls meet in the middle, or
+    /// nearly so, are its bodies added to `bodies` instead: they are dozens of pairs for one, which is
+    /// more than what a few halvings cost.
     fn keeps(&self, region: &Region, pair: &ModulePair, bodies: &mut Vec<BodyPair>) -> bool {
         let (a, b) = (pair.a as usize, pair.b as usize);
         let bound = pairs::modules(&self.view(region), &self.bodies, pair);
@@ -237,7 +241,7 @@ impl<'a> Search<'a> {
         if bound.least >= need {
             return false;
         }
-        let hopeful = bound.middle >= need + (bound.middle - bound.least) / 4.0;
+        let hopeful = bound.middle >= need + NEARLY * (self.bodies.reach[a] + self.bodies.reach[b]);
         if !hopeful {
             self.expand(region, a, b, bodies);
         }
