@@ -370,14 +370,16 @@ extern fn emit(
   stability: footprint | centres = footprint,
 )
 
-/// Draws a plan, a robot or a flat pattern as a page, with the verdict stamped on it.
+/// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it.
 ///
-/// The end of the file name says how: `.html` or `.svg`. Not yet available.
+/// `.html` is a page that plays the plan in any browser, from one file that loads nothing else.
+/// A behaviour is planned first. Unlike `emit`, it draws what the verifier does not accept, too:
+/// played up to the failure, with what is to blame marked, and still reported as an error.
 ///
 /// Example:
-/// ```modl check
-/// use std.smores.Walk4
-/// show(Walk4().walk(), "walk.html")
+/// ```modl
+/// use std.smores.Driver1
+/// show(Driver1().drive(t: 1s), "drive.html")
 /// ```
 extern fn show(
   what: Plan | Behavior | Config | Lattice | Truss | Layout,

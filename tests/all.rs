@@ -33,3 +33,4 @@ mod tidy;
 mod tree;
 mod urdf;
 mod verify;
+mod view;

@@ -25,12 +25,13 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("plan", &["units", "geometry", "optimize", "robot"]),
     ("behavior", &["units", "geometry", "robot", "plan"]),
     ("planners", &["units", "geometry", "optimize", "robot", "plan"]),
+    ("view", &["units", "geometry", "robot", "plan"]),
     (
         "interpret",
-        &["source", "units", "syntax", "check", "geometry", "robot", "plan", "behavior", "planners"],
+        &["source", "units", "syntax", "check", "geometry", "robot", "plan", "behavior", "planners", "view"],
     ),
     ("serve", &["source", "units", "syntax", "check", "robot", "plan", "interpret"]),
-    ("cli", &["source", "units", "check", "plan", "interpret", "serve"]),
+    ("cli", &["source", "units", "check", "plan", "view", "interpret", "serve"]),
 ];
 
 /// Crates and parts of the standard library that belong to one room, or to a few.
@@ -42,7 +43,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("pest_derive", &["syntax"]),
     ("miette", &["source"]),
     ("strsim", &["source"]),
-    ("serde_json", &["source", "plan", "cli"]),
+    ("serde_json", &["source", "plan", "view", "cli"]),
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("ctrlc", &["cli"]),

@@ -20,6 +20,7 @@ const EXAMPLES: &str = "\
 Examples:
   modl new rover                   begin a project
   modl run rover/main.mod          write its plans to out/
+  modl show rover/main.mod --open  see it move
   modl check --json *.mod          diagnostics for an editor
   modl verify out/drive.plan.json  judge a plan again, from nothing but its file
   modl explain E0301               what a code means and how to mend it
@@ -62,6 +63,20 @@ pub enum Command {
         /// Plan files; `-` reads standard input
         #[arg(value_name = "PLANFILE", required = true)]
         files: Vec<PathBuf>,
+    },
+    /// Draw what a program plans, or a plan file, as a page that plays it
+    #[command(
+        after_help = "Example:\n  modl show walkbot.mod --open\n  modl show out/walkbot.plan.json\n\nOf a program, \
+        each plan that it emits gets a page, a failed one up to its failure; of a program that emits\nand shows \
+        nothing, each robot that it declares. Pages are written below the output folder."
+    )]
+    Show {
+        /// A program, or a plan file; `-` reads a program from standard input
+        #[arg(value_name = "FILE")]
+        file: PathBuf,
+        /// Open the page (of several the last) in the browser
+        #[arg(long)]
+        open: bool,
     },
     /// Begin a project: a folder with a program that runs, and a test
     #[command(

@@ -41,7 +41,7 @@ pub fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
 }
 
 /// The plan that a file holds, or what is wrong with it and where.
-fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
+pub fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
     let mut sources = Sources::default();
     let Ok(text) = String::from_utf8(bytes) else {
         return Err(Box::new((
@@ -74,7 +74,8 @@ fn judge(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> boo
     ok
 }
 
-fn read(file: &Path) -> Result<Vec<u8>, CallError> {
+/// The bytes of a plan file, if they are not too many; `-` is standard input.
+pub fn read(file: &Path) -> Result<Vec<u8>, CallError> {
     let bytes = if file == Path::new("-") {
         read_at_most(io::stdin().lock(), PLAN_BYTES_MAX)
     } else {

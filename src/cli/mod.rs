@@ -13,6 +13,7 @@ mod output;
 mod pages;
 mod program;
 mod report;
+mod show;
 mod terminal;
 mod verdict;
 
@@ -56,6 +57,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Check { files } => program::run(files, program::Task::Check, globals),
         Command::Test { files, filter } => program::run(files, program::Task::Test(filter.clone()), globals),
         Command::Verify { files } => judge::run(files, globals),
+        Command::Show { file, open } => show::run(file, *open, globals),
         Command::New { name } => new::run(name, globals),
         Command::Explain { code } => explain::run(code.as_deref(), globals),
         Command::Completions { shell } => {

@@ -1,7 +1,7 @@
 //! `modl run`, `modl check` and `modl test`.
 
 use super::arguments::Globals;
-use super::disk::Project;
+use super::disk::{Project, STDIN_NAME};
 use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
 use super::{CallError, Ending};
@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 
 pub enum Task {
     Run,
+    /// As `Run`, and every plan is drawn.
+    Show,
     Check,
     /// With the filter of test names.
     Test(Option<String>),
@@ -28,6 +30,15 @@ struct Tally {
 }
 
 pub fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
+    run_all(files, task, globals).map(|(ending, _)| ending)
+}
+
+/// Runs one program; gives the files that it wrote, too.
+pub fn run_and_list(file: &Path, task: Task, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
+    run_all(&[file.to_owned()], task, globals)
+}
+
+fn run_all(files: &[PathBuf], task: Task, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
     let open = |file: &PathBuf| Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref());
     // All files are opened first: a call that is wrong does nothing.
     let projects = files.iter().map(open).collect::<Result<Vec<Project>, CallError>>()?;
@@ -46,11 +57,12 @@ pub fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, C
     }
     let ok = tally.report.errors == 0 && tally.failed == 0 && !tally.cancelled;
     tally.report.finish(ok, globals);
-    Ok(match (ok, tally.cancelled) {
+    let ending = match (ok, tally.cancelled) {
         (_, true) => Ending::Cancelled,
         (true, _) => Ending::Fine,
         (false, _) => Ending::Wrong,
-    })
+    };
+    Ok((ending, tally.report.written.unwrap_or_default()))
 }
 
 fn one(
@@ -66,8 +78,13 @@ fn one(
     let mut outcome = Outcome::default();
     // What is sound in a wrong program is still checked, but nothing of it is run.
     if matches!(task, Task::Check) || !diagnostics.iter().any(Diagnostic::is_error) {
-        outcome =
-            interpret::run(&checked, mode(task), project as &dyn Files, terminal, &options(task, globals));
+        outcome = interpret::run(
+            &checked,
+            mode(task),
+            project as &dyn Files,
+            terminal,
+            &options(project, task, globals),
+        );
         diagnostics.append(&mut outcome.diagnostics);
     }
     terminal.clear_progress();
@@ -101,20 +118,20 @@ fn show_written(written: Vec<String>, tally: &mut Tally, task: &Task, globals: &
     if !globals.json {
         written.iter().for_each(|path| print_error(&format!("wrote {path}\n")));
     }
-    if matches!(task, Task::Run) {
+    if matches!(task, Task::Run | Task::Show) {
         tally.report.written.get_or_insert_default().extend(written);
     }
 }
 
 fn mode(task: &Task) -> Mode {
     match task {
-        Task::Run => Mode::Run,
+        Task::Run | Task::Show => Mode::Run,
         Task::Check => Mode::Check,
         Task::Test(_) => Mode::Test,
     }
 }
 
-fn options(task: &Task, globals: &Globals) -> Options {
+fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let defaults = Limits::default();
     let or = |wish: Option<u64>, default: usize| {
         wish.map_or(default, |n| usize::try_from(n).unwrap_or(usize::MAX))
@@ -126,5 +143,8 @@ fn options(task: &Task, globals: &Globals) -> Options {
         ..defaults
     };
     let filter = if let Task::Test(filter) = task { filter.clone() } else { None };
-    Options { filter, seed: globals.seed, limits }
+    let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
+    let name = if project.name == STDIN_NAME { "-" } else { &project.name };
+    let pages = matches!(task, Task::Show);
+    Options { filter, seed: globals.seed, pages, command: format!("modl run {name}{seed}"), limits }
 }

@@ -1,7 +1,7 @@
 //! A verdict as text: every check with its status, worst values, what failed and who is to blame.
 
 use crate::plan::{
-    Cause, CheckKind, Exemption, ExemptionKind, Failure, Ground, Plan, Stability, Status, Verdict, Worst,
+    Cause, Exemption, ExemptionKind, Failure, Ground, Plan, Stability, Status, Verdict, Worst,
 };
 use crate::units::dimension::Dimension;
 use crate::units::display::{number, quantity};
@@ -29,7 +29,7 @@ pub fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     line(&mut out, &settings(plan));
     out.push('\n');
     for check in &verdict.checks {
-        line(&mut out, &format!("{:<14} {}", check_name(check.kind), status(&check.status)));
+        line(&mut out, &format!("{:<14} {}", check.kind.name(), status(&check.status)));
     }
     out.push('\n');
     worst_lines(&mut out, verdict);
@@ -80,26 +80,6 @@ fn settings(plan: &Plan) -> String {
     };
     let (sample, unstable) = (time(settings.sample), time(settings.unstable_for));
     format!("sampled every {sample}, unstable for {unstable} at most, support by {rule}")
-}
-
-fn check_name(kind: CheckKind) -> &'static str {
-    match kind {
-        CheckKind::Form => "form",
-        CheckKind::Conflict => "conflict",
-        CheckKind::Collision => "collision",
-        CheckKind::JointRange => "joint range",
-        CheckKind::Speed => "speed",
-        CheckKind::Acceleration => "acceleration",
-        CheckKind::Torque => "torque",
-        CheckKind::BondLoad => "bond load",
-        CheckKind::Docking => "docking",
-        CheckKind::Connectedness => "connectedness",
-        CheckKind::Closure => "closure",
-        CheckKind::Ground => "ground",
-        CheckKind::Stability => "stability",
-        CheckKind::Slip => "slip",
-        CheckKind::Rest => "rest",
-    }
 }
 
 fn status(status: &Status) -> String {

@@ -43,6 +43,10 @@ pub struct Options {
     pub filter: Option<String>,
     /// Default seed of planners.
     pub seed: u64,
+    /// Whether every plan that is emitted is drawn, too; where there is none, what is declared.
+    pub pages: bool,
+    /// The command that runs the program again, for the pages that it draws.
+    pub command: String,
     pub limits: Limits,
 }
 

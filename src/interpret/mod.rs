@@ -51,6 +51,7 @@ mod natives_math;
 mod natives_plan;
 mod natives_robot;
 mod natives_shape;
+mod natives_show;
 mod show_value;
 
 mod run;

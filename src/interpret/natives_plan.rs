@@ -4,6 +4,7 @@ use super::call::Call;
 use super::host::WriteError;
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run, pure};
+use super::natives_show::page_beside;
 use super::planning::{Beginning, Planned};
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
@@ -110,7 +111,7 @@ fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 /// `sample`, `unstable_for` and `stability`, which begin at parameter `first`.
-fn settings(interpreter: &Interpreter, call: &Call, first: usize) -> Eval<Settings> {
+pub fn settings(interpreter: &Interpreter, call: &Call, first: usize) -> Eval<Settings> {
     let unstable_for = call.number(first + 1)?;
     if unstable_for < 0.0 {
         return Err(call.refuse(first + 1, "a time must not be negative"));
@@ -130,16 +131,17 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let name = call.text(1)?.to_string();
-    let Some(path) = files::join("", &name).filter(|path| !path.is_empty()) else {
-        return Err(outside(call, &name));
-    };
+    let (path, _) = output_path(call, 1)?;
     let settings = settings(interpreter, call, 2)?;
     let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
     let verdict = interpreter.judge(&planned, settings, None);
     interpreter.note_exemptions(&planned, &verdict);
+    let page = match interpreter.options.pages {
+        true => Some(interpreter.draw(&planned, settings, &page_beside(&path), call)?),
+        false => None,
+    };
     if !verdict.ok() {
-        interpreter.report_failures(&planned, &verdict, call.at(0));
+        interpreter.report_failures(&planned, &verdict, call.at(0), page.as_deref());
         return Ok(Value::Unknown);
     }
     let excuses = interpreter.excuses(&planned, &settings);
@@ -147,19 +149,38 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let text = plan::file::write(&plan).map_err(|error| {
         fault(code::CANNOT_WRITE, call.at(0), format!("the plan can't be written: {error}"), "this plan")
     })?;
-    match interpreter.stage.write(&path, text.into_bytes()) {
-        Ok(shown) => interpreter.written.push(shown),
-        Err(WriteError::Outside) => return Err(outside(call, &name)),
-        Err(WriteError::Failed(why)) => {
-            let message = format!("`{path}` can't be written: {why}");
-            return Err(fault(code::CANNOT_WRITE, call.at(1), message, why));
-        }
-    }
+    write_output(interpreter, call, &path, text.into_bytes())?;
     if !excuses.is_empty() {
         interpreter.stage.print(format!("{path}: verified with {}", excuses.join(", ")));
     }
     note_settling(interpreter, call, &verdict.notes);
     Ok(Value::Nothing)
+}
+
+/// The file named by an argument, below the output folder, and its name as written.
+pub fn output_path(call: &Call, index: usize) -> Eval<(String, String)> {
+    let name = call.text(index)?.to_string();
+    match files::join("", &name).filter(|path| !path.is_empty()) {
+        Some(path) => Ok((path, name)),
+        None => Err(outside(call, &name)),
+    }
+}
+
+/// Writes a file into the output folder; gives the path to show. The second argument names it.
+pub fn write_output(interpreter: &mut Interpreter, call: &Call, path: &str, bytes: Vec<u8>) -> Eval<String> {
+    match interpreter.stage.write(path, bytes) {
+        Ok(shown) => {
+            if !interpreter.written.contains(&shown) {
+                interpreter.written.push(shown.clone());
+            }
+            Ok(shown)
+        }
+        Err(WriteError::Outside) => Err(outside(call, path)),
+        Err(WriteError::Failed(why)) => {
+            let message = format!("`{path}` can't be written: {why}");
+            Err(fault(code::CANNOT_WRITE, call.at(1), message, why))
+        }
+    }
 }
 
 /// A robot that does not start as it is drawn is worth a note.

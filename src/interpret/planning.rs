@@ -230,7 +230,7 @@ impl Interpreter<'_> {
     }
 
     /// Names and hashes of all texts.
-    fn provenance(&self) -> Provenance {
+    pub fn provenance(&self) -> Provenance {
         let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
         let mut sources: Vec<(String, String)> =
             self.sources.files().map(|(_, file)| (file.name.to_string(), hash(&file.text))).collect();

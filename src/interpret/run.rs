@@ -49,7 +49,9 @@ impl Interpreter<'_> {
         match self.mode {
             Mode::Run => {
                 self.execute_body(&program.statements)?;
-                self.force_lets()
+                self.force_lets()?;
+                let drawn = self.written.iter().any(|path| path.ends_with(".html"));
+                if self.options.pages && !drawn { self.draw_declared() } else { Ok(()) }
             }
             Mode::Test => self.run_tests(),
             Mode::Check => {

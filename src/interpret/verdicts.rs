@@ -6,7 +6,7 @@ use super::interpreter::Interpreter;
 use super::planning::Planned;
 use super::stop::Stop;
 use crate::behavior::{Reason, Refusal};
-use crate::plan::{CauseId, Check, CheckKind, ExemptionKind, Failure, Settings, Status, Verdict, Worst};
+use crate::plan::{CauseId, Check, CheckKind, ExemptionKind, Failure, Settings, Verdict, Worst};
 use crate::source::{Code, Diagnostic, Label, Span, code};
 use crate::units::{Dimension, display, quantity};
 use std::collections::BTreeSet;
@@ -22,36 +22,8 @@ pub fn failure_line(failure: &Failure) -> String {
     format!("at {}: {}", seconds(failure.time), failure.message)
 }
 
-pub fn check_name(kind: CheckKind) -> &'static str {
-    match kind {
-        CheckKind::Form => "form",
-        CheckKind::Conflict => "conflict",
-        CheckKind::Collision => "collision",
-        CheckKind::JointRange => "joint range",
-        CheckKind::Speed => "speed",
-        CheckKind::Acceleration => "acceleration",
-        CheckKind::Torque => "torque",
-        CheckKind::BondLoad => "bond load",
-        CheckKind::Docking => "docking",
-        CheckKind::Connectedness => "connectedness",
-        CheckKind::Closure => "closure",
-        CheckKind::Ground => "ground",
-        CheckKind::Stability => "stability",
-        CheckKind::Slip => "slip",
-        CheckKind::Rest => "rest",
-    }
-}
-
 pub fn check_line(check: &Check) -> String {
-    let status = match &check.status {
-        Status::Proved => "proved".to_string(),
-        Status::Sampled(n) => format!("sampled({n})"),
-        Status::NotChecked(why) => format!("not checked: {why}"),
-        Status::NoLimit => "no limit stated".to_string(),
-        Status::Exempt => "exempt".to_string(),
-        Status::Failed => "failed".to_string(),
-    };
-    format!("{}: {status}", check_name(check.kind))
+    format!("{}: {}", check.kind.name(), check.status)
 }
 
 /// The worst values that there are, each with its time and place.
@@ -110,8 +82,9 @@ fn failure_code(kind: CheckKind) -> Code {
 
 impl Interpreter<'_> {
     /// Reports the failures at what is to blame for them: one finding for all of a kind that the same
-    /// commands caused. What is found after a fall follows from it and is not told.
-    pub fn report_failures(&mut self, planned: &Planned, verdict: &Verdict, span: Span) {
+    /// commands caused. What is found after a fall follows from it and is not told. `page` is the file
+    /// that shows them.
+    pub fn report_failures(&mut self, planned: &Planned, verdict: &Verdict, span: Span, page: Option<&str>) {
         let fall = verdict.failures.iter().filter(|f| f.kind == CheckKind::Stability).map(|f| f.time);
         let fall = fall.fold(f64::INFINITY, f64::min);
         let mut told: Vec<(&Failure, Vec<&Failure>)> = Vec::new();
@@ -129,6 +102,9 @@ impl Interpreter<'_> {
             }
             if more.len() > FAILURES_SHOWN {
                 diagnostic = diagnostic.hint(format!("and {} more like these", more.len() - FAILURES_SHOWN));
+            }
+            if let Some(page) = page {
+                diagnostic = diagnostic.hint(format!("open `{page}` to see it happen"));
             }
             self.add_report(diagnostic);
         }

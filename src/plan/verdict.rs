@@ -25,6 +25,29 @@ pub enum CheckKind {
     Rest,
 }
 
+impl CheckKind {
+    /// As people are told.
+    pub fn name(self) -> &'static str {
+        match self {
+            CheckKind::Form => "form",
+            CheckKind::Conflict => "conflict",
+            CheckKind::Collision => "collision",
+            CheckKind::JointRange => "joint range",
+            CheckKind::Speed => "speed",
+            CheckKind::Acceleration => "acceleration",
+            CheckKind::Torque => "torque",
+            CheckKind::BondLoad => "bond load",
+            CheckKind::Docking => "docking",
+            CheckKind::Connectedness => "connectedness",
+            CheckKind::Closure => "closure",
+            CheckKind::Ground => "ground",
+            CheckKind::Stability => "stability",
+            CheckKind::Slip => "slip",
+            CheckKind::Rest => "rest",
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Status {
@@ -38,6 +61,19 @@ pub enum Status {
     /// Failures were excused by an exemption that stands in the source.
     Exempt,
     Failed,
+}
+
+impl std::fmt::Display for Status {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Status::Proved => f.write_str("proved"),
+            Status::Sampled(n) => write!(f, "sampled({n})"),
+            Status::NotChecked(why) => write!(f, "not checked: {why}"),
+            Status::NoLimit => f.write_str("no limit stated"),
+            Status::Exempt => f.write_str("exempt"),
+            Status::Failed => f.write_str("failed"),
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -43,6 +43,7 @@ pub mod collision;
 mod area;
 mod blame;
 mod docking;
+mod history;
 mod judge;
 mod meeting;
 
@@ -50,6 +51,7 @@ pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};
 pub use collision::{Collision, Findings, Precision};
 pub use contact::{Patch, Touch};
+pub use history::{MOMENTS_MAX, Moment, history};
 pub use model::Model;
 pub use stance::Stance;
 pub use tolerances::Tolerances;

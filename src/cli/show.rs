@@ -1,0 +1,88 @@
+//! `modl show`: pages of what a program plans, or of a plan file.
+
+use super::arguments::Globals;
+use super::program::{self, Task};
+use super::report::{self, Report};
+use super::terminal::{listen_for_cancel, print_error};
+use super::{CallError, Ending, judge, output};
+use crate::interpret::WriteError;
+use crate::plan::{Body, Plan, verify};
+use crate::view::{self, Showing};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+pub fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
+    let is_plan = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    let (ending, written) =
+        if is_plan { plan_file(file, globals)? } else { program::run_and_list(file, Task::Show, globals)? };
+    let page = written.iter().rev().find(|path| path.ends_with(".html"));
+    if let Some(page) = page.filter(|_| open) {
+        open_page(page)?;
+    }
+    Ok(ending)
+}
+
+/// The page of a plan file, which is judged again.
+fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
+    let bytes = judge::read(file)?;
+    listen_for_cancel();
+    let name = file.to_string_lossy().into_owned();
+    let mut report = Report::default();
+    let plan = match judge::parsed(&name, bytes) {
+        Ok(plan) => plan,
+        Err(fault) => {
+            let (sources, diagnostic) = *fault;
+            report.add(&sources, &[diagnostic], &report::style(globals, ""), globals);
+            report.finish(false, globals);
+            return Ok((Ending::Wrong, vec![]));
+        }
+    };
+    let verdict = verify::verify(&plan);
+    let ok = verdict.ok();
+    let plan = Plan { verdict: Some(verdict), ..plan };
+    let stem = file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
+    let stem = stem.strip_suffix(".plan").unwrap_or(&stem);
+    let command = format!("modl show {}", file.file_name().unwrap_or_default().to_string_lossy());
+    let showing = Showing { title: title(&plan, stem), plan: &plan, texts: &[], command: &command };
+    let page = view::page(&showing);
+    let written =
+        output::write(&globals.out, &format!("{stem}.html"), page.as_bytes()).map_err(|e| match e {
+            WriteError::Outside => {
+                CallError(format!("the page of `{name}` would lie outside the output folder"))
+            }
+            WriteError::Failed(why) => CallError(format!("the page of `{name}` can't be written: {why}")),
+        })?;
+    if !globals.json {
+        print_error(&format!("wrote {written}\n"));
+    }
+    report.written = Some(vec![written.clone()]);
+    report.finish(ok, globals);
+    Ok((if ok { Ending::Fine } else { Ending::Wrong }, vec![written]))
+}
+
+fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
+    match &plan.body {
+        Body::Tracks(tracks) if !tracks.robot.name.is_empty() => &tracks.robot.name,
+        _ => stem,
+    }
+}
+
+/// Hands a page to whatever opens pages here.
+fn open_page(page: &str) -> Result<(), CallError> {
+    let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
+        ("open", &[])
+    } else if cfg!(windows) {
+        ("explorer", &[])
+    } else {
+        ("xdg-open", &[])
+    };
+    let mut command = Command::new(program);
+    command.args(arguments).arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let opened = command.spawn();
+    opened.map(drop).map_err(|e| {
+        CallError(format!(
+            "`{page}` is written, but `{program}` can't open it: {}",
+            super::disk::system_words(&e)
+        ))
+    })
+}

@@ -1,0 +1,166 @@
+//! Built-ins that draw: plans, robots, lattices and trusses as pages and pictures.
+
+use super::call::Call;
+use super::causes::PlanCauses;
+use super::design::{Design, DesignKind, Instance};
+use super::interpreter::Interpreter;
+use super::lattice::LatticeDesign;
+use super::natives::{Native, on_run};
+use super::natives_plan::{output_path, settings, write_output};
+use super::planning::Planned;
+use super::stop::Eval;
+use super::truss::TrussDesign;
+use super::value::Value;
+use crate::check::typed::DefKind;
+use crate::plan::{
+    Body, CauseId, Knot, Model, NodePaths, Plan, Ratio, Run, Settings, Stages, Way, World, WorldFrom,
+};
+use crate::robot::Library;
+use crate::view::{self, Showing};
+use std::rc::Rc;
+use std::sync::Arc;
+
+pub const TABLE: &[Native] = &[on_run("show", 5, show)];
+
+fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (path, name) = output_path(call, 1)?;
+    if !name.ends_with(".html") {
+        return Err(call.refuse(1, "the name of a page ends in `.html`"));
+    }
+    let settings = settings(interpreter, call, 2)?;
+    if let Value::Instance(instance) = call.arg(0)
+        && let Some(plan) = interpreter.still(&instance.design)
+    {
+        let page = interpreter.page(&instance.design.name, &plan);
+        write_output(interpreter, call, &path, page.into_bytes())?;
+        return Ok(Value::Nothing);
+    }
+    let Some(planned) = interpreter.plan_of(call.arg(0), call.at(0))? else { return Ok(Value::Unknown) };
+    let verdict = interpreter.judge(&planned, settings, None);
+    interpreter.note_exemptions(&planned, &verdict);
+    let shown = interpreter.draw(&planned, settings, &path, call)?;
+    if !verdict.ok() {
+        interpreter.report_failures(&planned, &verdict, call.at(0), Some(&shown));
+        return Ok(Value::Unknown);
+    }
+    Ok(Value::Nothing)
+}
+
+/// Where the page of a plan file goes: beside it.
+pub fn page_beside(path: &str) -> String {
+    let stem = path.strip_suffix(".json").unwrap_or(path);
+    format!("{}.html", stem.strip_suffix(".plan").unwrap_or(stem))
+}
+
+impl Interpreter<'_> {
+    /// Writes the page of a plan with its verdict under these settings; gives the path to show.
+    pub fn draw(
+        &mut self,
+        planned: &Rc<Planned>,
+        settings: Settings,
+        path: &str,
+        call: &Call,
+    ) -> Eval<String> {
+        let verdict = self.judge(planned, settings, None);
+        let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
+        let page = self.page(&planned.robot.name, &plan);
+        write_output(self, call, path, page.into_bytes())
+    }
+
+    /// Draws every robot, lattice and truss that the file declares, with its defaults: for `modl show`
+    /// of a program that draws nothing itself.
+    pub fn draw_declared(&mut self) -> Eval<()> {
+        let program = self.program;
+        for &def in &program.own {
+            let declared = program.def(def);
+            let drawn = matches!(declared.kind, DefKind::Config(_) | DefKind::Lattice(_) | DefKind::Truss(_));
+            if drawn && let Some(design) = self.attempt(|this| this.default_design(def))?.flatten() {
+                let path = format!("{}.html", declared.name);
+                let args = [Value::Instance(Instance::whole(design.clone())), Value::text(&path)];
+                let call = Call { span: declared.span, args: &args, spans: &[] };
+                self.attempt(|this| this.draw_design(&design, &path, &call))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_design(&mut self, design: &Rc<Design>, path: &str, call: &Call) -> Eval<()> {
+        if let Some(plan) = self.still(design) {
+            let page = self.page(&design.name, &plan);
+            write_output(self, call, path, page.into_bytes())?;
+        } else if let Some(planned) = self.plan_pose(design, World::default())? {
+            let settings = self.judge_settings();
+            self.draw(&planned, settings, path, call)?;
+        }
+        Ok(())
+    }
+
+    fn page(&self, title: &str, plan: &Plan) -> String {
+        let texts = self.texts_of(plan);
+        view::page(&Showing { title, plan, texts: &texts, command: &self.options.command })
+    }
+
+    /// The user's own files that a plan's causes stand in, in order of loading.
+    fn texts_of(&self, plan: &Plan) -> Vec<(String, String)> {
+        let named = |name: &str| {
+            let places = plan.causes.iter().flat_map(|c| std::iter::once(c).chain(c.caller.as_deref()));
+            places.into_iter().any(|place| place.file == name)
+        };
+        let own = self.sources.files().filter(|(_, file)| !file.library && named(&file.name));
+        own.map(|(_, file)| (file.name.to_string(), file.text.to_string())).collect()
+    }
+
+    /// A lattice or truss as it is declared: a plan in which nothing moves, and that nobody judged.
+    fn still(&self, design: &Design) -> Option<Plan> {
+        let mut library = Library::default();
+        let body = match &design.kind {
+            DesignKind::Lattice(lattice) => Body::Stages(cells(lattice, &mut library)?),
+            DesignKind::Truss(truss) => Body::NodePaths(nodes(truss, &mut library)?),
+            _ => return None,
+        };
+        Some(Plan {
+            provenance: self.provenance(),
+            worlds: vec![WorldFrom { from: 0.0, world: World::default() }],
+            settings: self.judge_settings(),
+            library: Arc::new(library),
+            body,
+            program: None,
+            nominal: false,
+            causes: PlanCauses::default().table(&self.causes, self.sources),
+            exemptions: Vec::new(),
+            verdict: None,
+        })
+    }
+}
+
+fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
+    let DesignKind::Cell(cell) = &lattice.of.kind else { return None };
+    library.cells.push(cell.clone());
+    let run = |(index, place): (usize, &[i64; 3])| Run {
+        first: index as u64,
+        counters: Vec::new(),
+        center: place.map(|x| Ratio(x, 1)),
+        size: [Ratio::ONE; 3],
+    };
+    let places = &lattice.cells.places;
+    Some(Stages {
+        cell: 0,
+        count: places.len() as u64,
+        time_unit: 1.0,
+        model: Model::default(),
+        start: places.iter().enumerate().map(run).collect(),
+        stages: Vec::new(),
+    })
+}
+
+fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
+    library.struts.push(truss.strut_kind()?.clone());
+    let places = truss.nodes.iter().map(|node| node.place.into());
+    let start = Knot { time: 0.0, way: Way::Straight, nodes: places.collect(), cause: CauseId(0) };
+    Some(NodePaths {
+        strut: 0,
+        node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
+        struts: truss.struts.clone(),
+        knots: vec![start],
+    })
+}

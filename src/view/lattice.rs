@@ -1,0 +1,44 @@
+//! A lattice of expanding cubes in a page: its runs as they stand in the plan.
+
+use super::number::{list, number};
+use crate::plan::{Law, Ratio, Run, Stages};
+use crate::robot::Library;
+use serde_json::{Value, json};
+
+pub fn body(stages: &Stages, library: &Library) -> Value {
+    let cell = library.cells.get(stages.cell);
+    let stage = |stage: &crate::plan::Stage| {
+        let ramp = match stage.law {
+            Law::BangBang => 0.5,
+            Law::Trapezoid(part) => part.to_f64(),
+        };
+        json!({
+            "name": stage.name,
+            "duration": number(stage.duration() * stages.time_unit),
+            "law": number(ramp),
+            "end": runs(&stage.end),
+            "cause": stage.cause.0,
+        })
+    };
+    json!({
+        "form": "stages",
+        "cell": cell.map_or("cell", |cell| cell.name.as_str()),
+        "size": number(cell.map_or(1.0, |cell| cell.size)),
+        "count": stages.count,
+        "start": runs(&stages.start),
+        "stages": stages.stages.iter().map(stage).collect::<Vec<_>>(),
+    })
+}
+
+/// `[first, [[count, stride, dx, dy, dz], ...], centre, size]`, in cell sizes.
+fn runs(runs: &[Run]) -> Vec<Value> {
+    let ratios = |r: &[Ratio; 3]| list(r.iter().map(|r| r.to_f64()));
+    let run = |run: &Run| {
+        let counters = run.counters.iter().map(|c| {
+            let [x, y, z] = c.step.map(|r| number(r.to_f64()));
+            json!([c.count, c.stride, x, y, z])
+        });
+        json!([run.first, counters.collect::<Vec<_>>(), ratios(&run.center), ratios(&run.size)])
+    };
+    runs.iter().map(run).collect()
+}

@@ -1,0 +1,37 @@
+//! Plans as pictures: a page that plays a plan, and still pictures.
+//!
+//! The room is handed a plan with its verdict and gives back text or bytes; it writes no files. What
+//! a page needs is gathered by [`data`] (the plan's own numbers, thinned where there are too many)
+//! and put between the style and the scripts of `page/` by [`page`]. The page computes the poses
+//! itself, from the same steps of kinematics that the judge uses; only where the ground carries the
+//! robot is sampled, from the judge's own walk.
+
+pub mod page;
+
+mod data;
+mod findings;
+mod number;
+
+mod robot;
+mod solids;
+mod stand;
+
+mod lattice;
+mod truss;
+
+use crate::plan::Plan;
+
+pub use page::page;
+
+/// What is shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Showing<'a> {
+    /// Name of the robot, or of what else moves.
+    pub title: &'a str,
+    /// With the verdict it was given; `None` there is shown as "not judged".
+    pub plan: &'a Plan,
+    /// Texts of the user's own files that the causes name, as (name, text); may be empty.
+    pub texts: &'a [(String, String)],
+    /// The command that makes the same again; may be empty.
+    pub command: &'a str,
+}

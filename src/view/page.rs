@@ -1,0 +1,97 @@
+//! The page: one file, with its style, its scripts and the plan inside. It loads nothing.
+
+use super::{Showing, data};
+
+const PAGE: &str = include_str!("page/page.html");
+const STYLE: &str = include_str!("page/style.css");
+
+/// In the order in which they build on each other.
+const SCRIPTS: [&str; 11] = [
+    include_str!("page/math.js"),
+    include_str!("page/motion.js"),
+    include_str!("page/shapes.js"),
+    include_str!("page/shaders.js"),
+    include_str!("page/render.js"),
+    include_str!("page/camera.js"),
+    include_str!("page/timeline.js"),
+    include_str!("page/curves.js"),
+    include_str!("page/panel.js"),
+    include_str!("page/scene.js"),
+    include_str!("page/main.js"),
+];
+
+/// The whole page. Nothing in the plan can break out of its place: the data is JSON in which `<`, `>`
+/// and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
+pub fn page(showing: &Showing) -> String {
+    let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
+    let plan = unmarked(&data::data(showing).to_string());
+    let title = escaped(showing.title);
+    filled(&[("title", &title), ("style", &lean(STYLE)), ("still", ""), ("plan", &plan), ("script", &script)])
+}
+
+/// The template with a text at each of its places, which are looked for in the template only.
+fn filled(texts: &[(&str, &str)]) -> String {
+    let mut page = String::new();
+    let mut rest = PAGE;
+    while let Some(at) = rest.find('{') {
+        let (before, from) = rest.split_at(at);
+        page.push_str(before);
+        let place = texts.iter().find(|(name, _)| from[1..].starts_with(&format!("{name}}}")));
+        let skipped = match place {
+            Some((name, text)) => {
+                page.push_str(text);
+                name.len() + 2
+            }
+            None => {
+                page.push('{');
+                1
+            }
+        };
+        rest = &from[skipped..];
+    }
+    page + rest
+}
+
+/// Without indentation and lines of comments: they are for readers of the source.
+fn lean(text: &str) -> String {
+    let mut lean = String::with_capacity(text.len());
+    let kept = text.lines().map(str::trim).filter(|line| {
+        let comment = line.starts_with("//") || (line.starts_with("/*") && line.ends_with("*/"));
+        !comment && !line.is_empty()
+    });
+    for line in kept {
+        lean.push_str(line);
+        lean.push('\n');
+    }
+    lean
+}
+
+/// JSON without a character that could mean something in a page.
+fn unmarked(json: &str) -> String {
+    let mut text = String::with_capacity(json.len());
+    for letter in json.chars() {
+        match letter {
+            '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => text.push_str(&format!("\\u{:04x}", letter as u32)),
+            _ => text.push(letter),
+        }
+    }
+    text
+}
+
+/// Text for the places between tags.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '&' => escaped.push_str("&amp;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            // No page or drawing may hold other control characters, whichever way they are written.
+            c if c.is_control() => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}

@@ -1,0 +1,367 @@
+// The player: time, keys, and what happens when they change.
+
+const began = performance.now();
+const plan = JSON.parse(document.getElementById("plan").textContent);
+const $ = id => document.getElementById(id);
+const calmWish = matchMedia("(prefers-reduced-motion: reduce)");
+const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+
+function main() {
+  const motion = motionOf(plan);
+  const options = { shadow: true, edges: true, start: false, goal: false, collides: false, mass: plan.verdict.stamp === "failed", trail: true, follow: true };
+  const state = { t: 0, playing: false, speed: 1, loop: false, hovered: null, chosen: null, dirty: true, theme: null };
+  const colourings = colouringsOf(plan, motion);
+  let colouring = colourings[0];
+  const canvas = $("view");
+  const events = eventsOf(plan, motion);
+  const stats = { calls: 0, frame: 0, frames: 0, first: null };
+  const touch = () => (state.dirty = true);
+
+  const toggles = [
+    ["mass", "Centre of mass and support", "m", plan.stand.length > 0], ["start", "Ghost of the start", "s", plan.duration > 0],
+    ["goal", "Ghost of the end", "g", plan.duration > 0], ["collides", "Shapes that are judged", "j", Boolean(motion.collides)],
+    ["trail", "Way of the base", "w", (plan.body.base || []).length > 1], ["follow", "Follow the robot", "o", true],
+    ["edges", "Edges", "e", true], ["shadow", "Shadows", "", true],
+  ].filter(([, , , there]) => there).map(([name, title, key]) => ({ name, title, key }));
+
+  const player = {
+    motion, options, colourings, toggles,
+    seek(t, stop) {
+      state.t = clamp(t, 0, plan.end);
+      if (stop) play(false);
+      touch();
+    },
+    colour(name) {
+      colouring = colourings.find(c => c.name === name) || colouring;
+      document.querySelectorAll("[data-colour]").forEach(b => b.setAttribute("aria-pressed", b.dataset.colour === colouring.name));
+      showLegend(colouring);
+      touch();
+    },
+    toggle(name, on) {
+      if (!toggles.some(t => t.name === name)) return;
+      options[name] = on === undefined ? !options[name] : on;
+      document.querySelectorAll(`[data-toggle="${name}"]`).forEach(box => (box.checked = options[name]));
+      if (name === "follow") camera.follow = options.follow;
+      touch();
+    },
+  };
+
+  const camera = cameraOf(canvas, () => calmWish.matches, touch);
+  const timeline = timelineOf(plan, motion, events, player.seek);
+  const curves = curvesOf(plan, motion, player.seek);
+  const panel = panelOf(plan, player);
+  showHead();
+
+  let renderer = null;
+  try {
+    renderer = rendererOf(canvas, shapesOf(plan), motion);
+  } catch (error) {
+    // Whoever can't draw it shows a still picture, and everything else on the page.
+    canvas.hidden = true;
+    $("still").hidden = false;
+    if (!/missing/.test(error.message)) console.error(error);
+  }
+  const X = renderer ? renderer.texels : new Float32Array(TEXELS * motion.bodies);
+  const whole = extent(motion, X);
+  motion.place(0, X);
+  const size = extentNow(motion, X);
+  if (renderer)
+    [0, plan.end].forEach((t, i) => {
+      const ghost = renderer.empty();
+      motion.place(t, ghost);
+      paint(plan, motion, { colour: () => rgb(i ? "#2f7fc1" : "#7d8791") }, ghost, t, null, null, false);
+      renderer.setGhost(i, ghost);
+    });
+
+  /** The middle and half the size of everything, over time. */
+  function extent(motion, X) {
+    let box = null;
+    for (let i = 0; i <= 12; i++) {
+      motion.place((plan.end * i) / 12, X);
+      const now = extentNow(motion, X);
+      box = box ? [0, 1].map(side => now.box[side].map((x, k) => (side ? Math.max(x, box[1][k]) : Math.min(x, box[0][k])))) : now.box;
+    }
+    return ballOf(box);
+  }
+  function extentNow(motion, X) {
+    const box = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    for (const solid of motion.solids) {
+      const i = TEXELS * solid.body;
+      const q = [X[i + 4], X[i + 5], X[i + 6], X[i + 7]];
+      const own = solid.p.map((x, k) => x * X[i + 8 + k]);
+      const c = add([X[i], X[i + 1], X[i + 2]], turned(q, own));
+      const ofMesh = solid.shape > 2 ? plan.meshes[solid.shape - 3].radius * 2 : 0;
+      const reach = ofMesh / 2 || norm(solid.s.map((x, k) => x * X[i + 8 + k])) / 2;
+      c.forEach((x, k) => {
+        box[0][k] = Math.min(box[0][k], x - reach * 0.8);
+        box[1][k] = Math.max(box[1][k], x + reach * 0.8);
+      });
+    }
+    return ballOf(box);
+  }
+  function ballOf(box) {
+    return { box, middle: scaled(add(box[0], box[1]), 0.5), radius: Math.max(norm(sub(box[1], box[0])) / 2, 1e-3) };
+  }
+
+  function fit(jump) {
+    motion.place(state.t, X);
+    const now = extentNow(motion, X);
+    camera.follow = options.follow;
+    camera.fit(now.middle, now.radius);
+    if (jump) camera.jump();
+    touch();
+  }
+
+  function theme(dark) {
+    document.documentElement.dataset.theme = dark ? "dark" : "light";
+    state.theme = dark
+      ? { dark, above: rgb("#1a2029"), below: rgb("#262e38"), ink: [0, 0, 0], good: rgb("#4fcfa6"), bad: rgb("#ff7a3c") }
+      : { dark, above: rgb("#e7eaec"), below: rgb("#f6f4ef"), ink: rgb("#20303c"), good: rgb("#00755a"), bad: rgb(FAILED) };
+    state.lineInk = dark ? rgb("#e6e8ea") : rgb("#20303c");
+    timeline.draw();
+    touch();
+  }
+
+  function play(on) {
+    if (on && state.t >= plan.end - 1e-9) state.t = 0;
+    state.playing = on && plan.end > 0;
+    $("play").firstElementChild.firstElementChild.setAttribute("d", state.playing ? "M3 2h4v12H3zM9 2h4v12H9z" : "M4 2l10 6-10 6z");
+    $("play").setAttribute("aria-pressed", state.playing);
+    touch();
+  }
+
+  function step(direction) {
+    const away = 1e-4;
+    const next = direction > 0 ? events.stops.find(t => t > state.t + away) : events.stops.findLast(t => t < state.t - away);
+    player.seek(next === undefined ? (direction > 0 ? plan.end : 0) : next, true);
+  }
+
+  function speed(value) {
+    state.speed = value;
+    $("speed").value = String(value);
+  }
+
+  function showHead() {
+    document.querySelector("#head h1").textContent = visible(plan.title);
+    const { stamp } = plan.verdict;
+    $("stamp").className = stamp === "verified" ? "good" : stamp === "failed" ? "bad" : "";
+    $("stamp").append(el("b", {}, stamp === "failed" ? "not verified" : stamp), visible(plan.summary));
+    const first = plan.verdict.failures[0];
+    $("why").textContent = first ? visible("at " + seconds(first.time) + ": " + first.message) : "";
+  }
+
+  function showLegend({ legend }) {
+    const box = $("legend");
+    box.replaceChildren(...legend.map(([colour, name]) => {
+      const swatch = el("i", { class: colour === "ramp" ? "ramp" : null });
+      const stops = RAMP.map(c => `rgb(${c.map(x => Math.round(x * 255)).join(" ")})`).join(", ");
+      swatch.style.background = colour === "ramp" ? `linear-gradient(90deg, ${stops})` : colour;
+      return el("span", {}, swatch, visible(name));
+    }));
+    box.hidden = legend.length < 2 && legend[0][0] !== "ramp";
+  }
+
+  function resize() {
+    const ratio = Math.min(devicePixelRatio || 1, 2);
+    const [w, h] = [canvas.clientWidth, canvas.clientHeight].map(x => Math.max(Math.round(x * ratio), 1));
+    if (canvas.width !== w || canvas.height !== h) (canvas.width = w), (canvas.height = h);
+    timeline.draw();
+    touch();
+  }
+
+  let follows = null;
+  function draw(seconds_) {
+    const start = performance.now();
+    motion.place(state.t, X);
+    const failure = failureAt(plan, state.t);
+    paint(plan, motion, colouring, X, state.t, state.hovered, failure, state.theme.dark);
+    const stand = standAt(plan, state.t);
+    const now = extentNow(motion, X);
+    if (camera.follow && follows) camera.goal.target = add(camera.goal.target, sub(now.middle, follows));
+    follows = now.middle;
+    const moving = camera.update(seconds_);
+    const lineTheme = { ...state.theme, ink: state.lineInk };
+    const lines = [];
+    const marks = [];
+    if (options.trail) lines.push(...trailLines(plan, plan.floor, lineTheme));
+    if (options.mass && stand) lines.push(...standLines(stand, plan.floor, size.radius, lineTheme));
+    if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, plan.floor, lineTheme));
+    const scene = {
+      camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
+      middle: now.middle, radius: now.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground,
+      edges: options.edges, ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
+    };
+    if (renderer) stats.calls = renderer.render(scene);
+    scene_ = scene;
+    placeCallout(failure);
+    timeline.show(state.t);
+    curves.draw(state.t);
+    panel.show(motion.causes(state.t));
+    $("clock").replaceChildren(el("b", {}, state.t.toFixed(2)), " / " + seconds(plan.duration));
+    stats.frame = performance.now() - start;
+    stats.frames++;
+    if (stats.first === null) stats.first = performance.now() - began;
+    return moving;
+  }
+  let scene_ = null;
+
+  /** Where a module is on the screen, in pixels. */
+  function onScreen(p) {
+    const s = projected(camera.matrix, p);
+    return s && [((s[0] + 1) / 2) * canvas.clientWidth, ((1 - s[1]) / 2) * canvas.clientHeight];
+  }
+
+  function placeCallout(failure) {
+    const box = $("callout");
+    box.hidden = !failure;
+    if (!failure) return;
+    const bodies = motion.moduleOf.flatMap((m, b) => (failure.modules.includes(m) ? [b] : []));
+    const sum = bodies.reduce((s, b) => add(s, [X[TEXELS * b], X[TEXELS * b + 1], X[TEXELS * b + 2]]), [0, 0, 0]);
+    const place = failure.point || (bodies.length ? scaled(sum, 1 / bodies.length) : extentNow(motion, X).middle);
+    const at = onScreen(place);
+    box.hidden = !at;
+    if (!at) return;
+    box.textContent = visible(failure.message);
+    box.style.left = clamp(at[0], 150, Math.max(canvas.clientWidth - 150, 150)) + "px";
+    box.style.top = clamp(at[1], 120, canvas.clientHeight) + "px";
+  }
+
+  function hover(e) {
+    if (!renderer || !scene_ || e.buttons) return;
+    const rect = canvas.getBoundingClientRect();
+    const [x, y] = [(e.clientX - rect.left) / rect.width, (e.clientY - rect.top) / rect.height];
+    const body = renderer.pick(scene_, x, y);
+    const module = body < 0 ? null : motion.moduleOf[body];
+    const tip = $("tip");
+    tip.hidden = body < 0;
+    if (body >= 0) {
+      const facts = motion.facts(body, state.t);
+      tip.replaceChildren(el("b", {}, visible(motion.modules[module].name)), el("dl", {}, facts.flatMap(([k, v]) => [el("dt", {}, visible(k)), el("dd", {}, visible(v))])));
+      tip.style.left = clamp(e.clientX - rect.left + 16, 0, rect.width - 240) + "px";
+      tip.style.top = clamp(e.clientY - rect.top + 16, 0, rect.height - 30 - 20 * facts.length) + "px";
+    }
+    if (module !== state.hovered) {
+      state.hovered = module;
+      touch();
+    }
+    return module;
+  }
+  canvas.addEventListener("pointermove", hover);
+  canvas.addEventListener("pointerleave", () => {
+    state.hovered = null;
+    $("tip").hidden = true;
+    touch();
+  });
+  canvas.addEventListener("click", e => {
+    if (camera.dragged()) return;
+    const module = hover(e);
+    if (motion.joints.length) curves.choose(module === undefined ? null : module);
+    touch();
+  });
+
+  function showCurves(on) {
+    curves.root.hidden = !on || !curves.build();
+    $("plots").setAttribute("aria-pressed", !curves.root.hidden);
+    resize();
+  }
+
+  const keys = [
+    [" ", "space", "play or pause", () => play(!state.playing)],
+    ["ArrowLeft", "←", "a little back (with shift: the event before)", e => (e.shiftKey ? step(-1) : player.seek(state.t - plan.duration / 200, true))],
+    ["ArrowRight", "→", "a little on (with shift: the next event)", e => (e.shiftKey ? step(1) : player.seek(state.t + plan.duration / 200, true))],
+    [",", ",", "the event before", () => step(-1)],
+    [".", ".", "the next event", () => step(1)],
+    ["ArrowUp", "↑", "faster", () => speed(SPEEDS[Math.min(SPEEDS.indexOf(state.speed) + 1, SPEEDS.length - 1)])],
+    ["ArrowDown", "↓", "slower", () => speed(SPEEDS[Math.max(SPEEDS.indexOf(state.speed) - 1, 0)])],
+    ["Home", "Home", "to the start", () => player.seek(0, true)],
+    ["End", "End", "to the end", () => player.seek(plan.end, true)],
+    ["l", "L", "begin again at the end", () => $("loop").click()],
+    ["c", "C", "curves", () => $("plots").click()],
+    ["f", "F", "the whole robot", () => fit()],
+    ["d", "D", "light or dark", () => $("shade").click()],
+    ["p", "P", "panel", () => $("sheet").click()],
+    ...toggles.filter(t => t.key).map(t => [t.key, t.key.toUpperCase(), t.title.toLowerCase(), () => player.toggle(t.name)]),
+    ...colourings.map((c, i) => [String(i + 1), String(i + 1), "colour by " + c.title.toLowerCase(), () => player.colour(c.name)]),
+    ["?", "?", "these keys", () => $("help").click()],
+  ];
+  $("keys").append(el("h2", {}, "Keys"), el("table", {}, keys.map(([, shown, what]) => el("tr", {}, el("td", {}, el("kbd", {}, shown)), el("td", {}, what)))), el("form", { method: "dialog" }, el("button", {}, "Close")));
+  document.addEventListener("keydown", e => {
+    if (e.ctrlKey || e.metaKey || e.altKey || $("keys").open) return;
+    if (e.target instanceof HTMLSelectElement || (e.target instanceof HTMLButtonElement && e.key === " ") || e.target instanceof HTMLInputElement) return;
+    const key = keys.find(([name]) => name === e.key || name === e.key.toLowerCase());
+    if (!key) return;
+    e.preventDefault();
+    key[3](e);
+  });
+
+  $("play").addEventListener("click", () => play(!state.playing));
+  $("before").addEventListener("click", () => step(-1));
+  $("after").addEventListener("click", () => step(1));
+  $("loop").addEventListener("click", () => {
+    state.loop = !state.loop;
+    $("loop").setAttribute("aria-pressed", state.loop);
+  });
+  $("plots").addEventListener("click", () => showCurves(curves.root.hidden));
+  $("fit").addEventListener("click", () => fit());
+  $("shade").addEventListener("click", () => theme(!state.theme.dark));
+  $("sheet").addEventListener("click", () => {
+    document.body.classList.toggle("wide");
+    $("panel").hidden = document.body.classList.contains("wide");
+    resize();
+  });
+  $("help").addEventListener("click", () => $("keys").showModal());
+  SPEEDS.forEach(s => $("speed").append(el("option", { value: s }, s + "×")));
+  $("speed").addEventListener("change", () => speed(Number($("speed").value)));
+  speed(1);
+
+  /** `#t=12.3` opens the page at a time. */
+  function fromAddress() {
+    const wish = /[#&]t=([0-9.]+)/.exec(location.hash);
+    if (wish) player.seek(Number(wish[1]) || 0, true);
+    return Boolean(wish);
+  }
+  addEventListener("hashchange", fromAddress);
+
+  let last = performance.now();
+  let saved = "";
+  function frame(now) {
+    const passed = Math.min((now - last) / 1000, 0.1);
+    last = now;
+    if (state.playing) {
+      state.t += passed * state.speed;
+      if (state.t >= plan.end) {
+        state.t = state.loop ? 0 : plan.end;
+        if (!state.loop) play(false);
+      }
+      state.dirty = true;
+    }
+    if (state.dirty) {
+      state.dirty = false;
+      state.dirty = draw(passed) || state.dirty;
+      const address = "#t=" + state.t.toFixed(2);
+      if (!state.playing && address !== saved && !(state.t === 0 && !location.hash)) {
+        saved = address;
+        // Some viewers of mail don't let a page touch its address.
+        try { history.replaceState(null, "", address); } catch { /* nothing is lost */ }
+      }
+    }
+    requestAnimationFrame(frame);
+  }
+
+  const wide = innerWidth > 760;
+  if (!wide) document.body.classList.add("wide"), ($("panel").hidden = true);
+  new ResizeObserver(resize).observe($("stage"));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", e => theme(e.matches));
+  theme(matchMedia("(prefers-color-scheme: dark)").matches);
+  player.colour(colouring.name);
+  resize();
+  fit(true);
+  // For scripts and tests.
+  window.modl = { plan, stats, state, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y) };
+  const wished = fromAddress();
+  draw(0);
+  if (!wished && !calmWish.matches) play(true);
+  requestAnimationFrame(frame);
+}
+
+main();

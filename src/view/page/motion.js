@@ -1,0 +1,298 @@
+// Where every body is at a time. One motion a family, all with the same face:
+//   bodies       how many there are
+//   solids       what is drawn: {body, shape, p, q, s}; `collides` the same for the judge's shapes
+//   moduleOf     the module (cell, node, strut) of each body, an index of `modules`
+//   modules      {name, type, group}: group is the part that gives the colour
+//   place(t, X)  writes position, rotation and size of each body into X, 16 numbers a body
+//   causes(t)    indices of what commands the motion at t
+//   facts(b, t)  lines about a body for the tooltip
+
+const TEXELS = 16;
+
+function motionOf(plan) {
+  const body = plan.body;
+  if (body.form === "tracks") return robotMotion(plan, body);
+  if (body.form === "stages") return latticeMotion(plan, body);
+  return trussMotion(plan, body);
+}
+
+/** The part of the robot that a path name belongs to: `leg[2]` of `leg[2].m[0]`. */
+function groupOf(name) {
+  const dot = name.indexOf(".");
+  return dot < 0 ? name : name.slice(0, dot);
+}
+
+/** The value of a polynomial in Bernstein form, by de Casteljau's rule. */
+function bernstein(segment, first, u) {
+  const n = segment.length - first;
+  if (u <= 0) return segment[first];
+  if (u >= 1) return segment[segment.length - 1];
+  for (let i = 0; i < n; i++) scratch[i] = segment[first + i];
+  for (let last = n - 1; last > 0; last--)
+    for (let i = 0; i < last; i++) scratch[i] += (scratch[i + 1] - scratch[i]) * u;
+  return scratch[0];
+}
+const scratch = new Float64Array(32);
+
+function robotMotion(plan, body) {
+  const firstLink = [];
+  const modules = [];
+  const links = [];
+  const joints = [];
+  const solids = [];
+  const collides = [];
+  body.modules.forEach(([name, kind], module) => {
+    const type = body.kinds[kind];
+    firstLink.push(links.length);
+    modules.push({ name, type: type.name, group: groupOf(name) });
+    type.links.forEach((link, index) => {
+      for (const solid of link.solids) solids.push({ ...solid, body: links.length, shade: index });
+      for (const solid of link.collides || link.solids) collides.push({ ...solid, body: links.length, shade: index });
+      links.push({ module, name: link.name });
+    });
+    type.joints.forEach(joint => joints.push({ module, name: joint.name, turns: joint.turns, still: joint.still }));
+  });
+  body.hinges.forEach(name => joints.push({ module: -1, name, turns: true }));
+  const starts = body.tracks.map(([, segments]) => segments.map(s => s[0]));
+  const n = links.length;
+  const state = { q: new Float64Array(body.start), P: new Float64Array(3 * n), Q: new Float64Array(4 * n) };
+  const treeTimes = body.trees.map(tree => tree.time);
+  const baseTimes = body.base.map(key => key[0]);
+  const driven = [...new Set(body.tracks.map(([joint]) => joint))];
+
+  /** The segment of a track that has begun at t. */
+  const segmentAt = (track, t) => {
+    const at = lastNotAbove(starts[track], t);
+    return at < 0 ? null : body.tracks[track][1][at];
+  };
+
+  function jointsAt(t) {
+    state.q.set(body.start);
+    body.tracks.forEach(([joint], track) => {
+      const s = segmentAt(track, t);
+      if (s) state.q[joint] = bernstein(s, 3, (t - s[0]) / (s[1] - s[0]));
+    });
+    return state.q;
+  }
+
+  /** Base position and rotation, from the judge's walk. */
+  function baseAt(t) {
+    const at = lastNotAbove(baseTimes, t);
+    const a = body.base[Math.max(at, 0)];
+    const b = body.base[Math.min(at + 1, body.base.length - 1)];
+    const u = b[0] > a[0] ? clamp((t - a[0]) / (b[0] - a[0]), 0, 1) : 0;
+    const sign = a[4] * b[4] + a[5] * b[5] + a[6] * b[6] + a[7] * b[7] < 0 ? -1 : 1;
+    const q = [4, 5, 6, 7].map(i => mix(a[i], sign * b[i], u));
+    const length = Math.hypot(...q);
+    return { p: [1, 2, 3].map(i => mix(a[i], b[i], u)), q: q.map(c => c / length) };
+  }
+
+  function walk(tree, q, base) {
+    const { P, Q } = state;
+    P.set(base.p, 3 * tree.root);
+    Q.set(base.q, 4 * tree.root);
+    for (const [link, parent, form, joint] of tree.steps) {
+      const f = body.forms[form];
+      const parentQ = [Q[4 * parent], Q[4 * parent + 1], Q[4 * parent + 2], Q[4 * parent + 3]];
+      let turn = product(parentQ, f.turn);
+      let shift = f.shift;
+      let x = 0;
+      if (typeof joint === "number") x = q[joint];
+      else if (joint) for (let i = 0; i < joint.length; i += 2) x += joint[i + 1] * q[joint[i]];
+      if (f.axis) turn = product(turn, about(f.axis, x));
+      if (f.along) shift = add(shift, scaled(f.along, x));
+      const p = turned(parentQ, shift);
+      const o = f.offset ? turned(turn, f.offset) : [0, 0, 0];
+      for (let i = 0; i < 3; i++) P[3 * link + i] = P[3 * parent + i] + p[i] + o[i];
+      Q.set(turn, 4 * link);
+    }
+  }
+
+  /** Modules that fell off stay where they were when they did. */
+  function poses(t) {
+    const at = Math.max(lastNotAbove(treeTimes, t), 0);
+    for (let i = 0; i < at; i++)
+      if (body.trees[i + 1].loose) walk(body.trees[i], jointsAt(treeTimes[i + 1]), baseAt(treeTimes[i + 1]));
+    walk(body.trees[at], jointsAt(t), baseAt(t));
+  }
+
+  return {
+    bodies: n,
+    solids,
+    collides: body.kinds.some(kind => kind.links.some(link => link.collides)) ? collides : null,
+    moduleOf: links.map(link => link.module),
+    modules,
+    joints,
+    driven,
+    jointAt: (joint, t) => jointsAt(t)[joint],
+    jointName: j => (joints[j].module < 0 ? joints[j].name : modules[joints[j].module].name + "." + joints[j].name),
+    place(t, X) {
+      poses(t);
+      const { P, Q } = state;
+      for (let i = 0; i < n; i++) {
+        X.set([P[3 * i], P[3 * i + 1], P[3 * i + 2], 0, Q[4 * i], Q[4 * i + 1], Q[4 * i + 2], Q[4 * i + 3], 1, 1, 1], TEXELS * i);
+      }
+    },
+    causes(t) {
+      const found = new Set();
+      body.tracks.forEach((_, track) => {
+        const s = segmentAt(track, t);
+        if (s && t < s[1]) found.add(s[2]);
+      });
+      for (const dock of body.docks) if (Math.abs(dock[0] - t) < 0.25) found.add(dock[3]);
+      return found;
+    },
+    /** When each cause begins to command something. */
+    beginnings() {
+      const found = [];
+      body.tracks.forEach(([, segments]) => segments.forEach(s => found.push([s[0], s[2]])));
+      for (const dock of body.docks) found.push([dock[0], dock[3]]);
+      return found;
+    },
+    events: body.docks.map(([time, docks, bond]) => ({ time, kind: "dock", text: (docks ? "docks " : "undocks ") + body.bonds[bond] })),
+    facts(b, t) {
+      const link = links[b];
+      const q = jointsAt(t);
+      const lines = [["type", modules[link.module].type], ["link", link.name]];
+      joints.forEach((joint, j) => {
+        if (joint.module !== link.module || joint.still) return;
+        lines.push([joint.name, joint.turns ? ((q[j] * 180) / Math.PI).toFixed(1) + "°" : (q[j] * 1000).toFixed(1) + " mm"]);
+      });
+      return lines;
+    },
+  };
+}
+
+/** How far between its ends a stage is. */
+function progress(law, u) {
+  u = clamp(u, 0, 1);
+  const speed = 1 / (1 - law);
+  if (u < law) return (speed * u * u) / (2 * law);
+  if (u <= 1 - law) return speed * (u - law / 2);
+  return 1 - (speed * (1 - u) * (1 - u)) / (2 * law);
+}
+
+function latticeMotion(plan, body) {
+  const n = body.count;
+  // Configurations are differences: each stage names the cells that it moves.
+  const fill = (boxes, runs) => {
+    for (const [first, counters, center, size] of runs) {
+      const total = counters.reduce((product, c) => product * c[0], 1);
+      for (let i = 0; i < total; i++) {
+        let rest = i;
+        let cell = first;
+        const p = center.slice();
+        for (let c = counters.length - 1; c >= 0; c--) {
+          const [count, stride, dx, dy, dz] = counters[c];
+          const k = rest % count;
+          rest = (rest - k) / count;
+          cell += stride * k;
+          p[0] += dx * k;
+          p[1] += dy * k;
+          p[2] += dz * k;
+        }
+        boxes.set([...p, ...size], 6 * cell);
+      }
+    }
+    return boxes;
+  };
+  const ends = [fill(new Float32Array(6 * n), body.start)];
+  const times = [0];
+  for (const stage of body.stages) {
+    ends.push(fill(ends[ends.length - 1].slice(), stage.end));
+    times.push(times[times.length - 1] + stage.duration);
+  }
+  let low = Infinity;
+  for (const boxes of ends) for (let i = 0; i < n; i++) low = Math.min(low, boxes[6 * i + 2] - boxes[6 * i + 5] / 2);
+  const stageAt = t => clamp(lastNotAbove(times, t), 0, Math.max(body.stages.length - 1, 0));
+  const modules = Array.from({ length: n }, (_, i) => ({ name: "cell " + i, type: body.cell, group: "" }));
+  return {
+    bodies: n,
+    solids: modules.map((_, i) => ({ body: i, shape: 0, p: [0, 0, 0], q: [0, 0, 0, 1], s: [0.97, 0.97, 0.97], shade: 0 })),
+    collides: null,
+    moduleOf: modules.map((_, i) => i),
+    modules,
+    joints: [],
+    driven: [],
+    place(t, X) {
+      const at = stageAt(t);
+      const stage = body.stages[at];
+      const a = ends[at];
+      const b = stage ? ends[at + 1] : a;
+      const u = stage ? progress(stage.law, stage.duration > 0 ? (t - times[at]) / stage.duration : 1) : 0;
+      for (let i = 0; i < n; i++) {
+        const box = k => mix(a[6 * i + k], b[6 * i + k], u) * body.size;
+        X.set([box(0), box(1), box(2) - low * body.size, 0, 0, 0, 0, 1, box(3), box(4), box(5)], TEXELS * i);
+      }
+    },
+    causes: t => new Set(body.stages.length ? [body.stages[stageAt(t)].cause] : []),
+    beginnings: () => body.stages.map((stage, i) => [times[i], stage.cause]),
+    events: body.stages.map((stage, i) => ({ time: times[i], kind: "stage", text: stage.name })),
+    facts(b, t) {
+      const X = new Float32Array(TEXELS * n);
+      this.place(t, X);
+      return [["type", body.cell], ["size", [8, 9, 10].map(k => (X[TEXELS * b + k] * 1000).toFixed(0)).join(" × ") + " mm"]];
+    },
+    /** How much smaller than at rest each cell is, 0..1: for the colours. */
+    squeezed: (X, i) => 1 - (X[TEXELS * i + 8] * X[TEXELS * i + 9] * X[TEXELS * i + 10]) / body.size ** 3,
+  };
+}
+
+function trussMotion(plan, body) {
+  const nodes = body.nodes.length;
+  const times = body.knots.map(knot => knot.time);
+  const lengths = (P, [a, b]) => norm(sub(P(a), P(b)));
+  const start = i => body.knots[0].at.slice(3 * i, 3 * i + 3);
+  const typical = body.struts.reduce((sum, strut) => sum + lengths(start, strut), 0) / Math.max(body.struts.length, 1);
+  const thick = clamp(typical * 0.03, 1e-4, 1);
+  const modules = body.nodes.map(name => ({ name, type: "node", group: "nodes" }));
+  body.struts.forEach(([a, b]) => modules.push({ name: body.nodes[a] + " -- " + body.nodes[b], type: body.strut, group: "struts" }));
+  // A strut is a thick tube with a thinner rod that slides in it, as linear actuators are.
+  const solids = [];
+  modules.forEach((_, i) => {
+    const solid = (shape, p, s, shade) => solids.push({ body: i, shape, p, q: [0, 0, 0, 1], s, shade });
+    if (i < nodes) return solid(2, [0, 0, 0], [2.6 * thick, 2.6 * thick, 2.6 * thick], 0);
+    solid(1, [0, 0, 0], [thick * 0.6, thick * 0.6, 0.96], 1);
+    solid(1, [0, 0, -0.21], [thick, thick, 0.5], 0);
+  });
+  function nodesAt(t) {
+    const after = lastNotAbove(times, t) + 1;
+    const a = body.knots[Math.max(after - 1, 0)];
+    const b = body.knots[after];
+    if (!b) return i => a.at.slice(3 * i, 3 * i + 3);
+    const u = (t - a.time) / (b.time - a.time);
+    if (!b.roll) return i => [0, 1, 2].map(k => mix(a.at[3 * i + k], b.at[3 * i + k], u));
+    const [from, to, angle] = b.roll;
+    const origin = a.at.slice(3 * from, 3 * from + 3);
+    const q = about(unit(sub(a.at.slice(3 * to, 3 * to + 3), origin)), angle * u);
+    return i => add(origin, turned(q, sub(a.at.slice(3 * i, 3 * i + 3), origin)));
+  }
+  return {
+    bodies: modules.length,
+    solids,
+    collides: null,
+    moduleOf: modules.map((_, i) => i),
+    modules,
+    joints: [],
+    driven: [],
+    place(t, X) {
+      const at = nodesAt(t);
+      for (let i = 0; i < nodes; i++) X.set([...at(i), 0, 0, 0, 0, 1, 1, 1, 1], TEXELS * i);
+      body.struts.forEach(([a, b], s) => {
+        const [pa, pb] = [at(a), at(b)];
+        const d = sub(pb, pa);
+        X.set([...scaled(add(pa, pb), 0.5), 0, ...fromZ(d), 1, 1, norm(d)], TEXELS * (nodes + s));
+      });
+    },
+    causes: t => new Set([body.knots[clamp(lastNotAbove(times, t) + 1, 0, times.length - 1)].cause]),
+    beginnings: () => body.knots.slice(1).map((knot, i) => [times[i], knot.cause]),
+    events: body.knots.slice(1, -1).map(knot => ({ time: knot.time, kind: "stage", text: knot.roll ? "rolls" : "moves on" })),
+    facts(b, t) {
+      if (b < nodes) return [["node", nodesAt(t)(b).map(x => x.toFixed(2)).join(", ") + " m"]];
+      const length = lengths(nodesAt(t), body.struts[b - nodes]);
+      return [["type", body.strut], ["length", length.toFixed(3) + " m of " + body.range.map(x => x.toFixed(2)).join(".." ) + " m"]];
+    },
+    /** How far out each strut is in its range, 0..1: for the colours. */
+    extended: (X, i) => (i < nodes ? null : (X[TEXELS * i + 10] - body.range[0]) / (body.range[1] - body.range[0])),
+  };
+}

@@ -1,0 +1,320 @@
+// The renderer: bodies of any number by instancing, a sun with shadows, a ground, lines, picking.
+
+const SUN = unit([0.42, -0.55, 1.05]);
+const SHADOW_SIZE = 2048;
+
+/** Throws where WebGL 2 is missing. */
+function rendererOf(canvas, shapes, motion) {
+  const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: false });
+  if (!gl) throw new Error("WebGL 2 is missing");
+  const programs = {
+    solid: programOf(gl, SOLID_VERTEX, SOLID_FRAGMENT),
+    edge: programOf(gl, EDGE_VERTEX, EDGE_FRAGMENT),
+    depth: programOf(gl, DEPTH_VERTEX, DEPTH_FRAGMENT),
+    pick: programOf(gl, PICK_VERTEX, PICK_FRAGMENT),
+    ground: programOf(gl, GROUND_VERTEX, GROUND_FRAGMENT),
+    sky: programOf(gl, SKY_VERTEX, SKY_FRAGMENT),
+    line: programOf(gl, LINE_VERTEX, LINE_FRAGMENT),
+    flat: programOf(gl, FLAT_VERTEX, FLAT_FRAGMENT),
+  };
+  const quad = bufferOf(gl, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
+  const square = arrayOf(gl, [[0, quad, 2, 8, 0, 0]]);
+  const meshes = shapes.map(shape => ({ faces: bufferOf(gl, shape.faces), lines: bufferOf(gl, shape.lines), shape }));
+  const rows = Math.max(Math.ceil((motion.bodies * 4) / 1024), 1);
+  const texels = new Float32Array(rows * 1024 * 4);
+  const texture = poseTexture(gl, rows);
+  const ghosts = [poseTexture(gl, rows), poseTexture(gl, rows)];
+  const shadows = shadowMap(gl);
+  const picking = pickTarget(gl);
+  const lines = lineBatch(gl);
+  const flats = { buffer: gl.createBuffer() };
+  flats.array = arrayOf(gl, [[0, flats.buffer, 3, 12, 0, 0]]);
+  const sets = new Map();
+  let calls = 0;
+
+  /** The instances of a list of solids, one batch a shape. */
+  function batches(solids) {
+    if (!sets.has(solids)) sets.set(solids, batchesOf(gl, meshes, solids));
+    return sets.get(solids);
+  }
+
+  function draw(program, solids, what) {
+    for (const batch of batches(solids)) {
+      const count = what === "lines" ? batch.mesh.shape.lines.length / 3 : batch.mesh.shape.faces.length / 6;
+      if (!count) continue;
+      gl.bindVertexArray(what === "lines" ? batch.lines : batch.faces);
+      gl.drawArraysInstanced(what === "lines" ? gl.LINES : gl.TRIANGLES, 0, count, batch.count);
+      calls++;
+    }
+  }
+
+  function use(name, uniforms, poses) {
+    const program = programs[name];
+    gl.useProgram(program.handle);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, poses || texture);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, shadows.texture);
+    for (const [key, value] of Object.entries({ bodies: 0, shadows: 1, ...uniforms })) program.set(key, value);
+  }
+
+  function upload(target, data) {
+    gl.bindTexture(gl.TEXTURE_2D, target);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 1024, rows, gl.RGBA, gl.FLOAT, data);
+  }
+
+  /** The sun's eyes: a box around what is drawn. */
+  function sunView(scene) {
+    const r = scene.radius * 1.1;
+    const eye = add(scene.middle, scaled(SUN, 3 * r));
+    return times(orthographic(r, 0.5 * r, 6 * r), lookAt(eye, scene.middle, [0, 1, 0]));
+  }
+
+  function render(scene) {
+    calls = 0;
+    const { camera, theme } = scene;
+    const sun = sunView(scene);
+    upload(texture, texels);
+    if (scene.shadow) {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, shadows.frame);
+      gl.viewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);
+      gl.clear(gl.DEPTH_BUFFER_BIT);
+      gl.enable(gl.DEPTH_TEST);
+      gl.enable(gl.POLYGON_OFFSET_FILL);
+      gl.polygonOffset(1.5, 2);
+      use("depth", { view: sun, shadows: 2 });
+      draw("depth", scene.solids, "faces");
+      gl.disable(gl.POLYGON_OFFSET_FILL);
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.disable(gl.DEPTH_TEST);
+    use("sky", { above: theme.above, below: theme.below });
+    gl.bindVertexArray(square);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    calls++;
+    gl.enable(gl.DEPTH_TEST);
+    const dark = theme.dark ? 1 : 0;
+    const common = { view: camera.matrix, sun, eye: camera.eye, sunDirection: SUN, dark, shadowed: scene.shadow ? 1 : 0 };
+    use("solid", { ...common, opacity: 1 });
+    draw("solid", scene.solids, "faces");
+    if (scene.edges) {
+      use("edge", { view: camera.matrix, opacity: 1, dark });
+      draw("edge", scene.solids, "lines");
+    }
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    if (scene.ground) drawGround(scene, sun);
+    scene.ghosts.forEach((shown, i) => shown && drawGhost(scene, common, ghosts[i]));
+    gl.depthMask(false);
+    if (scene.area.length) drawArea(scene);
+    drawLines(scene, scene.lines);
+    // What matters most is seen through everything.
+    gl.disable(gl.DEPTH_TEST);
+    drawLines(scene, scene.marks);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
+    gl.bindVertexArray(null);
+    return calls;
+  }
+
+  function drawGround(scene, sun) {
+    gl.depthMask(false);
+    const { middle, radius, camera } = scene;
+    const width = Math.max(radius * 6, norm(sub(camera.eye, middle)) * 2.5);
+    const step = 10 ** Math.floor(Math.log10(radius * 0.9));
+    use("ground", {
+      view: camera.matrix, sun, patch_: [middle[0], middle[1], scene.floor, width], ink: scene.theme.ink,
+      step_: step / 1, strength: scene.theme.dark ? 1.5 : 1, shadowed: scene.shadow ? 1 : 0,
+    });
+    gl.bindVertexArray(square);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    calls++;
+    gl.depthMask(true);
+  }
+
+  /** Depth first, then colour once: what lies behind a ghost's own surface stays hidden. */
+  function drawGhost(scene, common, poses) {
+    gl.colorMask(false, false, false, false);
+    use("depth", { view: common.view, shadows: 2 }, poses);
+    draw("depth", scene.solids, "faces");
+    gl.colorMask(true, true, true, true);
+    gl.depthFunc(gl.LEQUAL);
+    use("solid", { ...common, opacity: 0.16, shadowed: 0 }, poses);
+    draw("solid", scene.solids, "faces");
+    use("edge", { view: common.view, opacity: 0.3, dark: common.dark }, poses);
+    draw("edge", scene.solids, "lines");
+    gl.depthFunc(gl.LESS);
+  }
+
+  function drawArea(scene) {
+    const fan = [];
+    for (let i = 2; i < scene.area.length; i++)
+      for (const p of [scene.area[0], scene.area[i - 1], scene.area[i]]) fan.push(p[0], p[1], scene.floor + 0.0005);
+    if (!fan.length) return;
+    gl.bindBuffer(gl.ARRAY_BUFFER, flats.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(fan), gl.STREAM_DRAW);
+    use("flat", { view: scene.camera.matrix, tint: [...scene.theme.good, 0.22] });
+    gl.bindVertexArray(flats.array);
+    gl.drawArrays(gl.TRIANGLES, 0, fan.length / 3);
+    calls++;
+  }
+
+  function drawLines(scene, list) {
+    if (!list.length) return;
+    const ratio = canvas.width / Math.max(canvas.clientWidth, 1);
+    use("line", { view: scene.camera.matrix, screen: [canvas.width, canvas.height] });
+    lines.draw(list, ratio);
+    calls++;
+  }
+
+  /** The body under a place of the canvas (x, y in 0..1 from the top left), or -1. */
+  function pick(scene, x, y) {
+    const width = 4 / canvas.width;
+    const height = 4 / canvas.height;
+    // The view narrowed to the pixel.
+    const narrow = new Float32Array([1 / width, 0, 0, 0, 0, 1 / height, 0, 0, 0, 0, 1, 0, (1 - 2 * x) / width, (2 * y - 1) / height, 0, 1]);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, picking.frame);
+    gl.viewport(0, 0, 1, 1);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    use("pick", { view: times(narrow, scene.camera.matrix) });
+    draw("pick", scene.solids, "faces");
+    const found = new Uint8Array(4);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, found);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    return found[0] + 256 * found[1] + 65536 * found[2] - 1;
+  }
+
+  return { gl, texels, render, pick, setGhost: (i, data) => upload(ghosts[i], data), empty: () => new Float32Array(texels.length) };
+}
+
+function programOf(gl, vertex, fragment) {
+  const handle = gl.createProgram();
+  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(handle, shader);
+  }
+  gl.linkProgram(handle);
+  if (!gl.getProgramParameter(handle, gl.LINK_STATUS)) {
+    const logs = gl.getAttachedShaders(handle).map(shader => gl.getShaderInfoLog(shader));
+    throw new Error(["a shader failed", ...logs, gl.getProgramInfoLog(handle)].join("\n"));
+  }
+  const uniforms = new Map();
+  for (let i = 0; i < gl.getProgramParameter(handle, gl.ACTIVE_UNIFORMS); i++) {
+    const { name, type } = gl.getActiveUniform(handle, i);
+    uniforms.set(name, { at: gl.getUniformLocation(handle, name), type });
+  }
+  const set = (name, value) => {
+    const uniform = uniforms.get(name);
+    if (!uniform) return;
+    const { at, type } = uniform;
+    if (type === gl.FLOAT_MAT4) gl.uniformMatrix4fv(at, false, value);
+    else if (type === gl.FLOAT_VEC4) gl.uniform4fv(at, value);
+    else if (type === gl.FLOAT_VEC3) gl.uniform3fv(at, value);
+    else if (type === gl.FLOAT_VEC2) gl.uniform2fv(at, value);
+    else if (type === gl.FLOAT) gl.uniform1f(at, value);
+    else gl.uniform1i(at, value);
+  };
+  return { handle, set };
+}
+
+function bufferOf(gl, data) {
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+  return buffer;
+}
+
+/** A vertex array of attributes: [location, buffer, numbers, stride, offset, divisor]. */
+function arrayOf(gl, attributes) {
+  const array = gl.createVertexArray();
+  gl.bindVertexArray(array);
+  for (const [location, buffer, numbers, stride, offset, divisor] of attributes) {
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(location);
+    gl.vertexAttribPointer(location, numbers, gl.FLOAT, false, stride, offset);
+    gl.vertexAttribDivisor(location, divisor);
+  }
+  gl.bindVertexArray(null);
+  return array;
+}
+
+/** The first link of a module keeps its colour; the others are lighter and darker by turns. */
+const SHADES = [0, 0.22, -0.42, -0.3, -0.3, 0.34, -0.2, 0.12];
+
+function batchesOf(gl, meshes, solids) {
+  const by = new Map();
+  for (const solid of solids) {
+    if (!by.has(solid.shape)) by.set(solid.shape, []);
+    const shade = SHADES[solid.shade % SHADES.length];
+    by.get(solid.shape).push(...solid.p, solid.body, ...solid.q, ...solid.s, shade);
+  }
+  return [...by].map(([shape, numbers]) => {
+    const instances = bufferOf(gl, new Float32Array(numbers));
+    const mesh = meshes[shape];
+    const each = [[2, instances, 4, 48, 0, 1], [3, instances, 4, 48, 16, 1], [4, instances, 4, 48, 32, 1]];
+    return {
+      mesh,
+      count: numbers.length / 12,
+      faces: arrayOf(gl, [[0, mesh.faces, 3, 24, 0, 0], [1, mesh.faces, 3, 24, 12, 0], ...each]),
+      lines: arrayOf(gl, [[0, mesh.lines, 3, 12, 0, 0], ...each]),
+    };
+  });
+}
+
+function poseTexture(gl, rows) {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, 1024, rows);
+  for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
+  return texture;
+}
+
+function shadowMap(gl) {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, SHADOW_SIZE, SHADOW_SIZE);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
+  for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.LINEAR);
+  for (const key of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, key, gl.CLAMP_TO_EDGE);
+  const frame = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, texture, 0);
+  gl.drawBuffers([gl.NONE]);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  return { texture, frame };
+}
+
+function pickTarget(gl) {
+  const frame = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+  for (const [format, place] of [[gl.RGBA8, gl.COLOR_ATTACHMENT0], [gl.DEPTH_COMPONENT16, gl.DEPTH_ATTACHMENT]]) {
+    const buffer = gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+    gl.renderbufferStorage(gl.RENDERBUFFER, format, 1, 1);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffer);
+  }
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  return { frame };
+}
+
+/** Lines {a, b, width, colour: [r, g, b, a]}, drawn in one call. */
+function lineBatch(gl) {
+  const corners = bufferOf(gl, new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]));
+  const buffer = gl.createBuffer();
+  const array = arrayOf(gl, [[0, corners, 2, 8, 0, 0], [1, buffer, 4, 44, 0, 1], [2, buffer, 3, 44, 16, 1], [3, buffer, 4, 44, 28, 1]]);
+  return {
+    draw(list, ratio) {
+      const data = new Float32Array(11 * list.length);
+      list.forEach(({ a, b, width, colour }, i) => data.set([...a, width * ratio, ...b, ...colour], 11 * i));
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STREAM_DRAW);
+      gl.bindVertexArray(array);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.length);
+    },
+  };
+}

@@ -1,0 +1,134 @@
+// What is drawn at a time: colours, lines, marks.
+
+/** Told apart by people who see no red or no green, too (after Okabe and Ito). */
+const PALETTE = ["#3f83c4", "#e5a128", "#2f9f86", "#c470a2", "#72b8e2", "#d3c43a", "#8b7fc7", "#a0a7ae"];
+const FAILED = "#d9480f";
+
+const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
+
+/** From cold to warm, as bright in steps as it is in hue (after cividis). */
+const RAMP = ["#123a6d", "#4a6a8f", "#7f8c8d", "#bca94f", "#fddc3b"].map(rgb);
+function ramp(u) {
+  const x = clamp(u, 0, 1) * (RAMP.length - 1);
+  const i = Math.min(Math.floor(x), RAMP.length - 2);
+  return RAMP[i].map((c, k) => mix(c, RAMP[i + 1][k], x - i));
+}
+
+/** Ways to colour: {name, title, colour(body, X, t), legend}. */
+function colouringsOf(plan, motion) {
+  const groups = [...new Set(motion.modules.map(m => m.group))];
+  const types = [...new Set(motion.modules.map(m => m.type))];
+  const by = (list, key) => motion.modules.map(m => rgb(PALETTE[list.indexOf(m[key]) % PALETTE.length]));
+  const swatches = list => list.slice(0, 8).map((name, i) => [PALETTE[i % PALETTE.length], name || "cells"]);
+  const ofGroup = by(groups, "group");
+  const ofType = by(types, "type");
+  const all = [];
+  const plain = (name, title, colours, list) => all.push({ name, title, colour: body => colours[motion.moduleOf[body]], legend: swatches(list) });
+  if (motion.squeezed) all.push({ name: "size", title: "Size", colour: (b, X) => ramp(1 - motion.squeezed(X, b)), legend: [["ramp", "squeezed to full size"]] });
+  if (motion.extended) all.push({
+    name: "length", title: "Length", legend: [["ramp", "shortest to longest"]],
+    colour: (b, X) => { const u = motion.extended(X, b); return u === null ? rgb("#59626c") : ramp(u); },
+  });
+  plain("part", "Part", ofGroup, groups);
+  if (plan.loads) {
+    const loads = loadsOf(plan, motion);
+    all.push({ name: "load", title: "Joint load", colour: (b, X, t) => loads(motion.moduleOf[b], t), legend: [["ramp", "joint load, 0 to its limit"]] });
+  }
+  plain("type", "Type", ofType, types);
+  return all;
+}
+
+/** The colour of the greatest joint load of a module. */
+function loadsOf(plan, motion) {
+  const { joints, moments } = plan.loads;
+  const times = moments.map(m => m[0]);
+  const of = motion.modules.map(() => []);
+  joints.forEach((j, i) => motion.joints[j].module >= 0 && of[motion.joints[j].module].push(i));
+  return (module, t) => {
+    if (!of[module].length) return rgb("#8d949b");
+    const ratios = moments[Math.max(lastNotAbove(times, t), 0)][1];
+    const most = Math.max(...of[module].map(i => ratios[i]));
+    return most > 1 ? rgb(FAILED) : ramp(most);
+  };
+}
+
+/** The findings at a moment: {modules, failure}. */
+function failureAt(plan, t) {
+  const near = plan.verdict.failures.filter(f => t >= f.time - 1e-3 && t <= Math.max(f.until || 0, f.time + 0.15));
+  return near.length ? near[0] : null;
+}
+
+function paint(plan, motion, colouring, X, t, hovered, failure, dark) {
+  const bad = failure ? new Set(failure.modules) : null;
+  const grey = dark ? 0.34 : 0.72;
+  for (let b = 0; b < motion.bodies; b++) {
+    let c = colouring.colour(b, X, t);
+    const module = motion.moduleOf[b];
+    if (bad && bad.size) c = bad.has(module) ? rgb(FAILED) : c.map(x => mix(x, grey, 0.7));
+    const i = TEXELS * b + 12;
+    X[i] = c[0];
+    X[i + 1] = c[1];
+    X[i + 2] = c[2];
+    X[i + 3] = module === hovered ? 0.45 : 0;
+  }
+}
+
+/** How the robot stands at a time: centre of mass, margin, corners of its support. */
+function standAt(plan, t) {
+  if (!plan.stand.length) return null;
+  const at = Math.max(lastNotAbove(standTimes(plan), t), 0);
+  const [, x, y, z, margin, held, corners] = plan.stand[at];
+  const area = [];
+  for (let i = 0; i < corners.length; i += 2) area.push([corners[i], corners[i + 1]]);
+  return { centre: [x, y, z], margin, held, area };
+}
+let standTimesKnown = null;
+function standTimes(plan) {
+  if (!standTimesKnown) standTimesKnown = plan.stand.map(s => s[0]);
+  return standTimesKnown;
+}
+
+/** Centre of mass, its foot on the ground, and the support around it. */
+function standLines(stand, floor, size, theme) {
+  const lines = [];
+  const [x, y, z] = stand.centre;
+  const ok = stand.margin !== null && stand.margin >= 0 && !stand.held;
+  const tint = [...(ok ? theme.good : theme.bad), 0.95];
+  const line = (a, b, width, colour) => lines.push({ a, b, width, colour });
+  const lift = floor + 0.0008;
+  stand.area.forEach((p, i) => {
+    const q = stand.area[(i + 1) % stand.area.length];
+    line([...p, lift], [...q, lift], 2, tint);
+  });
+  line([x, y, z], [x, y, lift], 1.5, [...theme.ink, 0.7]);
+  const r = size * 0.02;
+  for (const [c, h] of [[[x, y, z], 1], [[x, y, lift], 0]])
+    for (const d of [[r, 0, 0], [0, r, 0], [0, 0, h * r]]) line(sub(c, d), add(c, d), 2.5, tint);
+  return lines;
+}
+
+/** The edge of the support that the centre of mass is nearest to, or went over. */
+function nearestEdge(stand, floor, theme) {
+  let best = null;
+  const [x, y] = stand.centre;
+  stand.area.forEach((a, i) => {
+    const b = stand.area[(i + 1) % stand.area.length];
+    const d = [b[0] - a[0], b[1] - a[1]];
+    const u = clamp(((x - a[0]) * d[0] + (y - a[1]) * d[1]) / (d[0] ** 2 + d[1] ** 2 || 1), 0, 1);
+    const away = Math.hypot(a[0] + u * d[0] - x, a[1] + u * d[1] - y);
+    if (!best || away < best.away) best = { away, a, b };
+  });
+  return best ? [{ a: [...best.a, floor], b: [...best.b, floor], width: 6, colour: [...theme.bad, 1] }] : [];
+}
+
+/** Where the base goes, on the ground. */
+function trailLines(plan, floor, theme) {
+  const keys = plan.body.base || [];
+  const stride = Math.max(Math.floor(keys.length / 600), 1);
+  const lines = [];
+  for (let i = stride; i < keys.length && keys[i][0] <= plan.end; i += stride) {
+    const [a, b] = [keys[i - stride], keys[i]];
+    lines.push({ a: [a[1], a[2], floor + 0.0006], b: [b[1], b[2], floor + 0.0006], width: 2, colour: [...theme.ink, 0.35] });
+  }
+  return lines;
+}

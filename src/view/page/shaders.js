@@ -1,0 +1,183 @@
+// The programs that run on the graphics processor.
+
+const HEAD = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision highp sampler2DShadow;\n";
+
+/** Poses of bodies come from a texture, four texels each, so that a frame uploads nothing else. */
+const BODY = `
+uniform sampler2D bodies;
+layout(location=0) in vec3 corner;
+layout(location=1) in vec3 normal;
+layout(location=2) in vec4 place;   // position in the body, number of the body
+layout(location=3) in vec4 turn;
+layout(location=4) in vec4 size;    // w: shade
+vec4 texel(int k) {
+  int i = int(place.w) * 4 + k;
+  return texelFetch(bodies, ivec2(i & 1023, i >> 10), 0);
+}
+vec3 rotate(vec4 q, vec3 v) { vec3 t = 2.0 * cross(q.xyz, v); return v + q.w * t + cross(q.xyz, t); }
+vec3 world() {
+  vec3 p = place.xyz + rotate(turn, corner * size.xyz);
+  return texel(0).xyz + rotate(texel(1), texel(2).xyz * p);
+}
+vec3 worldNormal() {
+  vec3 n = rotate(turn, normal / size.xyz);
+  return normalize(rotate(texel(1), n / texel(2).xyz));
+}
+`;
+
+const SOLID_VERTEX = HEAD + BODY + `
+uniform mat4 view, sun;
+out vec3 at, facing, colour;
+out vec4 lit;
+out float glow;
+void main() {
+  vec4 c = texel(3);
+  at = world();
+  facing = worldNormal();
+  // Parts of one module are told apart by brightness, not by hue.
+  colour = mix(c.rgb, mix(c.rgb, vec3(dot(c.rgb, vec3(0.3, 0.6, 0.1))), 0.45) * (1.0 + 0.55 * size.w), step(0.0001, abs(size.w)));
+  glow = c.a;
+  lit = sun * vec4(at + facing * 0.002, 1.0);
+  gl_Position = view * vec4(at, 1.0);
+}`;
+
+const LIGHT = `
+uniform sampler2DShadow shadows;
+uniform float shadowed;
+float sunlight(vec4 lit) {
+  vec3 p = lit.xyz / lit.w * 0.5 + 0.5;
+  if (shadowed < 0.5 || any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
+  float sum = 0.0, texel = 1.0 / float(textureSize(shadows, 0).x);
+  for (int x = -1; x <= 1; x++)
+    for (int y = -1; y <= 1; y++) sum += texture(shadows, vec3(p.xy + vec2(x, y) * texel * 1.3, p.z - 0.0015));
+  return sum / 9.0;
+}
+`;
+
+const SOLID_FRAGMENT = HEAD + LIGHT + `
+uniform vec3 eye, sunDirection;
+uniform float opacity, dark;
+in vec3 at, facing, colour;
+in vec4 lit;
+in float glow;
+out vec4 shown;
+void main() {
+  vec3 n = normalize(facing), v = normalize(eye - at);
+  float direct = max(dot(n, sunDirection), 0.0) * sunlight(lit);
+  float back = max(dot(n, vec3(-sunDirection.xy, 0.25)), 0.0);
+  vec3 sky = mix(vec3(0.30, 0.29, 0.28), vec3(0.56, 0.60, 0.66), n.z * 0.5 + 0.5) * mix(1.0, 0.72, dark);
+  vec3 base = pow(colour, vec3(2.2));
+  vec3 c = base * (sky + direct * vec3(0.92, 0.88, 0.80) + back * 0.10);
+  vec3 h = normalize(sunDirection + v);
+  c += 0.10 * pow(max(dot(n, h), 0.0), 40.0) * direct;
+  c += base * 0.35 * pow(1.0 - max(dot(n, v), 0.0), 3.0);
+  c = mix(c, base * 1.5 + 0.12, glow);
+  shown = vec4(pow(c, vec3(1.0 / 2.2)), opacity);
+}`;
+
+const EDGE_VERTEX = HEAD + BODY + `
+uniform mat4 view;
+out vec3 colour;
+void main() {
+  colour = texel(3).rgb;
+  gl_Position = view * vec4(world(), 1.0);
+  gl_Position.z -= 0.0006 * gl_Position.w;
+}`;
+
+const EDGE_FRAGMENT = HEAD + `
+uniform float opacity, dark;
+in vec3 colour;
+out vec4 shown;
+void main() { shown = vec4(colour * mix(0.42, 0.32, dark), opacity); }`;
+
+const DEPTH_VERTEX = HEAD + BODY + `
+uniform mat4 view;
+void main() { gl_Position = view * vec4(world(), 1.0); }`;
+const DEPTH_FRAGMENT = HEAD + `void main() {}`;
+
+const PICK_VERTEX = HEAD + BODY + `
+uniform mat4 view;
+flat out int body;
+void main() { body = int(place.w) + 1; gl_Position = view * vec4(world(), 1.0); }`;
+const PICK_FRAGMENT = HEAD + `
+flat in int body;
+out vec4 shown;
+void main() { shown = vec4(body & 255, (body >> 8) & 255, (body >> 16) & 255, 255) / 255.0; }`;
+
+const GROUND_VERTEX = HEAD + `
+uniform mat4 view, sun;
+uniform vec4 patch_;               // middle, half the width
+layout(location=0) in vec2 corner;
+out vec2 at;
+out vec4 lit;
+void main() {
+  at = patch_.xy + corner * patch_.w;
+  vec4 p = vec4(at, patch_.z, 1.0);
+  lit = sun * p;
+  gl_Position = view * p;
+}`;
+const GROUND_FRAGMENT = HEAD + LIGHT + `
+uniform vec4 patch_;
+uniform vec3 ink;
+uniform float step_, strength;
+in vec2 at;
+in vec4 lit;
+out vec4 shown;
+float grid(float width) {
+  vec2 g = abs(fract(at / width - 0.5) - 0.5) * width, w = fwidth(at);
+  vec2 line = 1.0 - smoothstep(w * 0.4, w * 1.4, g);
+  // Lines closer than two pixels would only be noise.
+  return max(line.x, line.y) * clamp(width / max(w.x, w.y) / 8.0 - 0.25, 0.0, 1.0);
+}
+void main() {
+  float away = length(at - patch_.xy) / patch_.w;
+  float fade = 1.0 - smoothstep(0.15, 0.95, away);
+  float lines = max(grid(step_) * 0.10, grid(step_ * 10.0) * 0.22);
+  float shade = (1.0 - sunlight(lit)) * 0.34 * strength;
+  shown = vec4(ink, 1.0 - (1.0 - lines) * (1.0 - shade)) * vec4(1.0, 1.0, 1.0, fade);
+}`;
+
+const SKY_VERTEX = HEAD + `
+layout(location=0) in vec2 corner;
+out float up;
+void main() { up = corner.y * 0.5 + 0.5; gl_Position = vec4(corner, 0.9999, 1.0); }`;
+const SKY_FRAGMENT = HEAD + `
+uniform vec3 above, below;
+in float up;
+out vec4 shown;
+void main() { shown = vec4(mix(below, above, smoothstep(0.1, 1.0, up)), 1.0); }`;
+
+/** Lines as wide as asked for, in pixels; four corners each. */
+const LINE_VERTEX = HEAD + `
+uniform mat4 view;
+uniform vec2 screen;
+layout(location=0) in vec2 corner;  // which end, which side
+layout(location=1) in vec4 from;    // w: width
+layout(location=2) in vec3 to;
+layout(location=3) in vec4 tint;
+out vec4 colour;
+void main() {
+  vec4 a = view * vec4(from.xyz, 1.0), b = view * vec4(to, 1.0);
+  // What is behind the eye has no direction on the screen.
+  if (a.w < 0.001) a = mix(a, b, (0.001 - a.w) / (b.w - a.w));
+  if (b.w < 0.001) b = mix(b, a, (0.001 - b.w) / (a.w - b.w));
+  vec2 d = (b.xy / b.w - a.xy / a.w) * screen;
+  vec2 n = length(d) > 0.0001 ? normalize(vec2(-d.y, d.x)) : vec2(1.0, 0.0);
+  gl_Position = corner.x < 0.5 ? a : b;
+  gl_Position.xy += n / screen * (corner.y * from.w) * gl_Position.w;
+  gl_Position.z -= 0.0012 * gl_Position.w;
+  colour = tint;
+}`;
+const LINE_FRAGMENT = HEAD + `
+in vec4 colour;
+out vec4 shown;
+void main() { shown = colour; }`;
+
+const FLAT_VERTEX = HEAD + `
+uniform mat4 view;
+layout(location=0) in vec3 corner;
+void main() { gl_Position = view * vec4(corner, 1.0); gl_Position.z -= 0.0003 * gl_Position.w; }`;
+const FLAT_FRAGMENT = HEAD + `
+uniform vec4 tint;
+out vec4 shown;
+void main() { shown = tint; }`;

@@ -1,0 +1,170 @@
+//! An articulated robot in a page: its modules, the steps of its kinematics, its tracks.
+
+use super::number::{list, number, rotation, vector};
+use super::solids::{Meshes, solids};
+use crate::geometry::Pose;
+use crate::plan::{DockKind, Segment, Track, Tracks, polynomial};
+use crate::robot::step::{Motion, Step};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, ModuleType};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+
+/// Segments of one page; of longer plans the motion is drawn from evenly spaced positions.
+pub const SEGMENTS_MAX: usize = 60_000;
+
+/// Positions that a joint keeps at least when motion is thinned.
+const POSITIONS_MIN: usize = 16;
+
+/// The body of the page's plan, and what was left out.
+pub fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mut Vec<String>) -> Value {
+    let robot = &tracks.robot;
+    let mut forms = Forms::default();
+    let trees = trees(tracks, &mut forms);
+    json!({
+        "form": "tracks",
+        "kinds": robot.library.modules.iter().map(|kind| module_type(kind, meshes)).collect::<Vec<_>>(),
+        "modules": robot.modules.iter().map(|m| json!([m.name, m.kind])).collect::<Vec<_>>(),
+        "hinges": hinges(robot),
+        "bonds": robot.bonds.iter().map(|b| bond_name(robot, b)).collect::<Vec<_>>(),
+        "start": list(tracks.start.joints.iter().copied()),
+        "forms": forms.list,
+        "trees": trees,
+        "tracks": joint_tracks(tracks, notes),
+        "docks": docks(tracks),
+        "base": base,
+    })
+}
+
+fn bond_name(robot: &Assembly, bond: &crate::robot::Bond) -> String {
+    format!("{} -- {}", robot.port_name(bond.a), robot.port_name(bond.b))
+}
+
+fn module_type(kind: &ModuleType, meshes: &mut Meshes) -> Value {
+    let links = kind.links.iter().map(|link| {
+        let judged = if link.collides == link.shape { Value::Null } else { solids(&link.collides, meshes) };
+        json!({ "name": link.name, "solids": solids(&link.shape, meshes), "collides": judged })
+    });
+    let joints = kind.joints.iter().map(|joint| {
+        let still = joint.kind == JointKind::Fixed;
+        json!({ "name": joint.name, "turns": joint.kind == JointKind::Revolute, "still": still })
+    });
+    json!({ "name": kind.name, "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>() })
+}
+
+fn hinges(robot: &Assembly) -> Vec<String> {
+    let bonds = robot.joints().filter(|owner| matches!(owner, JointOwner::Bond(_)));
+    bonds.map(|owner| robot.joint_name(owner)).collect()
+}
+
+/// Kinds of steps, each once: a robot has many modules of few types.
+#[derive(Default)]
+struct Forms {
+    list: Vec<Value>,
+    known: BTreeMap<String, usize>,
+}
+
+impl Forms {
+    fn index(&mut self, step: &Step) -> usize {
+        let mut form = Map::new();
+        form.insert("shift".into(), vector(&step.shift));
+        let turn = Pose::from_parts(step.shift.into(), step.turn);
+        form.insert("turn".into(), rotation(&turn));
+        if let Some(axis) = step.motion.axis() {
+            form.insert("axis".into(), vector(&axis));
+        }
+        if let Motion::Along(direction) = &step.motion {
+            form.insert("along".into(), vector(direction));
+        }
+        if step.offset.norm() > 0.0 {
+            form.insert("offset".into(), vector(&step.offset));
+        }
+        let form = Value::Object(form);
+        *self.known.entry(form.to_string()).or_insert_with(|| {
+            self.list.push(form);
+            self.list.len() - 1
+        })
+    }
+}
+
+/// The trees over which poses are found, one from each instant at which bonds change.
+fn trees(tracks: &Tracks, forms: &mut Forms) -> Vec<Value> {
+    let mut times = vec![0.0];
+    times.extend(tracks.docks.iter().map(|dock| dock.time));
+    times.dedup();
+    let mut trees: Vec<(Vec<bool>, Value)> = Vec::new();
+    for time in times {
+        let mut bonds = tracks.start.bonds.clone();
+        for dock in tracks.docks.iter().take_while(|dock| dock.time <= time) {
+            bonds[dock.bond] = dock.kind == DockKind::Dock;
+        }
+        if trees.last().is_none_or(|(before, _)| *before != bonds) {
+            let made = tree(&tracks.robot, &bonds, time, forms);
+            trees.push((bonds, made));
+        }
+    }
+    trees.into_iter().map(|(_, tree)| tree).collect()
+}
+
+fn tree(robot: &Assembly, bonds: &[bool], time: f64, forms: &mut Forms) -> Value {
+    let kinematics = Kinematics::new(robot, bonds, robot.base);
+    let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();
+    let loose = !kinematics.tree.loose.is_empty();
+    json!({ "time": number(time), "root": kinematics.link(robot.base, 0), "steps": steps, "loose": loose })
+}
+
+/// `[link, parent, form, joint]`; several joints, or one with a factor, as `[joint, factor, ...]`.
+fn step_value(step: &Step, forms: &mut Forms) -> Value {
+    let form = forms.index(step);
+    match step.terms[..] {
+        [] => json!([step.link, step.parent, form]),
+        [(joint, 1.0)] => json!([step.link, step.parent, form, joint]),
+        _ => {
+            let terms: Vec<Value> = step.terms.iter().flat_map(|&(j, f)| [json!(j), number(f)]).collect();
+            json!([step.link, step.parent, form, terms])
+        }
+    }
+}
+
+/// `[joint, segments]`, a segment `[start, end, cause, control points...]`.
+fn joint_tracks(tracks: &Tracks, notes: &mut Vec<String>) -> Vec<Value> {
+    let count: usize = tracks.tracks.iter().map(|t| t.segments.len()).sum();
+    let thinned = count > SEGMENTS_MAX;
+    let positions = (SEGMENTS_MAX / tracks.tracks.len().max(1)).max(POSITIONS_MIN);
+    if thinned {
+        notes.push(format!(
+            "the plan has {count} segments of motion; drawn are {positions} positions of each joint, evenly in time"
+        ));
+    }
+    let segments = |track: &Track| {
+        let own: Vec<Segment> =
+            if thinned { sampled(tracks, track, positions) } else { track.segments.clone() };
+        own.iter().map(segment).collect::<Vec<_>>()
+    };
+    tracks.tracks.iter().map(|track| json!([track.joint.0, segments(track)])).collect()
+}
+
+fn segment(segment: &Segment) -> Value {
+    let mut numbers = vec![number(segment.start), number(segment.end), json!(segment.cause.0)];
+    numbers.extend(segment.control.iter().map(|c| number(*c)));
+    Value::Array(numbers)
+}
+
+/// Straight pieces between positions at even distances in time.
+fn sampled(tracks: &Tracks, track: &Track, positions: usize) -> Vec<Segment> {
+    let start = tracks.start.joints[track.joint.0 as usize];
+    let time = |i: usize| tracks.duration * i as f64 / positions as f64;
+    let piece = |i: usize| {
+        let (from, to) = (time(i), time(i + 1));
+        let control = vec![track.position(start, from), track.position(start, to)];
+        let begun = track.segments.partition_point(|s| s.start < to).saturating_sub(1);
+        let moving = polynomial::hull(&control);
+        let cause = track.segments.get(begun)?.cause;
+        (moving.0 < moving.1 || i == 0).then_some(Segment { start: from, end: to, control, cause })
+    };
+    (0..positions).filter_map(piece).collect()
+}
+
+fn docks(tracks: &Tracks) -> Vec<Value> {
+    let dock = |d: &crate::plan::Dock| json!([number(d.time), d.kind == DockKind::Dock, d.bond, d.cause.0]);
+    tracks.docks.iter().map(dock).collect()
+}

@@ -1,0 +1,79 @@
+//! How the robot gets along and stands: from the judge's walk, thinned to what an eye can follow.
+
+use super::number::{list, number};
+use crate::geometry::Pose;
+use crate::plan::verify::Moment;
+use serde_json::{Value, json};
+
+/// A base pose is left out where those beside it give it to within this, m and (of quaternions) 1.
+const TOL_BASE: f64 = 1e-4;
+
+/// Longest run of base poses that one straight piece may stand for.
+const RUN_MAX: usize = 64;
+
+/// Moments whose support is drawn.
+const STANDS_MAX: usize = 500;
+
+/// `[time, x, y, z, qx, qy, qz, qw]`, straight between; of a plan without a walk the pose it starts in.
+pub fn base(moments: &[Moment], start: &Pose) -> Value {
+    let key = |time: f64, pose: &Pose| {
+        let (p, q) = (pose.translation.vector, pose.rotation);
+        list([time, p.x, p.y, p.z, q.i, q.j, q.k, q.w])
+    };
+    if moments.is_empty() {
+        return json!([key(0.0, start)]);
+    }
+    let kept = kept(moments);
+    Value::Array(kept.into_iter().map(|i| key(moments[i].time, &moments[i].base)).collect())
+}
+
+/// The moments between which straight lines are near enough.
+fn kept(moments: &[Moment]) -> Vec<usize> {
+    let mut kept = vec![0];
+    let mut from = 0;
+    for to in 1..moments.len() {
+        let straight = to - from <= RUN_MAX && (from + 1..to).all(|i| between(moments, from, to, i));
+        if !straight {
+            from = to - 1;
+            kept.push(from);
+        }
+    }
+    if moments.len() > 1 {
+        kept.push(moments.len() - 1);
+    }
+    kept
+}
+
+/// Whether a moment is where the line between two others has it.
+fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
+    let numbers = |at: usize| {
+        let (p, q) = (moments[at].base.translation.vector, moments[at].base.rotation);
+        [p.x, p.y, p.z, q.i, q.j, q.k, q.w]
+    };
+    let (a, b, c) = (numbers(from), numbers(to), numbers(i));
+    let whole = moments[to].time - moments[from].time;
+    let part = if whole > 0.0 { (moments[i].time - moments[from].time) / whole } else { 0.0 };
+    let sign = if (3..7).map(|k| a[k] * b[k]).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+    let near = |k: usize| {
+        let end = if k < 3 { b[k] } else { sign * b[k] };
+        let line = a[k] + (end - a[k]) * part;
+        let same = (line - c[k]).abs() <= TOL_BASE;
+        same || (k >= 3 && (line + c[k]).abs() <= TOL_BASE)
+    };
+    (0..7).all(near)
+}
+
+/// `[time, x, y, z of the centre of mass, margin or null, held, corners]`
+pub fn stands(moments: &[Moment]) -> Vec<Value> {
+    let stride = moments.len().div_ceil(STANDS_MAX).max(1);
+    let last = moments.len().saturating_sub(1);
+    let chosen = moments.iter().enumerate().filter(|(i, _)| i % stride == 0 || *i == last);
+    chosen
+        .map(|(_, m)| {
+            let margin = m.margin.map_or(Value::Null, number);
+            let corners = list(m.support.iter().flatten().copied());
+            let [x, y, z] = [m.centre.x, m.centre.y, m.centre.z].map(number);
+            json!([number(m.time), x, y, z, margin, m.held, corners])
+        })
+        .collect()
+}

@@ -1,0 +1,28 @@
+//! A truss in a page: its nodes at the knots of its plan.
+
+use super::number::{list, number};
+use crate::plan::{Knot, NodePaths, Way};
+use crate::robot::Library;
+use serde_json::{Value, json};
+
+pub fn body(paths: &NodePaths, library: &Library) -> Value {
+    let strut = library.struts.get(paths.strut);
+    let (low, high) = strut.map_or((0.0, 1.0), |strut| strut.length);
+    json!({
+        "form": "paths",
+        "strut": strut.map_or("strut", |strut| strut.name.as_str()),
+        "range": list([low, high]),
+        "nodes": paths.node_names,
+        "struts": paths.struts.iter().map(|(a, b)| [a, b]).collect::<Vec<_>>(),
+        "knots": paths.knots.iter().map(knot).collect::<Vec<_>>(),
+    })
+}
+
+fn knot(knot: &Knot) -> Value {
+    let roll = match knot.way {
+        Way::Straight => Value::Null,
+        Way::Roll { edge: (a, b), angle } => json!([a, b, number(angle)]),
+    };
+    let at = list(knot.nodes.iter().flatten().copied());
+    json!({ "time": number(knot.time), "roll": roll, "at": at, "cause": knot.cause.0 })
+}
