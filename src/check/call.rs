@@ -338,12 +338,14 @@ impl<'a> Checker<'a> {
             out[variadic] = Some(self.variadic(scope, span, &rest, &params[variadic], &mut bindings));
             filled[variadic] = true;
         }
-        let missing: Vec<String> = params
-            .iter()
-            .zip(&filled)
-            .filter(|(p, filled)| !**filled && !p.may_be_left_out())
-            .map(|(p, _)| format!("`{}`", p.name))
-            .collect();
+        let mut missing = Vec::new();
+        for (index, param) in params.iter().enumerate().filter(|(_, p)| !p.may_be_left_out()) {
+            if !filled[index] {
+                missing.push(format!("`{}`", param.name));
+                // What is computed without it is unknown, not wrong.
+                out[index] = Some(error_expr(span));
+            }
+        }
         // An argument under a wrong name was most likely meant for what is missing.
         if !missing.is_empty() && !misnamed {
             self.report(

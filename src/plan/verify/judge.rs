@@ -18,8 +18,8 @@ pub fn tracks(plan: &Plan, tracks: &Tracks) -> Verdict {
         tolerances: &tolerances,
         held: None,
     };
-    docking::judge(&course, &mut ledger);
-    let waypoints = on_the_way(&course, &mut ledger);
+    let missed = docking::judge(&course, &mut ledger);
+    let waypoints = on_the_way(&course, missed, &mut ledger);
     meeting::judge(&course, &mut ledger);
     blame::blame(&course, &waypoints, ledger.failures_mut());
     ledger.check(CheckKind::Form, Status::Proved);
@@ -34,8 +34,8 @@ pub fn tracks(plan: &Plan, tracks: &Tracks) -> Verdict {
 const WAYPOINTS_MAX: usize = 16;
 
 /// Everything that is judged from sample to sample. Returns places to walk on from.
-fn on_the_way(course: &Course, ledger: &mut Ledger) -> Vec<Waypoint> {
-    let mut loops = docking::Watch::new(course);
+fn on_the_way(course: &Course, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Waypoint> {
+    let mut loops = docking::Watch::new(course, missed);
     let mut waypoints = Waypoints { kept: vec![], stride: 1, next: 0 };
     let mut standing = stability::Watch::new(course.settings, course.tolerances);
     let mut travel = travel::Watch::new(course.tolerances);
