@@ -25,10 +25,18 @@ pub struct Step {
     pub motion: Motion,
     /// Position of the child's origin from the axis, in the child's frame, m.
     pub offset: Vec3,
-    /// The joint's position is the sum of these joints times factors: one, unless it mimics.
-    pub terms: Vec<(usize, f64)>,
+    drive: Drive,
     turned: bool,
     offset_from_axis: bool,
+}
+
+/// What gives a step its position: joints times factors. In place for the one that nearly all have,
+/// so that walking over the steps reads one stretch of memory.
+#[derive(Clone, Debug, PartialEq)]
+enum Drive {
+    One((usize, f64)),
+    /// A joint that mimics others; or, empty, one that nothing moves.
+    Sum(Box<[(usize, f64)]>),
 }
 
 /// How a step moves, by the joint's position.
@@ -107,7 +115,10 @@ impl Step {
             turn,
             motion,
             offset,
-            terms,
+            drive: match terms[..] {
+                [one] => Drive::One(one),
+                _ => Drive::Sum(terms.into_boxed_slice()),
+            },
             turned: turn.angle() > ROUNDING,
             offset_from_axis: offset != Vec3::zeros(),
         }
@@ -116,10 +127,18 @@ impl Step {
     /// The joint's position: radians or metres.
     #[inline]
     pub fn position(&self, joints: &[f64]) -> f64 {
-        if let [(joint, factor)] = self.terms[..] {
-            return factor * joints[joint];
+        match &self.drive {
+            &Drive::One((joint, factor)) => factor * joints[joint],
+            Drive::Sum(terms) => terms.iter().map(|&(joint, factor)| factor * joints[joint]).sum(),
         }
-        self.terms.iter().map(|&(joint, factor)| factor * joints[joint]).sum()
+    }
+
+    /// The joint's position is the sum of these joints times factors: one, unless it mimics.
+    pub fn terms(&self) -> &[(usize, f64)] {
+        match &self.drive {
+            Drive::One(one) => std::slice::from_ref(one),
+            Drive::Sum(terms) => terms,
+        }
     }
 
     /// `X_WB` from `X_WA`.

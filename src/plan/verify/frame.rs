@@ -124,7 +124,7 @@ impl Frame {
     }
 
     fn joint(&self, step: &Step) -> JointStretch {
-        let sum = |of: &[f64]| step.terms.iter().map(|&(joint, factor)| factor.abs() * of[joint]).sum();
+        let sum = |of: &[f64]| step.terms().iter().map(|&(joint, factor)| factor.abs() * of[joint]).sum();
         JointStretch {
             rate: step.position(&self.stretch.rate).abs(),
             stray: sum(&self.stretch.stray),

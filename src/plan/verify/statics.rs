@@ -302,7 +302,7 @@ fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
 }
 
 fn moves(step: &Step) -> bool {
-    step.motion != Motion::Fixed && !step.terms.is_empty()
+    step.motion != Motion::Fixed && !step.terms().is_empty()
 }
 
 /// For each joint the moving steps that it drives, numbered among the moving steps, with factors.
@@ -310,7 +310,7 @@ pub fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
     let count = model.robot.joints().count();
     let mut effects = vec![Vec::new(); count];
     for (cut, step) in model.kinematics.steps.iter().filter(|step| moves(step)).enumerate() {
-        for &(joint, factor) in &step.terms {
+        for &(joint, factor) in step.terms() {
             effects[JointId(joint as u32).0 as usize].push((cut, factor));
         }
     }
