@@ -29,7 +29,7 @@ module Hinge@(length: Length = 40mm) {
   mass  150g
   link  base = box(length, 40mm, 40mm)
   link  tip  = box(length, 40mm, 40mm, friction: 0.6) at [length + 20mm, 0mm, 0mm]
-  joint bend : base -> tip = revolute(axis: Y, range: -90deg..90deg, max_speed: 60deg/s, max_torque: 4N*m)
+  joint bend : base -> tip = revolute(axis: Y, range: -40deg..40deg, max_speed: 60deg/s, max_torque: 4N*m)
     at [length / 2 + 10mm, 0mm, 0mm]
   port  back : Face on base at [-length / 2, 0mm, 0mm] facing -X up +Z
   port  front: Face on tip  at [length / 2, 0mm, 0mm]  facing +X up +Z
