@@ -1,6 +1,6 @@
 //! What can collide: the convex parts of all links, and which pairs may meet.
 
-use crate::geometry::distance::between_parts;
+use crate::geometry::distance::{between_parts, near};
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 
@@ -100,17 +100,22 @@ impl Bodies {
         f64::min(touch(a), touch(b))
     }
 
-    /// Signed distance between two links whose world poses are at hand, m.
-    pub fn distance(&self, a: usize, b: usize, poses: &[Pose]) -> f64 {
+    /// Signed distance between two links whose world poses are at hand, m; `enough` where it is no
+    /// less.
+    pub fn distance(&self, a: usize, b: usize, poses: &[Pose], enough: f64) -> f64 {
         let of = |link: usize| {
             let from = self.bodies.partition_point(|body| body.link < link);
             self.bodies[from..].iter().take_while(move |body| body.link == link)
         };
-        let mut least = f64::INFINITY;
+        let centre = |body: &Body| poses[body.carrier].transform_point(&body.part.centre.into());
+        let mut least = enough;
         for x in of(a) {
             for y in of(b) {
-                let X_AB = poses[x.carrier].inverse() * poses[y.carrier];
-                least = least.min(between_parts(&x.part, &y.part, &X_AB).distance);
+                let balls = (centre(x) - centre(y)).norm() - x.part.radius - y.part.radius;
+                if balls < least {
+                    let X_AB = poses[x.carrier].inverse() * poses[y.carrier];
+                    least = least.min(near(&x.part, &y.part, &X_AB, None, least).distance);
+                }
             }
         }
         least

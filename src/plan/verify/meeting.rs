@@ -55,7 +55,7 @@ fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
         let track = tracks.track(JointId(suspect.joint as u32)).expect("a suspect moves on a track");
         joints[suspect.joint] = track.position(tracks.start.joints[suspect.joint], suspect.start);
         kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
-        if bodies.distance(links.0, links.1, &poses) >= -meeting.allowed {
+        if bodies.distance(links.0, links.1, &poses, 0.0) >= -meeting.allowed {
             blamed.push(suspect.cause);
         }
     }
