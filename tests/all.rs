@@ -18,6 +18,7 @@ mod ground;
 mod interpret;
 mod kinematics;
 mod mass;
+mod meshes;
 mod motions;
 mod pages;
 mod plan_file;

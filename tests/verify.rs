@@ -276,7 +276,9 @@ fn the_rule_of_centres_is_kept_by_name() {
     let settings = Settings { stability: Stability::Centres, ..Settings::default() };
     let judged =
         |robot: Assembly| verify_state(&robot, &robots::at_rest(&robot), &World::default(), &settings);
-    fails(&judged(robots::chain(3)), CheckKind::Stability);
+    let chain = judged(robots::chain(3));
+    fails(&chain, CheckKind::Stability);
+    assert_eq!(chain.margin.expect("a chain in a line has no room").value, 0.0);
     let car = judged(robots::car());
     passes(&car);
     assert!((car.margin.expect("a car stands").value - 0.1).abs() < 1e-9);

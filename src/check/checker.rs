@@ -138,6 +138,8 @@ pub struct JointInfo<'a> {
     pub span: Span,
     pub doc: Option<Arc<str>>,
     pub clause: &'a ast::ModuleClauseKind,
+    /// The clause `joint b = -a` of a joint that has a declaration besides.
+    pub follows: Option<&'a ast::ModuleClauseKind>,
     pub dimension: crate::units::Dimension,
 }
 
@@ -353,7 +355,15 @@ impl<'a> Checker<'a> {
             for import in &file.imports {
                 self.declare_import(index, import);
             }
+            for name in &file.ast.unread {
+                self.scopes[index].entry(*name).or_insert(Entity::Error);
+            }
         }
+    }
+
+    /// Whether a piece that could not be read would have declared this name.
+    pub fn is_unread(&self, name: Symbol) -> bool {
+        self.loaded.files.iter().any(|file| file.ast.unread.contains(&name))
     }
 
     fn declare_item(&mut self, file: usize, item: &'a ast::Item) {
@@ -455,6 +465,7 @@ impl<'a> Checker<'a> {
                 Entity::Error
             }
             Some(entity) => entity,
+            None if self.is_unread(item) => Entity::Error,
             None => {
                 let names = self.scopes[target].keys().map(|s| s.as_str());
                 let near = suggest(item.as_str(), names);

@@ -197,6 +197,9 @@ impl<'a> Checker<'a> {
         let member = members.index.get(&path.root.text).copied();
         let kind = member.map(|m| members.list[m.0 as usize].kind);
         let (Some(member), Some(MemberInfoKind::Node { array })) = (member, kind) else {
+            if self.is_unread(path.root.text) {
+                return None;
+            }
             let nodes = members.list.iter().filter(|m| matches!(m.kind, MemberInfoKind::Node { .. }));
             let names: Vec<&str> = nodes.map(|m| m.name.as_str()).collect();
             let mut d = Diagnostic::error(

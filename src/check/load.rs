@@ -1,6 +1,7 @@
 //! Reads the file to check and everything that it imports, and finds import cycles.
 
 use crate::source::files::join;
+use crate::source::library;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, FileId, Files, ReadError, Sources, Span, Symbol, code};
 use crate::syntax::{self, ast};
@@ -228,13 +229,14 @@ impl Loader<'_> {
             imports.push(Import { name: last.text, span: last.span, target });
             return;
         }
-        let known = ["smores", "gaits", "shapes", "rofi", "mori", "crystal", "truss"];
+        let names = library::FILES.iter().filter_map(|(name, _)| name.strip_suffix(".mod"));
+        let known: Vec<&str> = names.filter(|name| *name != "prelude").collect();
         let mut diagnostic = Diagnostic::error(
             code::UNKNOWN_IMPORT,
             format!("the standard library has no `{}`", words.join(".")),
         )
         .label(span, "no such file of the library");
-        if let Some(near) = suggest(words.get(1).unwrap_or(&""), known) {
+        if let Some(near) = suggest(words.get(1).unwrap_or(&""), known.iter().copied()) {
             diagnostic = diagnostic.hint(format!("`std.{near}`?"));
         } else {
             diagnostic = diagnostic.hint(format!("it has std.{}", known.join(", std.")));

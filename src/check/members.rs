@@ -72,9 +72,10 @@ impl<'a> Checker<'a> {
                     let dimension = joint_dimension(kind);
                     self.add_joint(members, *name, doc, &clause.kind, dimension);
                 }
-                ModuleClauseKind::Mimic { name, .. } => {
-                    self.add_joint(members, *name, doc, &clause.kind, Dimension::ANGLE);
-                }
+                ModuleClauseKind::Mimic { name, .. } => match declared_joint(members, name.text) {
+                    Some(joint) => joint.follows = Some(&clause.kind),
+                    None => self.add_joint(members, *name, doc, &clause.kind, Dimension::ANGLE),
+                },
                 ModuleClauseKind::Port(port) => self.add_port(members, port, doc),
                 ModuleClauseKind::If { then, otherwise, .. } => {
                     self.nested_ports(members, then);
@@ -100,7 +101,8 @@ impl<'a> Checker<'a> {
         dimension: Dimension,
     ) {
         let index = members.joints.len();
-        members.joints.push(JointInfo { name: name.text, span: name.span, doc, clause, dimension });
+        let (text, span) = (name.text, name.span);
+        members.joints.push(JointInfo { name: text, span, doc, clause, follows: None, dimension });
         if let Some(first) = members.joint_index.get(&name.text) {
             let first = members.joints[*first].span;
             return self.declared_twice(name.text, first, name.span);
@@ -140,6 +142,9 @@ impl<'a> Checker<'a> {
     fn add_alias(&mut self, members: &mut Members<'a>, name: ast::Name, target: ast::Name) {
         let joint = members.joint_index.get(&target.text).copied();
         let port = members.port_index.get(&target.text).copied();
+        if joint.is_none() && port.is_none() && self.is_unread(target.text) {
+            return;
+        }
         if joint.is_none() && port.is_none() {
             let known = members.joint_index.keys().chain(members.port_index.keys()).map(|s| s.as_str());
             let near = suggest(target.text.as_str(), known);
@@ -368,6 +373,9 @@ impl<'a> Checker<'a> {
     }
 
     fn unknown_member(&mut self, span: Span, id: DefId, field: ast::Name) -> Expr {
+        if self.is_unread(field.text) {
+            return error_expr(span);
+        }
         let what = match self.family(id) {
             Some(Family::Module) => "joint, port or parameter",
             Some(Family::Config) => "part, port or behavior",
@@ -524,4 +532,10 @@ fn wants(want: &Type, kind: fn(&Type) -> bool) -> bool {
         Type::Choice(c) => c.types.iter().any(|t| wants(t, kind)),
         other => kind(other),
     }
+}
+
+/// The joint of this name that is declared with links and follows nothing yet.
+fn declared_joint<'m, 'a>(members: &'m mut Members<'a>, name: Symbol) -> Option<&'m mut JointInfo<'a>> {
+    let open = |j: &&mut JointInfo| matches!(j.clause, ModuleClauseKind::Joint { .. }) && j.follows.is_none();
+    members.joints.iter_mut().filter(|j| j.name == name).find(open)
 }

@@ -3,8 +3,8 @@
 use super::checker::{Checker, DefItem, Entity, Scope};
 use super::expr::{Role, expr_of};
 use super::typed::{
-    ConnectorDef, DefId, DefKind, Expr, ExprKind, JointDef, JointDefKind, LinkDef, ModuleClause, ModuleDef,
-    MotorDef, Placement, PortClause, PortGroup,
+    ConnectorDef, DefId, DefKind, Expr, ExprKind, JointBetween, JointDef, JointDefKind, Linear, LinkDef,
+    ModuleClause, ModuleDef, MotorDef, Placement, PortClause, PortGroup,
 };
 use super::types::Type;
 use crate::source::suggest::suggest;
@@ -12,9 +12,6 @@ use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast::{self, ConnectorClause, ExprKind as K, ModuleClauseKind};
 use crate::units::Dimension;
 use std::collections::HashMap;
-
-/// A sum of joints, each times a factor.
-type Linear = Vec<(usize, Expr)>;
 
 impl<'a> Checker<'a> {
     pub fn check_connector(&mut self, id: DefId, connector: &'a ast::Connector) -> DefKind {
@@ -139,7 +136,7 @@ impl<'a> Checker<'a> {
         }
         for joint in &infos.joints {
             self.lint_snake(joint.name, joint.span, "joints");
-            let kind = self.joint_kind(&mut scope, id, &links, joint.clause);
+            let kind = self.joint_kind(&mut scope, id, &links, joint.clause, joint.follows);
             let (name, span, dimension, doc) = (joint.name, joint.span, joint.dimension, joint.doc.clone());
             def.joints.push(JointDef { name, span, dimension, doc, kind });
         }
@@ -169,25 +166,35 @@ impl<'a> Checker<'a> {
         id: DefId,
         links: &[Symbol],
         clause: &'a ModuleClauseKind,
+        follows: Option<&'a ModuleClauseKind>,
     ) -> JointDefKind {
         match clause {
-            ModuleClauseKind::Joint { parent, child, kind, at, .. } => JointDefKind::Declared {
-                parent: self.link(links, parent),
-                child: self.link(links, child),
-                kind: self.expect(scope, kind, &Type::JointKind, Role::Place("a joint")),
-                at: at.as_ref().map(|p| self.placement(scope, p)),
-            },
-            ModuleClauseKind::Mimic { value, .. } => {
-                JointDefKind::Mimic(self.linear(scope, id, value).unwrap_or_default())
+            ModuleClauseKind::Joint { parent, child, kind, at, .. } => {
+                JointDefKind::Declared(Box::new(JointBetween {
+                    parent: self.link(links, parent),
+                    child: self.link(links, child),
+                    kind: self.expect(scope, kind, &Type::JointKind, Role::Place("a joint")),
+                    at: at.as_ref().map(|p| self.placement(scope, p)),
+                    follows: follows.map(|clause| self.followed(scope, id, clause)),
+                }))
             }
-            _ => unreachable!("only joint clauses declare joints"),
+            clause => JointDefKind::Mimic(self.followed(scope, id, clause)),
         }
+    }
+
+    /// `joint b = -a`
+    fn followed(&mut self, scope: &mut Scope, id: DefId, clause: &'a ModuleClauseKind) -> Linear {
+        let ModuleClauseKind::Mimic { value, .. } = clause else { return Linear::new() };
+        self.linear(scope, id, value).unwrap_or_default()
     }
 
     /// The index of a link; 0 (and a diagnostic) when there is no such link.
     fn link(&mut self, links: &[Symbol], name: &ast::Name) -> usize {
         if let Some(index) = links.iter().position(|l| *l == name.text) {
             return index;
+        }
+        if self.is_unread(name.text) {
+            return 0;
         }
         let mut d =
             Diagnostic::error(code::UNKNOWN_MEMBER, format!("no link `{}` in this module", name.text))
@@ -412,6 +419,9 @@ impl<'a> Checker<'a> {
             K::Name(name) => {
                 if let Some(joint) = self.members(id).joint_index.get(name).copied() {
                     return Some(vec![(joint, one(1.0))]);
+                }
+                if self.is_unread(*name) {
+                    return None;
                 }
                 let names: Vec<&str> = self.members(id).joint_index.keys().map(|s| s.as_str()).collect();
                 let mut d =

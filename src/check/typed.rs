@@ -205,11 +205,26 @@ pub struct JointDef {
 
 #[derive(Clone, Debug)]
 pub enum JointDefKind {
-    /// `kind` evaluates to a [`Type::JointKind`]; parent and child index `links`.
-    Declared { parent: usize, child: usize, kind: Expr, at: Option<Placement> },
-    /// `Σ factor · joint`
-    Mimic(Vec<(usize, Expr)>),
+    Declared(Box<JointBetween>),
+    /// Moves no link: another coordinate of those that it follows.
+    Mimic(Linear),
 }
+
+/// A joint between two links.
+#[derive(Clone, Debug)]
+pub struct JointBetween {
+    /// Indices of `links`.
+    pub parent: usize,
+    pub child: usize,
+    /// Evaluates to a [`Type::JointKind`].
+    pub kind: Expr,
+    pub at: Option<Placement>,
+    /// What a clause of its own says of a joint that follows others.
+    pub follows: Option<Linear>,
+}
+
+/// A sum of joints, each times a factor.
+pub type Linear = Vec<(usize, Expr)>;
 
 #[derive(Clone, Debug)]
 pub struct PortGroup {

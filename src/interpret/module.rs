@@ -7,7 +7,7 @@ use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::{JointSpec, Solid, Value};
 use crate::check::typed::{
-    DefId, JointDef, JointDefKind, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement, PortClause,
+    DefId, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement, PortClause,
 };
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
@@ -115,7 +115,11 @@ impl Interpreter<'_> {
         let collides = self.eval_optional(link.collides.as_ref(), frame)?;
         let pose = self.placement(link.at.as_ref(), frame)?;
         let solid = match &shape {
-            Value::Shape(solid) => solid.as_ref().clone(),
+            Value::Shape(solid) => {
+                self.attempt(|_| sound(solid, link))?;
+                solid.as_ref().clone()
+            }
+            // Unknown, which has been reported.
             _ => Solid::default(),
         };
         let judged = match &collides {
@@ -167,32 +171,48 @@ impl Interpreter<'_> {
     fn read_joints(&mut self, draft: &mut Draft, frame: &mut Frame) -> Eval<()> {
         for (index, joint) in draft.def.joints.iter().enumerate() {
             let built = match &joint.kind {
-                JointDefKind::Declared { parent, child, kind, at } => {
-                    let kind = self.eval(kind, frame)?;
-                    let pose = self.placement(at.as_ref(), frame)?;
-                    match kind {
-                        Value::JointKind(spec) => declared_joint(joint, *parent, *child, &spec, pose),
-                        _ => fixed_joint(joint, *parent, *child, pose),
-                    }
-                }
-                JointDefKind::Mimic(terms) => {
-                    // A mimic moves no link of its own: it is another coordinate of those it follows.
-                    let mut sum = Vec::new();
-                    for (of, factor) in terms {
-                        if *of == index {
-                            let message = format!("`{}` follows itself", joint.name);
-                            return Err(fault(code::BAD_MODULE, joint.span, message, "follows itself"));
+                JointDefKind::Declared(between) => {
+                    let kind = self.eval(&between.kind, frame)?;
+                    let pose = self.placement(between.at.as_ref(), frame)?;
+                    let mut built = match kind {
+                        Value::JointKind(spec) => {
+                            declared_joint(joint, between.parent, between.child, &spec, pose)
                         }
-                        sum.push((*of, self.eval(factor, frame)?.as_number().unwrap_or(1.0)));
+                        _ => fixed_joint(joint, between.parent, between.child, pose),
+                    };
+                    if let Some(follows) = &between.follows {
+                        built.mimic = Some(self.followed(index, joint, follows, frame)?);
                     }
+                    built
+                }
+                JointDefKind::Mimic(follows) => {
                     let mut built = fixed_joint(joint, 0, 0, Pose::identity());
-                    built.mimic = Some(sum);
+                    built.mimic = Some(self.followed(index, joint, follows, frame)?);
                     built
                 }
             };
             draft.module.joints.push(built);
         }
         Ok(())
+    }
+
+    /// The joints that one follows, with factors.
+    fn followed(
+        &mut self,
+        index: usize,
+        joint: &JointDef,
+        follows: &Linear,
+        frame: &mut Frame,
+    ) -> Eval<Vec<(usize, f64)>> {
+        let mut sum = Vec::new();
+        for (of, factor) in follows {
+            if *of == index {
+                let message = format!("`{}` follows itself", joint.name);
+                return Err(fault(code::BAD_MODULE, joint.span, message, "follows itself"));
+            }
+            sum.push((*of, self.eval(factor, frame)?.as_number().unwrap_or(1.0)));
+        }
+        Ok(sum)
     }
 
     fn read_ports(&mut self, draft: &mut Draft, frame: &mut Frame) -> Eval<()> {
@@ -336,7 +356,8 @@ impl Interpreter<'_> {
             return Err(fault(code::BAD_MODULE, name, message, "the first link is its body"));
         }
         let mut carried_by: Vec<Option<usize>> = vec![None; def.links.len()];
-        for (index, joint) in module.joints.iter().enumerate().filter(|(_, j)| j.mimic.is_none()) {
+        let between_links = |index: usize| matches!(def.joints[index].kind, JointDefKind::Declared(_));
+        for (index, joint) in module.joints.iter().enumerate().filter(|(index, _)| between_links(*index)) {
             let span = def.joints[index].span;
             if joint.child == 0 || joint.child == joint.parent {
                 let message = format!("the joint `{}` closes a circle of links", joint.name);
@@ -370,17 +391,6 @@ impl Interpreter<'_> {
                 let body = draft.def.links[0].name;
                 let label = format!("not connected with `{body}`, the first link");
                 return Err(fault(code::BAD_MODULE, declared.span, message, label));
-            }
-        }
-        for (solid, link) in draft.solids.iter().zip(&draft.def.links) {
-            for placed in solid.parts.iter() {
-                crate::geometry::soundness::check(&placed.shape).map_err(|unsound| {
-                    fault(code::BAD_SHAPE, link.shape.span, unsound.to_string(), "this is no solid")
-                })?;
-            }
-            if solid.parts.is_empty() {
-                let message = format!("the link `{}` has no shape", link.name);
-                return Err(fault(code::BAD_SHAPE, link.shape.span, message, "no shape"));
             }
         }
         Ok(())
@@ -452,4 +462,18 @@ fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>
 /// Upwards, or forwards for a port that faces up or down.
 fn default_up(facing: Vec3) -> Vec3 {
     if facing.cross(&Vec3::z()).norm() < PARALLEL { Vec3::x() } else { Vec3::z() }
+}
+
+/// Whether a link's shape encloses something.
+fn sound(solid: &Solid, link: &LinkDef) -> Eval<()> {
+    for placed in solid.parts.iter() {
+        crate::geometry::soundness::check(&placed.shape).map_err(|unsound| {
+            fault(code::BAD_SHAPE, link.shape.span, unsound.to_string(), "this is no solid")
+        })?;
+    }
+    if solid.parts.is_empty() {
+        let message = format!("the link `{}` has no shape", link.name);
+        return Err(fault(code::BAD_SHAPE, link.shape.span, message, "no shape"));
+    }
+    Ok(())
 }

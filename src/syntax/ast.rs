@@ -22,6 +22,8 @@ pub struct File {
     pub items: Vec<Item>,
     /// All comments, documentation included, in order of position.
     pub comments: Vec<Comment>,
+    /// Names that pieces would have declared which could not be read: that they are unknown is no news.
+    pub unread: Vec<Symbol>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

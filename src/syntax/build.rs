@@ -26,6 +26,8 @@ pub(super) struct Builder<'t> {
     pub(super) type_depth: usize,
     /// The base of the piece in which deep nesting was told last.
     pub(super) deep_told: Option<usize>,
+    /// Names that unreadable pieces would have declared.
+    pub(super) unread: Vec<Symbol>,
     symbols: HashMap<&'t str, Symbol, BuildHasherDefault<NameHasher>>,
 }
 
@@ -43,6 +45,7 @@ impl<'t> Builder<'t> {
             depth: 0,
             type_depth: 0,
             deep_told: None,
+            unread: Vec::new(),
             symbols: HashMap::default(),
         }
     }

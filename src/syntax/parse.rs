@@ -48,11 +48,11 @@ pub fn parse(id: FileId, text: &str) -> Parsed {
         parser.chunk(start..end, &mut items);
     }
     let doc = parser.builder.file_doc();
-    let mut diagnostics = parser.builder.diagnostics;
+    let Builder { mut diagnostics, unread, .. } = parser.builder;
     diagnostics.extend(scan.diagnostics);
     diagnostics.sort_by_key(|d| d.span().map(|span| (span.start, span.end)));
     diagnostics.truncate(DIAGNOSTICS_MAX);
-    Parsed { file: ast::File { id, doc, items, comments: scan.comments }, diagnostics }
+    Parsed { file: ast::File { id, doc, items, comments: scan.comments, unread }, diagnostics }
 }
 
 fn too_large(id: FileId, text: &str) -> Parsed {
@@ -60,7 +60,7 @@ fn too_large(id: FileId, text: &str) -> Parsed {
     let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
         .label(Span::new(id, 0, 0), "")
         .hint("put parts of it into files of their own and import them with `use`");
-    let file = ast::File { id, doc: None, items: Vec::new(), comments: Vec::new() };
+    let file = ast::File { id, doc: None, items: Vec::new(), comments: Vec::new(), unread: Vec::new() };
     Parsed { file, diagnostics: vec![diagnostic] }
 }
 

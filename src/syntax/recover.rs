@@ -4,11 +4,32 @@
 use super::ast::*;
 use super::build::{Builder, whole_characters};
 use super::failure::{Place, explain};
+use super::lex::{Token, TokenKind};
 use super::parse::{DIAGNOSTICS_MAX, Node, Rule, failure, nodes};
 use super::scan::{Fault, Scan};
 use super::split::{bodies, split, tokens};
 use crate::source::Span;
 use std::ops::Range;
+
+/// Words behind which a name is declared.
+const DECLARING: &[&str] = &[
+    "behavior",
+    "cell",
+    "config",
+    "connector",
+    "fn",
+    "joint",
+    "lattice",
+    "let",
+    "link",
+    "module",
+    "motor",
+    "node",
+    "part",
+    "port",
+    "strut",
+    "truss",
+];
 
 /// How many levels of bodies are looked into for faulty pieces; each costs a parse of its text.
 const BODIES_MAX: usize = 12;
@@ -168,6 +189,7 @@ impl<'t> Parser<'t> {
             }
             _ => {
                 self.explain_item(&self.item_range(item.span));
+                self.note_unread(&self.item_range(item.span));
                 item.kind = ItemKind::Error;
             }
         }
@@ -244,7 +266,10 @@ impl<'t> Parser<'t> {
             }
         }
         self.with_faulty_value(&range, |this, text, start| this.parsed::<C>(text, start)?.pop())
-            .unwrap_or_else(|| C::error(self.span(&range)))
+            .unwrap_or_else(|| {
+                self.note_unread(&range);
+                C::error(self.span(&range))
+            })
     }
 
     /// Puts clauses into the emptied bodies of a clause; does nothing where there is another number.
@@ -325,7 +350,27 @@ impl<'t> Parser<'t> {
         whole_characters(self.builder.text, Span::new(self.builder.file, range.start, range.end))
     }
 
-    fn error_item(&self, range: Range<usize>) -> Item {
+    /// The names that a piece would have declared: behind the word that begins a line, or all that an
+    /// import names.
+    fn note_unread(&mut self, range: &Range<usize>) {
+        let text = &self.scan.text;
+        let words: Vec<Token> =
+            tokens(text, range.clone()).into_iter().filter(|t| t.kind == TokenKind::Word).collect();
+        let is = |token: &Token, list: &[&str]| list.contains(&&text[token.start..token.end]);
+        let begins_line = |token: &Token| text[..token.start].trim_end_matches([' ', '\t']).ends_with('\n');
+        let import = words.first().is_some_and(|first| is(first, &["use"]));
+        let declared = words.windows(2).filter(|pair| {
+            import || is(&pair[0], DECLARING) && (begins_line(&pair[0]) || pair[0].start == words[0].start)
+        });
+        let names: Vec<Span> = declared.map(|pair| self.span(&(pair[1].start..pair[1].end))).collect();
+        for name in names {
+            let name = self.builder.symbol(name);
+            self.builder.unread.push(name);
+        }
+    }
+
+    fn error_item(&mut self, range: Range<usize>) -> Item {
+        self.note_unread(&range);
         Item { span: self.span(&range), doc: None, kind: ItemKind::Error }
     }
 

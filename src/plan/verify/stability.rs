@@ -51,11 +51,11 @@ impl<'a> Watch<'a> {
         self.samples += 1;
         self.tell(sample, ledger);
         let support = self.support(sample);
-        if !sample.stance.held
-            && let Some(support) = &support
-        {
-            let edge = || edge_names(sample, &support.1);
-            lower(&mut ledger.verdict.margin, support.0.distance, sample.time, edge);
+        if !sample.stance.held {
+            // What spans no area leaves no room at all.
+            let distance = support.as_ref().map_or(0.0, |s| s.0.distance);
+            let edge = || support.as_ref().map_or_else(Vec::new, |s| edge_names(sample, &s.1));
+            lower(&mut ledger.verdict.margin, distance, sample.time, edge);
         }
         self.prove(sample);
         let excuse = |kind: &ExemptionKind| *kind == ExemptionKind::Unstable;

@@ -151,3 +151,34 @@ module B { mass 1kg  link a = box(1m, 1m, 1m) }
 let xs = [A(), B()]
 let total = [mass(x) for x in xs]
 let m: Mass = total[0]
+
+--- names of what could not be read are not missed
+use std.smores.Smores
+connector Face { mates Face, turns 4 }
+module M {
+  mass 1kg
+  link base = box(20mm, 20mm, 20mm)
+  link tip := box(1mm, 1mm, 1mm)
+//         ^ E0001 `:` cannot stand here | the value stands behind `=`
+  joint a base -> tip = revolute(axis: Z)
+//        ^^^^ E0001 is missing before `base` | it is written `joint name : parent -> child = revolute(axis: Y) at [0mm, 0mm, 0mm]`
+  joint b = -a
+  alias c = a
+  port p : Face on tip at [0mm, 0mm, 0mm] facing +X up +Z
+}
+config Broken(a: Angle = ) {
+//                       ^ E0001 an expression is missing
+  part m: Smores
+}
+config C {
+  part m[2 : Smores
+//      ^ E0004 this `[` is never closed
+  part n: Smores
+  connect m[0].top -- n.bottom
+}
+print(C().m[0], Broken().m)
+test "t" {
+  let z 3
+//      ^ E0001 is missing before `3` | it is written `let name = value`
+  expect z == 3
+}

@@ -53,3 +53,26 @@ lattice Ell of ExpandingCube = cells("""
 """)
 print(count(Bar(64)), count(Ell), mass(Ell))
 //> 64 7 7kg
+
+--- a joint that follows another moves its link
+// Two arms of 100 mm; the second turns back by what the first turns, so that the tip stays level.
+connector Face { mates Face, turns 4 }
+module Level {
+  mass 1kg
+  link base = box(20mm, 20mm, 20mm)
+  link arm  = box(80mm, 10mm, 10mm) at [50mm, 0mm, 0mm]
+  link tip  = box(10mm, 10mm, 10mm) at [150mm, 0mm, 0mm]
+  joint a : base -> arm = revolute(axis: Y, range: -90deg..90deg)
+  joint b : arm -> tip  = revolute(axis: Y) at [100mm, 0mm, 0mm]
+  joint b = -a
+  port end : Face on tip at [0mm, 0mm, 0mm] facing +X up +Z
+}
+config C(a: Angle) {
+  part l: Level
+  set l.a = a
+}
+print(pose(C(0deg).l.end))
+//> at [150mm, 0mm, 0mm]
+// 100 mm turned down by 60 degrees, then 50 mm level.
+print(pose(C(60deg).l.end))
+//> at [100mm, 0mm, -86.6025mm]
