@@ -71,7 +71,7 @@ fn files() -> BTreeMap<String, Vec<u8>> {
             let path: PathBuf = entry.expect("the repository can be read").path();
             let name =
                 path.strip_prefix(root()).expect("below the root").to_string_lossy().replace('\\', "/");
-            if [".git", "target", "out"].contains(&name.as_str()) {
+            if [".git", "target", "out", "corpus", "artifacts"].contains(&name.as_str()) {
                 continue;
             }
             if path.is_dir() {

@@ -115,11 +115,11 @@ fn tree(robot: &Assembly, bonds: &[bool], time: f64, forms: &mut Forms) -> Value
 /// `[link, parent, form, joint]`; several joints, or one with a factor, as `[joint, factor, ...]`.
 fn step_value(step: &Step, forms: &mut Forms) -> Value {
     let form = forms.index(step);
-    match step.terms[..] {
+    match step.terms()[..] {
         [] => json!([step.link, step.parent, form]),
         [(joint, 1.0)] => json!([step.link, step.parent, form, joint]),
         _ => {
-            let terms: Vec<Value> = step.terms.iter().flat_map(|&(j, f)| [json!(j), number(f)]).collect();
+            let terms: Vec<Value> = step.terms().iter().flat_map(|&(j, f)| [json!(j), number(f)]).collect();
             json!([step.link, step.parent, form, terms])
         }
     }
