@@ -24,6 +24,7 @@ mod pages;
 mod plan_file;
 mod plan_operations;
 mod programs;
+mod readme;
 mod reference;
 mod render;
 mod robots;
