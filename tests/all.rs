@@ -3,6 +3,7 @@
 mod acceptance;
 mod behavior;
 mod behaviors_of_designs;
+mod browser;
 mod check;
 mod cli;
 mod collision;

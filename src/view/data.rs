@@ -3,7 +3,7 @@
 use super::number::number;
 use super::solids::Meshes;
 use super::{Showing, findings, lattice, robot, stand, truss};
-use crate::plan::verify::history;
+use crate::plan::verify::{clearances, history};
 use crate::plan::{Body, Ground, Plan};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};
@@ -11,6 +11,9 @@ use sha2::{Digest, Sha256};
 
 /// Bytes of source texts in one page; beyond that only the lines that command something.
 const TEXTS_MAX: usize = 400_000;
+
+/// Points of the curve of clearances.
+const CLEARANCES: usize = 160;
 
 /// The plan's data as the page's scripts read it.
 pub fn data(showing: &Showing) -> Value {
@@ -44,6 +47,8 @@ pub fn data(showing: &Showing) -> Value {
         "command": showing.command,
         "meshes": meshes.list,
         "stand": stand::stands(&moments),
+        "clearance": stand::curve(&clearances(plan, end, CLEARANCES)),
+        "loads": stand::loads(&moments),
         "body": body,
     })
 }

@@ -2,7 +2,7 @@
 
 use super::Showing;
 use super::number::number;
-use crate::plan::{Body, Cause, Failure, Plan, Verdict, Worst};
+use crate::plan::{Body, Cause, CheckKind, Failure, Plan, Verdict, Worst};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};
 
@@ -10,6 +10,8 @@ use serde_json::{Value, json};
 pub fn end(plan: &Plan) -> f64 {
     let duration = plan.body.duration();
     let failures = plan.verdict.iter().flat_map(|verdict| &verdict.failures);
+    // What could not be judged at all failed at no time.
+    let failures = failures.filter(|failure| failure.kind != CheckKind::Form);
     failures.map(|failure| failure.time).fold(duration, f64::min).clamp(0.0, duration.max(0.0))
 }
 

@@ -11,6 +11,9 @@ const TOL_BASE: f64 = 1e-4;
 /// Longest run of base poses that one straight piece may stand for.
 const RUN_MAX: usize = 64;
 
+/// Numbers of all loads together.
+const LOADS_MAX: usize = 40_000;
+
 /// Moments whose support is drawn.
 const STANDS_MAX: usize = 500;
 
@@ -76,4 +79,33 @@ pub fn stands(moments: &[Moment]) -> Vec<Value> {
             json!([number(m.time), x, y, z, margin, m.held, corners])
         })
         .collect()
+}
+
+/// A curve in millimetres: `[[time, value], ...]`.
+pub fn curve(points: &[(f64, f64)]) -> Vec<Value> {
+    points.iter().map(|(time, value)| json!([number(*time), number(value * 1e3)])).collect()
+}
+
+/// `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint by its limit.
+pub fn loads(moments: &[Moment]) -> Value {
+    let weighed: Vec<&Moment> = moments.iter().filter(|m| !m.loads.is_empty()).collect();
+    let mut joints: Vec<usize> =
+        weighed.iter().flat_map(|m| m.loads.iter().map(|(joint, _)| *joint)).collect();
+    joints.sort_unstable();
+    joints.dedup();
+    if joints.is_empty() {
+        return Value::Null;
+    }
+    let stride = (weighed.len() * joints.len()).div_ceil(LOADS_MAX);
+    let ratios = |m: &Moment| -> Vec<f64> {
+        let mut ratios = vec![0.0_f64; joints.len()];
+        for &(joint, ratio) in &m.loads {
+            // A joint with limits of its own and at its motor counts with the greater.
+            let at = joints.partition_point(|j| *j < joint);
+            ratios[at] = ratios[at].max(ratio);
+        }
+        ratios.iter().map(|r| libm::round(r * 1e3) / 1e3).collect()
+    };
+    let told = weighed.iter().step_by(stride.max(1)).map(|m| json!([number(m.time), ratios(m)]));
+    json!({ "joints": joints, "moments": told.collect::<Vec<_>>() })
 }

@@ -1,14 +1,22 @@
 //! What a plan's robot is like on its way: the walk that the judge takes, told to whoever draws or
 //! measures it. Nothing is judged here.
 
+use super::collision;
 use super::footprint::hull;
+use super::torque::Gauge;
 use super::walk::{Course, Sample, walk};
-use super::{Tolerances, contact};
+use super::{Precision, Tolerances, contact};
 use crate::geometry::{Pose, Vec3};
-use crate::plan::{Body, Plan, sound};
+use crate::plan::{Body, Plan, Tracks, sound};
 
 /// Moments of one history; of a longer walk every second, fourth, ... is kept.
 pub const MOMENTS_MAX: usize = 4096;
+
+/// Of so many moments one tells the loads of the joints, which take longer to find.
+const LOADS_EACH: usize = 8;
+
+/// Pairs of modules that are looked at for one curve of clearances, at most.
+const PAIRS_MAX: usize = 60_000;
 
 /// The robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +35,9 @@ pub struct Moment {
     pub margin: Option<f64>,
     /// Whether the support was lost and the base is held for the time that `unstable_for` allows.
     pub held: bool,
+    /// Load by limit of each joint that states one, with the ground's forces spread evenly: (joint,
+    /// ratio). The judge may know better forces. Empty at most moments.
+    pub loads: Vec<(usize, f64)>,
 }
 
 /// The moments of an articulated robot's plan, in order of time, from the start to `until` (s).
@@ -45,8 +56,10 @@ pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
         held: None,
     };
     let mut kept = Kept { moments: vec![], stride: 1, seen: 0, last: None };
+    let mut gauge = Gauge::default();
     walk(course, None, until.min(tracks.duration), &mut |sample, _| {
-        kept.see(sample);
+        let loads = || gauge.read(sample, course.tolerances);
+        kept.see(sample, loads);
         true
     });
     kept.moments.extend(kept.last);
@@ -64,8 +77,9 @@ struct Kept {
 }
 
 impl Kept {
-    fn see(&mut self, sample: &Sample) {
+    fn see(&mut self, sample: &Sample, loads: impl FnOnce() -> Vec<(usize, f64)>) {
         let turn = self.seen.is_multiple_of(self.stride);
+        let weighed = self.seen.is_multiple_of(self.stride * LOADS_EACH);
         self.seen += 1;
         if !turn {
             self.last = Some(moment(sample));
@@ -79,7 +93,8 @@ impl Kept {
             });
             self.stride *= 2;
         }
-        self.moments.push(moment(sample));
+        let loads = if weighed { loads() } else { vec![] };
+        self.moments.push(Moment { loads, ..moment(sample) });
         self.last = None;
     }
 }
@@ -102,5 +117,32 @@ fn moment(sample: &Sample) -> Moment {
         support: hull(&points).into_iter().map(|i| points[i]).collect(),
         margin,
         held: stance.held,
+        loads: vec![],
     }
+}
+
+/// Least signed distance of links that may not touch, m, at evenly spaced times: (time, distance).
+/// At most `count` of them, fewer for robots of many modules, none where that would take long or the
+/// robot has no two such links.
+pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
+    let Body::Tracks(tracks) = &plan.body else { return vec![] };
+    let modules = tracks.robot.modules.len();
+    let count = count.min(PAIRS_MAX / (modules * modules).max(1));
+    if count < 2 || until <= 0.0 || !sound::faults(plan).is_empty() {
+        return vec![];
+    }
+    let at = |i: usize| {
+        let time = until * i as f64 / count as f64;
+        // A plan of one instant: what the judge measures of it is its clearance there.
+        let instant = Tracks {
+            start: tracks.state(time),
+            tracks: vec![],
+            docks: vec![],
+            duration: 0.0,
+            ..tracks.clone()
+        };
+        let found = collision::judge(&instant, &plan.settings, &[], &Precision::default()).ok()?;
+        Some((time, found.clearance?.value))
+    };
+    (0..=count).filter_map(at).collect()
 }

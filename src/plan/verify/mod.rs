@@ -51,7 +51,7 @@ pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};
 pub use collision::{Collision, Findings, Precision};
 pub use contact::{Patch, Touch};
-pub use history::{MOMENTS_MAX, Moment, history};
+pub use history::{MOMENTS_MAX, Moment, clearances, history};
 pub use model::Model;
 pub use stance::Stance;
 pub use tolerances::Tolerances;

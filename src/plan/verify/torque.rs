@@ -335,6 +335,34 @@ impl Overload {
     }
 }
 
+/// Reads loads without judging them.
+#[derive(Default)]
+pub struct Gauge {
+    compiled: Option<Compiled>,
+}
+
+impl Gauge {
+    /// Load by limit of every joint that states one, with the ground's forces spread evenly and
+    /// without friction: (joint, ratio). Empty where nothing is weighed.
+    pub fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
+        if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
+            return vec![];
+        }
+        if self.compiled.as_ref().is_none_or(|c| c.bonds != sample.bonds) {
+            let structure = Structure::new(sample.model);
+            let bonds = sample.bonds.to_vec();
+            self.compiled = Some(Compiled { bonds, structure, effects: effects(sample.model) });
+        }
+        let Some(Compiled { structure, .. }) = &self.compiled else { return vec![] };
+        let found = loads(structure, sample, &structure.sections(sample.stance), tolerances);
+        let of_joint = structure.loads.iter().zip(found.ratios).filter_map(|(load, ratio)| match load.kind {
+            LoadKind::Joint { joint, .. } => Some((joint, ratio)),
+            LoadKind::Pull | LoadKind::Moment => None,
+        });
+        of_joint.collect()
+    }
+}
+
 /// Whether something of this name is overloaded in a sample: for finding who is to blame.
 pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
     let mut watch = Watch::new(tolerances);

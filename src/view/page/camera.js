@@ -22,10 +22,10 @@ function cameraOf(canvas, calm, changed) {
     const aspect = canvas.width / Math.max(canvas.height, 1);
     const away = [Math.cos(now.pitch) * Math.cos(now.yaw), Math.cos(now.pitch) * Math.sin(now.yaw), Math.sin(now.pitch)];
     // In a narrow window the width has to hold what the height holds in a wide one.
-    const distance = now.distance * Math.max(1, 1.15 / aspect);
+    const distance = now.distance * Math.max(1, 0.95 / aspect);
     camera.eye = add(now.target, scaled(away, distance));
     const view = lookAt(camera.eye, now.target, [0, 0, 1]);
-    camera.matrix = times(perspective(FOVY, aspect, distance * 0.02, distance * 40), view);
+    camera.matrix = times(perspective(FOVY, aspect, distance * 0.05, distance * 40), view);
     return far > 1e-4;
   };
 

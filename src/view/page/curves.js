@@ -32,7 +32,7 @@ function curvesOf(plan, motion, seek) {
     };
     row("clearance", "", plan.clearance, " mm", 0);
     row("stability margin", "", plan.stand.map(s => [s[0], s[4]]).filter(p => p[1] !== null).map(([t, m]) => [t, m * 1000]), " mm", 0);
-    row("greatest joint load", "", plan.loads && plan.loads.moments.map(([t, ratios]) => [t, 100 * Math.max(...ratios)]), " %", 100);
+    row("greatest joint load, forces spread evenly", "", plan.loads && plan.loads.moments.map(([t, ratios]) => [t, 100 * Math.max(...ratios)]), " %", 100);
     return rows.length > 0;
   }
 

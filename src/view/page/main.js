@@ -4,6 +4,8 @@ const began = performance.now();
 const plan = JSON.parse(document.getElementById("plan").textContent);
 const $ = id => document.getElementById(id);
 const calmWish = matchMedia("(prefers-reduced-motion: reduce)");
+/** What stands at the place of a failure; the words of the judge stand under the title. */
+const CALLOUTS = { collision: "they meet here", stability: "it falls here", torque: "overloaded", "bond load": "overloaded", closure: "torn", docking: "missed", ground: "in the ground" };
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
 function main() {
@@ -54,7 +56,7 @@ function main() {
 
   let renderer = null;
   try {
-    renderer = rendererOf(canvas, shapesOf(plan), motion);
+    renderer = rendererOf(canvas, shapesOf(plan, motion.solids), motion);
   } catch (error) {
     // Whoever can't draw it shows a still picture, and everything else on the page.
     canvas.hidden = true;
@@ -221,7 +223,7 @@ function main() {
     const at = onScreen(place);
     box.hidden = !at;
     if (!at) return;
-    box.textContent = visible(failure.message);
+    box.textContent = CALLOUTS[failure.kind] || failure.kind;
     box.style.left = clamp(at[0], 150, Math.max(canvas.clientWidth - 150, 150)) + "px";
     box.style.top = clamp(at[1], 120, canvas.clientHeight) + "px";
   }
@@ -348,6 +350,7 @@ function main() {
     requestAnimationFrame(frame);
   }
 
+  document.body.classList.toggle("still", plan.duration === 0);
   const wide = innerWidth > 760;
   if (!wide) document.body.classList.add("wide"), ($("panel").hidden = true);
   new ResizeObserver(resize).observe($("stage"));
@@ -356,8 +359,13 @@ function main() {
   player.colour(colouring.name);
   resize();
   fit(true);
+  const places = t => {
+    const X = new Float32Array(TEXELS * motion.bodies);
+    motion.place(t, X);
+    return Array.from(X);
+  };
   // For scripts and tests.
-  window.modl = { plan, stats, state, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y) };
+  window.modl = { plan, stats, state, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y), places, onScreen };
   const wished = fromAddress();
   draw(0);
   if (!wished && !calmWish.matches) play(true);

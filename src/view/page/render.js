@@ -99,12 +99,13 @@ function rendererOf(canvas, shapes, motion) {
     const common = { view: camera.matrix, sun, eye: camera.eye, sunDirection: SUN, dark, shadowed: scene.shadow ? 1 : 0 };
     use("solid", { ...common, opacity: 1 });
     draw("solid", scene.solids, "faces");
-    if (scene.edges) {
-      use("edge", { view: camera.matrix, opacity: 1, dark });
-      draw("edge", scene.solids, "lines");
-    }
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    const pixels = canvas.height / (2 * Math.tan(FOVY / 2));
+    if (scene.edges) {
+      use("edge", { view: camera.matrix, opacity: 1, dark, pixels });
+      draw("edge", scene.solids, "lines");
+    }
     if (scene.ground) drawGround(scene, sun);
     scene.ghosts.forEach((shown, i) => shown && drawGhost(scene, common, ghosts[i]));
     gl.depthMask(false);
@@ -143,7 +144,7 @@ function rendererOf(canvas, shapes, motion) {
     gl.depthFunc(gl.LEQUAL);
     use("solid", { ...common, opacity: 0.16, shadowed: 0 }, poses);
     draw("solid", scene.solids, "faces");
-    use("edge", { view: common.view, opacity: 0.3, dark: common.dark }, poses);
+    use("edge", { view: common.view, opacity: 0.3, dark: common.dark, pixels: canvas.height }, poses);
     draw("edge", scene.solids, "lines");
     gl.depthFunc(gl.LESS);
   }

@@ -7,7 +7,7 @@ const FAILED = "#d9480f";
 const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
 
 /** From cold to warm, as bright in steps as it is in hue (after cividis). */
-const RAMP = ["#123a6d", "#4a6a8f", "#7f8c8d", "#bca94f", "#fddc3b"].map(rgb);
+const RAMP = ["#1c4a86", "#4f7196", "#7f8c8d", "#bca94f", "#fddc3b"].map(rgb);
 function ramp(u) {
   const x = clamp(u, 0, 1) * (RAMP.length - 1);
   const i = Math.min(Math.floor(x), RAMP.length - 2);
@@ -19,7 +19,7 @@ function colouringsOf(plan, motion) {
   const groups = [...new Set(motion.modules.map(m => m.group))];
   const types = [...new Set(motion.modules.map(m => m.type))];
   const by = (list, key) => motion.modules.map(m => rgb(PALETTE[list.indexOf(m[key]) % PALETTE.length]));
-  const swatches = list => list.slice(0, 8).map((name, i) => [PALETTE[i % PALETTE.length], name || "cells"]);
+  const swatches = list => [...list.slice(0, 8).map((name, i) => [PALETTE[i], name || "cells"]), ...(list.length > 8 ? [["none", "and " + (list.length - 8) + " more"]] : [])];
   const ofGroup = by(groups, "group");
   const ofType = by(types, "type");
   const all = [];
@@ -32,7 +32,7 @@ function colouringsOf(plan, motion) {
   plain("part", "Part", ofGroup, groups);
   if (plan.loads) {
     const loads = loadsOf(plan, motion);
-    all.push({ name: "load", title: "Joint load", colour: (b, X, t) => loads(motion.moduleOf[b], t), legend: [["ramp", "joint load, 0 to its limit"]] });
+    all.push({ name: "load", title: "Joint load", colour: (b, X, t) => loads(motion.moduleOf[b], t), legend: [["ramp", "joint load, none to its limit, the ground's forces spread evenly"]] });
   }
   plain("type", "Type", ofType, types);
   return all;
@@ -47,14 +47,13 @@ function loadsOf(plan, motion) {
   return (module, t) => {
     if (!of[module].length) return rgb("#8d949b");
     const ratios = moments[Math.max(lastNotAbove(times, t), 0)][1];
-    const most = Math.max(...of[module].map(i => ratios[i]));
-    return most > 1 ? rgb(FAILED) : ramp(most);
+    return ramp(Math.max(...of[module].map(i => ratios[i])));
   };
 }
 
 /** The findings at a moment: {modules, failure}. */
 function failureAt(plan, t) {
-  const near = plan.verdict.failures.filter(f => t >= f.time - 1e-3 && t <= Math.max(f.until || 0, f.time + 0.15));
+  const near = plan.verdict.failures.filter(f => f.kind !== "form" && t >= f.time - 1e-3 && t <= Math.max(f.until || 0, f.time + 0.15));
   return near.length ? near[0] : null;
 }
 

@@ -77,18 +77,24 @@ void main() {
 
 const EDGE_VERTEX = HEAD + BODY + `
 uniform mat4 view;
+uniform float pixels;               // of a metre at a distance of one
 out vec3 colour;
+out float strength;
 void main() {
   colour = texel(3).rgb;
   gl_Position = view * vec4(world(), 1.0);
-  gl_Position.z -= 0.0006 * gl_Position.w;
+  // Edges of what is small on the screen would cover it.
+  vec3 full = size.xyz * texel(2).xyz;
+  strength = smoothstep(5.0, 28.0, length(full) * pixels / gl_Position.w);
+  gl_Position.z -= 0.00015 * gl_Position.w;
 }`;
 
 const EDGE_FRAGMENT = HEAD + `
 uniform float opacity, dark;
 in vec3 colour;
+in float strength;
 out vec4 shown;
-void main() { shown = vec4(colour * mix(0.42, 0.32, dark), opacity); }`;
+void main() { shown = vec4(colour * mix(0.42, 0.32, dark), opacity * strength); }`;
 
 const DEPTH_VERTEX = HEAD + BODY + `
 uniform mat4 view;
@@ -165,7 +171,7 @@ void main() {
   vec2 n = length(d) > 0.0001 ? normalize(vec2(-d.y, d.x)) : vec2(1.0, 0.0);
   gl_Position = corner.x < 0.5 ? a : b;
   gl_Position.xy += n / screen * (corner.y * from.w) * gl_Position.w;
-  gl_Position.z -= 0.0012 * gl_Position.w;
+  gl_Position.z -= 0.0003 * gl_Position.w;
   colour = tint;
 }`;
 const LINE_FRAGMENT = HEAD + `
@@ -176,7 +182,7 @@ void main() { shown = colour; }`;
 const FLAT_VERTEX = HEAD + `
 uniform mat4 view;
 layout(location=0) in vec3 corner;
-void main() { gl_Position = view * vec4(corner, 1.0); gl_Position.z -= 0.0003 * gl_Position.w; }`;
+void main() { gl_Position = view * vec4(corner, 1.0); gl_Position.z -= 0.0001 * gl_Position.w; }`;
 const FLAT_FRAGMENT = HEAD + `
 uniform vec4 tint;
 out vec4 shown;

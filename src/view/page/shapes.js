@@ -1,12 +1,13 @@
 // Shapes as triangles and as the lines of their edges. 0 is a box, 1 a cylinder along z, 2 a ball,
 // all of size 1; from 3 on the meshes of the plan.
 
-const ROUND = 40;
 /** Faces that meet at less than this are drawn as one smooth surface. */
 const CREASE = Math.cos((32 * Math.PI) / 180);
 
-function shapesOf(plan) {
-  return [boxShape(), cylinderShape(), ballShape(), ...(plan.meshes || []).map(meshShape)];
+function shapesOf(plan, solids) {
+  // What is many is small on the screen.
+  const round = solids.length > 1200 ? 20 : 40;
+  return [boxShape(), cylinderShape(round), ballShape(round), ...(plan.meshes || []).map(meshShape)];
 }
 
 function boxShape() {
@@ -31,11 +32,11 @@ function boxShape() {
   return { faces: new Float32Array(faces), lines: new Float32Array(lines) };
 }
 
-function cylinderShape() {
+function cylinderShape(round) {
   const faces = [];
   const lines = [];
-  const at = (i, z) => [Math.cos((2 * Math.PI * i) / ROUND) / 2, Math.sin((2 * Math.PI * i) / ROUND) / 2, z];
-  for (let i = 0; i < ROUND; i++) {
+  const at = (i, z) => [Math.cos((2 * Math.PI * i) / round) / 2, Math.sin((2 * Math.PI * i) / round) / 2, z];
+  for (let i = 0; i < round; i++) {
     const quad = [at(i, -0.5), at(i + 1, -0.5), at(i + 1, 0.5), at(i, 0.5)];
     for (const k of [0, 1, 2, 0, 2, 3]) faces.push(...quad[k], 2 * quad[k][0], 2 * quad[k][1], 0);
     for (const z of [-0.5, 0.5]) {
@@ -44,24 +45,20 @@ function cylinderShape() {
       lines.push(...at(i, z), ...at(i + 1, z));
     }
   }
-  // Marks on the ends, or nobody would see it turn.
-  for (const z of [-0.502, 0.502])
-    for (const i of [0, 1, 2, 3, 4, 5].map(k => (k * ROUND) / 6)) {
-      const rim = [Math.cos((2 * Math.PI * i) / ROUND), Math.sin((2 * Math.PI * i) / ROUND)];
-      const inner = i === 0 ? 0.1 : 0.36;
-      lines.push(rim[0] * inner, rim[1] * inner, z, rim[0] * 0.46, rim[1] * 0.46, z);
-    }
+  // A mark on each end, or nobody would see it turn.
+  for (const z of [-0.501, 0.501]) lines.push(0.12, 0, z, 0.46, 0, z);
   return { faces: new Float32Array(faces), lines: new Float32Array(lines) };
 }
 
-function ballShape() {
+function ballShape(round) {
+  const [around, down] = [round * 0.6, round * 0.35];
   const faces = [];
   const at = (i, j) => {
-    const [a, b] = [(2 * Math.PI * i) / 24, (Math.PI * j) / 14];
+    const [a, b] = [(2 * Math.PI * i) / around, (Math.PI * j) / down];
     return [(Math.sin(b) * Math.cos(a)) / 2, (Math.sin(b) * Math.sin(a)) / 2, Math.cos(b) / 2];
   };
-  for (let i = 0; i < 24; i++)
-    for (let j = 0; j < 14; j++) {
+  for (let i = 0; i < around; i++)
+    for (let j = 0; j < down; j++) {
       const quad = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
       for (const k of [0, 1, 2, 0, 2, 3]) faces.push(...quad[k], ...scaled(quad[k], 2));
     }
