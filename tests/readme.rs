@@ -25,7 +25,8 @@ fn the_transcripts_are_what_the_tool_prints() {
     let sandbox = Sandbox::new(&files);
     let mut runs = 0;
     for fence in fences("text") {
-        let Some((command, wanted)) = fence.strip_prefix("$ modl ").and_then(|rest| rest.split_once('\n')) else {
+        let Some((command, wanted)) = fence.strip_prefix("$ modl ").and_then(|rest| rest.split_once('\n'))
+        else {
             continue;
         };
         runs += 1;

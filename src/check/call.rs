@@ -1,7 +1,8 @@
 //! Calls: what is called, and which argument goes to which parameter.
 
 use super::checker::{Bound, Checker, DefItem, Entity, ParamInfo, Scope, Signature, TypeParam};
-use super::expr::{Role, error_expr, expr_of, has_params, list_element};
+use super::expr::{Role, error_expr, expr_of, has_params};
+use super::lists::list_element;
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
 use crate::source::suggest::suggest;

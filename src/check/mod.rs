@@ -5,7 +5,7 @@
 //!
 //! The way through this room: [`load`] reads files, [`checker`] holds what is known, [`items`]
 //! drives; [`members`], [`module`], [`config`] and [`families`] are the declarations, [`expr`],
-//! [`call`] and [`operators`] the expressions, [`type_expr`] the types as written.
+//! [`literals`], [`names`], [`lists`], [`call`] and [`operators`] the expressions, [`type_expr`] the types as written.
 
 mod call;
 mod checker;
@@ -15,9 +15,12 @@ mod expr;
 mod families;
 mod items;
 mod lint;
+mod lists;
+mod literals;
 mod load;
 mod members;
 mod module;
+mod names;
 mod operators;
 mod type_expr;
 pub mod typed;

@@ -1,0 +1,120 @@
+//! Numbers with their units, texts, and the words of choices.
+
+use super::checker::{Checker, DefItem, Entity, MemberInfoKind, Scope};
+use super::expr::{error_expr, expr_of};
+use super::typed::{Expr, ExprKind};
+use super::types::Type;
+use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::syntax::ast;
+use crate::units::Dimension;
+use crate::units::table::to_si;
+
+impl<'a> Checker<'a> {
+    pub fn number(
+        &mut self,
+        scope: &Scope,
+        span: Span,
+        digits: Symbol,
+        unit: Option<&ast::UnitExpr>,
+    ) -> Expr {
+        let text = digits.as_str();
+        let Some(unit) = unit else { return self.plain_number(span, text) };
+        let Ok(value) = text.parse::<f64>() else { return self.bad_number(span) };
+        // The first factor can't be misread: nothing but a unit follows a number directly.
+        for (name, _) in unit.factors.iter().skip(1) {
+            if self.is_variable(scope, name.text) {
+                self.report(
+                    Diagnostic::warning(
+                        code::UNIT_SHADOWED,
+                        format!("`{0}` here is the unit, not the variable `{0}`", name.text),
+                    )
+                    .label(name.span, "a unit sticks to its number")
+                    .hint("with a space and an operator it is the variable"),
+                );
+            }
+        }
+        match self.unit(unit) {
+            Some((dimension, factors)) => {
+                let value = scaled(value, &factors);
+                if !value.is_finite() {
+                    return self.bad_number(span);
+                }
+                expr_of(span, Type::Quantity(dimension), ExprKind::Number(value))
+            }
+            None => error_expr(span),
+        }
+    }
+
+    /// Whether a number of this name may be meant: a local, a parameter or `let` of the body, or a
+    /// `let` of the file.
+    pub fn is_variable(&mut self, scope: &Scope, name: Symbol) -> bool {
+        if let Some(ty) = scope.local_type(name) {
+            return ty.dimension().is_some();
+        }
+        if let Some(this) = scope.this {
+            let members = self.members(this);
+            if let Some(member) = members.index.get(&name) {
+                let kind = members.list[member.0 as usize].kind;
+                return matches!(kind, MemberInfoKind::Param(_) | MemberInfoKind::Let(_));
+            }
+        }
+        match self.scopes[scope.file].get(&name) {
+            Some(Entity::Def(id)) => matches!(self.def(*id).item, DefItem::Let(_)),
+            _ => false,
+        }
+    }
+
+    pub fn plain_number(&mut self, span: Span, text: &str) -> Expr {
+        if !text.contains(['.', 'e', 'E']) {
+            return match text.parse::<i64>() {
+                Ok(value) => expr_of(span, Type::Int, ExprKind::Int(value)),
+                Err(_) => expr_of(span, Type::Int, ExprKind::BigInt(Symbol::new(text))),
+            };
+        }
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => expr_of(span, Type::NUMBER, ExprKind::Number(value)),
+            _ => self.bad_number(span),
+        }
+    }
+
+    pub fn bad_number(&mut self, span: Span) -> Expr {
+        self.report(
+            Diagnostic::error(code::BAD_NUMBER, "this number is too large")
+                .label(span, "beyond what a number can hold"),
+        );
+        error_expr(span)
+    }
+
+    pub fn text(&mut self, scope: &mut Scope, span: Span, parts: &'a [ast::TextPart]) -> Expr {
+        if let [] | [ast::TextPart::Literal(_)] = parts {
+            let text = parts.first().map_or("", |p| match p {
+                ast::TextPart::Literal(text) => text.as_str(),
+                ast::TextPart::Value(_) => unreachable!("matched as a literal"),
+            });
+            return expr_of(span, Type::Text, ExprKind::Text(text.into()));
+        }
+        let pieces = parts
+            .iter()
+            .map(|part| match part {
+                ast::TextPart::Literal(text) => {
+                    expr_of(span, Type::Text, ExprKind::Text(text.as_str().into()))
+                }
+                ast::TextPart::Value(e) => self.expr(scope, e, None),
+            })
+            .collect();
+        expr_of(span, Type::Text, ExprKind::Interpolation(pieces))
+    }
+}
+
+pub fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
+    factors.iter().fold(value, |value, (factor, power)| {
+        let times = power.unsigned_abs();
+        (0..times).fold(value, |v, _| if *power > 0 { to_si(v, *factor) } else { v / to_si(1.0, *factor) })
+    })
+}
+
+pub fn direction(span: Span, axis: ast::Axis) -> Expr {
+    let one = |on: bool| expr_of(span, Type::NUMBER, ExprKind::Number(if on { 1.0 } else { 0.0 }));
+    let parts = [ast::Axis::X, ast::Axis::Y, ast::Axis::Z].map(|a| one(a == axis));
+    expr_of(span, Type::vec3(Dimension::NUMBER), ExprKind::Vec3(Box::new(parts)))
+}

@@ -1,0 +1,152 @@
+//! Names as values: locals, members, declarations.
+
+use super::checker::{Checker, DefItem, Entity, Scope};
+use super::expr::{error_expr, expr_of};
+use super::typed::{DefId, Expr, ExprKind};
+use super::types::{FnType, Type};
+use crate::source::suggest::suggest;
+use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::units::is_unit;
+use std::sync::Arc;
+
+impl<'a> Checker<'a> {
+    pub fn name_expr(&mut self, scope: &mut Scope, span: Span, name: Symbol, want: Option<&Type>) -> Expr {
+        if want.is_some_and(|w| is_word(w, name)) {
+            return expr_of(span, Type::Choice(word_choice(name)), ExprKind::Word(name));
+        }
+        if let Some((local, ty)) = scope.local(name) {
+            return expr_of(span, ty, ExprKind::Local(local));
+        }
+        if let Some(this) = scope.this
+            && let Some(found) = self.own_member(this, span, name, want)
+        {
+            return found;
+        }
+        match self.entity(scope.file, name) {
+            Some(Entity::Def(id)) => self.def_value(id, span),
+            Some(Entity::Error) => error_expr(span),
+            Some(Entity::File(_)) => {
+                self.report(
+                    Diagnostic::error(
+                        code::TYPE_MISMATCH,
+                        format!("`{name}` is a file of the library, no value"),
+                    )
+                    .label(span, "a value is wanted here")
+                    .hint(format!("name one of its items: `{name}.item`")),
+                );
+                error_expr(span)
+            }
+            None => self.unknown_name(scope, span, name, want),
+        }
+    }
+
+    pub fn unknown_name(&mut self, scope: &Scope, span: Span, name: Symbol, want: Option<&Type>) -> Expr {
+        let choice = want.and_then(choice_of).filter(|c| !c.words.is_empty());
+        if let Some(choice) = choice {
+            let words: Vec<&str> = choice.words.iter().map(|w| w.as_str()).collect();
+            let mut d = Diagnostic::error(code::UNKNOWN_CHOICE, format!("`{name}` is none of the choices"))
+                .label(span, format!("one of {} is wanted", words.join(", ")));
+            if let Some(near) = suggest(name.as_str(), words) {
+                d = d.hint(format!("`{near}`?"));
+            }
+            self.report(d);
+            return error_expr(span);
+        }
+        let mut names: Vec<&str> = self.visible_names(scope.file);
+        names.extend(scope.local_names());
+        if let Some(this) = scope.this {
+            names.extend(self.member_names(this));
+        }
+        let mut d = Diagnostic::error(code::UNKNOWN_NAME, format!("`{name}` is not known here"))
+            .label(span, "no such name");
+        if let Some(near) = suggest(name.as_str(), names) {
+            d = d.hint(format!("`{near}`?"));
+        } else if is_unit(name.as_str()) {
+            d = d.hint(format!("as a unit it sticks to a number: `1{name}`"));
+        }
+        self.report(d);
+        error_expr(span)
+    }
+
+    /// A declaration used as a value.
+    pub fn def_value(&mut self, id: DefId, span: Span) -> Expr {
+        match self.def(id).item {
+            DefItem::Let(_) => {
+                let ty = self.inferred_type(id, Some(span));
+                expr_of(span, ty, ExprKind::Global(id))
+            }
+            DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) => {
+                let signature = self.signature(id);
+                if !signature.type_params.is_empty() || signature.params.iter().any(|p| p.variadic) {
+                    let name = self.def(id).name;
+                    self.report(
+                        Diagnostic::error(code::TYPE_MISMATCH, format!("`{name}` must be called here"))
+                            .label(span, "takes arguments of several types, so it can't be handed on")
+                            .hint(format!("hand on a function of your own: `x => {name}(x)`")),
+                    );
+                    return error_expr(span);
+                }
+                let result = self.result_type(id, Some(span));
+                let params = signature.params.iter().map(|p| p.ty.clone()).collect();
+                expr_of(span, Type::Fn(Arc::new(FnType { params, result })), ExprKind::FnValue(id))
+            }
+            _ if self.family(id).is_some() => self.default_instance(id, span),
+            _ => {
+                let name = self.def(id).name;
+                self.report(
+                    Diagnostic::error(code::TYPE_MISMATCH, format!("`{name}` is no value"))
+                        .label(span, "a value is wanted here"),
+                );
+                error_expr(span)
+            }
+        }
+    }
+
+    /// A type name where an instance is wanted means its instance with all defaults.
+    pub fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
+        let signature = self.signature(id);
+        let missing: Vec<String> = signature
+            .params
+            .iter()
+            .filter(|p| !p.may_be_left_out())
+            .map(|p| format!("`{}`", p.name))
+            .collect();
+        if !missing.is_empty() {
+            let name = self.def(id).name;
+            self.report(
+                Diagnostic::error(code::ARGUMENTS, format!("`{name}` needs {}", missing.join(", ")))
+                    .label(span, "its instance with all defaults is meant, but it has none for these")
+                    .label(self.def(id).span, "declared here")
+                    .hint(format!("give them: `{name}(...)`")),
+            );
+            return error_expr(span);
+        }
+        let args = vec![None; signature.params.len()];
+        expr_of(span, Type::Instance(id), ExprKind::Instance { def: id, args })
+    }
+
+    /// Names of members, joints and ports of a declaration, for suggestions.
+    pub fn member_names(&mut self, id: DefId) -> Vec<&'static str> {
+        let members = self.members(id);
+        let list = members.list.iter().map(|m| m.name);
+        let joints = members.joint_index.keys().copied();
+        let ports = members.port_index.keys().copied();
+        list.chain(joints).chain(ports).map(|s| s.as_str()).collect()
+    }
+}
+
+pub fn choice_of(want: &Type) -> Option<&super::types::Choice> {
+    match want {
+        Type::Optional(inner) => choice_of(inner),
+        Type::Choice(choice) => Some(choice),
+        _ => None,
+    }
+}
+
+pub fn is_word(want: &Type, name: Symbol) -> bool {
+    choice_of(want).is_some_and(|c| c.words.contains(&name))
+}
+
+pub fn word_choice(name: Symbol) -> Arc<super::types::Choice> {
+    Arc::new(super::types::Choice { words: vec![name], types: Vec::new() })
+}
