@@ -5,6 +5,9 @@ use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, V
 /// Failures that are told one by one; further ones are counted.
 const FAILURES_MAX: usize = 100;
 
+/// Lengths (m), angles (rad) and parts of a limit below this are rounding.
+const ROUNDING: f64 = 1e-9;
+
 pub struct Ledger<'a> {
     exemptions: &'a [Exemption],
     /// The end of the plan, which is never excused, s.
@@ -78,12 +81,32 @@ impl<'a> Ledger<'a> {
         self.verdict.checks.push(Check { kind, status });
     }
 
+    /// What is nothing but rounding is told as nothing.
+    fn without_rounding(&mut self) {
+        let verdict = &mut self.verdict;
+        let worst = [
+            &mut verdict.clearance,
+            &mut verdict.margin,
+            &mut verdict.torque_margin,
+            &mut verdict.bond_margin,
+            &mut verdict.speed_margin,
+            &mut verdict.slip,
+        ];
+        let values = worst.into_iter().flatten().map(|w| &mut w.value);
+        for value in values.chain(&mut verdict.travel).chain([&mut verdict.heading]) {
+            if value.abs() < ROUNDING {
+                *value = 0.0;
+            }
+        }
+    }
+
     /// The verdict: failures in order of time, exemptions that nothing needed listed.
     pub fn finish(mut self) -> Verdict {
         self.verdict.failures.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.kind.cmp(&b.kind)));
         self.verdict.unneeded_exemptions = (0..self.used.len()).filter(|&i| !self.used[i]).collect();
         self.verdict.events.sort_by(|a, b| a.0.total_cmp(&b.0));
         self.verdict.checks.sort_by_key(|check| check.kind);
+        self.without_rounding();
         if self.untold > 0 {
             self.note(format!("{} more failures are not listed", self.untold));
         }
