@@ -15,6 +15,7 @@ pub mod behavior;
 pub mod geometry;
 pub mod optimize;
 pub mod plan;
+pub mod planners;
 pub mod robot;
 pub mod view;
 

@@ -29,6 +29,7 @@ mod readme;
 mod reference;
 mod render;
 mod robots;
+mod squeeze;
 mod suite;
 mod syntax;
 mod syntax_random;

@@ -4,7 +4,7 @@ use crate::programs::*;
 use crate::robots::{FRONT, LEFT, TILT, at_rest, chain, walk4};
 use modl::behavior::Scheduled;
 use modl::plan::{
-    Body, Cause, CauseId, Change, Command, Compare, Counter, DockKind, Knot, Law, Model, Node, NodePaths,
+    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Knot, Law, Model, Node, NodePaths,
     Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage, Stages, Tracks, Unfit, Way, World,
     WorldFrom, joined, reversed, sliced, timeline,
 };
@@ -314,6 +314,7 @@ pub fn squeezing() -> Stages {
         cell: 0,
         count: 4,
         time_unit: 2.0,
+        limits: CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE },
         model: Model::default(),
         start: vec![cells(Ratio(-3, 2), Ratio::ONE, Ratio::ONE)],
         stages: vec![

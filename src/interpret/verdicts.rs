@@ -64,7 +64,7 @@ pub fn in_words(verdict: &Verdict) -> String {
 
 fn failure_code(kind: CheckKind) -> Code {
     match kind {
-        CheckKind::Form => code::NOT_VERIFIED,
+        CheckKind::Form | CheckKind::Momentum => code::NOT_VERIFIED,
         CheckKind::Conflict => code::CONFLICT,
         CheckKind::Collision => code::COLLISION,
         CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration => code::LIMIT_EXCEEDED,

@@ -10,6 +10,7 @@ pub mod time;
 pub mod body;
 pub mod node_paths;
 pub mod program;
+pub mod ratio;
 pub mod stages;
 pub mod tracks;
 pub mod verdict;
@@ -42,11 +43,12 @@ pub use node_paths::{Knot, NodePaths, Way};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
 pub use reverse::reversed;
 pub use slice::sliced;
-pub use stages::{CellBox, Counter, Law, Model, Ratio, Run, Stage, Stages};
+pub use ratio::Ratio;
+pub use stages::{CellBox, CellLimits, Counter, Law, Model, Run, Stage, Stages};
 pub use timeline::timeline;
 pub use tracks::{Dock, DockKind, Segment, Track, Tracks};
 pub use unfit::Unfit;
-pub use verdict::{Check, CheckKind, Failure, Status, Verdict, Worst};
+pub use verdict::{Check, CheckKind, Dynamics, Failure, Status, Verdict, Worst};
 pub use world::{Exemption, ExemptionKind, Ground, Settings, Stability, World};
 
 /// Names a cause in [`Plan::causes`].

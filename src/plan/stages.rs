@@ -5,7 +5,7 @@
 //! by runs of cells whose places are affine in the run's indices, with rational numbers: a million
 //! cells take a few lines, and nothing is rounded.
 
-use super::CauseId;
+use super::{CauseId, Ratio};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,14 +17,26 @@ pub struct Stages {
     pub cell: usize,
     /// How many cells there are.
     pub count: u64,
-    /// Seconds of one unit of time: that in which one cell shrinks to half its size at its greatest
-    /// force.
+    /// Seconds of one unit of time: that in which the greatest force brings a cell from rest to one
+    /// cell size a unit of time.
     pub time_unit: f64,
+    pub limits: CellLimits,
     /// What the cells' forces are bound to.
     pub model: Model,
     /// Where every cell is at the start. Of two runs that name a cell the later holds.
     pub start: Vec<Run>,
     pub stages: Vec<Stage>,
+}
+
+/// What a cell can do, in units of its size and of [`Stages::time_unit`]; its greatest force gives it
+/// an acceleration of 1 along each axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CellLimits {
+    /// Its least size.
+    pub smallest: Ratio,
+    /// Square of its greatest speed: that of a size, and that between two cells in contact.
+    pub speed_squared: Ratio,
 }
 
 /// The conditions beside those that every plan of the family meets.
@@ -61,13 +73,14 @@ pub enum Law {
     /// The same with a stretch of constant speed between; each ramp takes this part (of 1) of the
     /// duration, at most 1/2.
     Trapezoid(Ratio),
+    /// From rest to full speed: a ramp takes this part (of 1) of the duration, at most all of it; then
+    /// the speed is kept, and the next stage goes on with it.
+    SpeedUp(Ratio),
+    /// The reverse: from full speed to rest, with a ramp at the end.
+    SlowDown(Ratio),
 }
 
-/// A rational number: `[numerator, denominator]`, the denominator positive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Ratio(pub i64, pub i64);
-
-/// Cells in the order of up to three nested counters `k`: the cell is `first + Σ stride·k`, its
+/// Cells in the order of nested counters `k`: the cell is `first + Σ stride·k`, its
 /// centre `Σ` of affine functions of the same counters.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -98,30 +111,38 @@ pub struct CellBox {
     pub size: [f64; 3],
 }
 
-impl Ratio {
-    pub const ZERO: Ratio = Ratio(0, 1);
-    pub const ONE: Ratio = Ratio(1, 1);
-
-    pub fn to_f64(self) -> f64 {
-        self.0 as f64 / self.1 as f64
-    }
-}
-
 impl Law {
+    /// The parts of the duration that the ramps at the start and at the end take.
+    pub fn ramps(self) -> (Ratio, Ratio) {
+        match self {
+            Law::BangBang => (Ratio(1, 2), Ratio(1, 2)),
+            Law::Trapezoid(part) => (part, part),
+            Law::SpeedUp(part) => (part, Ratio::ZERO),
+            Law::SlowDown(part) => (Ratio::ZERO, part),
+        }
+    }
+
+    /// The same backwards in time.
+    pub fn reversed(self) -> Law {
+        match self {
+            Law::BangBang | Law::Trapezoid(_) => self,
+            Law::SpeedUp(part) => Law::SlowDown(part),
+            Law::SlowDown(part) => Law::SpeedUp(part),
+        }
+    }
+
     /// `σ(u)`; 0 and 1 outside 0..1.
     pub fn progress(self, u: f64) -> f64 {
         let u = u.clamp(0.0, 1.0);
-        let ramp = match self {
-            Law::BangBang => 0.5,
-            Law::Trapezoid(part) => part.to_f64(),
-        };
-        let speed = 1.0 / (1.0 - ramp);
-        if u < ramp {
-            speed * u * u / (2.0 * ramp)
-        } else if u <= 1.0 - ramp {
-            speed * (u - ramp / 2.0)
+        let (first, last) = self.ramps();
+        let (first, last) = (first.to_f64(), last.to_f64());
+        let speed = 2.0 / (2.0 - first - last);
+        if u < first {
+            speed * u * u / (2.0 * first)
+        } else if u <= 1.0 - last {
+            speed * (u - first / 2.0)
         } else {
-            1.0 - speed * (1.0 - u) * (1.0 - u) / (2.0 * ramp)
+            1.0 - speed * (1.0 - u) * (1.0 - u) / (2.0 * last)
         }
     }
 }

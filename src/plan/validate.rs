@@ -6,8 +6,8 @@ use super::polynomial::DEGREE_MAX;
 use super::time::DURATION_MAX;
 use super::visit::Graph;
 use super::{
-    Action, Body, CauseId, Command, Condition, Dock, DockKind, ExemptionKind, Node, NodePaths, Plan, Ratio,
-    Run, Signal, Stages, Track, Tracks, Way,
+    Action, Body, CauseId, Command, Condition, Dock, DockKind, ExemptionKind, Law, Node, NodePaths, Plan,
+    Ratio, Run, Signal, Stages, Track, Tracks, Way,
 };
 use crate::robot::{Assembly, JointId, Library, ModuleType, PortRef};
 use std::collections::BTreeSet;
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 /// How far a joint may jump between two segments, rad or m: rounding, where plans were joined.
 const TOL_JUMP: f64 = 1e-9;
 /// Most cells of a lattice.
-const CELLS_MAX: u64 = 100_000_000;
+const CELLS_MAX: u64 = 4_000_000;
 
 /// What is wrong with the plan, in words.
 pub fn validate(plan: &Plan) -> Result<(), String> {
@@ -248,6 +248,15 @@ fn stages(body: &Stages, library: &Library, causes: usize) -> Result<(), String>
     index(body.cell, library.cells.len(), "cell type")?;
     need(body.count <= CELLS_MAX, || format!("more than {CELLS_MAX} cells"))?;
     need(body.time_unit > 0.0, || "the unit of time must be positive".into())?;
+    let limits = &body.limits;
+    ratio(limits.smallest)?;
+    ratio(limits.speed_squared)?;
+    let sound = limits.smallest.0 > 0 && limits.smallest.order(Ratio::ONE).is_le() && limits.speed_squared.0 > 0;
+    need(sound, || "the limits of the cells are out of range".into())?;
+    if let Some(force) = body.model.contact_force {
+        ratio(force)?;
+        need(force.0 > 0, || "the greatest contact force must be positive".into())?;
+    }
     let named: u64 = body.start.iter().map(|r| size_of(r).unwrap_or(0)).fold(0, u64::saturating_add);
     need(named >= body.count, || "the start does not say where every cell is".into())?;
     body.start.iter().try_for_each(|run| self::run(run, body.count))?;
@@ -255,9 +264,20 @@ fn stages(body: &Stages, library: &Library, causes: usize) -> Result<(), String>
         cause(stage.cause, causes)?;
         ratio(stage.time_squared)?;
         need(stage.time_squared.0 >= 0, || format!("stage `{}` lasts no real time", stage.name))?;
+        law(stage.law).map_err(|fault| format!("in stage `{}`: {fault}", stage.name))?;
         stage.end.iter().try_for_each(|run| self::run(run, body.count))?;
     }
     Ok(())
+}
+
+fn law(law: Law) -> Result<(), String> {
+    let (part, most) = match law {
+        Law::BangBang => return Ok(()),
+        Law::Trapezoid(part) => (part, Ratio(1, 2)),
+        Law::SpeedUp(part) | Law::SlowDown(part) => (part, Ratio::ONE),
+    };
+    ratio(part)?;
+    need(part.0 > 0 && part.order(most).is_le(), || "a ramp takes none of the time, or too much".into())
 }
 
 fn size_of(run: &Run) -> Option<u64> {

@@ -23,6 +23,8 @@ pub enum CheckKind {
     Stability,
     Slip,
     Rest,
+    /// Of lattices: nothing outside pushes or turns the robot.
+    Momentum,
 }
 
 impl CheckKind {
@@ -44,6 +46,7 @@ impl CheckKind {
             CheckKind::Stability => "stability",
             CheckKind::Slip => "slip",
             CheckKind::Rest => "rest",
+            CheckKind::Momentum => "momentum",
         }
     }
 }
@@ -115,6 +118,20 @@ pub struct Failure {
     pub blames_start: bool,
 }
 
+/// What the cells of a lattice go through, by the forces that the judge found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Dynamics {
+    /// Greatest force over one contact along one axis, N.
+    pub peak_force: f64,
+    /// Greatest speed of a cell, m/s.
+    pub peak_speed: f64,
+    /// Greatest kinetic energy of all cells together, J.
+    pub peak_energy: f64,
+    /// Greatest angular momentum about the centre of mass, kg·m²/s.
+    pub angular_momentum: f64,
+}
+
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Verdict {
@@ -141,6 +158,8 @@ pub struct Verdict {
     pub duration: f64,
     /// Least mechanical work of the motors, quasi-static, J.
     pub energy: f64,
+    /// Of a lattice.
+    pub dynamics: Option<Dynamics>,
     /// Samples judged, refinements included.
     pub samples: usize,
     /// Tips and contacts, in order of time, in words.

@@ -47,6 +47,7 @@ impl Dimension {
     pub const ANGULAR_ACCELERATION: Dimension = dim(0, 0, -2, 1);
     pub const FORCE: Dimension = dim(1, 1, -2, 0);
     pub const TORQUE: Dimension = dim(2, 1, -2, 0);
+    pub const ANGULAR_MOMENTUM: Dimension = dim(2, 1, -1, 0);
     pub const FREQUENCY: Dimension = dim(0, 0, -1, 0);
 
     /// The dimension with this name, such as `AngularSpeed`.

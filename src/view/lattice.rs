@@ -1,21 +1,18 @@
 //! A lattice of expanding cubes in a page: its runs as they stand in the plan.
 
 use super::number::{list, number};
-use crate::plan::{Law, Ratio, Run, Stages};
+use crate::plan::{Ratio, Run, Stages};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
 pub fn body(stages: &Stages, library: &Library) -> Value {
     let cell = library.cells.get(stages.cell);
     let stage = |stage: &crate::plan::Stage| {
-        let ramp = match stage.law {
-            Law::BangBang => 0.5,
-            Law::Trapezoid(part) => part.to_f64(),
-        };
+        let (first, last) = stage.law.ramps();
         json!({
             "name": stage.name,
             "duration": number(stage.duration() * stages.time_unit),
-            "law": number(ramp),
+            "law": [number(first.to_f64()), number(last.to_f64())],
             "end": runs(&stage.end),
             "cause": stage.cause.0,
         })

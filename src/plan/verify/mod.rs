@@ -42,6 +42,12 @@ pub mod collision;
 
 mod area;
 mod blame;
+pub mod lattice;
+mod lattice_boxes;
+mod lattice_contacts;
+mod lattice_grid;
+mod lattice_lanes;
+mod lattice_law;
 mod docking;
 mod history;
 mod judge;
@@ -71,7 +77,7 @@ pub fn verify(plan: &Plan) -> Verdict {
     }
     match &plan.body {
         Body::Tracks(tracks) => judge::tracks(plan, tracks),
-        Body::Stages(_) => unjudged("plans of lattices"),
+        Body::Stages(stages) => lattice::judge(plan, stages),
         Body::NodePaths(_) => unjudged("plans of trusses"),
     }
 }

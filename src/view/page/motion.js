@@ -163,13 +163,13 @@ function robotMotion(plan, body) {
   };
 }
 
-/** How far between its ends a stage is. */
-function progress(law, u) {
+/** How far between its ends a stage is, with ramps at its start and its end. */
+function progress([first, last], u) {
   u = clamp(u, 0, 1);
-  const speed = 1 / (1 - law);
-  if (u < law) return (speed * u * u) / (2 * law);
-  if (u <= 1 - law) return speed * (u - law / 2);
-  return 1 - (speed * (1 - u) * (1 - u)) / (2 * law);
+  const speed = 2 / (2 - first - last);
+  if (u < first) return (speed * u * u) / (2 * first);
+  if (u <= 1 - last) return speed * (u - first / 2);
+  return 1 - (speed * (1 - u) * (1 - u)) / (2 * last);
 }
 
 function latticeMotion(plan, body) {

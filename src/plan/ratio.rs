@@ -1,0 +1,101 @@
+//! Rational numbers of plans of lattices: exact, of 64 bits.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::cmp::Ordering;
+
+/// A rational number: `[numerator, denominator]`, the denominator positive; in a file a whole number
+/// may stand alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ratio(pub i64, pub i64);
+
+impl Ratio {
+    pub const ZERO: Ratio = Ratio(0, 1);
+    pub const ONE: Ratio = Ratio(1, 1);
+
+    /// `numerator / denominator` in lowest terms; `None` where 64 bits do not hold it, or where the
+    /// denominator is 0.
+    pub fn new(numerator: i128, denominator: i128) -> Option<Ratio> {
+        if denominator == 0 {
+            return None;
+        }
+        let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
+        let sign = if denominator < 0 { -1 } else { 1 };
+        let reduced = |n: i128| i64::try_from(n / i128::try_from(divisor).ok()? * sign).ok();
+        Some(Ratio(reduced(numerator)?, reduced(denominator)?))
+    }
+
+    /// The simplest rational number from `low` to `high`, both positive: that of the least denominator.
+    /// `None` where 64 bits hold none.
+    pub fn simplest(low: f64, high: f64) -> Option<Ratio> {
+        if !(low > 0.0 && low <= high && high < 1e15) {
+            return None;
+        }
+        // Down the tree of Stern and Brocot, a run of turns to one side at a time: the continued
+        // fraction of what lies between.
+        let whole = libm::floor(low);
+        if whole == low || libm::floor(high) > whole {
+            return Some(Ratio(libm::ceil(low) as i64, 1));
+        }
+        let rest = Ratio::simplest(1.0 / (high - whole), 1.0 / (low - whole))?;
+        Ratio::new(i128::from(whole as i64) * i128::from(rest.0) + i128::from(rest.1), i128::from(rest.0))
+    }
+
+    pub fn to_f64(self) -> f64 {
+        self.0 as f64 / self.1 as f64
+    }
+
+    /// How the numbers compare, whether or not they are in lowest terms.
+    pub fn order(self, other: Ratio) -> Ordering {
+        let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+        product(self.0, other.1).cmp(&product(other.0, self.1))
+    }
+
+    /// `self · other`, where 64 bits hold it.
+    pub fn times(self, other: Ratio) -> Option<Ratio> {
+        Ratio::new(i128::from(self.0) * i128::from(other.0), i128::from(self.1) * i128::from(other.1))
+    }
+}
+
+/// Greatest common divisor; of 0 and `b` it is `b`.
+fn gcd(mut a: u128, mut b: u128) -> u128 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a.max(1)
+}
+
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum RatioText {
+    Whole(i64),
+    Pair(i64, i64),
+}
+
+impl Serialize for Ratio {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Ratio(numerator, denominator) = *self;
+        let text =
+            if denominator == 1 { RatioText::Whole(numerator) } else { RatioText::Pair(numerator, denominator) };
+        text.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Ratio {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Ratio, D::Error> {
+        Ok(match RatioText::deserialize(deserializer)? {
+            RatioText::Whole(numerator) => Ratio(numerator, 1),
+            RatioText::Pair(numerator, denominator) => Ratio(numerator, denominator),
+        })
+    }
+}
+
+impl JsonSchema for Ratio {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Ratio".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        RatioText::json_schema(generator)
+    }
+}

@@ -1,0 +1,144 @@
+//! Stages in which cells move, or change, along several axes.
+//!
+//! If all cells stay in one order along an axis with no negative gap at either end, none ever meet.
+//! Else the pairs whose swept boxes overlap are judged one by one: two cells overlap at a progress
+//! where six linear inequalities hold.
+
+use super::lattice_contacts::Forest;
+use super::lattice_grid::Cube;
+use super::lattice_lanes::Meeting;
+
+/// Pairs that are looked at, for each cell: cells that move by little have a few neighbours.
+const PAIRS_MAX: usize = 500;
+
+/// Judges the stage and joins the cells whose contact lasts. `None`: too entangled to be judged.
+pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Result<(), Meeting>> {
+    let contacts = pairs_near(before, |i, j| {
+        if lasts(before, after, i, j) {
+            forest.touch(i as u32, j as u32, before, after);
+        }
+        None
+    });
+    contacts?.ok();
+    if (0..3).any(|axis| one_after_another(before, after, axis)) {
+        return Some(Ok(()));
+    }
+    let swept: Vec<Cube> = before.iter().zip(after).map(|(a, b)| hull(a, b)).collect();
+    pairs_near(&swept, |i, j| {
+        let at_start = overlap(&before[i], &before[j]);
+        let meet = at_start || meet(&before[i], &after[i], &before[j], &after[j]);
+        meet.then_some(Meeting { cells: (i as u32, j as u32), at_start })
+    })
+}
+
+/// Whether along an axis the cells stay in one order, apart from each other.
+fn one_after_another(before: &[Cube], after: &[Cube], axis: usize) -> bool {
+    let mut order: Vec<u32> = (0..before.len() as u32).collect();
+    order.sort_by_key(|&cell| before[cell as usize].lo[axis]);
+    order.windows(2).all(|pair| {
+        let (a, b) = (pair[0] as usize, pair[1] as usize);
+        before[a].hi[axis] <= before[b].lo[axis] && after[a].hi[axis] <= after[b].lo[axis]
+    })
+}
+
+fn hull(a: &Cube, b: &Cube) -> Cube {
+    let mut hull = *a;
+    for axis in 0..3 {
+        hull.lo[axis] = a.lo[axis].min(b.lo[axis]);
+        hull.hi[axis] = a.hi[axis].max(b.hi[axis]);
+    }
+    hull
+}
+
+fn overlap(a: &Cube, b: &Cube) -> bool {
+    (0..3).all(|axis| a.lo[axis] < b.hi[axis] && b.lo[axis] < a.hi[axis])
+}
+
+/// Whether two cells are in contact over a face all the while: along one axis no gap at either end,
+/// along the others an overlap that is nowhere negative at the ends and not 0 at both.
+fn lasts(before: &[Cube], after: &[Cube], i: usize, j: usize) -> bool {
+    let gap = |cubes: &[Cube], a: usize, b: usize, axis: usize| cubes[b].lo[axis] - cubes[a].hi[axis];
+    let closed = |axis: usize| {
+        (gap(before, i, j, axis) == 0 && gap(after, i, j, axis) == 0)
+            || (gap(before, j, i, axis) == 0 && gap(after, j, i, axis) == 0)
+    };
+    let beside = |axis: usize| {
+        let common = |c: &[Cube]| c[i].hi[axis].min(c[j].hi[axis]) - c[i].lo[axis].max(c[j].lo[axis]);
+        let (start, end) = (common(before), common(after));
+        start >= 0 && end >= 0 && start + end > 0
+    };
+    (0..3).any(|axis| closed(axis) && beside((axis + 1) % 3) && beside((axis + 2) % 3))
+}
+
+/// Whether two cells overlap at some progress from 0 to 1.
+fn meet(a0: &Cube, a1: &Cube, b0: &Cube, b1: &Cube) -> bool {
+    // Above `low` and below `high`, as fractions with positive denominators.
+    let (mut low, mut high) = ((-1_i128, 1_i128), (2_i128, 1_i128));
+    let less = |p: (i128, i128), q: (i128, i128)| p.0 * q.1 < q.0 * p.1;
+    for axis in 0..3 {
+        let ends = [
+            (b0.hi[axis] - a0.lo[axis], b1.hi[axis] - a1.lo[axis]),
+            (a0.hi[axis] - b0.lo[axis], a1.hi[axis] - b1.lo[axis]),
+        ];
+        for (start, end) in ends {
+            let (start, end) = (i128::from(start), i128::from(end));
+            match (start > 0, end > 0) {
+                (true, true) => {}
+                (false, false) => return false,
+                (true, false) => {
+                    let bound = (start, start - end);
+                    high = if less(bound, high) { bound } else { high };
+                }
+                (false, true) => {
+                    let bound = (-start, end - start);
+                    low = if less(low, bound) { bound } else { low };
+                }
+            }
+        }
+    }
+    less(low, high)
+}
+
+/// Looks at every pair of boxes that touch or overlap, until one gives a meeting. `None`: too many.
+fn pairs_near(
+    boxes: &[Cube],
+    mut look: impl FnMut(usize, usize) -> Option<Meeting>,
+) -> Option<Result<(), Meeting>> {
+    let tile = boxes.iter().flat_map(|b| (0..3).map(|axis| b.size(axis))).max().unwrap_or(1).max(1);
+    let key = |b: &Cube| {
+        let [x, y, z] = [0, 1, 2].map(|axis| b.lo[axis].div_euclid(tile));
+        (z, y, x)
+    };
+    let mut order: Vec<((i64, i64, i64), u32)> =
+        boxes.iter().enumerate().map(|(i, b)| (key(b), i as u32)).collect();
+    order.sort_unstable();
+    let mut left = PAIRS_MAX.saturating_mul(boxes.len()).saturating_add(1000);
+    // Of the 27 tiles around one, those that come behind it: the rest of its row, and four rows.
+    const ROWS: [(i64, i64); 4] = [(0, 1), (1, -1), (1, 0), (1, 1)];
+    let mut ahead = [0_usize; ROWS.len()];
+    for (i, &((z, y, x), cell)) in order.iter().enumerate() {
+        let mut near: Vec<&[((i64, i64, i64), u32)]> = Vec::with_capacity(5);
+        let rest = &order[i + 1..];
+        near.push(&rest[..rest.iter().take_while(|(tile, _)| *tile <= (z, y, x + 1)).count()]);
+        for (row, (dz, dy)) in ROWS.iter().enumerate() {
+            while ahead[row] < order.len() && order[ahead[row]].0 < (z + dz, y + dy, x - 1) {
+                ahead[row] += 1;
+            }
+            let rest = &order[ahead[row]..];
+            let last = (z + dz, y + dy, x + 1);
+            near.push(&rest[..rest.iter().take_while(|(tile, _)| *tile <= last).count()]);
+        }
+        for &(_, other) in near.into_iter().flatten() {
+            left = left.checked_sub(1)?;
+            let (a, b) = (&boxes[cell as usize], &boxes[other as usize]);
+            if !(0..3).all(|axis| a.lo[axis] <= b.hi[axis] && b.lo[axis] <= a.hi[axis]) {
+                continue;
+            }
+            let (i, j) = (cell.min(other), cell.max(other));
+            if let Some(meeting) = look(i as usize, j as usize) {
+                return Some(Err(meeting));
+            }
+        }
+    }
+    Some(Ok(()))
+}

@@ -1,0 +1,115 @@
+//! Which cells hang together, and what their contacts carry.
+//!
+//! Contacts that last a whole stage are joined to trees. In a tree the forces are unique: over a
+//! contact goes what accelerates the cells behind it. That is the force certificate: summed over the
+//! contacts of a cell it gives the cell's own acceleration, exactly, for it is made of the same whole
+//! numbers.
+
+use super::lattice_grid::Cube;
+
+/// Cells joined by contacts; a forest, with union and find.
+pub struct Forest {
+    above: Vec<u32>,
+    /// The contacts that joined two trees.
+    pub links: Vec<(u32, u32)>,
+    /// Greatest difference of a displacement along an axis over a contact, twice, in lines.
+    pub parting: i64,
+    /// The contact with that difference.
+    pub parted: (u32, u32),
+}
+
+impl Forest {
+    pub fn new(count: usize) -> Forest {
+        Forest {
+            above: (0..count as u32).collect(),
+            links: Vec::with_capacity(count.saturating_sub(1)),
+            parting: 0,
+            parted: (0, 0),
+        }
+    }
+
+    fn root(&mut self, cell: u32) -> u32 {
+        let mut at = cell as usize;
+        while self.above[at] as usize != at {
+            self.above[at] = self.above[self.above[at] as usize];
+            at = self.above[at] as usize;
+        }
+        at as u32
+    }
+
+    /// Records a contact that lasts the stage.
+    pub fn touch(&mut self, a: u32, b: u32, before: &[Cube], after: &[Cube]) {
+        let (i, j) = (a as usize, b as usize);
+        for axis in 0..3 {
+            let moved = |k: usize| after[k].middle(axis) - before[k].middle(axis);
+            let parting = (moved(i) - moved(j)).abs();
+            if parting > self.parting {
+                (self.parting, self.parted) = (parting, (a, b));
+            }
+        }
+        let (p, q) = (self.root(a), self.root(b));
+        if p != q {
+            // The lower number leads, so that long chains stay flat.
+            self.above[p.max(q) as usize] = p.min(q);
+            self.links.push((a, b));
+        }
+    }
+
+    /// Sizes of the pieces, largest first, each with its first cell.
+    pub fn pieces(&mut self) -> Vec<(usize, u32)> {
+        let mut sizes = vec![0_usize; self.above.len()];
+        for cell in 0..self.above.len() as u32 {
+            let root = self.root(cell);
+            sizes[root as usize] += 1;
+        }
+        let mut pieces: Vec<(usize, u32)> =
+            sizes.iter().enumerate().filter(|(_, size)| **size > 0).map(|(i, size)| (*size, i as u32)).collect();
+        pieces.sort_by_key(|&(size, cell)| (std::cmp::Reverse(size), cell));
+        pieces
+    }
+
+    pub fn is_whole(&self) -> bool {
+        self.links.len() + 1 >= self.above.len()
+    }
+
+    /// The greatest force along an axis that a link of the forest carries, with that link: twice the
+    /// sum of displacements, in lines, of the cells behind it. An error names the sum that is left
+    /// over at a root: then something outside would have to push.
+    pub fn forces(&self, before: &[Cube], after: &[Cube], axis: usize) -> Result<(i128, (u32, u32)), i128> {
+        let count = self.above.len();
+        // Of each cell: how many links it has, and all its neighbours' numbers in one: of a leaf it is
+        // the neighbour.
+        let mut degree = vec![0_u32; count];
+        let mut neighbours = vec![0_u32; count];
+        for &(a, b) in &self.links {
+            degree[a as usize] += 1;
+            degree[b as usize] += 1;
+            neighbours[a as usize] ^= b;
+            neighbours[b as usize] ^= a;
+        }
+        let moved = |k: usize| i128::from(after[k].middle(axis) - before[k].middle(axis));
+        let mut behind: Vec<i128> = (0..count).map(moved).collect();
+        let mut worst = (0, (0, 0));
+        for leaf in 0..count {
+            let mut at = leaf;
+            while degree[at] == 1 {
+                let next = neighbours[at] as usize;
+                let force = behind[at];
+                if force.abs() > worst.0 {
+                    worst = (force.abs(), (at as u32, next as u32));
+                }
+                behind[next] += force;
+                behind[at] = 0;
+                degree[at] = 0;
+                degree[next] -= 1;
+                neighbours[next] ^= at as u32;
+                at = next;
+            }
+        }
+        // What was not handed on is left at the roots.
+        match behind.iter().find(|left| **left != 0) {
+            Some(left) => Err(*left),
+            None => Ok(worst),
+        }
+    }
+}

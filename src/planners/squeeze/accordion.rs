@@ -1,0 +1,107 @@
+//! Accordion: a row to a column in four stages, with cells that keep their size. The row folds up to an
+//! array like an accordion, and the array unrolls, row after row.
+
+use super::Refusal;
+use super::domain::{Domain, Spot, WHOLE};
+use super::way::{Builder, Terms, Way};
+
+/// From a row along x, cell `i` at `i`, to a column along y.
+pub fn accordion(terms: Terms, count: u64) -> Result<Way, Refusal> {
+    let height = rounded_root(count).max(1);
+    let array = Array::new(count, height);
+    let row = |i: u64| Spot::whole([i as i64, 0, 0]);
+    let columns = array.columns_in_turn();
+    let mut builder = Builder::new(terms, count, &columns, row)?;
+    builder.stage("y-slide", WHOLE, &columns, move |i| Spot::whole([i as i64, array.level(i), 0]))?;
+    builder.stage("x-collapse", WHOLE, &columns, move |i| Spot::whole([array.column(i), array.level(i), 0]))?;
+    let rows = array.rows_in_turn();
+    builder.stage("y-unfold", WHOLE, &rows, move |i| Spot::whole([array.column(i), array.index(i), 0]))?;
+    builder.stage("x-slide", WHOLE, &rows, move |i| Spot::whole([0, array.index(i), 0]))?;
+    Ok(builder.way())
+}
+
+fn rounded_root(count: u64) -> u64 {
+    libm::round(libm::sqrt(count as f64)) as u64
+}
+
+/// Columns that go up and down in turn; the last one may be short.
+#[derive(Clone, Copy)]
+struct Array {
+    count: u64,
+    height: u64,
+    /// The rows from this on are of another length than those before; the height if there are none.
+    change: u64,
+    /// Lengths of the rows before the change and from it on.
+    lengths: [u64; 2],
+}
+
+impl Array {
+    fn new(count: u64, height: u64) -> Array {
+        let width = count.div_ceil(height);
+        let last = count - (width - 1) * height;
+        let (change, lengths) = match (last == height, (width - 1).is_multiple_of(2)) {
+            (true, _) => (height, [width, width]),
+            // The last column begins at the bottom, or at the top.
+            (false, true) => (last, [width, width - 1]),
+            (false, false) => (height - last, [width - 1, width]),
+        };
+        Array { count, height, change, lengths }
+    }
+
+    fn column(self, i: u64) -> i64 {
+        (i / self.height) as i64
+    }
+
+    fn level(self, i: u64) -> i64 {
+        let (column, k) = (i / self.height, i % self.height);
+        (if column.is_multiple_of(2) { k } else { self.height - 1 - k }) as i64
+    }
+
+    /// Place in the walk over all rows, to and fro. It turns at the left where the lengths change: at
+    /// the left all rows begin.
+    fn index(self, i: u64) -> i64 {
+        let (x, y) = (self.column(i) as u64, self.level(i) as u64);
+        let (before, from) = (self.change * self.lengths[0], y.saturating_sub(self.change));
+        let start = if y < self.change { y * self.lengths[0] } else { before + from * self.lengths[1] };
+        let length = self.lengths[usize::from(y >= self.change)];
+        // The row before the change goes left; without a change the first row goes right.
+        let first = if self.change < self.height { self.change } else { 0 };
+        let right = (first + y).is_multiple_of(2);
+        (start + if right { x } else { length - 1 - x }) as i64
+    }
+
+    /// Domains on which column and level are affine.
+    fn columns_in_turn(self) -> Vec<Domain> {
+        let full = self.count / self.height;
+        let step = 2 * self.height as i64;
+        let rest = Domain::new(full * self.height, &[(self.count % self.height, 1)]);
+        [
+            Domain::new(0, &[(full.div_ceil(2), step), (self.height, 1)]),
+            Domain::new(self.height, &[(full / 2, step), (self.height, 1)]),
+            rest,
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// Domains on which the index is affine as well.
+    fn rows_in_turn(self) -> Vec<Domain> {
+        let mut domains = Vec::new();
+        let regions = [(0, self.change, self.lengths[0]), (self.change, self.height, self.lengths[1])];
+        for (from, to, length) in regions {
+            for first in [from, from + 1].into_iter().filter(|first| *first < to) {
+                let rows = (to - first).div_ceil(2);
+                for column in [0, 1].into_iter().filter(|column| *column < length) {
+                    let columns = (length - column).div_ceil(2);
+                    let (cell, down) = match column {
+                        0 => (first, 2),
+                        _ => (self.height + self.height - 1 - first, -2),
+                    };
+                    domains.extend(Domain::new(cell, &[(columns, 2 * self.height as i64), (rows, down)]));
+                }
+            }
+        }
+        domains
+    }
+}

@@ -1,0 +1,62 @@
+//! Sets of cells in closed form: numbers of cells that run with nested counters, on which places are
+//! affine.
+
+/// A cell at an instant; in quarters of its size, in which all constructions move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Spot {
+    pub center: [i64; 3],
+    pub size: [i64; 3],
+}
+
+/// A cell's size in quarters.
+pub const WHOLE: i64 = 4;
+
+impl Spot {
+    /// A whole cell at a place of the lattice.
+    pub fn whole(place: [i64; 3]) -> Spot {
+        Spot { center: place.map(|x| WHOLE * x + WHOLE / 2), size: [WHOLE; 3] }
+    }
+}
+
+/// The cells `first + Σ stride·k`, each counter `k` in 0..count.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Domain {
+    pub first: u64,
+    /// Count and stride, outermost first.
+    pub counters: Vec<(u64, i64)>,
+}
+
+impl Domain {
+    /// The counters that count; none if the domain has no cell.
+    pub fn new(first: u64, counters: &[(u64, i64)]) -> Option<Domain> {
+        let counters: Vec<(u64, i64)> = counters.iter().copied().filter(|(count, _)| *count != 1).collect();
+        counters.iter().all(|(count, _)| *count > 0).then_some(Domain { first, counters })
+    }
+
+    pub fn count(&self) -> u64 {
+        self.counters.iter().map(|(count, _)| count).product()
+    }
+}
+
+/// The cells `lo..hi`, in blocks whose cells share all but their low bits, by parity: on each of them
+/// every function is affine that depends on single bits and on the first.
+pub fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
+    let mut domains = Vec::new();
+    let mut at = lo;
+    while at < hi {
+        let aligned = if at == 0 { 63 } else { at.trailing_zeros() };
+        let fits = 63 - (hi - at).leading_zeros();
+        let bits = aligned.min(fits);
+        domains.extend(free_bits(at, bits, 1));
+        at += 1 << bits;
+    }
+    domains
+}
+
+/// The cells `first + low + 2^bits·q` for all `low` of that many bits and `q` in 0..times, by parity.
+pub fn free_bits(first: u64, bits: u32, times: u64) -> Vec<Domain> {
+    let counters: Vec<(u64, i64)> =
+        std::iter::once((times, 1_i64 << bits)).chain((1..bits).rev().map(|bit| (2, 1_i64 << bit))).collect();
+    let parities = if bits == 0 { 0..1 } else { 0..2 };
+    parities.filter_map(|parity| Domain::new(first + parity, &counters)).collect()
+}

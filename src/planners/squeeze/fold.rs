@@ -1,0 +1,97 @@
+//! Fold: the paper's sequence (Lemmas 2 to 5), mended, for any number of cells.
+//!
+//! Each fold halves all rows: they are squeezed, pairs of neighbours become boxes, in every box one
+//! cell goes down and one up, both widen, and the rows spread out. Which goes up alternates from box to
+//! box and from row to row, so that neighbouring boxes stay in contact over faces.
+//!
+//! In bits: before fold `k` cell `i` is at `i >> k` of its row; it goes up in the fold if bits 0 and
+//! `k + 1` of `i` differ. So its row, written in bits, is `(i0 ^ i1) (i0 ^ i2) .. (i0 ^ ik)`, and all
+//! places are affine in the bits of cells of one parity. Where an odd cell is last, its partner is
+//! missing, and nothing else changes: until the last fold no row is empty. In the last fold rows of one
+//! cell stay one row, and cells are counted.
+
+use super::Refusal;
+use super::domain::{Domain, Spot, WHOLE, by_bits, free_bits};
+use super::ranks;
+use super::way::{Builder, Terms, Way};
+
+const HALF: i64 = WHOLE / 2;
+const QUARTER: i64 = WHOLE / 4;
+
+/// From a row along x, cell `i` at `i`, to a column along y.
+pub fn fold(terms: Terms, count: u64) -> Result<Way, Refusal> {
+    let folds = u64::BITS - (count - 1).leading_zeros();
+    let mut builder = Builder::new(terms, count, &parts(count, 0), |i| whole(i, 0))?;
+    for k in 0..folds {
+        // Rows of one cell, in the last fold: theirs are the cells before this one.
+        let lone = if k + 1 == folds { (1 << folds) - count } else { 0 };
+        let domains = if lone > 0 { lone_parts(count, folds, lone) } else { parts(count, k) };
+        builder.stage("x-squeeze", HALF, &domains, move |i| squeezed(i, k))?;
+        builder.stage("widen-lone", QUARTER, &domains, move |i| widened(i, k, lone))?;
+        builder.stage("swap-contract", HALF, &domains, move |i| contracted(i, k, lone))?;
+        builder.stage("swap-expand", HALF, &domains, move |i| stacked(i, k, lone))?;
+        if lone > 0 {
+            let (domains, rank) = ranks::of(count, folds);
+            builder.stage("y-expand", HALF, &domains, move |i| Spot::whole([0, rank(i), 0]))?;
+        } else {
+            builder.stage("y-expand", HALF, &domains, move |i| whole(i, k + 1))?;
+        }
+    }
+    Ok(builder.way())
+}
+
+/// The row of a cell before fold `k`.
+pub fn row(i: u64, k: u32) -> u64 {
+    let differing = if i & 1 == 1 { !i } else { i };
+    // Bit 1 is the first, and the highest.
+    if k == 0 { 0 } else { (differing >> 1).reverse_bits() >> (u64::BITS - k) }
+}
+
+/// Before fold `k`, and after the one before it.
+fn whole(i: u64, k: u32) -> Spot {
+    Spot::whole([(i >> k) as i64, row(i, k) as i64, 0])
+}
+
+fn squeezed(i: u64, k: u32) -> Spot {
+    let mut spot = whole(i, k);
+    spot.center[0] = HALF * (i >> k) as i64 + QUARTER;
+    spot.size[0] = HALF;
+    spot
+}
+
+fn widened(i: u64, k: u32, lone: u64) -> Spot {
+    if i < lone { whole(i, k) } else { squeezed(i, k) }
+}
+
+fn contracted(i: u64, k: u32, lone: u64) -> Spot {
+    let mut spot = widened(i, k, lone);
+    if i >= lone {
+        let up = (i ^ (i >> (k + 1))) & 1 == 1;
+        spot.center[1] += if up { QUARTER } else { -QUARTER };
+        spot.size[1] = HALF;
+    }
+    spot
+}
+
+/// Both cells of a box over its whole width.
+fn stacked(i: u64, k: u32, lone: u64) -> Spot {
+    let mut spot = contracted(i, k, lone);
+    spot.center[0] = WHOLE * (i >> (k + 1)) as i64 + HALF;
+    spot.size[0] = WHOLE;
+    spot
+}
+
+/// Domains on which everything in fold `k` is affine.
+fn parts(count: u64, k: u32) -> Vec<Domain> {
+    let bits = k + 2;
+    let times = count >> bits;
+    let mut domains = if times > 0 { free_bits(0, bits, times) } else { vec![] };
+    domains.extend(by_bits(times << bits, count));
+    domains
+}
+
+/// The same in the last fold, in which rows of one cell differ from those of two.
+fn lone_parts(count: u64, folds: u32, lone: u64) -> Vec<Domain> {
+    let half = 1 << (folds - 1);
+    [(0, lone), (lone, half), (half, count)].into_iter().flat_map(|(lo, hi)| by_bits(lo, hi)).collect()
+}
