@@ -8,7 +8,8 @@
 //! (balanced plans), F4 a bound on the forces.
 
 use super::lattice_contacts::Forest;
-use super::lattice_grid::{Cube, Grid};
+pub use super::lattice_grid::Cube;
+use super::lattice_grid::Grid;
 use super::lattice_lanes::Meeting;
 use super::lattice_law::{Change, Pace, carries_on};
 use super::ledger::{Ledger, lower};
@@ -44,6 +45,30 @@ pub fn judge(plan: &Plan, stages: &Stages) -> Verdict {
     let bounded = stages.model.contact_force.is_some();
     ledger.check(CheckKind::BondLoad, if bounded { Status::Proved } else { Status::NoLimit });
     ledger.finish()
+}
+
+/// The greatest distance, in half lines, by which two cells move against each other along an axis that
+/// are in contact all the while. `None`: too entangled to be judged.
+pub fn parting(before: &[Cube], after: &[Cube], lines: i64) -> Option<i64> {
+    let mut forest = Forest::new(before.len());
+    // Cells that meet are found when the plan is judged.
+    let _ = joined(before, after, &Change::of(before, after), lines, &mut forest)?;
+    Some(forest.parting)
+}
+
+/// Joins the cells whose contact lasts the stage, and finds cells that meet. `None`: too entangled.
+fn joined(
+    before: &[Cube],
+    after: &[Cube],
+    change: &Change,
+    lines: i64,
+    forest: &mut Forest,
+) -> Option<Result<(), Meeting>> {
+    let moving: Vec<usize> = (0..3).filter(|&axis| change.axes[axis]).collect();
+    match moving[..] {
+        [axis] => lattice_lanes::judge(before, after, axis, lines, forest),
+        _ => lattice_boxes::judge(before, after, forest),
+    }
 }
 
 struct Judgement<'a> {
@@ -186,13 +211,7 @@ impl Judgement<'_> {
             return Ok(());
         }
         let mut forest = Forest::new(step.before.len());
-        let judged = match change.axes.iter().filter(|moves| **moves).count() {
-            1 => {
-                let axis = change.axes.iter().position(|moves| *moves).expect("one moves");
-                lattice_lanes::judge(step.before, step.after, axis, step.lines, &mut forest)
-            }
-            _ => lattice_boxes::judge(step.before, step.after, &mut forest),
-        };
+        let judged = joined(step.before, step.after, change, step.lines, &mut forest);
         match judged {
             None => return Err(format!("stage `{}` is too entangled to be judged", stage.name)),
             Some(Err(meeting)) => self.meet(&meeting, step.from, step.to, Some(stage), ledger),

@@ -6,7 +6,9 @@
 
 mod accordion;
 mod domain;
+mod explicit;
 mod fold;
+mod planar;
 mod ranks;
 mod shear;
 mod way;
@@ -14,6 +16,7 @@ mod way;
 pub use accordion::accordion;
 pub use domain::{Domain, Spot};
 pub use fold::fold;
+pub use planar::to_row;
 pub use shear::shear;
 pub use way::{Leg, Profile, Terms, Way};
 

@@ -1,0 +1,206 @@
+//! Any connected set in a plane to a row, with the third axis to work in: `docs/planners/squeeze.md`.
+//!
+//! Rows merge two by two: all is squeezed along y, pairs of rows swap into stacks, and the stacks rise
+//! along z. Of what is one row of stacks then every column becomes a hairpin of two columns of half the
+//! width, the hairpins unfold to a zigzag, and that slides down to the row.
+
+use super::Refusal;
+use super::domain::{Spot, WHOLE};
+use super::explicit::Listed;
+use super::way::{Terms, Way};
+use std::collections::BTreeMap;
+
+const HALF: i64 = WHOLE / 2;
+const QUARTER: i64 = WHOLE / 4;
+const DETACHED: i64 = 3 * WHOLE / 4;
+const X: usize = 0;
+const Y: usize = 1;
+const Z: usize = 2;
+
+/// From a connected set in the plane of x and y to a row along x, cell `i` at `i`.
+pub fn to_row(terms: Terms, places: &[[i64; 2]]) -> Result<Way, Refusal> {
+    let low = |axis: usize| places.iter().map(|p| p[axis]).min().unwrap_or(0);
+    let (left, bottom) = (low(X), low(Y));
+    let places: Vec<[i64; 2]> = places.iter().map(|p| [p[0] - left, p[1] - bottom]).collect();
+    let start = places.iter().map(|p| Spot::whole([p[X], p[Y], 0])).collect();
+    let mut motion = Listed::new(start);
+    let stacks = merge(&mut motion, &places);
+    let number = unfold(&mut motion, &stacks, places.len());
+    motion.way(terms, &number)
+}
+
+/// The cells of each column, lowest first, by column and row.
+type Stacks = BTreeMap<(i64, i64), Vec<usize>>;
+
+/// Where a cell is while two rows of stacks become one.
+#[derive(Clone, Copy)]
+struct Merging {
+    level: i64,
+    /// Its partner is there.
+    paired: bool,
+    /// Of a pair, it goes to the lower half.
+    below: bool,
+    /// The row of its box.
+    row: i64,
+    /// Its level in the end.
+    place: i64,
+}
+
+fn merge(motion: &mut Listed, places: &[[i64; 2]]) -> Stacks {
+    let mut stacks = Stacks::new();
+    for (cell, p) in places.iter().enumerate() {
+        stacks.entry((p[X], p[Y])).or_default().push(cell);
+    }
+    let mut rows = places.iter().map(|p| p[Y] + 1).max().unwrap_or(1);
+    while rows > 1 {
+        let (merging, merged) = paired(&stacks, places.len());
+        let m = |i: usize| merging[i];
+        motion.stage("y-squeeze", |_, spot| {
+            spot.center[Y] /= 2;
+            spot.size[Y] = HALF;
+        });
+        let widen = |i: usize, spot: &mut Spot| {
+            spot.center[Y] = WHOLE * m(i).row + HALF;
+            spot.size[Y] = WHOLE;
+        };
+        motion.stage("widen singles", |i, spot| {
+            if !m(i).paired {
+                widen(i, spot);
+            }
+        });
+        for parity in [1, 0] {
+            let swaps = |i: usize| m(i).paired && m(i).level % 2 == parity;
+            motion.stage("swap z-contract", |i, spot| {
+                if swaps(i) {
+                    spot.center[Z] += if m(i).below { -QUARTER } else { QUARTER };
+                    spot.size[Z] = HALF;
+                }
+            });
+            motion.stage("swap widen", |i, spot| {
+                if swaps(i) {
+                    widen(i, spot);
+                }
+            });
+        }
+        // Stacks of other heights rise at other speeds: nothing above the base may rub.
+        motion.stage("detach", |i, spot| {
+            if m(i).place > 0 {
+                spot.size[X] = DETACHED;
+                spot.size[Y] = DETACHED;
+            }
+        });
+        motion.stage("z-expand", |i, spot| {
+            spot.center[Z] = WHOLE * m(i).place + HALF;
+            spot.size[Z] = WHOLE;
+        });
+        motion.stage("reattach", |_, spot| (spot.size[X], spot.size[Y]) = (WHOLE, WHOLE));
+        stacks = merged;
+        rows = (rows + 1) / 2;
+    }
+    stacks
+}
+
+/// What becomes of each cell where rows merge two by two, and the stacks that come of it.
+fn paired(stacks: &Stacks, count: usize) -> (Vec<Merging>, Stacks) {
+    let nothing = Merging { level: 0, paired: false, below: false, row: 0, place: 0 };
+    let mut merging = vec![nothing; count];
+    let mut merged = Stacks::new();
+    let boxes: std::collections::BTreeSet<(i64, i64)> =
+        stacks.keys().map(|&(x, row)| (x, row.div_euclid(2))).collect();
+    let none = Vec::new();
+    for (x, row) in boxes {
+        let halves = [0, 1].map(|half| stacks.get(&(x, 2 * row + half)).unwrap_or(&none));
+        let common = halves[0].len().min(halves[1].len());
+        let stack: &mut Vec<usize> = merged.entry((x, row)).or_default();
+        for level in 0..halves[0].len().max(halves[1].len()) {
+            // In even boxes the cell of the lower row goes below: so neighbouring bases keep a face.
+            let order = if row % 2 == 0 { [0, 1] } else { [1, 0] };
+            for half in order {
+                let Some(&cell) = halves[half].get(level) else { continue };
+                merging[cell] = Merging {
+                    level: level as i64,
+                    paired: level < common,
+                    below: half == order[0],
+                    row,
+                    place: stack.len() as i64,
+                };
+                stack.push(cell);
+            }
+        }
+    }
+    (merging, merged)
+}
+
+/// From one row of stacks to a row along x. Returns the number of each cell in it.
+fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
+    /// A cell's part in the hairpin of its column.
+    #[derive(Clone, Copy, Default)]
+    struct Pin {
+        /// Of the box of two levels.
+        level: i64,
+        /// The last of an odd column, which stays whole.
+        alone: bool,
+        /// Goes to the left half.
+        left: bool,
+    }
+    let mut pins = vec![Pin::default(); count];
+    let mut number = vec![0_u64; count];
+    let mut next = 0;
+    if stacks.values().any(|stack| stack.len() > 1) {
+        for (&(column, _), stack) in stacks {
+            for (level, pair) in stack.chunks(2).enumerate() {
+                for (half, &cell) in pair.iter().enumerate() {
+                    let left = (half == 0) == (column % 2 == 0);
+                    pins[cell] = Pin { level: level as i64, alone: pair.len() == 1, left };
+                }
+            }
+        }
+        let p = |i: usize| pins[i];
+        motion.stage("z-squeeze", |_, spot| {
+            spot.center[Z] /= 2;
+            spot.size[Z] = HALF;
+        });
+        let heighten = |i: usize, spot: &mut Spot| {
+            spot.center[Z] = WHOLE * p(i).level + HALF;
+            spot.size[Z] = WHOLE;
+        };
+        motion.stage("restore odd tops", |i, spot| {
+            if p(i).alone {
+                heighten(i, spot);
+            }
+        });
+        for parity in [0, 1] {
+            let opens = |i: usize| !p(i).alone && p(i).level % 2 == parity;
+            motion.stage("hairpin narrow", |i, spot| {
+                if opens(i) {
+                    spot.center[X] += if p(i).left { -QUARTER } else { QUARTER };
+                    spot.size[X] = HALF;
+                }
+            });
+            motion.stage("hairpin heighten", |i, spot| {
+                if opens(i) {
+                    heighten(i, spot);
+                }
+            });
+        }
+    }
+    // Up the left of each column, down its right.
+    for stack in stacks.values() {
+        let mut chain: Vec<usize> = stack.iter().copied().filter(|&cell| pins[cell].left || pins[cell].alone).collect();
+        let mut down: Vec<usize> = stack.iter().copied().filter(|&cell| !(pins[cell].left || pins[cell].alone)).collect();
+        if stack.len() == 1 {
+            (chain, down) = (stack.clone(), vec![]);
+        }
+        down.reverse();
+        for cell in chain.into_iter().chain(down) {
+            number[cell] = next;
+            next += 1;
+        }
+    }
+    motion.stage("x-unfold", |i, spot| {
+        spot.center[X] = WHOLE * number[i] as i64 + HALF;
+        spot.size[X] = WHOLE;
+    });
+    motion.stage("z-slide", |_, spot| spot.center[Z] = HALF);
+    number
+}
