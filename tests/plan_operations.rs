@@ -4,9 +4,9 @@ use crate::programs::*;
 use crate::robots::{FRONT, LEFT, TILT, at_rest, chain, walk4};
 use modl::behavior::Scheduled;
 use modl::plan::{
-    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Knot, Law, Model, Node, NodePaths,
-    Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage, Stages, Tracks, Unfit, Way, World,
-    WorldFrom, joined, reversed, sliced, timeline,
+    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Knot, Law, Model, Node,
+    NodePaths, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage, Stages, Tracks, Unfit, Way,
+    World, WorldFrom, joined, reversed, sliced, timeline,
 };
 use modl::robot::{Assembly, JointId, Mismatch, PortRef};
 use proptest::prelude::*;

@@ -57,7 +57,10 @@ pub fn plan_of(stages: Stages) -> Plan {
     };
     Plan {
         provenance: Provenance { planner: "squeeze".into(), ..Provenance::default() },
-        worlds: vec![WorldFrom { from: 0.0, world: World { gravity: 0.0, ground: Ground::Off, friction: 1.0 } }],
+        worlds: vec![WorldFrom {
+            from: 0.0,
+            world: World { gravity: 0.0, ground: Ground::Off, friction: 1.0 },
+        }],
         settings: Settings::default(),
         library: Arc::new(Library { cells: vec![cell], ..Library::default() }),
         body: Body::Stages(stages),
@@ -99,11 +102,9 @@ fn totals_are_those_of_the_reference() {
 #[test]
 fn rows_become_columns() {
     for n in (1..70).chain([96, 97, 127, 128, 129, 256, 1000]) {
-        for (name, way) in [
-            ("fold", fold(TERMS, n)),
-            ("accordion", accordion(TERMS, n)),
-            ("shear", shear(TERMS, n)),
-        ] {
+        for (name, way) in
+            [("fold", fold(TERMS, n)), ("accordion", accordion(TERMS, n)), ("shear", shear(TERMS, n))]
+        {
             let way = way.expect("there is a way");
             let balanced = way.is_balanced();
             let verdict = judged(way.clone(), PAPER);

@@ -75,8 +75,11 @@ enum RatioText {
 impl Serialize for Ratio {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Ratio(numerator, denominator) = *self;
-        let text =
-            if denominator == 1 { RatioText::Whole(numerator) } else { RatioText::Pair(numerator, denominator) };
+        let text = if denominator == 1 {
+            RatioText::Whole(numerator)
+        } else {
+            RatioText::Pair(numerator, denominator)
+        };
         text.serialize(serializer)
     }
 }

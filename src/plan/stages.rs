@@ -183,7 +183,7 @@ impl Run {
 impl Stages {
     /// Seconds.
     pub fn duration(&self) -> f64 {
-        self.stages.iter().map(Stage::duration).sum::<f64>() * self.time_unit
+        self.stages.iter().fold(0.0, |time, stage| time + stage.duration()) * self.time_unit
     }
 
     /// When each stage begins, and the end, in seconds.

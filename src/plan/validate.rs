@@ -251,7 +251,8 @@ fn stages(body: &Stages, library: &Library, causes: usize) -> Result<(), String>
     let limits = &body.limits;
     ratio(limits.smallest)?;
     ratio(limits.speed_squared)?;
-    let sound = limits.smallest.0 > 0 && limits.smallest.order(Ratio::ONE).is_le() && limits.speed_squared.0 > 0;
+    let sound =
+        limits.smallest.0 > 0 && limits.smallest.order(Ratio::ONE).is_le() && limits.speed_squared.0 > 0;
     need(sound, || "the limits of the cells are out of range".into())?;
     if let Some(force) = body.model.contact_force {
         ratio(force)?;
@@ -277,6 +278,8 @@ fn law(law: Law) -> Result<(), String> {
         Law::SpeedUp(part) | Law::SlowDown(part) => (part, Ratio::ONE),
     };
     ratio(part)?;
+    // Products of two of them are to fit.
+    need(part.1 < 1 << 60, || "a ramp is too fine a part of the time".into())?;
     need(part.0 > 0 && part.order(most).is_le(), || "a ramp takes none of the time, or too much".into())
 }
 

@@ -56,6 +56,54 @@ pub fn parting(before: &[Cube], after: &[Cube], lines: i64) -> Option<i64> {
     Some(forest.parting)
 }
 
+/// Of each stage, the greatest contact force times the square of its duration, in units: as a
+/// fraction, numerator and denominator.
+pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, String> {
+    let grid = Grid::of(stages)?;
+    let mut before = vec![Cube::default(); stages.count as usize];
+    grid.place(&stages.start, &mut before)?;
+    let mut peaks = Vec::with_capacity(stages.stages.len());
+    for stage in &stages.stages {
+        let mut after = before.clone();
+        grid.place(&stage.end, &mut after)?;
+        let change = Change::of(&before, &after);
+        let mut forest = Forest::new(before.len());
+        let _ = joined(&before, &after, &change, grid.lines, &mut forest).ok_or("too entangled")?;
+        let mut peak = 0;
+        for axis in 0..3 {
+            let along = forest.forces(&before, &after, axis).map_err(|_| "the centre of mass moves")?;
+            peak = peak.max(along.0);
+        }
+        let (times, over) = Pace::of(stage).strain();
+        peaks.push((peak * i128::from(times), 2 * i128::from(grid.lines) * i128::from(over)));
+        before = after;
+    }
+    Ok(peaks)
+}
+
+/// Places of the lattice that the cells take up at the start and at the end, the lowest along each axis
+/// 0, in order. An error if they take up none.
+pub fn ends(stages: &Stages) -> Result<(Vec<[i64; 3]>, Vec<[i64; 3]>), String> {
+    let grid = Grid::of(stages)?;
+    let mut cubes = vec![Cube::default(); stages.count as usize];
+    grid.place(&stages.start, &mut cubes)?;
+    let start = places(&cubes, grid.lines)?;
+    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    Ok((start, places(&cubes, grid.lines)?))
+}
+
+fn places(cubes: &[Cube], lines: i64) -> Result<Vec<[i64; 3]>, String> {
+    let low = [0, 1, 2].map(|axis| cubes.iter().map(|c| c.lo[axis]).min().unwrap_or(0));
+    let place = |cube: &Cube| {
+        let whole = (0..3).all(|axis| cube.size(axis) == lines && (cube.lo[axis] - low[axis]) % lines == 0);
+        let at = [0, 1, 2].map(|axis| (cube.lo[axis] - low[axis]) / lines);
+        if whole { Ok(at) } else { Err("cells are not at places of the lattice".to_string()) }
+    };
+    let mut places = cubes.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    places.sort_unstable();
+    Ok(places)
+}
+
 /// Joins the cells whose contact lasts the stage, and finds cells that meet. `None`: too entangled.
 fn joined(
     before: &[Cube],
@@ -239,18 +287,14 @@ impl Judgement<'_> {
         let smallest = self.stages.limits.smallest;
         let least = i128::from(smallest.0) * i128::from(lines);
         let too_small = i128::from(change.smallest.0) * i128::from(smallest.1) < least;
-        for (wrong, (size, cell), limit) in [
-            (too_small, change.smallest, smallest.to_f64()),
-            (change.largest.0 > lines, change.largest, 1.0),
-        ] {
+        for (wrong, (size, cell), limit) in
+            [(too_small, change.smallest, smallest.to_f64()), (change.largest.0 > lines, change.largest, 1.0)]
+        {
             if wrong {
                 let (size, limit) = (size as f64 / lines as f64 * self.cell.size, limit * self.cell.size);
                 let words = if too_small { "shrinks to" } else { "grows to" };
-                let message = format!(
-                    "cell {cell} {words} {}, and its limit is {}",
-                    length(size),
-                    length(limit)
-                );
+                let message =
+                    format!("cell {cell} {words} {}, and its limit is {}", length(size), length(limit));
                 self.fail_at(CheckKind::JointRange, time, stage, (message, size, limit), &[cell], ledger);
                 return false;
             }
@@ -326,13 +370,15 @@ impl Judgement<'_> {
         let (change, pace) = (&step.change, &step.pace);
         if let Some(axis) = (0..3).find(|&axis| change.drift[axis] != 0) {
             let axis = ["x", "y", "z"][axis];
-            let message = format!("the centre of mass moves along {axis}: something outside would have to push");
+            let message =
+                format!("the centre of mass moves along {axis}: something outside would have to push");
             self.fail(CheckKind::Momentum, step.from, Some(step.stage), message, ledger);
         }
         let lines = 2.0 * step.lines as f64;
         let unit_speed = self.cell.size / self.stages.time_unit;
         let rate = pace.rate() * unit_speed;
-        let turning = change.turning.map(|l| l as f64 / lines / lines * rate * self.cell.size * self.cell.mass);
+        let turning =
+            change.turning.map(|l| l as f64 / lines / lines * rate * self.cell.size * self.cell.mass);
         let turning = libm::sqrt(turning.iter().map(|l| l * l).sum());
         if change.turning != [0; 3] && self.stages.model.balanced {
             let message = format!(

@@ -62,8 +62,12 @@ impl Forest {
             let root = self.root(cell);
             sizes[root as usize] += 1;
         }
-        let mut pieces: Vec<(usize, u32)> =
-            sizes.iter().enumerate().filter(|(_, size)| **size > 0).map(|(i, size)| (*size, i as u32)).collect();
+        let mut pieces: Vec<(usize, u32)> = sizes
+            .iter()
+            .enumerate()
+            .filter(|(_, size)| **size > 0)
+            .map(|(i, size)| (*size, i as u32))
+            .collect();
         pieces.sort_by_key(|&(size, cell)| (std::cmp::Reverse(size), cell));
         pieces
     }

@@ -119,6 +119,11 @@ impl Pace {
         left.cmp(&right)
     }
 
+    /// `σ''` at its peak times the square of the duration, as a fraction.
+    pub fn strain(&self) -> (i64, i64) {
+        (self.speed.0 * self.ramp.1, self.speed.1 * self.ramp.0)
+    }
+
     /// `σ'` at its peak, in units of time.
     pub fn rate(&self) -> f64 {
         self.speed.0 as f64 / self.speed.1 as f64 / libm::sqrt(self.time_squared.to_f64())

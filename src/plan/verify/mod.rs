@@ -42,16 +42,17 @@ pub mod collision;
 
 mod area;
 mod blame;
+mod docking;
+mod history;
+mod judge;
+mod meeting;
+
 pub mod lattice;
 mod lattice_boxes;
 mod lattice_contacts;
 mod lattice_grid;
 mod lattice_lanes;
 mod lattice_law;
-mod docking;
-mod history;
-mod judge;
-mod meeting;
 
 pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};

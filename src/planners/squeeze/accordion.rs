@@ -13,11 +13,18 @@ pub fn accordion(terms: Terms, count: u64) -> Result<Way, Refusal> {
     let columns = array.columns_in_turn();
     let mut builder = Builder::new(terms, count, &columns, row)?;
     builder.stage("y-slide", WHOLE, &columns, move |i| Spot::whole([i as i64, array.level(i), 0]))?;
-    builder.stage("x-collapse", WHOLE, &columns, move |i| Spot::whole([array.column(i), array.level(i), 0]))?;
+    builder
+        .stage("x-collapse", WHOLE, &columns, move |i| Spot::whole([array.column(i), array.level(i), 0]))?;
     let rows = array.rows_in_turn();
     builder.stage("y-unfold", WHOLE, &rows, move |i| Spot::whole([array.column(i), array.index(i), 0]))?;
     builder.stage("x-slide", WHOLE, &rows, move |i| Spot::whole([0, array.index(i), 0]))?;
     Ok(builder.way())
+}
+
+/// Place in the column of each cell.
+pub fn places_in_column(count: u64) -> Vec<u64> {
+    let array = Array::new(count, rounded_root(count).max(1));
+    (0..count).map(|i| array.index(i) as u64).collect()
 }
 
 fn rounded_root(count: u64) -> u64 {

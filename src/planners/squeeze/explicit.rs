@@ -102,7 +102,10 @@ fn runs(before: &[Spot], after: &[Spot]) -> Vec<Domain> {
             && alike(next)
             && let Some(across) = step(first, next.0)
         {
-            while lines.get(end).is_some_and(|&other| alike(other) && step(lines[end - 1].0, other.0) == Some(across)) {
+            while lines
+                .get(end)
+                .is_some_and(|&other| alike(other) && step(lines[end - 1].0, other.0) == Some(across))
+            {
                 end += 1;
             }
         }

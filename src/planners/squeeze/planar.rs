@@ -17,15 +17,15 @@ const X: usize = 0;
 const Y: usize = 1;
 const Z: usize = 2;
 
-/// From a connected set in the plane of x and y to a row along x, cell `i` at `i`.
-pub fn to_row(terms: Terms, places: &[[i64; 2]]) -> Result<Way, Refusal> {
+/// From a connected set in the plane of x and y to a row along x, in which cell `name(i)` is at `i`.
+pub fn to_row(terms: Terms, places: &[[i64; 2]], name: impl Fn(u64) -> u64) -> Result<Way, Refusal> {
     let low = |axis: usize| places.iter().map(|p| p[axis]).min().unwrap_or(0);
     let (left, bottom) = (low(X), low(Y));
     let places: Vec<[i64; 2]> = places.iter().map(|p| [p[0] - left, p[1] - bottom]).collect();
     let start = places.iter().map(|p| Spot::whole([p[X], p[Y], 0])).collect();
     let mut motion = Listed::new(start);
     let stacks = merge(&mut motion, &places);
-    let number = unfold(&mut motion, &stacks, places.len());
+    let number: Vec<u64> = unfold(&mut motion, &stacks, places.len()).into_iter().map(name).collect();
     motion.way(terms, &number)
 }
 
@@ -186,8 +186,10 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
     }
     // Up the left of each column, down its right.
     for stack in stacks.values() {
-        let mut chain: Vec<usize> = stack.iter().copied().filter(|&cell| pins[cell].left || pins[cell].alone).collect();
-        let mut down: Vec<usize> = stack.iter().copied().filter(|&cell| !(pins[cell].left || pins[cell].alone)).collect();
+        let mut chain: Vec<usize> =
+            stack.iter().copied().filter(|&cell| pins[cell].left || pins[cell].alone).collect();
+        let mut down: Vec<usize> =
+            stack.iter().copied().filter(|&cell| !(pins[cell].left || pins[cell].alone)).collect();
         if stack.len() == 1 {
             (chain, down) = (stack.clone(), vec![]);
         }

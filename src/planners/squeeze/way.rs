@@ -313,7 +313,7 @@ impl Way {
 
     /// In units of time.
     pub fn duration(&self) -> f64 {
-        self.legs.iter().map(|leg| libm::sqrt(leg.time_squared.to_f64())).sum()
+        self.legs.iter().fold(0.0, |time, leg| time + libm::sqrt(leg.time_squared.to_f64()))
     }
 
     pub fn is_balanced(&self) -> bool {

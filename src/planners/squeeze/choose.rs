@@ -1,0 +1,137 @@
+//! The whole problem: shapes to candidates, and the fastest that the model allows.
+
+use super::bound::lower_bound;
+use super::retime::retime;
+use super::shape::Shape;
+use super::way::{Terms, Way};
+use super::ways::ways;
+use super::{Demand, Found, Method, Refusal, Task};
+use crate::plan::verify::lattice::ends;
+use crate::plan::{CauseId, CellLimits, Model, Ratio, Stage, Stages};
+use crate::robot::Cell;
+
+/// How far limits may be rounded, relative, so that they are short rational numbers.
+const ROUNDING: f64 = 1e-12;
+/// Speeds beyond this, squared, in units: no plan reaches them.
+const SPEED_SQUARED_MAX: f64 = 1e6;
+
+/// A plan for cells of a kind, the one at `index` of the library; its one cause is 0.
+pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal> {
+    if task.from.len() != task.to.len() {
+        return Err(Refusal::Counts { from: task.from.len(), to: task.to.len() });
+    }
+    let (from, to) = (Shape::of(task.from), Shape::of(task.to));
+    let time_unit = libm::sqrt(cell.size * cell.mass / cell.force);
+    let unit_speed = cell.size / time_unit;
+    let above = |x: f64| Ratio::simplest(x, x * (1.0 + ROUNDING)).ok_or(Refusal::TooLarge);
+    let below = |x: f64| Ratio::simplest(x * (1.0 - ROUNDING), x).ok_or(Refusal::TooLarge);
+    let speed = cell.speed / unit_speed;
+    let limits = CellLimits {
+        smallest: above(cell.shrinks_to / cell.size)?,
+        speed_squared: below((speed * speed).min(SPEED_SQUARED_MAX))?,
+    };
+    let unit_force = cell.mass * cell.size / time_unit / time_unit;
+    let contact_force = task.max_force.map(|force| below(force / unit_force)).transpose()?;
+    let candidates = ways(Terms { limits, profile: task.profile }, &from, &to, task.method)?;
+    if candidates.is_empty() {
+        return Err(lacking(task, &from, &to, limits));
+    }
+    let fill = |way: Way, balanced: bool| {
+        let model = Model { balanced, contact_force };
+        stages(way, Frame { cell: index, time_unit, limits, model })
+    };
+    let mut found: Vec<(Method, bool, Stages)> = Vec::new();
+    for candidate in candidates {
+        let balanced = candidate.way.is_balanced();
+        // What the paper's model allows is not held to more.
+        let mut stages = fill(candidate.way, balanced && task.demand != Demand::Paper);
+        if let Some(force) = contact_force {
+            retime(&mut stages, force)?;
+        }
+        found.push((candidate.method, balanced, stages));
+    }
+    let any_balanced = found.iter().any(|(_, balanced, _)| *balanced);
+    if task.demand == Demand::Balanced && !any_balanced {
+        return Err(Refusal::Unbalanced { method: task.method });
+    }
+    let steady = match task.demand {
+        Demand::Paper => false,
+        Demand::Auto | Demand::Balanced => any_balanced,
+    };
+    let turns_least = |method: Method| {
+        // A shear turns the whole robot by a quarter; the others do so by a little.
+        task.demand == Demand::Auto && method == Method::Shear && task.method == Method::Auto
+    };
+    let (method, balanced, stages) = found
+        .into_iter()
+        .filter(|(method, balanced, _)| (*balanced || !steady) && !turns_least(*method))
+        .min_by(|a, b| a.2.duration().total_cmp(&b.2.duration()))
+        .ok_or(Refusal::Method { method: task.method })?;
+    check_ends(&stages, &from, &to)?;
+    let lower_bound = lower_bound(&from, &to, contact_force) * time_unit;
+    Ok(Found { why: why(task, method, balanced), stages, lower_bound, method, balanced })
+}
+
+struct Frame {
+    cell: usize,
+    time_unit: f64,
+    limits: CellLimits,
+    model: Model,
+}
+
+fn stages(way: Way, frame: Frame) -> Stages {
+    let mut configurations = way.configurations.into_iter();
+    let start = configurations.next().unwrap_or_default();
+    let stage = |(leg, end): (super::Leg, Vec<crate::plan::Run>)| Stage {
+        name: leg.name.into(),
+        time_squared: leg.time_squared,
+        law: leg.law,
+        end,
+        cause: CauseId(0),
+    };
+    Stages {
+        cell: frame.cell,
+        count: way.count,
+        time_unit: frame.time_unit,
+        limits: frame.limits,
+        model: frame.model,
+        start,
+        stages: way.legs.into_iter().zip(configurations).map(stage).collect(),
+    }
+}
+
+/// Why no construction applies.
+fn lacking(task: &Task, from: &Shape, to: &Shape, limits: CellLimits) -> Refusal {
+    let covered = |shape: &Shape| shape.is_box() || (0..3).any(|axis| shape.is_flat_across(axis));
+    if !covered(from) || !covered(to) {
+        return Refusal::Solid { first: !covered(from) };
+    }
+    if limits.smallest.order(Ratio(1, 2)).is_gt() && task.method != Method::Accordion {
+        return Refusal::Stiff { smallest: limits.smallest };
+    }
+    Refusal::Method { method: task.method }
+}
+
+/// The plan begins and ends as was asked: exactly, up to a translation.
+fn check_ends(stages: &Stages, from: &Shape, to: &Shape) -> Result<(), Refusal> {
+    let (start, end) = ends(stages).map_err(Refusal::Defect)?;
+    if start != from.places || end != to.places {
+        return Err(Refusal::Defect("the plan does not lead from the one shape to the other".into()));
+    }
+    Ok(())
+}
+
+fn why(task: &Task, method: Method, balanced: bool) -> String {
+    let name = method.name();
+    match (task.method, task.demand, balanced) {
+        (Method::Auto, Demand::Paper, _) => format!("{name}: the fastest way in the paper's model"),
+        (Method::Auto, _, true) => format!("{name}: the fastest way that nothing outside has to turn"),
+        (Method::Auto, _, false) => {
+            format!("{name}: no way is known that keeps the angular momentum at zero; this one turns little")
+        }
+        (_, _, true) => format!("{name}, as asked for; its angular momentum stays zero"),
+        (_, _, false) => {
+            format!("{name}, as asked for; something outside has to hold the robot from turning")
+        }
+    }
+}

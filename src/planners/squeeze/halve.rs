@@ -1,0 +1,76 @@
+//! Folds of boxes: Lemma 4 of the paper in any plane, one after another. Each halves one side and
+//! doubles another, so the sides change by powers of two.
+
+use super::Refusal;
+use super::domain::{Spot, WHOLE};
+use super::explicit::Listed;
+use super::way::{Terms, Way};
+
+const HALF: i64 = WHOLE / 2;
+const QUARTER: i64 = WHOLE / 4;
+
+/// From a box to another with sides that differ by powers of two; `None` where they don't.
+pub fn halve(terms: Terms, from: [u64; 3], to: [u64; 3]) -> Option<Result<Way, Refusal>> {
+    let folds = folds(from, to)?;
+    let mut places: Vec<[i64; 3]> = Vec::new();
+    for z in 0..from[2] {
+        for y in 0..from[1] {
+            places.extend((0..from[0]).map(|x| [x as i64, y as i64, z as i64]));
+        }
+    }
+    let mut motion = Listed::new(places.iter().map(|place| Spot::whole(*place)).collect());
+    for (a, b) in folds {
+        fold(&mut motion, &mut places, a, b);
+    }
+    let numbers: Vec<u64> = (0..places.len() as u64).collect();
+    Some(motion.way(terms, &numbers))
+}
+
+/// Which side is halved and which doubled, the longest and the shortest first.
+fn folds(from: [u64; 3], to: [u64; 3]) -> Option<Vec<(usize, usize)>> {
+    let (mut sides, mut folds) = (from, Vec::new());
+    let powers = (0..3).all(|k| {
+        let (low, high) = (from[k].min(to[k]), from[k].max(to[k]));
+        high % low == 0 && (high / low).is_power_of_two()
+    });
+    if !powers || from.iter().product::<u64>() != to.iter().product::<u64>() {
+        return None;
+    }
+    while sides != to {
+        let a = (0..3).filter(|&k| sides[k] > to[k]).max_by_key(|&k| sides[k])?;
+        let b = (0..3).filter(|&k| sides[k] < to[k]).min_by_key(|&k| sides[k])?;
+        sides[a] /= 2;
+        sides[b] *= 2;
+        folds.push((a, b));
+    }
+    Some(folds)
+}
+
+/// Side `a` is halved, side `b` doubled; what is along the third goes along.
+fn fold(motion: &mut Listed, places: &mut [[i64; 3]], a: usize, b: usize) {
+    // Neighbouring boxes swap in opposite senses, so that they stay in contact over faces.
+    let up = |place: [i64; 3]| (place[a] + (place[a] >> 1) + place[b]) & 1;
+    let names = |names: [&'static str; 3], axis: usize| names[axis];
+    let at: Vec<[i64; 3]> = places.to_vec();
+    motion.stage(names(["x-squeeze", "y-squeeze", "z-squeeze"], a), |i, spot| {
+        spot.center[a] = HALF * at[i][a] + QUARTER;
+        spot.size[a] = HALF;
+    });
+    motion.stage("swap-contract", |i, spot| {
+        spot.center[b] += if up(at[i]) == 1 { QUARTER } else { -QUARTER };
+        spot.size[b] = HALF;
+    });
+    motion.stage("swap-expand", |i, spot| {
+        spot.center[a] = WHOLE * (at[i][a] >> 1) + HALF;
+        spot.size[a] = WHOLE;
+    });
+    for place in places.iter_mut() {
+        let high = up(*place);
+        place[a] >>= 1;
+        place[b] = 2 * place[b] + high;
+    }
+    motion.stage(names(["x-expand", "y-expand", "z-expand"], b), |i, spot| {
+        spot.center[b] = WHOLE * places[i][b] + HALF;
+        spot.size[b] = WHOLE;
+    });
+}

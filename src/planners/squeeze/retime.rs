@@ -1,0 +1,39 @@
+//! Stages slowed down so that no contact carries more than it may. The geometry stays.
+
+use super::Refusal;
+use crate::plan::verify::lattice::peak_forces;
+use crate::plan::{Law, Ratio, Stages};
+
+/// A stage whose greatest contact force is `f` takes `√(f / κ)` times as long under a bound `κ`. Stages
+/// that pass their speed on are slowed down alike.
+pub fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
+    let peaks = peak_forces(stages).map_err(Refusal::Defect)?;
+    let least: Vec<Ratio> = peaks
+        .iter()
+        .map(|peak| {
+            let (distance, lines) = (peak.0, peak.1);
+            Ratio::new(distance, lines)?.times(Ratio(force.1, force.0))
+        })
+        .collect::<Option<_>>()
+        .ok_or(Refusal::TooLarge)?;
+    // By how much each square of a time must grow.
+    let mut factors: Vec<Ratio> = least
+        .iter()
+        .zip(&stages.stages)
+        .map(|(least, stage)| {
+            let time = stage.time_squared;
+            if least.order(time).is_le() { Some(Ratio::ONE) } else { least.times(Ratio(time.1, time.0)) }
+        })
+        .collect::<Option<_>>()
+        .ok_or(Refusal::TooLarge)?;
+    for i in 1..factors.len() {
+        if matches!(stages.stages[i - 1].law, Law::SpeedUp(_)) {
+            let most = if factors[i - 1].order(factors[i]).is_le() { factors[i] } else { factors[i - 1] };
+            (factors[i - 1], factors[i]) = (most, most);
+        }
+    }
+    for (stage, factor) in stages.stages.iter_mut().zip(factors) {
+        stage.time_squared = stage.time_squared.times(factor).ok_or(Refusal::TooLarge)?;
+    }
+    Ok(())
+}

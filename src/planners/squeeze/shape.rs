@@ -1,0 +1,38 @@
+//! What kind of set the cells make.
+
+/// Places of cells, moved so that the lowest along each axis is 0, in order.
+pub struct Shape {
+    pub places: Vec<[i64; 3]>,
+    /// Sides of the box around it.
+    pub sides: [u64; 3],
+}
+
+impl Shape {
+    pub fn of(places: &[[i64; 3]]) -> Shape {
+        let low = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis]).min().unwrap_or(0));
+        let mut places: Vec<[i64; 3]> =
+            places.iter().map(|p| [p[0] - low[0], p[1] - low[1], p[2] - low[2]]).collect();
+        places.sort_unstable();
+        let sides = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis] as u64 + 1).max().unwrap_or(0));
+        Shape { places, sides }
+    }
+
+    pub fn count(&self) -> u64 {
+        self.places.len() as u64
+    }
+
+    pub fn is_box(&self) -> bool {
+        let volume = self.sides.iter().try_fold(1_u64, |volume, side| volume.checked_mul(*side));
+        volume == Some(self.count())
+    }
+
+    /// The axis of a straight row; of a lone cell, every axis.
+    pub fn is_row_along(&self, axis: usize) -> bool {
+        self.sides[axis] == self.count()
+    }
+
+    /// Whether all cells are in the plane across an axis.
+    pub fn is_flat_across(&self, axis: usize) -> bool {
+        self.sides[axis] == 1
+    }
+}

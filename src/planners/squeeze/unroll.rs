@@ -1,0 +1,39 @@
+//! Unroll: a box of any sides to a row, with cells that keep their size; the second half of the
+//! accordion, first with rods for cells, then with cells.
+
+use super::Refusal;
+use super::domain::{Domain, Spot, WHOLE};
+use super::way::{Builder, Terms, Way};
+
+/// From a box with `sides` along x, y, z to a row along y, cell `i` at `i`.
+pub fn unroll(terms: Terms, sides: [u64; 3]) -> Result<Way, Refusal> {
+    let [a, b, c] = sides;
+    let (count, domains) = (a * b * c, domains(sides));
+    // The row in turn, to and fro: along x within each rod, along z within each layer.
+    let turned = |place: u64, in_turn: u64, length: u64| {
+        if in_turn.is_multiple_of(2) { place } else { length - 1 - place }
+    };
+    let rod = move |i: u64| i / a;
+    let x = move |i: u64| turned(i % a, rod(i), a);
+    let y = move |i: u64| rod(i) / c;
+    let z = move |i: u64| turned(rod(i) % c, y(i), c);
+    let spot = |x: u64, y: u64, z: u64| Spot::whole([x as i64, y as i64, z as i64]);
+    let mut builder = Builder::new(terms, count, &domains, move |i| spot(x(i), y(i), z(i)))?;
+    builder.stage("y-unfold", WHOLE, &domains, move |i| spot(x(i), rod(i), z(i)))?;
+    builder.stage("z-slide", WHOLE, &domains, move |i| spot(x(i), rod(i), 0))?;
+    builder.stage("y-unfold", WHOLE, &domains, move |i| spot(x(i), i, 0))?;
+    builder.stage("x-slide", WHOLE, &domains, move |i| spot(0, i, 0))?;
+    Ok(builder.way())
+}
+
+/// By the parities of the layer and of the rod within it: these say which way to go.
+fn domains([a, b, c]: [u64; 3]) -> Vec<Domain> {
+    let parities = [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter();
+    let domain = |(layer, rod): (u64, u64)| {
+        let halved = |whole: u64, first: u64| whole.saturating_sub(first).div_ceil(2);
+        let (layers, rods) = (halved(b, layer), halved(c, rod));
+        let counters = [(layers, (2 * c * a) as i64), (rods, 2 * a as i64), (a, 1)];
+        Domain::new((layer * c + rod) * a, &counters)
+    };
+    parities.filter_map(domain).collect()
+}
