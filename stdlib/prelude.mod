@@ -1344,8 +1344,8 @@ extern fn verify(
   world: World?,
 ) -> Report
 
-// Planners. `seed` makes another choice among equals, `budget` bounds the work in steps of search,
-// `timeout` can only turn a result into a refusal.
+// Planners. Where there is a search, `seed` makes another choice among equals, `budget` bounds the work
+// in steps, `timeout` can only turn a result into a refusal.
 
 /// A flat pattern: panels side by side, joined along the hinges that will fold.
 extern type Layout {
@@ -1391,31 +1391,61 @@ extern fn fold(
   timeout: Time?,
 ) -> Folding
 
-/// What `squeeze` found.
+/// What `squeeze` found. What cells go through is what the verifier finds.
 extern type Squeezing is Plan {
   /// No motion under the same limits takes less.
   lower_bound: Time
-  /// The greatest force that a cell passes on.
+  /// The duration by the lower bound; 1 where both are zero.
+  ratio: Number
+  /// The greatest force over a contact of two cells.
   peak_force: Force
-  /// The most kinetic energy on the way.
+  /// The greatest speed of a cell.
+  peak_speed: Speed
+  /// The most kinetic energy of all cells together.
   peak_energy: Energy
+  /// The greatest angular momentum about the centre of mass.
+  angular_momentum: Quantity<kg*m^2/s>
+  /// Whether the angular momentum stays zero, so that a free robot is not turned.
+  balanced: Bool
+  /// `accordion`, `fold`, `shear` or `merge`.
+  method: Text
+  /// Why this method was taken.
+  why: Text
+  /// The stages with their durations, in words.
+  stages: List<Text>
 }
 
-/// Moves expanding cubes from one shape to another as fast as their forces allow. Not yet available.
+/// Moves expanding cubes from one shape to another, in a time that grows with the square root of their
+/// number.
+///
+/// Rows, columns, boxes and all connected shapes in a plane are taken to each other. `accordion` keeps
+/// the size of the cells; `fold` is the way of the kinodynamic-reconfiguration paper; `shear` takes a
+/// row to a column in the least time that there is, and turns the robot by a quarter, so that something
+/// outside has to hold it; `merge` is for shapes in a plane. `auto` takes the fastest that the model
+/// allows.
+///
+/// `model` says whether a free robot has to be able to do it: `balanced` keeps the angular momentum at
+/// zero, `paper` does not ask for it; `auto` takes a balanced way where one is known, and else one that
+/// turns little. `max_force` bounds the force over a contact of two cells: plans slow down to keep it.
+/// With the `profile` `trapezoid`, stages whose cells get to their greatest speed keep it for a while.
+///
+/// There is neither gravity nor ground, as in the paper. The result ends as asked up to a translation.
 ///
 /// Example:
-/// ```modl check
+/// ```modl
 /// use std.crystal.ExpandingCube
 /// lattice Bar of ExpandingCube = row(8)
 /// lattice Pole of ExpandingCube = column(8)
-/// print(squeeze(Bar, Pole).duration)
+/// let p = squeeze(Bar, Pole)
+/// print(p.duration, p.lower_bound, p.method, p.peak_force)
 /// ```
 extern fn squeeze(
   from: Lattice,
   to: Lattice,
-  seed: Int = 0,
-  budget: Int = 100_000_000,
-  timeout: Time?,
+  method: auto | accordion | fold | shear | merge = auto,
+  model: auto | balanced | paper = auto,
+  max_force: Force?,
+  profile: bang_bang | trapezoid = bang_bang,
 ) -> Squeezing
 
 /// What `tosnake` and `reconfigure` found.

@@ -52,6 +52,7 @@ mod natives_plan;
 mod natives_robot;
 mod natives_shape;
 mod natives_show;
+mod natives_squeeze;
 mod show_value;
 
 mod run;

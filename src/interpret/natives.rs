@@ -9,7 +9,7 @@ use super::stop::Eval;
 use super::value::Value;
 use super::{
     natives_action, natives_family, natives_list, natives_math, natives_plan, natives_robot, natives_shape,
-    natives_show,
+    natives_show, natives_squeeze,
 };
 use crate::source::Symbol;
 use std::collections::HashMap;
@@ -54,7 +54,7 @@ pub const fn on_run(
 
 /// All built-ins, one table a subject.
 pub fn all() -> impl Iterator<Item = &'static Native> {
-    let tables: [&'static [Native]; 8] = [
+    let tables: [&'static [Native]; 9] = [
         natives_math::TABLE,
         natives_list::TABLE,
         natives_shape::TABLE,
@@ -62,6 +62,7 @@ pub fn all() -> impl Iterator<Item = &'static Native> {
         natives_robot::TABLE,
         natives_action::TABLE,
         natives_plan::TABLE,
+        natives_squeeze::TABLE,
         natives_show::TABLE,
     ];
     tables.into_iter().flatten()

@@ -13,7 +13,8 @@ use super::truss::TrussDesign;
 use super::value::Value;
 use crate::check::typed::DefKind;
 use crate::plan::{
-    Body, CauseId, Knot, Model, NodePaths, Plan, Ratio, Run, Settings, Stages, Way, World, WorldFrom,
+    Body, CauseId, CellLimits, Knot, Model, NodePaths, Plan, Ratio, Run, Settings, Stages, Way, World,
+    WorldFrom,
 };
 use crate::robot::Library;
 use crate::view::{self, Showing};
@@ -147,6 +148,7 @@ fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
         cell: 0,
         count: places.len() as u64,
         time_unit: 1.0,
+        limits: CellLimits::default(),
         model: Model::default(),
         start: places.iter().enumerate().map(run).collect(),
         stages: Vec::new(),

@@ -3,6 +3,7 @@
 use super::causes::PlanCauses;
 use super::design::Design;
 use super::interpreter::Interpreter;
+use super::natives_squeeze::Squeezed;
 use super::record::{Record, StateValue, first_world};
 use super::robot_of::Robot;
 use super::stop::{Eval, Stop, fault};
@@ -25,11 +26,14 @@ const KEPT_MAX: usize = 32;
 /// A plan with what the language knows about it.
 pub struct Planned {
     pub robot: Rc<Design>,
-    pub body: Rc<Robot>,
+    /// Of articulated robots.
+    pub body: Option<Rc<Robot>>,
     pub plan: Plan,
     /// The run's numbers of the plan's causes.
     pub causes: Vec<CauseId>,
     pub actions: u64,
+    /// What `squeeze` says of it.
+    pub squeezed: Option<Squeezed>,
     /// Verdicts so far.
     judged: RefCell<Vec<Judged>>,
 }
@@ -57,12 +61,16 @@ impl std::fmt::Debug for Planned {
 impl Planned {
     pub fn new(
         robot: Rc<Design>,
-        body: Rc<Robot>,
+        body: Option<Rc<Robot>>,
         plan: Plan,
         causes: Vec<CauseId>,
         actions: u64,
     ) -> Planned {
-        Planned { robot, body, plan, causes, actions, judged: RefCell::default() }
+        Planned { robot, body, plan, causes, actions, squeezed: None, judged: RefCell::default() }
+    }
+
+    pub fn with_squeezed(self, squeezed: Squeezed) -> Planned {
+        Planned { squeezed: Some(squeezed), ..self }
     }
 
     pub fn actions(&self) -> usize {
@@ -156,7 +164,7 @@ impl Interpreter<'_> {
             exemptions,
             verdict: None,
         };
-        (Planned::new(design, robot, plan, causes.ids.clone(), actions), issues)
+        (Planned::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
     }
 
     /// The default options of the judge, within the limits of the run.
@@ -288,14 +296,14 @@ impl Interpreter<'_> {
 
     pub fn state_at(&mut self, planned: &Rc<Planned>, time: f64) -> Value {
         let time = time.clamp(0.0, planned.plan.body.duration());
-        match planned.plan.body.state(time) {
-            Snapshot::Robot(state) => Value::Record(Rc::new(Record::State(StateValue {
+        match (planned.plan.body.state(time), &planned.body) {
+            (Snapshot::Robot(state), Some(body)) => Value::Record(Rc::new(Record::State(StateValue {
                 robot: planned.robot.clone(),
-                body: planned.body.clone(),
+                body: body.clone(),
                 state,
                 time,
             }))),
-            Snapshot::Cells(_) | Snapshot::Nodes(_) => Value::Unknown,
+            _ => Value::Unknown,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::design::Design;
 use super::interpreter::Interpreter;
+use super::natives_squeeze::Squeezed;
 use super::planning::Planned;
 use super::robot_of::Robot;
 use super::stop::Eval;
@@ -12,7 +13,7 @@ use crate::geometry::Vec3;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
 use crate::robot::State;
 use crate::source::{Span, Symbol};
-use crate::units::Dimension;
+use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
 #[derive(Debug)]
@@ -47,7 +48,12 @@ impl Interpreter<'_> {
                 None => Ok(Value::Unknown),
             },
             Value::Record(record) => Ok(match &**record {
-                Record::Plan(planned) => self.plan_field(planned, field.as_str()),
+                Record::Plan(planned) => match &planned.squeezed {
+                    Some(squeezed) if SQUEEZING.contains(&field.as_str()) => {
+                        self.squeezing_field(planned, squeezed, field.as_str())
+                    }
+                    _ => self.plan_field(planned, field.as_str()),
+                },
                 Record::Report(verdict) => report_field(verdict, field.as_str()),
                 Record::State(state) => state.field(field.as_str()),
                 Record::World(world) => world_field(world, field.as_str()),
@@ -86,6 +92,53 @@ impl Interpreter<'_> {
     }
 }
 
+/// The fields of a `Squeezing` beside those of a plan.
+const SQUEEZING: &[&str] = &[
+    "lower_bound",
+    "ratio",
+    "peak_force",
+    "peak_speed",
+    "peak_energy",
+    "angular_momentum",
+    "balanced",
+    "method",
+    "why",
+    "stages",
+];
+
+impl Interpreter<'_> {
+    fn squeezing_field(&mut self, planned: &Rc<Planned>, squeezed: &Squeezed, field: &str) -> Value {
+        // What cells go through is what the judge found.
+        let dynamics = |interpreter: &mut Self| {
+            let settings = interpreter.judge_settings();
+            interpreter.judge(planned, settings, None).dynamics.unwrap_or_default()
+        };
+        match field {
+            "lower_bound" => Value::time(squeezed.lower_bound),
+            "ratio" if squeezed.lower_bound > 0.0 => {
+                Value::number(planned.plan.body.duration() / squeezed.lower_bound)
+            }
+            "ratio" => Value::number(1.0),
+            "peak_force" => Value::Quantity(dynamics(self).peak_force, Dimension::FORCE),
+            "peak_speed" => Value::Quantity(dynamics(self).peak_speed, Dimension::SPEED),
+            "peak_energy" => Value::Quantity(dynamics(self).peak_energy, ENERGY),
+            "angular_momentum" => {
+                Value::Quantity(dynamics(self).angular_momentum, Dimension::ANGULAR_MOMENTUM)
+            }
+            "balanced" => Value::Bool(squeezed.balanced),
+            "method" => Value::text(squeezed.method.name().to_string()),
+            "why" => Value::text(squeezed.why.clone()),
+            "stages" => {
+                let line = |(name, duration): &(String, f64)| {
+                    Value::text(format!("{name}: {}", quantity(*duration, Dimension::TIME)))
+                };
+                Value::list(squeezed.stages.iter().map(line).collect())
+            }
+            _ => Value::Unknown,
+        }
+    }
+}
+
 pub fn first_world(plan: &Plan) -> World {
     plan.worlds.first().map_or_else(World::default, |from| from.world)
 }
@@ -94,6 +147,7 @@ pub fn first_world(plan: &Plan) -> World {
 pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
     Some(match record {
         "Plan" => &["duration", "actions", "steps", "start", "end", "assumes"],
+        "Squeezing" => SQUEEZING,
         "Report" => &[
             "ok",
             "clearance",

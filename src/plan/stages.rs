@@ -39,6 +39,13 @@ pub struct CellLimits {
     pub speed_squared: Ratio,
 }
 
+/// Those of the paper: half the size, and a speed of 1.
+impl Default for CellLimits {
+    fn default() -> CellLimits {
+        CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE }
+    }
+}
+
 /// The conditions beside those that every plan of the family meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -102,6 +102,9 @@ codes! {
     CANNOT_WRITE = "E0702", "a file that cannot be written";
     CANNOT_READ = "E0703", "a file that cannot be read";
     BAD_PLAN_FILE = "E0704", "a plan file that is not sound";
+    // E08xx: planners.
+    NO_WAY = "E0801", "shapes that no plan leads between";
+    NOT_COVERED = "E0802", "a problem that the planner does not cover";
     // W0xxx: lints and notes.
     NAME_STYLE = "W0001", "a name in another style";
     UNIT_SHADOWED = "W0002", "a unit that has the name of a variable";
