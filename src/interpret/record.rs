@@ -126,7 +126,7 @@ impl Interpreter<'_> {
                 Value::Quantity(dynamics(self).angular_momentum, Dimension::ANGULAR_MOMENTUM)
             }
             "balanced" => Value::Bool(squeezed.balanced),
-            "method" => Value::text(squeezed.method.name().to_string()),
+            "method" => Value::text(squeezed.method.name()),
             "why" => Value::text(squeezed.why.clone()),
             "stages" => {
                 let line = |(name, duration): &(String, f64)| {

@@ -81,9 +81,12 @@ pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, String> {
     Ok(peaks)
 }
 
+/// Places of a lattice.
+pub type Places = Vec<[i64; 3]>;
+
 /// Places of the lattice that the cells take up at the start and at the end, the lowest along each axis
 /// 0, in order. An error if they take up none.
-pub fn ends(stages: &Stages) -> Result<(Vec<[i64; 3]>, Vec<[i64; 3]>), String> {
+pub fn ends(stages: &Stages) -> Result<(Places, Places), String> {
     let grid = Grid::of(stages)?;
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
@@ -92,7 +95,7 @@ pub fn ends(stages: &Stages) -> Result<(Vec<[i64; 3]>, Vec<[i64; 3]>), String> {
     Ok((start, places(&cubes, grid.lines)?))
 }
 
-fn places(cubes: &[Cube], lines: i64) -> Result<Vec<[i64; 3]>, String> {
+fn places(cubes: &[Cube], lines: i64) -> Result<Places, String> {
     let low = [0, 1, 2].map(|axis| cubes.iter().map(|c| c.lo[axis]).min().unwrap_or(0));
     let place = |cube: &Cube| {
         let whole = (0..3).all(|axis| cube.size(axis) == lines && (cube.lo[axis] - low[axis]) % lines == 0);

@@ -99,25 +99,27 @@ fn meet(a0: &Cube, a1: &Cube, b0: &Cube, b1: &Cube) -> bool {
     less(low, high)
 }
 
+/// Along z, y and x.
+type Tile = (i64, i64, i64);
+
 /// Looks at every pair of boxes that touch or overlap, until one gives a meeting. `None`: too many.
 fn pairs_near(
     boxes: &[Cube],
     mut look: impl FnMut(usize, usize) -> Option<Meeting>,
 ) -> Option<Result<(), Meeting>> {
     let tile = boxes.iter().flat_map(|b| (0..3).map(|axis| b.size(axis))).max().unwrap_or(1).max(1);
-    let key = |b: &Cube| {
+    let key = |b: &Cube| -> Tile {
         let [x, y, z] = [0, 1, 2].map(|axis| b.lo[axis].div_euclid(tile));
         (z, y, x)
     };
-    let mut order: Vec<((i64, i64, i64), u32)> =
-        boxes.iter().enumerate().map(|(i, b)| (key(b), i as u32)).collect();
+    let mut order: Vec<(Tile, u32)> = boxes.iter().enumerate().map(|(i, b)| (key(b), i as u32)).collect();
     order.sort_unstable();
     let mut left = PAIRS_MAX.saturating_mul(boxes.len()).saturating_add(1000);
     // Of the 27 tiles around one, those that come behind it: the rest of its row, and four rows.
     const ROWS: [(i64, i64); 4] = [(0, 1), (1, -1), (1, 0), (1, 1)];
     let mut ahead = [0_usize; ROWS.len()];
     for (i, &((z, y, x), cell)) in order.iter().enumerate() {
-        let mut near: Vec<&[((i64, i64, i64), u32)]> = Vec::with_capacity(5);
+        let mut near: Vec<&[(Tile, u32)]> = Vec::with_capacity(5);
         let rest = &order[i + 1..];
         near.push(&rest[..rest.iter().take_while(|(tile, _)| *tile <= (z, y, x + 1)).count()]);
         for (row, (dz, dy)) in ROWS.iter().enumerate() {

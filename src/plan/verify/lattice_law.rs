@@ -34,12 +34,12 @@ impl Change {
         for (cell, (old, new)) in before.iter().zip(after).enumerate() {
             let cell = cell as u32;
             let mut moved = [0_i128; 3];
-            for axis in 0..3 {
+            for (axis, moved) in moved.iter_mut().enumerate() {
                 let displacement = new.middle(axis) - old.middle(axis);
                 let size = new.size(axis);
                 let resized = (size - old.size(axis)).abs();
-                moved[axis] = i128::from(displacement);
-                change.drift[axis] += moved[axis];
+                *moved = i128::from(displacement);
+                change.drift[axis] += *moved;
                 change.axes[axis] |= displacement != 0 || resized != 0;
                 keep(&mut change.farthest, displacement.abs(), cell);
                 keep(&mut change.resized, resized, cell);
@@ -151,11 +151,10 @@ pub fn carries_on(
     // Velocities are displacement · speed / T; their squares and signs say whether they are equal.
     let factor = |pace: &Pace, moves: bool| {
         let t = pace.time_squared;
-        let fraction = (
+        (
             BigInt::from(pace.speed.0) * pace.speed.0 * t.1 * i64::from(moves),
             BigInt::from(pace.speed.1) * pace.speed.1 * t.0,
-        );
-        fraction
+        )
     };
     let (left, right) = (factor(&first, out.0 == 0), factor(&second, into.0 == 0));
     let (left, right) = (left.0 * right.1, right.0 * left.1);

@@ -7,7 +7,19 @@ use super::way::{Builder, Terms, Way};
 
 /// From a row along x, cell `i` at `i`, to a column along y.
 pub fn accordion(terms: Terms, count: u64) -> Result<Way, Refusal> {
-    let height = rounded_root(count).max(1);
+    of_height(terms, count, rounded_root(count).max(1))
+}
+
+/// The same through an array whose sides are both even: mirror symmetry keeps its angular momentum at
+/// zero. `None` where there is none; of several the squarest.
+pub fn balanced_accordion(terms: Terms, count: u64) -> Option<Result<Way, Refusal>> {
+    let root = rounded_root(count);
+    let even = |height: u64| count.is_multiple_of(height) && (count / height).is_multiple_of(2);
+    let height = (1..=root / 2).rev().map(|half| 2 * half).find(|&height| even(height))?;
+    Some(of_height(terms, count, height))
+}
+
+fn of_height(terms: Terms, count: u64, height: u64) -> Result<Way, Refusal> {
     let array = Array::new(count, height);
     let row = |i: u64| Spot::whole([i as i64, 0, 0]);
     let columns = array.columns_in_turn();

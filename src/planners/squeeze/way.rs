@@ -252,7 +252,7 @@ impl Motion {
                 means[axis] = [mean(a), mean(b) - mean(a)];
                 places[axis] += a.sum(domain, axis);
             }
-            for axis in 0..3 {
+            for (axis, turning) in turning.iter_mut().enumerate() {
                 let (y, z) = ((axis + 1) % 3, (axis + 2) % 3);
                 let mut cross = 3 * (means[y][0] * means[z][1] - means[z][0] * means[y][1]);
                 for (k, (c, _)) in domain.counters.iter().enumerate() {
@@ -261,7 +261,7 @@ impl Motion {
                     let spread = i128::from(*c) * i128::from(*c) - 1;
                     cross += (step(a, y) * moved(z) - step(a, z) * moved(y)) * spread;
                 }
-                turning[axis] += cross * cells;
+                *turning += cross * cells;
             }
         }
         motion.moves = motion.farthest > 0 || motion.resized > 0;

@@ -1,6 +1,6 @@
 //! Ways between two shapes, put together from the constructions.
 
-use super::accordion::{accordion, places_in_column};
+use super::accordion::{accordion, balanced_accordion, places_in_column};
 use super::domain::{Domain, Spot};
 use super::explicit::Listed;
 use super::fold::fold;
@@ -123,6 +123,9 @@ impl Context {
             let turn = axes(axis, column);
             if is_wanted(Method::Accordion) || self.wanted == Method::Merge {
                 add(Method::Accordion, accordion(terms, count)?.turned(turn).reversed());
+                if let Some(way) = balanced_accordion(terms, count) {
+                    add(Method::Accordion, way?.turned(turn).reversed());
+                }
             }
             if is_wanted(Method::Fold) && self.supple {
                 add(Method::Fold, fold(terms, count)?.turned(turn).reversed());

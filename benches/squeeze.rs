@@ -1,0 +1,69 @@
+//! Lattice plans of rows that become columns: how long it takes to make one, to write it, and to judge
+//! it, how large the file is, and how the time of the motion compares with bounds.
+//!
+//! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells.
+
+#[allow(dead_code)]
+#[path = "../tests/lattices.rs"]
+mod lattices;
+
+use lattices::{PAPER, TERMS, judged_plan, plan_of, stages_of};
+use modl::planners::squeeze::{Refusal, Terms, Way, accordion, fold, shear};
+use std::time::Instant;
+
+type Construction = fn(Terms, u64) -> Result<Way, Refusal>;
+
+const METHODS: [(&str, Construction); 3] = [("accordion", accordion), ("fold", fold), ("shear", shear)];
+const COUNTS: [u64; 7] = [1_000, 4_096, 10_000, 65_536, 100_000, 999_999, 1_000_000];
+
+fn main() {
+    let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(u64::MAX);
+    makespans();
+    println!();
+    println!("| n | method | emit | file | write | verify | stages | runs |");
+    println!("|---|---|---|---|---|---|---|---|");
+    for n in COUNTS.into_iter().filter(|n| *n <= most) {
+        for (name, construction) in METHODS {
+            let start = Instant::now();
+            let way = construction(TERMS, n).expect("there is a way");
+            let emit = start.elapsed();
+            let plan = plan_of(stages_of(way, PAPER));
+            let modl::plan::Body::Stages(stages) = &plan.body else { unreachable!("it is a lattice") };
+            let (count, runs) =
+                (stages.stages.len(), stages.stages.iter().map(|s| s.end.len()).sum::<usize>());
+            let start = Instant::now();
+            let text = modl::plan::file::write(&plan).expect("it can be written");
+            let write = start.elapsed();
+            let start = Instant::now();
+            let verdict = judged_plan(&plan);
+            let verify = start.elapsed();
+            assert!(verdict.ok(), "{:?}", verdict.failures);
+            println!(
+                "| {n} | {name} | {:.2} ms | {:.1} kB | {:.1} ms | {:.2} s | {count} | {runs} |",
+                emit.as_secs_f64() * 1e3,
+                text.len() as f64 / 1e3,
+                write.as_secs_f64() * 1e3,
+                verify.as_secs_f64(),
+            );
+        }
+    }
+}
+
+/// Times in units: of a cell's length at unit acceleration.
+fn makespans() {
+    println!("| n | unit speed >= | lower bound | shear | accordion | fold | peak force, accordion |");
+    println!("|---|---|---|---|---|---|---|");
+    for n in [16, 64, 256, 1024, 4096, 16_384, 65_536, 1_000_000] {
+        let time = |construction: Construction| construction(TERMS, n).expect("there is a way").duration();
+        let verdict = judged_plan(&plan_of(stages_of(accordion(TERMS, n).expect("a way"), PAPER)));
+        println!(
+            "| {n} | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} |",
+            (n - 1) as f64 / 2.0,
+            libm::sqrt(2.0 * (n - 1) as f64),
+            time(shear),
+            time(accordion),
+            time(fold),
+            verdict.dynamics.expect("a lattice has them").peak_force,
+        );
+    }
+}

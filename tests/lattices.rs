@@ -1,0 +1,74 @@
+//! Lattice plans for the tests and the benches: ways in the paper's units, as plans for the judge.
+#![allow(dead_code)]
+
+use modl::plan::verify::verify;
+use modl::plan::{
+    Body, Cause, CauseId, CellLimits, Ground, Model, Plan, Provenance, Ratio, Settings, Stage, Stages,
+    Verdict, World, WorldFrom,
+};
+use modl::planners::squeeze::{Leg, Profile, Terms, Way};
+use modl::robot::{Cell, Library};
+use std::sync::Arc;
+
+/// Limits of 1 in units of 1.
+pub const UNIT: CellLimits = CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE };
+pub const TERMS: Terms = Terms { limits: UNIT, profile: Profile::BangBang };
+pub const BALANCED: Model = Model { balanced: true, contact_force: None };
+pub const PAPER: Model = Model { balanced: false, contact_force: None };
+
+pub fn unit_cell() -> Cell {
+    Cell { name: "Unit".into(), size: 1.0, shrinks_to: 0.5, mass: 1.0, force: 1.0, speed: 1.0 }
+}
+
+pub fn stages_of(way: Way, model: Model) -> Stages {
+    let mut configurations = way.configurations.into_iter();
+    let start = configurations.next().expect("a way begins somewhere");
+    let stage = |(leg, end): (Leg, _)| Stage {
+        name: leg.name.into(),
+        time_squared: leg.time_squared,
+        law: leg.law,
+        end,
+        cause: CauseId(0),
+    };
+    Stages {
+        cell: 0,
+        count: way.count,
+        time_unit: 1.0,
+        limits: UNIT,
+        model,
+        start,
+        stages: way.legs.into_iter().zip(configurations).map(stage).collect(),
+    }
+}
+
+pub fn plan_of(stages: Stages) -> Plan {
+    let cause = Cause {
+        file: "test.mod".into(),
+        line: 1,
+        column: 1,
+        text: "squeeze(...)".into(),
+        instance: String::new(),
+        caller: None,
+    };
+    let world = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
+    Plan {
+        provenance: Provenance { planner: "squeeze".into(), ..Provenance::default() },
+        worlds: vec![WorldFrom { from: 0.0, world }],
+        settings: Settings::default(),
+        library: Arc::new(Library { cells: vec![unit_cell()], ..Library::default() }),
+        body: Body::Stages(stages),
+        program: None,
+        nominal: false,
+        causes: vec![cause],
+        exemptions: vec![],
+        verdict: None,
+    }
+}
+
+pub fn judged_plan(plan: &Plan) -> Verdict {
+    verify(plan)
+}
+
+pub fn judged(way: Way, model: Model) -> Verdict {
+    verify(&plan_of(stages_of(way, model)))
+}
