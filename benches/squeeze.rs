@@ -3,7 +3,6 @@
 //!
 //! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells.
 
-#[allow(dead_code)]
 #[path = "../tests/lattices.rs"]
 mod lattices;
 

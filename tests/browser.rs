@@ -9,7 +9,8 @@ use crate::programs::*;
 use crate::robots::{TILT, chain};
 use modl::geometry::Pose;
 use modl::plan::{
-    Body, CauseId, Counter, Knot, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages, Way, verify,
+    Body, CauseId, CellLimits, Counter, Knot, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages, Way,
+    verify,
 };
 use modl::robot::{Cell, Kinematics, Library, Strut};
 use modl::view::{Showing, page};
@@ -88,6 +89,7 @@ fn lattice() -> Plan {
         cell: 0,
         count: 1000,
         time_unit: 0.5,
+        limits: CellLimits::default(),
         model: Model::default(),
         start: vec![block([one; 3], 10)],
         stages: vec![

@@ -8,9 +8,8 @@ use std::path::{Path, PathBuf};
 const LINES_MAX: usize = 600;
 
 /// Files that may be longer, each with its reason.
-const LONG_FILES: &[(&str, &str)] = &[
-    ("src/syntax/ast.rs", "one type for each form of the grammar, and nothing else"),
-];
+const LONG_FILES: &[(&str, &str)] =
+    &[("src/syntax/ast.rs", "one type for each form of the grammar, and nothing else")];
 
 /// Each room with the rooms that it may know.
 const ROOMS: &[(&str, &[&str])] = &[
