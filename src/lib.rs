@@ -2,7 +2,7 @@
 //!
 //! The journey of the data, and the rooms in reading order; each knows only those above it:
 //! text ([`source`], [`units`]) → tree ([`syntax`]) → types ([`check`]) → values ([`interpret`]) →
-//! plan ([`behavior`], `planners`) → verdict ([`plan`]) → file or picture ([`view`]). See `docs/architecture.md`.
+//! plan ([`behavior`], [`planners`]) → verdict ([`plan`]) → file or picture ([`view`]). See `docs/architecture.md`.
 
 pub mod source;
 pub mod units;

@@ -13,6 +13,7 @@ mod desk;
 mod distance;
 mod docs;
 mod fences;
+mod fold;
 mod gaits;
 mod generated;
 mod ground;

@@ -1,4 +1,5 @@
 //! Planners: each a room of its own that turns a problem into a plan. What they find goes before the
 //! same judge as everything else, and none of them is believed.
 
+pub mod fold;
 pub mod squeeze;

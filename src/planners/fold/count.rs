@@ -1,0 +1,37 @@
+//! How many layouts a target has: Kirchhoff's theorem in whole numbers.
+
+use super::target::Target;
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
+
+/// The number of spanning trees of the faces. By elimination without fractions (Bareiss): every
+/// division is exact.
+pub fn layouts(target: &Target) -> BigInt {
+    let n = target.faces.len() - 1;
+    let mut m = vec![vec![BigInt::zero(); n]; n];
+    for hinge in &target.hinges {
+        let [a, b] = hinge.faces;
+        for (x, y) in [(a, b), (b, a)] {
+            if x < n {
+                m[x][x] += 1;
+                if y < n {
+                    m[x][y] -= 1;
+                }
+            }
+        }
+    }
+    let mut before = BigInt::one();
+    for k in 0..n {
+        // The Laplacian without a face is positive definite: no pivot is zero.
+        for i in k + 1..n {
+            if m[i][k].is_zero() && m[k][k] == before {
+                continue;
+            }
+            for j in k + 1..n {
+                m[i][j] = (&m[i][j] * &m[k][k] - &m[i][k] * &m[k][j]) / &before;
+            }
+        }
+        before = m[k][k].clone();
+    }
+    before
+}

@@ -1,0 +1,315 @@
+//! Every layout, one after the other; none is held.
+//!
+//! Hinges are taken in order: one is kept, then left out where the faces still hang together without
+//! it. So every branch ends in a layout. Energies of a layout for all its roots come from one of
+//! them: when the root crosses a hinge, the faces before it are carried by the hinge and those behind
+//! it no longer are.
+
+use super::exact::TOL_TIE;
+use super::layout::Layout;
+use super::spectrum::Spectrum;
+use super::target::Target;
+use super::weights::Weights;
+
+/// Sets of faces are bits of a word.
+pub const FACES_MAX: usize = 64;
+
+/// Sums over sets of faces are looked up by so many faces at a time.
+const CHUNK: usize = 8;
+
+/// What enumeration found.
+#[derive(Clone, Debug)]
+pub struct Census {
+    /// How many layouts were seen.
+    pub layouts: u64,
+    /// Whether that is all of them; else the budget ended it.
+    pub complete: bool,
+    /// A layout of least energy, hung up at its best root; the first found.
+    pub best: Layout,
+    /// N·m for steps of one second.
+    pub least: f64,
+    pub greatest: f64,
+    /// Pairs of layout and root with the least energy, to a part of 1e-9.
+    pub ties: u64,
+    /// By root: the least energy.
+    pub by_root: Vec<f64>,
+    pub spectrum: Option<Spectrum>,
+}
+
+/// What is enumerated and how far.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// `None`: all.
+    pub root: Option<usize>,
+    /// Whether to tell how often each energy occurs.
+    pub spectrum: bool,
+    /// Layouts.
+    pub budget: u64,
+}
+
+/// The target has more than [`FACES_MAX`] faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooManyFaces;
+
+/// Looks at every layout with every root.
+pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result<Census, TooManyFaces> {
+    let sums = Sums::new(target, weights);
+    let n = target.faces.len();
+    let mut energies = vec![0.0; n];
+    let mut best: Option<(f64, Vec<usize>, usize)> = None;
+    let (mut greatest, mut ties) = (0.0, 0);
+    let mut by_root = vec![f64::INFINITY; n];
+    let mut spectrum: Option<Spectrum> = None;
+    let mut tree = Tree::new(target);
+    let walked = each(target, settings.budget, |hinges| {
+        tree.hang(hinges);
+        tree.energies(&sums, &mut energies);
+        for (root, &energy) in energies.iter().enumerate() {
+            if settings.root.is_some_and(|asked| asked != root) {
+                continue;
+            }
+            by_root[root] = by_root[root].min(energy);
+            greatest = f64::max(greatest, energy);
+            match &mut best {
+                Some((least, ..)) if energy > *least * (1.0 + TOL_TIE) => {}
+                Some((least, ..)) if energy >= *least * (1.0 - TOL_TIE) => ties += 1,
+                _ => {
+                    best = Some((energy, hinges.to_vec(), root));
+                    ties = 1;
+                }
+            }
+            if settings.spectrum {
+                let unit = if energy > 0.0 { energy } else { 1.0 };
+                spectrum.get_or_insert_with(|| Spectrum::new(unit)).add(energy);
+            }
+        }
+    })?;
+    let (least, hinges, root) = best.expect("a connected target has a layout");
+    let layout = Layout::of_hinges(target, &hinges, root).expect("only trees are enumerated");
+    Ok(Census {
+        layouts: walked.layouts,
+        complete: walked.complete,
+        best: layout,
+        least,
+        greatest,
+        ties,
+        by_root,
+        spectrum,
+    })
+}
+
+/// How far an enumeration went.
+#[derive(Clone, Copy, Debug)]
+pub struct Walked {
+    pub layouts: u64,
+    pub complete: bool,
+}
+
+/// Hands the hinges of every layout to `visit`, at most `budget` of them, at least one.
+pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result<Walked, TooManyFaces> {
+    let n = target.faces.len();
+    if n > FACES_MAX {
+        return Err(TooManyFaces);
+    }
+    let mut suffix = vec![[0u64; FACES_MAX]; target.hinges.len() + 1];
+    for (index, hinge) in target.hinges.iter().enumerate().rev() {
+        let [a, b] = hinge.faces;
+        suffix[index] = suffix[index + 1];
+        suffix[index][a] |= 1 << b;
+        suffix[index][b] |= 1 << a;
+    }
+    let mut groups = [0u64; FACES_MAX];
+    groups.iter_mut().enumerate().take(n).for_each(|(face, group)| *group = 1 << face);
+    let mut walk =
+        Walk { target, suffix, kept: Vec::with_capacity(n), visit, left: budget.max(1), layouts: 0 };
+    walk.from(0, groups);
+    // Whether something was left shows only at the next layout.
+    Ok(Walked { layouts: walk.layouts, complete: walk.left > 0 })
+}
+
+struct Walk<'t, V> {
+    target: &'t Target,
+    /// By hinge: the neighbours of every face across this hinge and later ones.
+    suffix: Vec<[u64; FACES_MAX]>,
+    kept: Vec<usize>,
+    visit: V,
+    /// Layouts that may be seen, and one more.
+    left: u64,
+    layouts: u64,
+}
+
+impl<V: FnMut(&[usize])> Walk<'_, V> {
+    /// Goes on with the hinges from `next`; `groups` holds for every face those that hang together
+    /// with it. As deep as there are hinges.
+    fn from(&mut self, next: usize, mut groups: [u64; FACES_MAX]) {
+        let n = self.target.faces.len();
+        if self.kept.len() + 1 == n {
+            if self.layouts == self.left {
+                self.left = 0;
+            } else {
+                self.layouts += 1;
+                (self.visit)(&self.kept);
+            }
+            return;
+        }
+        let mut at = next;
+        let mark = self.kept.len();
+        loop {
+            let [a, b] = self.target.hinges[at].faces;
+            if groups[a] & (1 << b) != 0 {
+                at += 1;
+                continue;
+            }
+            let joined = groups[a] | groups[b];
+            let needed = !self.reaches(at + 1, a, b, &groups);
+            let mut together = groups;
+            let mut rest = joined;
+            while rest != 0 {
+                together[rest.trailing_zeros() as usize] = joined;
+                rest &= rest - 1;
+            }
+            self.kept.push(at);
+            if needed && self.kept.len() + 1 < n {
+                // Without a choice there is no need to go deeper.
+                groups = together;
+                at += 1;
+                continue;
+            }
+            self.from(at + 1, together);
+            self.kept.truncate(self.kept.len() - 1);
+            if needed || self.left == 0 {
+                break;
+            }
+            at += 1;
+        }
+        self.kept.truncate(mark);
+    }
+
+    /// Whether hinges from `next` on join two groups.
+    fn reaches(&self, next: usize, a: usize, b: usize, groups: &[u64; FACES_MAX]) -> bool {
+        let neighbours = &self.suffix[next];
+        let (mut seen, mut fresh) = (groups[a], groups[a]);
+        while fresh != 0 {
+            let mut found = 0;
+            while fresh != 0 {
+                found |= neighbours[fresh.trailing_zeros() as usize];
+                fresh &= fresh - 1;
+            }
+            found &= !seen;
+            while found != 0 {
+                let group = groups[found.trailing_zeros() as usize];
+                fresh |= group;
+                found &= !group;
+            }
+            seen |= fresh;
+            if seen & (1 << b) != 0 {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// Sums of a hinge's weights over sets of faces, by table.
+struct Sums {
+    chunks: usize,
+    /// By hinge, chunk, bits of the chunk.
+    table: Vec<f64>,
+}
+
+impl Sums {
+    fn new(target: &Target, weights: &Weights) -> Sums {
+        let chunks = target.faces.len().div_ceil(CHUNK);
+        let mut table = Vec::with_capacity((target.hinges.len() * chunks) << CHUNK);
+        for hinge in 0..target.hinges.len() {
+            for chunk in weights.of_hinge(hinge).chunks(CHUNK) {
+                for bits in 0..1usize << CHUNK {
+                    table.push(
+                        chunk.iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1).map(|(_, w)| w).sum(),
+                    );
+                }
+            }
+        }
+        Sums { chunks, table }
+    }
+
+    #[inline]
+    fn over(&self, hinge: usize, set: u64) -> f64 {
+        let first = (hinge * self.chunks) << CHUNK;
+        let mut sum = 0.0;
+        for chunk in 0..self.chunks {
+            let bits = (set >> (chunk * CHUNK)) as usize & ((1 << CHUNK) - 1);
+            sum += self.table[first + (chunk << CHUNK) + bits];
+        }
+        sum
+    }
+}
+
+/// A layout hung up at face 0, for reuse.
+struct Tree<'t> {
+    target: &'t Target,
+    /// Faces, parents before children; with the parent and the hinge to it.
+    order: Vec<(usize, usize, usize)>,
+    /// By face: itself and all below it.
+    below: [u64; FACES_MAX],
+    /// By face: its kept hinges and the faces across them.
+    around: [[(u32, u32); 3]; FACES_MAX],
+    degree: [usize; FACES_MAX],
+}
+
+impl<'t> Tree<'t> {
+    fn new(target: &'t Target) -> Tree<'t> {
+        Tree {
+            target,
+            order: Vec::with_capacity(FACES_MAX),
+            below: [0; FACES_MAX],
+            around: [[(0, 0); 3]; FACES_MAX],
+            degree: [0; FACES_MAX],
+        }
+    }
+
+    fn hang(&mut self, hinges: &[usize]) {
+        self.degree = [0; FACES_MAX];
+        for &index in hinges {
+            let [a, b] = self.target.hinges[index].faces;
+            for (face, other) in [(a, b), (b, a)] {
+                self.around[face][self.degree[face]] = (index as u32, other as u32);
+                self.degree[face] += 1;
+            }
+        }
+        self.order.clear();
+        self.order.push((0, 0, usize::MAX));
+        let mut next = 0;
+        while next < self.order.len() {
+            let (face, parent, _) = self.order[next];
+            next += 1;
+            self.below[face] = 1 << face;
+            for &(hinge, other) in &self.around[face][..self.degree[face]] {
+                let (hinge, other) = (hinge as usize, other as usize);
+                // Two faces may share two hinges, but a tree has only one of them.
+                if other != parent || face == parent {
+                    self.order.push((other, face, hinge));
+                }
+            }
+        }
+        for &(face, parent, _) in self.order[1..].iter().rev() {
+            self.below[parent] |= self.below[face];
+        }
+    }
+
+    /// By root.
+    fn energies(&self, sums: &Sums, energies: &mut [f64]) {
+        let all = self.below[0];
+        let mut at_first = 0.0;
+        for &(face, _, hinge) in &self.order[1..] {
+            // For now, what crossing the hinge changes.
+            let carried = sums.over(hinge, self.below[face]);
+            at_first += carried;
+            energies[face] = sums.over(hinge, all & !self.below[face]) - carried;
+        }
+        energies[0] = at_first;
+        for &(face, parent, _) in &self.order[1..] {
+            energies[face] += energies[parent];
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Where the faces are while some of the hinges have folded.
+
+use super::layout::Layout;
+use super::target::Target;
+use crate::geometry::pose::{shifted, turned};
+use crate::geometry::{Pose, Vec3};
+
+/// The displacement of every face from its place in the target, with the root in its place, when
+/// the hinges of the faces for which `folded` holds have folded and the others are level.
+///
+/// A child's displacement is its parent's, after a turn about the target's line of the hinge by the
+/// angle that is still missing.
+pub fn poses(target: &Target, layout: &Layout, folded: impl Fn(usize) -> bool) -> Vec<Pose> {
+    poses_at(target, layout, |face| {
+        let hinge = layout.hinge[face].expect("only the root has none");
+        if folded(face) { target.hinges[hinge].angle } else { 0.0 }
+    })
+}
+
+/// The same with the hinge of every face at an angle, rad: 0 is level.
+pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Pose> {
+    let mut poses = vec![Pose::identity(); target.faces.len()];
+    for &face in &layout.order[1..] {
+        let hinge = &target.hinges[layout.hinge[face].expect("only the root has none")];
+        let missing = angle(face) - hinge.angle;
+        let parent = layout.parent[face];
+        let turn = about(&hinge.point, hinge.axis_from(parent), missing);
+        poses[face] = if missing == 0.0 { poses[parent] } else { poses[parent] * turn };
+    }
+    poses
+}
+
+/// A turn about a line through a point, rad.
+pub fn about(point: &Vec3, axis: Vec3, angle: f64) -> Pose {
+    shifted(*point) * turned(axis, angle) * shifted(-point)
+}

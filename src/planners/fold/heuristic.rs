@@ -1,0 +1,106 @@
+//! The paper's measure of a layout (MII, Theorem 1): cheaper than simulating it, and kept for
+//! comparison; the closed form of [`weights`](super::weights) is exact and no dearer.
+
+use super::enumerate::{self, TooManyFaces, Walked};
+use super::folded::poses;
+use super::layout::Layout;
+use super::target::Target;
+
+/// Layouts whose measures differ by less than this part are equally good.
+const TOL_TIE: f64 = 1e-9;
+
+/// The constants of Theorem 1 (Table 5).
+#[derive(Clone, Copy, Debug)]
+pub struct Measure {
+    /// λ1: the norm of a panel's inertia tensor. The paper's 6.15e-11 amounts to none, kg·m².
+    pub inertia: f64,
+    /// λ2: half the side by the sine of 60 degrees, times the mass, kg·m.
+    pub arm: f64,
+    /// λ3, kg.
+    pub mass: f64,
+    /// λ4: from hinge to hinge, m.
+    pub span: f64,
+    /// κ1, κ2, κ3.
+    pub design: [f64; 3],
+}
+
+impl Measure {
+    /// For panels of a mass (kg) and side (m).
+    pub fn of_panels(mass: f64, side: f64) -> Measure {
+        Measure {
+            inertia: 6.15e-11,
+            arm: side / 2.0 / libm::sqrt(0.75) * mass,
+            mass,
+            span: side,
+            design: [3.0, 1.0, 2.0],
+        }
+    }
+
+    /// χ of a layout (Eq. 6, 9, 10) with the leaves folded first.
+    ///
+    /// Distances are from the root's centroid, at the beginning and at the end of the face's own step:
+    /// everything below it has folded, nothing above it has.
+    pub fn of(&self, target: &Target, layout: &Layout) -> f64 {
+        let n = target.faces.len();
+        let flat = poses(target, layout, |_| false);
+        let [k1, k2, k3] = self.design;
+        let (mut moments, mut forces) = (vec![0.0; n], vec![0.0; n]);
+        let mut sum = 0.0;
+        for &face in layout.order[1..].iter().rev() {
+            let hinge = layout.hinge[face].expect("only the root has none");
+            let angle = target.hinges[hinge].angle.abs();
+            let parent = layout.parent[face];
+            // While its parent is still where it lies flat.
+            let root = target.centroid(layout.root);
+            let centroid = target.centroid(face);
+            let before = (flat[face] * nalgebra::Point3::from(centroid)).coords;
+            let after = (flat[parent] * nalgebra::Point3::from(centroid)).coords;
+            let moved = ((after - root).norm() - (before - root).norm()).abs();
+            forces[face] += self.mass * k1 * moved;
+            moments[face] += self.inertia * (k2 * angle + k3 * angle * angle) + self.arm * k1 * moved;
+            sum += moments[face];
+            moments[parent] += moments[face] + self.span * forces[face];
+            forces[parent] += forces[face];
+        }
+        sum
+    }
+}
+
+/// The layouts that the measure prefers.
+#[derive(Clone, Debug)]
+pub struct Preferred {
+    /// The first of them.
+    pub layout: Layout,
+    pub measure: f64,
+    /// How many are equally good, with any of the roots asked for.
+    pub ties: u64,
+    pub walked: Walked,
+}
+
+/// The layout that the measure prefers, among all with the root asked for, or any.
+pub fn preferred(
+    target: &Target,
+    measure: &Measure,
+    root: Option<usize>,
+    budget: u64,
+) -> Result<Preferred, TooManyFaces> {
+    let mut best: Option<(f64, Layout)> = None;
+    let mut ties = 0;
+    let roots = root.map_or(0..target.faces.len(), |root| root..root + 1);
+    let walked = enumerate::each(target, budget, |hinges| {
+        for root in roots.clone() {
+            let layout = Layout::of_hinges(target, hinges, root).expect("only trees are enumerated");
+            let value = measure.of(target, &layout);
+            match &best {
+                Some((least, _)) if value > least * (1.0 + TOL_TIE) => {}
+                Some((least, _)) if value >= least * (1.0 - TOL_TIE) => ties += 1,
+                _ => {
+                    best = Some((value, layout));
+                    ties = 1;
+                }
+            }
+        }
+    })?;
+    let (measure, layout) = best.expect("a connected target has a layout");
+    Ok(Preferred { layout, measure, ties, walked })
+}

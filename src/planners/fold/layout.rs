@@ -1,0 +1,124 @@
+//! Layouts: spanning trees of a target's faces, hung up at a root.
+
+use super::target::Target;
+use super::weights::Weights;
+
+/// A rooted spanning tree.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    pub root: usize,
+    /// By face: the hinge to its parent; `None` for the root.
+    pub hinge: Vec<Option<usize>>,
+    /// By face: its parent; the root's is itself.
+    pub parent: Vec<usize>,
+    /// All faces, parents before children.
+    pub order: Vec<usize>,
+}
+
+impl Layout {
+    /// From the hinges that fold. `None` where they are no spanning tree.
+    pub fn of_hinges(target: &Target, hinges: &[usize], root: usize) -> Option<Layout> {
+        let n = target.faces.len();
+        if hinges.len() + 1 != n {
+            return None;
+        }
+        let mut kept = vec![false; target.hinges.len()];
+        hinges.iter().for_each(|&h| kept[h] = true);
+        let mut layout =
+            Layout { root, hinge: vec![None; n], parent: vec![usize::MAX; n], order: Vec::with_capacity(n) };
+        layout.parent[root] = root;
+        layout.order.push(root);
+        let mut next = 0;
+        while let Some(&face) = layout.order.get(next) {
+            next += 1;
+            for (hinge, other) in target.around(face) {
+                if kept[hinge] && layout.parent[other] == usize::MAX {
+                    layout.parent[other] = face;
+                    layout.hinge[other] = Some(hinge);
+                    layout.order.push(other);
+                }
+            }
+        }
+        (layout.order.len() == n).then_some(layout)
+    }
+
+    /// From pairs of neighbouring faces.
+    pub fn of_pairs(target: &Target, pairs: &[[usize; 2]], root: usize) -> Option<Layout> {
+        let hinges: Option<Vec<usize>> = pairs.iter().map(|&[a, b]| target.hinge_between(a, b)).collect();
+        Layout::of_hinges(target, &hinges?, root)
+    }
+
+    /// The hinges that fold, in order of number.
+    pub fn hinges(&self) -> Vec<usize> {
+        let mut hinges: Vec<usize> = self.hinge.iter().copied().flatten().collect();
+        hinges.sort_unstable();
+        hinges
+    }
+
+    /// The same tree hung up at another face.
+    pub fn rerooted(&self, target: &Target, root: usize) -> Layout {
+        Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")
+    }
+
+    /// The paper's energy with the leaves folded first, N·m for steps of one second.
+    pub fn energy(&self, weights: &Weights) -> f64 {
+        let mut sum = 0.0;
+        for &face in &self.order {
+            let mut at = face;
+            while let Some(hinge) = self.hinge[at] {
+                sum += weights.at(hinge, face);
+                at = self.parent[at];
+            }
+        }
+        sum
+    }
+
+    /// Hinges between the face and the root.
+    pub fn depths(&self) -> Vec<usize> {
+        let mut depths = vec![0; self.parent.len()];
+        for &face in &self.order[1..] {
+            depths[face] = depths[self.parent[face]] + 1;
+        }
+        depths
+    }
+
+    /// Hinges between the face and the farthest leaf below it; 0 for a leaf.
+    pub fn heights(&self) -> Vec<usize> {
+        let mut heights = vec![0; self.parent.len()];
+        for &face in self.order[1..].iter().rev() {
+            let parent = self.parent[face];
+            heights[parent] = heights[parent].max(heights[face] + 1);
+        }
+        heights
+    }
+
+    /// Whether one of two faces is on the other's path from the root, or they are the same.
+    pub fn comparable(&self, a: usize, b: usize) -> bool {
+        self.is_above(a, b) || self.is_above(b, a)
+    }
+
+    /// Whether `a` is on the path from the root to `b`, ends included.
+    pub fn is_above(&self, a: usize, b: usize) -> bool {
+        let mut at = b;
+        loop {
+            if at == a {
+                return true;
+            }
+            if at == self.root {
+                return false;
+            }
+            at = self.parent[at];
+        }
+    }
+
+    /// The children of every face, in order of number.
+    pub fn children(&self) -> Vec<Vec<usize>> {
+        let mut children = vec![Vec::new(); self.parent.len()];
+        for (face, &parent) in self.parent.iter().enumerate() {
+            if face != self.root {
+                children[parent].push(face);
+            }
+        }
+        children
+    }
+}

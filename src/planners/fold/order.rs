@@ -1,0 +1,191 @@
+//! The order of folding that lifts and lowers the least (Eq. 15 to 17), exactly.
+//!
+//! The root lies on the ground with its outside down. To fold hinge i when the set F has folded
+//! costs `|PE(F + i) - PE(F)|`. Branches of the root move independently; within a branch every subset
+//! of its hinges is a state of a dynamic programme: `b 2^b` steps instead of `b!` orders. The changes
+//! telescope, so no order undercuts `|PE(all) - PE(none)|` of its branch; where the leaves-first
+//! order (Alg. 2) reaches that, nothing more is computed.
+
+use super::folded::about;
+use super::layout::Layout;
+use super::steps;
+use super::target::Target;
+use crate::geometry::Pose;
+
+/// Hinges of a branch up to which all subsets are looked at.
+pub const BRANCH_MAX: usize = 18;
+
+/// An order is as good as the bound within this part.
+const TOL_EQUAL: f64 = 1e-12;
+
+/// An order of folding, one hinge after the other.
+#[derive(Clone, Debug)]
+pub struct Lifting {
+    /// Faces, the one that folds first first.
+    pub order: Vec<usize>,
+    /// The work of Eq. 17, J.
+    pub work: f64,
+    /// No order of this layout takes less, J.
+    pub bound: f64,
+    /// Whether no order takes less work than this one: always, unless a branch has more than
+    /// [`BRANCH_MAX`] hinges.
+    pub optimal: bool,
+}
+
+/// The order of least work. `weights`: of each face, N.
+pub fn least_lifting(target: &Target, layout: &Layout, weights: &[f64]) -> Lifting {
+    let mut all = Lifting { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
+    for &child in &layout.children()[layout.root] {
+        let branch = Branch::new(target, layout, weights, child);
+        let part = branch.least();
+        all.order.extend(part.order);
+        all.work += part.work;
+        all.bound += part.bound;
+        all.optimal &= part.optimal;
+    }
+    all
+}
+
+/// The work of Eq. 17 for an order of all faces but the root, J. Computed step by step from the
+/// places of all faces.
+pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) -> f64 {
+    let mut folded = vec![false; target.faces.len()];
+    let mut height = potential(target, layout, weights, &folded);
+    let mut sum = 0.0;
+    for &face in order {
+        folded[face] = true;
+        let next = potential(target, layout, weights, &folded);
+        sum += (next - height).abs();
+        height = next;
+    }
+    sum
+}
+
+/// Potential energy over the root's plane, J.
+fn potential(target: &Target, layout: &Layout, weights: &[f64], folded: &[bool]) -> f64 {
+    let poses = super::folded::poses(target, layout, |face| folded[face]);
+    let faces = 0..target.faces.len();
+    faces.map(|face| weights[face] * height(target, layout, face, &poses[face])).sum()
+}
+
+/// Height of a face's centroid over the root's plane, m: against the root's outward normal.
+fn height(target: &Target, layout: &Layout, face: usize, pose: &Pose) -> f64 {
+    let centroid = pose * nalgebra::Point3::from(target.centroid(face));
+    target.normal(layout.root).dot(&(target.centroid(layout.root) - centroid.coords))
+}
+
+/// What hangs on one child of the root.
+struct Branch {
+    /// Its faces; bit i of a state is face i of these.
+    faces: Vec<usize>,
+    /// By face of the branch: the bits of its path from the root, the root's child first.
+    paths: Vec<Vec<usize>>,
+    /// By face of the branch, where all subsets are looked at: its potential energy by which bits of
+    /// its path have folded.
+    potentials: Vec<Vec<f64>>,
+    /// The leaves-first and the root-first order, with their work.
+    known: Vec<(Vec<usize>, f64)>,
+    bound: f64,
+}
+
+impl Branch {
+    fn new(target: &Target, layout: &Layout, weights: &[f64], child: usize) -> Branch {
+        let faces: Vec<usize> =
+            layout.order.iter().copied().filter(|&face| layout.is_above(child, face)).collect();
+        let bit = |face: usize| faces.iter().position(|f| *f == face).expect("paths stay in the branch");
+        let mut paths: Vec<Vec<usize>> = Vec::new();
+        for &face in &faces {
+            let mut path = if face == child { Vec::new() } else { paths[bit(layout.parent[face])].clone() };
+            path.push(paths.len());
+            paths.push(path);
+        }
+        // The same work, with no weight elsewhere.
+        let mut own = vec![0.0; target.faces.len()];
+        faces.iter().for_each(|&face| own[face] = weights[face]);
+        let heights = [vec![false; own.len()], vec![true; own.len()]]
+            .map(|folded| potential(target, layout, &own, &folded));
+        let in_branch = |steps: Vec<Vec<usize>>| -> Vec<usize> {
+            steps.into_iter().flatten().filter(|face| faces.contains(face)).collect()
+        };
+        let known = [steps::leaves_first(layout), steps::root_first(layout)].map(|steps| {
+            let order = in_branch(steps);
+            let work = work(target, layout, &own, &order);
+            (order, work)
+        });
+        let potentials = if faces.len() <= BRANCH_MAX {
+            potentials(target, layout, weights, &faces, &paths)
+        } else {
+            vec![]
+        };
+        Branch { faces, paths, potentials, known: known.to_vec(), bound: (heights[1] - heights[0]).abs() }
+    }
+
+    fn least(&self) -> Lifting {
+        let reached = |work: f64| work <= self.bound * (1.0 + TOL_EQUAL) + f64::MIN_POSITIVE;
+        let best = self.known.iter().min_by(|a, b| a.1.total_cmp(&b.1)).expect("there are two");
+        if reached(self.known[0].1) || self.potentials.is_empty() {
+            let (order, work) = if reached(self.known[0].1) { &self.known[0] } else { best };
+            let optimal = reached(*work);
+            return Lifting { order: order.clone(), work: *work, bound: self.bound, optimal };
+        }
+        let (order, work) = self.programme();
+        Lifting { order, work, bound: work, optimal: true }
+    }
+
+    /// Over all subsets of the branch.
+    fn programme(&self) -> (Vec<usize>, f64) {
+        let bits = self.faces.len();
+        let energies: Vec<f64> = (0..1usize << bits).map(|set| self.energy(set)).collect();
+        let mut least = vec![f64::INFINITY; 1 << bits];
+        let mut last = vec![0u8; 1 << bits];
+        least[0] = 0.0;
+        for set in 0..1usize << bits {
+            for bit in (0..bits).filter(|bit| set >> bit & 1 == 0) {
+                let next = set | 1 << bit;
+                let work = least[set] + (energies[next] - energies[set]).abs();
+                if work < least[next] {
+                    (least[next], last[next]) = (work, bit as u8);
+                }
+            }
+        }
+        let mut order = Vec::with_capacity(bits);
+        let mut set = (1 << bits) - 1;
+        while set != 0 {
+            order.push(self.faces[last[set] as usize]);
+            set &= !(1 << last[set]);
+        }
+        order.reverse();
+        (order, least[(1 << bits) - 1])
+    }
+
+    fn energy(&self, set: usize) -> f64 {
+        let of_face = |(path, table): (&Vec<usize>, &Vec<f64>)| {
+            let folded: usize = path.iter().enumerate().map(|(i, bit)| (set >> bit & 1) << i).sum();
+            table[folded]
+        };
+        self.paths.iter().zip(&self.potentials).map(of_face).sum()
+    }
+}
+
+/// By face of the branch: its potential energy by which hinges of its path have folded.
+fn potentials(
+    target: &Target,
+    layout: &Layout,
+    weights: &[f64],
+    faces: &[usize],
+    paths: &[Vec<usize>],
+) -> Vec<Vec<f64>> {
+    let places = paths.iter().zip(faces).map(|(path, &face)| {
+        // A face's place is that of its path, which is walked from the root on.
+        let mut poses = vec![Pose::identity()];
+        for &bit in path {
+            let hinge = &target.hinges[layout.hinge[faces[bit]].expect("no face of a branch is the root")];
+            let turn = about(&hinge.point, hinge.axis_from(layout.parent[faces[bit]]), -hinge.angle);
+            let level: Vec<Pose> = poses.iter().map(|pose| pose * turn).collect();
+            // The bit of the newest hinge is the highest.
+            poses = level.into_iter().chain(poses).collect();
+        }
+        poses.iter().map(|pose| weights[face] * height(target, layout, face, pose)).collect()
+    });
+    places.collect()
+}

@@ -1,0 +1,149 @@
+//! The order of folding of least energy: mean torques of the moving joints, without gravity.
+//!
+//! What hinge a spends on face m depends only on which hinges between them have folded before, so on
+//! the order of m's own path. Going down the tree, each face is put into every place of its
+//! ancestors' order; orders that agree on their common ancestors can always be merged.
+
+use super::folded::about;
+use super::layout::Layout;
+use super::target::Target;
+use super::weights::{Inertia, QUINTIC, moment_about};
+use crate::geometry::{Pose, Vec3};
+
+/// Trees up to this height are searched: the work grows with the factorial of it.
+pub const HEIGHT_MAX: usize = 8;
+
+/// An order of all faces but the root, and its energy (N·m for steps of one second). `None` for trees
+/// that are higher than [`HEIGHT_MAX`].
+pub fn least_energy(
+    target: &Target,
+    layout: &Layout,
+    masses: &[f64],
+    inertia: Inertia,
+) -> Option<(Vec<usize>, f64)> {
+    let children = layout.children();
+    if layout.depths().into_iter().max().unwrap_or(0) > HEIGHT_MAX {
+        return None;
+    }
+    let costs = layout.order.iter().map(|&face| (face, Costs::new(target, layout, masses, inertia, face)));
+    let mut by_face: Vec<Option<Costs>> = vec![None; target.faces.len()];
+    costs.for_each(|(face, costs)| by_face[face] = Some(costs));
+    let search = Search { children: &children, costs: &by_face };
+    let branches = children[layout.root].iter().map(|&child| search.below(child, &[]));
+    let mut all = (Vec::new(), 0.0);
+    for (order, energy) in branches {
+        all.0.extend(order);
+        all.1 += energy;
+    }
+    Some(all)
+}
+
+/// The energy of an order, computed step by step from the places of all faces.
+pub fn energy(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, order: &[usize]) -> f64 {
+    let mut folded = vec![false; target.faces.len()];
+    let mut sum = 0.0;
+    for &face in order {
+        let hinge = &target.hinges[layout.hinge[face].expect("the root does not fold")];
+        // Before the step, seen from the place that the parent has.
+        let poses = super::folded::poses(target, layout, |f| folded[f]);
+        let parent = poses[layout.parent[face]];
+        let point = parent.transform_point(&hinge.point.into()).coords;
+        let axis = parent.rotation * hinge.axis;
+        for below in (0..folded.len()).filter(|&below| layout.is_above(face, below)) {
+            let corners = target.corners(below).map(|c| poses[below].transform_point(&c.into()).coords);
+            sum += hinge.angle.abs() * moment_about(&corners, masses[below], inertia, &point, &axis);
+        }
+        folded[face] = true;
+    }
+    QUINTIC * sum
+}
+
+/// What the hinges of a face's path spend on it.
+#[derive(Clone)]
+struct Costs {
+    /// By place in the path, from the root's child on; then by which of the later hinges of the path
+    /// have folded, bit by bit.
+    tables: Vec<Vec<f64>>,
+}
+
+impl Costs {
+    fn new(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, face: usize) -> Costs {
+        let mut path = Vec::new();
+        let mut at = face;
+        while at != layout.root {
+            path.push(at);
+            at = layout.parent[at];
+        }
+        // From the face up: the places of the face seen from each hinge of its path.
+        let mut places = vec![Pose::identity()];
+        let mut tables = Vec::new();
+        for &above in &path {
+            let hinge = &target.hinges[layout.hinge[above].expect("the root is not on the path")];
+            let axis = hinge.axis_from(layout.parent[above]);
+            let cost = |place: &Pose| {
+                let corners: [Vec3; 3] =
+                    target.corners(face).map(|c| place.transform_point(&c.into()).coords);
+                let moment = moment_about(&corners, masses[face], inertia, &hinge.point, &axis);
+                QUINTIC * hinge.angle.abs() * moment
+            };
+            tables.push(places.iter().map(cost).collect());
+            // The hinge nearest to the root becomes the lowest bit.
+            let level = about(&hinge.point, axis, -hinge.angle);
+            places = places.iter().flat_map(|place| [level * place, *place]).collect();
+        }
+        tables.reverse();
+        Costs { tables }
+    }
+
+    /// `order`: the places in the path, in order of folding.
+    fn of(&self, order: &[usize]) -> f64 {
+        let mut folded = 0usize;
+        let mut sum = 0.0;
+        for &place in order {
+            sum += self.tables[place][folded >> (place + 1)];
+            folded |= 1 << place;
+        }
+        sum
+    }
+}
+
+struct Search<'s> {
+    children: &'s [Vec<usize>],
+    costs: &'s [Option<Costs>],
+}
+
+impl Search<'_> {
+    /// The best order of a face and all below it, given the order of its ancestors, by their places
+    /// in the path. The result names faces below and, in their order, nothing of the ancestors.
+    fn below(&self, face: usize, ancestors: &[usize]) -> (Vec<usize>, f64) {
+        let (slots, energy) = self.slots(face, ancestors);
+        (slots.into_iter().flatten().collect(), energy)
+    }
+
+    /// The same, sorted into what folds before the first ancestor, between the first and the second,
+    /// and so on: one list more than there are ancestors.
+    fn slots(&self, face: usize, ancestors: &[usize]) -> (Vec<Vec<usize>>, f64) {
+        let own = ancestors.len();
+        let costs = self.costs[face].as_ref().expect("costs of all faces were computed");
+        let mut best: Option<(Vec<Vec<usize>>, f64)> = None;
+        for place in (0..=own).rev() {
+            let mut order = ancestors.to_vec();
+            order.insert(place, own);
+            let mut energy = costs.of(&order);
+            let mut slots: Vec<Vec<usize>> = vec![Vec::new(); own + 2];
+            for &child in &self.children[face] {
+                let (below, more) = self.slots(child, &order);
+                energy += more;
+                slots.iter_mut().zip(below).for_each(|(slot, faces)| slot.extend(faces));
+            }
+            if best.as_ref().is_none_or(|(_, least)| energy < *least) {
+                // What folds just before and just after the face is between the same two ancestors.
+                let after = slots.remove(place + 1);
+                slots[place].push(face);
+                slots[place].extend(after);
+                best = Some((slots, energy));
+            }
+        }
+        best.expect("there is at least one place")
+    }
+}

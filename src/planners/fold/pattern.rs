@@ -1,0 +1,142 @@
+//! The flat pattern of a layout in the plane, and whether faces of it overlap.
+
+use super::layout::Layout;
+use super::target::Target;
+
+/// Sides are equal where they differ by less than this part.
+const TOL_EQUAL: f64 = 1e-6;
+
+/// Triangles of unequal sides overlap where no line parts them by all but this part of a side.
+const TOL_OVERLAP: f64 = 1e-9;
+
+pub type Point = [f64; 2];
+
+/// Faces laid side by side in the plane, the root with its first corner at the origin and its first
+/// side along x; counterclockwise as seen from outside.
+#[derive(Clone, Debug)]
+pub struct Pattern {
+    /// By face, m.
+    pub corners: Vec<[Point; 3]>,
+    /// Where all sides are equal: by face, the cell of the triangular lattice, as the sum of its
+    /// corners.
+    pub cells: Option<Vec<[i64; 2]>>,
+}
+
+/// Whether all sides are of one length.
+pub fn has_equal_sides(target: &Target) -> bool {
+    let [a, b, _] = target.corners(0);
+    let side = (b - a).norm();
+    target.check_sides(side, TOL_EQUAL * side).is_ok()
+}
+
+impl Pattern {
+    pub fn of(target: &Target, layout: &Layout) -> Pattern {
+        if has_equal_sides(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
+    }
+
+    /// Pairs of faces that overlap, each with the lower number first, in order.
+    pub fn overlaps(&self) -> Vec<[usize; 2]> {
+        match &self.cells {
+            Some(cells) => same_cells(cells),
+            None => self.crossing(),
+        }
+    }
+
+    fn crossing(&self) -> Vec<[usize; 2]> {
+        let mut found = Vec::new();
+        for b in 0..self.corners.len() {
+            for a in 0..b {
+                if overlap(&self.corners[a], &self.corners[b]) {
+                    found.push([a, b]);
+                }
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+}
+
+fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {
+    let mut sorted: Vec<([i64; 2], usize)> = cells.iter().enumerate().map(|(i, c)| (*c, i)).collect();
+    sorted.sort_unstable();
+    let mut found = Vec::new();
+    for group in sorted.chunk_by(|a, b| a.0 == b.0) {
+        for (i, (_, b)) in group.iter().enumerate() {
+            found.extend(group[..i].iter().map(|(_, a)| [*a, *b]));
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// Corners of all faces in whole numbers of the lattice's two steps. Exact: a face's free corner is
+/// the mirror image of its parent's, `a + b - c`.
+pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
+    let mut corners = vec![[[0, 0]; 3]; target.faces.len()];
+    corners[layout.root] = [[0, 0], [1, 0], [0, 1]];
+    for &face in &layout.order[1..] {
+        let (parent, k, m) = across(target, layout, face);
+        let p = corners[parent];
+        let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
+        corners[face][m] = b;
+        corners[face][(m + 1) % 3] = a;
+        corners[face][(m + 2) % 3] = [a[0] + b[0] - c[0], a[1] + b[1] - c[1]];
+    }
+    corners
+}
+
+/// Of a face: its parent, the parent's side and its own side at their hinge.
+fn across(target: &Target, layout: &Layout, face: usize) -> (usize, usize, usize) {
+    let hinge = &target.hinges[layout.hinge[face].expect("every face but the root has a hinge")];
+    let own = usize::from(hinge.faces[1] == face);
+    (layout.parent[face], hinge.sides[1 - own], hinge.sides[own])
+}
+
+fn on_lattice(target: &Target, layout: &Layout) -> Pattern {
+    let lattice = lattice_corners(target, layout);
+    let [a, b, _] = target.corners(layout.root);
+    let side = (b - a).norm();
+    let height = libm::sqrt(0.75);
+    let point = |[i, j]: [i64; 2]| [side * (i as f64 + 0.5 * j as f64), side * height * j as f64];
+    let cells = lattice.iter().map(|c| [c[0][0] + c[1][0] + c[2][0], c[0][1] + c[1][1] + c[2][1]]);
+    Pattern { cells: Some(cells.collect()), corners: lattice.iter().map(|c| c.map(point)).collect() }
+}
+
+fn in_plane(target: &Target, layout: &Layout) -> Pattern {
+    let mut corners = vec![[[0.0; 2]; 3]; target.faces.len()];
+    for &face in &layout.order {
+        // Along the side at the hinge from `from` to `to`, which the face has on its left.
+        let (m, from, to) = if face == layout.root {
+            let [a, b, _] = target.corners(face);
+            (0, [0.0, 0.0], [(b - a).norm(), 0.0])
+        } else {
+            let (parent, k, m) = across(target, layout, face);
+            (m, corners[parent][(k + 1) % 3], corners[parent][k])
+        };
+        let own = target.corners(face);
+        let (a, b, c) = (own[m], own[(m + 1) % 3], own[(m + 2) % 3]);
+        let along = (b - a).normalize();
+        let (x, y) = ((c - a).dot(&along), (c - a).cross(&along).norm());
+        let length = (b - a).norm();
+        let u = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+        corners[face][m] = from;
+        corners[face][(m + 1) % 3] = to;
+        corners[face][(m + 2) % 3] = [from[0] + u[0] * x - u[1] * y, from[1] + u[1] * x + u[0] * y];
+    }
+    Pattern { corners, cells: None }
+}
+
+/// Whether the insides of two counterclockwise triangles meet: no side of either parts them.
+fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
+    !parts(a, b) && !parts(b, a)
+}
+
+/// Whether the line through a side of `a` has all of `b` on its outer side.
+fn parts(a: &[Point; 3], b: &[Point; 3]) -> bool {
+    (0..3).any(|k| {
+        let (p, q) = (a[k], a[(k + 1) % 3]);
+        let d = [q[0] - p[0], q[1] - p[1]];
+        let tol = TOL_OVERLAP * (d[0] * d[0] + d[1] * d[1]);
+        b.iter().all(|x| d[0] * (x[1] - p[1]) - d[1] * (x[0] - p[0]) <= tol)
+    })
+}

@@ -1,0 +1,163 @@
+//! The cheapest way from the root to each face for itself: the lower bound.
+//!
+//! A layout's energy is a sum over faces of what their own path costs for them. Without the demand
+//! that the paths be one tree, each face takes its cheapest path: no layout costs less.
+
+use super::target::Target;
+use super::weights::Weights;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::rc::Rc;
+
+/// An arc into a face across one of its sides: `3 * face + side`.
+pub type Arc = u32;
+
+/// The sides across which each face may be entered, as bits.
+pub type Allowed = Vec<u8>;
+
+pub fn arc(face: usize, side: usize) -> Arc {
+    (3 * face + side) as Arc
+}
+
+pub fn head(arc: Arc) -> (usize, usize) {
+    (arc as usize / 3, arc as usize % 3)
+}
+
+/// Cheapest paths of one target under its weights.
+pub struct Routes<'t> {
+    target: &'t Target,
+    weights: &'t Weights,
+    /// By face, then by face: cost of the cheapest path from the second to the first, for the first.
+    toward: Vec<Vec<f64>>,
+    distance: Vec<f64>,
+    entered: Vec<Arc>,
+    queue: BinaryHeap<Waiting>,
+}
+
+/// A face with the least that a path through it costs; the cheapest is the greatest.
+struct Waiting {
+    cost: f64,
+    face: usize,
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Waiting) -> Ordering {
+        other.cost.total_cmp(&self.cost).then(other.face.cmp(&self.face))
+    }
+}
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Waiting) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Waiting) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Waiting {}
+
+const UNREACHED: Arc = Arc::MAX;
+
+impl<'t> Routes<'t> {
+    pub fn new(target: &'t Target, weights: &'t Weights) -> Routes<'t> {
+        let n = target.faces.len();
+        let mut routes = Routes {
+            target,
+            weights,
+            toward: vec![Vec::new(); n],
+            distance: vec![f64::INFINITY; n],
+            entered: vec![UNREACHED; n],
+            queue: BinaryHeap::new(),
+        };
+        for face in 0..n {
+            routes.spread(face);
+            routes.toward[face] = routes.distance.clone();
+        }
+        routes
+    }
+
+    /// What no layout with this root undercuts, N·m.
+    pub fn bound(&self, root: usize) -> f64 {
+        self.toward.iter().map(|toward| toward[root]).sum()
+    }
+
+    /// Costs for `goal` from everywhere; paths cost the same in both directions.
+    fn spread(&mut self, goal: usize) {
+        self.distance.fill(f64::INFINITY);
+        self.distance[goal] = 0.0;
+        self.queue.clear();
+        self.queue.push(Waiting { cost: 0.0, face: goal });
+        while let Some(Waiting { cost, face }) = self.queue.pop() {
+            if cost > self.distance[face] {
+                continue;
+            }
+            for (hinge, other) in self.target.around(face) {
+                let further = cost + self.weights.at(hinge, goal);
+                if further < self.distance[other] {
+                    self.distance[other] = further;
+                    self.queue.push(Waiting { cost: further, face: other });
+                }
+            }
+        }
+    }
+
+    /// The cheapest path from the root to `goal` over allowed arcs, with its cost; `None` where there
+    /// is none. Guided by the costs without restriction (A*).
+    pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
+        let ahead = &self.toward[goal];
+        self.distance.fill(f64::INFINITY);
+        self.distance[root] = 0.0;
+        self.entered[root] = UNREACHED;
+        self.queue.clear();
+        self.queue.push(Waiting { cost: ahead[root], face: root });
+        while let Some(Waiting { cost, face }) = self.queue.pop() {
+            if face == goal {
+                return Some((self.distance[goal], self.path_to(root, goal)));
+            }
+            let here = self.distance[face];
+            if cost > here + ahead[face] {
+                continue;
+            }
+            for (index, other) in self.target.around(face) {
+                let hinge = &self.target.hinges[index];
+                let side = hinge.sides[usize::from(hinge.faces[1] == other)];
+                if allowed[other] & (1 << side) == 0 {
+                    continue;
+                }
+                let further = here + self.weights.at(index, goal);
+                if further < self.distance[other] {
+                    self.distance[other] = further;
+                    self.entered[other] = arc(other, side);
+                    self.queue.push(Waiting { cost: further + ahead[other], face: other });
+                }
+            }
+        }
+        None
+    }
+
+    fn path_to(&self, root: usize, goal: usize) -> Rc<[Arc]> {
+        let mut path = Vec::new();
+        let mut at = goal;
+        while at != root {
+            path.push(self.entered[at]);
+            at = tail(self.target, self.entered[at]);
+        }
+        path.into()
+    }
+}
+
+/// The face from which an arc comes.
+pub fn tail(target: &Target, arc: Arc) -> usize {
+    let (face, side) = head(arc);
+    let hinge = target.sides[face][side].expect("arcs lead across hinges");
+    target.hinges[hinge].other(face)
+}
+
+/// The arc across the same hinge the other way.
+pub fn reversed(target: &Target, an_arc: Arc) -> Arc {
+    let (face, side) = head(an_arc);
+    let hinge = &target.hinges[target.sides[face][side].expect("arcs lead across hinges")];
+    let end = usize::from(hinge.faces[0] == face);
+    arc(hinge.faces[end], hinge.sides[end])
+}

@@ -1,0 +1,48 @@
+//! Which hinges fold at the same time.
+
+use super::layout::Layout;
+
+/// Alg. 2: the leaves first, then what has become a leaf. One list of faces for each step; there are
+/// as many as the tree is high.
+pub fn leaves_first(layout: &Layout) -> Vec<Vec<usize>> {
+    let heights = layout.heights();
+    layered(layout, |face| heights[face])
+}
+
+/// The other way round: the root's children first. As many steps.
+pub fn root_first(layout: &Layout) -> Vec<Vec<usize>> {
+    let depths = layout.depths();
+    layered(layout, |face| depths[face] - 1)
+}
+
+fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
+    let mut steps: Vec<Vec<usize>> = Vec::new();
+    for face in (0..layout.parent.len()).filter(|face| *face != layout.root) {
+        let layer = layer(face);
+        if steps.len() <= layer {
+            steps.resize(layer + 1, Vec::new());
+        }
+        steps[layer].push(face);
+    }
+    steps
+}
+
+/// An order of faces in as few steps as keep its cost: a face folds one step after the last of those
+/// before it on its own path.
+///
+/// This is what Alg. 3 is for; as printed it puts all faces into one step, loses the last, and may
+/// let a face overtake another on its path.
+pub fn of_order(layout: &Layout, order: &[usize]) -> Vec<Vec<usize>> {
+    let mut step = vec![0; layout.parent.len()];
+    let mut steps: Vec<Vec<usize>> = Vec::new();
+    for (i, &face) in order.iter().enumerate() {
+        let earlier = order[..i].iter().filter(|other| layout.comparable(face, **other));
+        step[face] = earlier.map(|other| step[*other] + 1).max().unwrap_or(0);
+        if steps.len() <= step[face] {
+            steps.resize(step[face] + 1, Vec::new());
+        }
+        steps[step[face]].push(face);
+    }
+    steps.iter_mut().for_each(|faces| faces.sort_unstable());
+    steps
+}

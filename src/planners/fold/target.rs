@@ -1,0 +1,197 @@
+//! The target: a triangle mesh that was checked, with the hinges between its faces.
+
+use super::unfoldable::Unfoldable;
+use crate::geometry::Vec3;
+use std::collections::BTreeMap;
+
+/// More faces are refused: the count of layouts is by elimination, cubic in the faces.
+pub const FACES_MAX: usize = 400;
+
+/// A face whose height is below this part of its longest side has no area.
+const TOL_FLAT: f64 = 1e-9;
+
+/// Two faces whose fold is nearer than this to half a turn lie on each other, rad.
+const TOL_BACK_TO_BACK: f64 = 1e-6;
+
+/// A mesh that can be folded: manifold, oriented, connected, without degenerate faces. It may have a
+/// boundary.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// m
+    pub vertices: Vec<Vec3>,
+    /// Counterclockwise seen from outside.
+    pub faces: Vec<[usize; 3]>,
+    /// The dual graph's edges, in order of the first face's number, then of its side.
+    pub hinges: Vec<Hinge>,
+    /// The hinge at each side of each face; side `k` runs from corner `k` to the next.
+    pub sides: Vec<[Option<usize>; 3]>,
+}
+
+/// A common edge of two faces.
+#[derive(Clone, Copy, Debug)]
+pub struct Hinge {
+    pub faces: [usize; 2],
+    /// Which side of each face it is.
+    pub sides: [usize; 2],
+    /// Signed fold angle, rad: 0 where the faces are level, positive where the edge is convex. It is
+    /// π less the interior dihedral angle.
+    pub angle: f64,
+    /// A point of the edge in the target, m.
+    pub point: Vec3,
+    /// Unit vector along the edge, in the direction in which the first face runs along it. Turning the
+    /// second face about it by the angle folds it from level to its place; for the first face, seen
+    /// from the second, the direction is the opposite.
+    pub axis: Vec3,
+}
+
+impl Hinge {
+    /// The face across from one of the two.
+    pub fn other(&self, face: usize) -> usize {
+        if self.faces[0] == face { self.faces[1] } else { self.faces[0] }
+    }
+
+    /// The axis about which a positive turn folds the face across from `parent`.
+    pub fn axis_from(&self, parent: usize) -> Vec3 {
+        if self.faces[0] == parent { self.axis } else { -self.axis }
+    }
+}
+
+impl Target {
+    /// Checks a mesh of faces given by their corners.
+    pub fn new(vertices: Vec<Vec3>, faces: &[Vec<usize>]) -> Result<Target, Unfoldable> {
+        if faces.is_empty() {
+            return Err(Unfoldable::Empty);
+        }
+        if faces.len() > FACES_MAX {
+            return Err(Unfoldable::TooLarge { faces: faces.len(), limit: FACES_MAX });
+        }
+        let mut triangles = Vec::with_capacity(faces.len());
+        for (face, corners) in faces.iter().enumerate() {
+            let triangle = <[usize; 3]>::try_from(corners.as_slice())
+                .map_err(|_| Unfoldable::NotTriangle { face, corners: corners.len() })?;
+            if degenerate(&vertices, triangle) {
+                return Err(Unfoldable::Degenerate { face });
+            }
+            triangles.push(triangle);
+        }
+        let (hinges, sides) = hinges(&vertices, &triangles)?;
+        let target = Target { vertices, faces: triangles, hinges, sides };
+        target.connected()?;
+        Ok(target)
+    }
+
+    /// Refuses a target with a side that is off the wanted length by more than `tol`, m.
+    pub fn check_sides(&self, wanted: f64, tol: f64) -> Result<(), Unfoldable> {
+        for (face, corners) in self.faces.iter().enumerate() {
+            for k in 0..3 {
+                let side = (self.vertices[corners[(k + 1) % 3]] - self.vertices[corners[k]]).norm();
+                if (side - wanted).abs() > tol {
+                    return Err(Unfoldable::UnequalSides { face, side, wanted });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Corners of a face, m.
+    pub fn corners(&self, face: usize) -> [Vec3; 3] {
+        self.faces[face].map(|v| self.vertices[v])
+    }
+
+    pub fn centroid(&self, face: usize) -> Vec3 {
+        let [a, b, c] = self.corners(face);
+        (a + b + c) / 3.0
+    }
+
+    /// Outward unit normal.
+    pub fn normal(&self, face: usize) -> Vec3 {
+        let [a, b, c] = self.corners(face);
+        (b - a).cross(&(c - a)).normalize()
+    }
+
+    /// The hinges of a face with the faces across them.
+    pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))
+    }
+
+    /// The hinge between two faces. Of several, the first.
+    pub fn hinge_between(&self, a: usize, b: usize) -> Option<usize> {
+        self.around(a).find(|(_, other)| *other == b).map(|(hinge, _)| hinge)
+    }
+
+    fn connected(&self) -> Result<(), Unfoldable> {
+        let mut seen = vec![false; self.faces.len()];
+        seen[0] = true;
+        let mut waiting = vec![0];
+        while let Some(face) = waiting.pop() {
+            for (_, other) in self.around(face) {
+                if !std::mem::replace(&mut seen[other], true) {
+                    waiting.push(other);
+                }
+            }
+        }
+        match seen.iter().position(|s| !s) {
+            None => Ok(()),
+            Some(face) => Err(Unfoldable::Disconnected { faces: [0, face] }),
+        }
+    }
+}
+
+fn degenerate(vertices: &[Vec3], triangle: [usize; 3]) -> bool {
+    let [Some(a), Some(b), Some(c)] = triangle.map(|v| vertices.get(v)) else { return true };
+    let longest = [b - a, c - b, a - c].iter().map(Vec3::norm).fold(0.0, f64::max);
+    let area = (b - a).cross(&(c - a)).norm();
+    // Written so that a number that is none fails, too.
+    !(area > TOL_FLAT * longest * longest && longest.is_finite())
+}
+
+type Hinges = (Vec<Hinge>, Vec<[Option<usize>; 3]>);
+
+fn hinges(vertices: &[Vec3], faces: &[[usize; 3]]) -> Result<Hinges, Unfoldable> {
+    let mut edges: BTreeMap<(usize, usize), Vec<(usize, usize)>> = BTreeMap::new();
+    for (face, corners) in faces.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            edges.entry((a.min(b), a.max(b))).or_default().push((face, k));
+        }
+    }
+    let mut found = Vec::new();
+    for users in edges.values() {
+        match users[..] {
+            [_] => {}
+            [p, c] => found.push(hinge(vertices, faces, p, c)?),
+            _ => return Err(Unfoldable::NonManifold { faces: users.iter().map(|u| u.0).collect() }),
+        }
+    }
+    found.sort_by_key(|hinge| (hinge.faces[0], hinge.sides[0]));
+    let mut sides = vec![[None; 3]; faces.len()];
+    for (index, hinge) in found.iter().enumerate() {
+        for end in 0..2 {
+            sides[hinge.faces[end]][hinge.sides[end]] = Some(index);
+        }
+    }
+    Ok((found, sides))
+}
+
+/// A face and which of its sides.
+type Side = (usize, usize);
+
+fn hinge(vertices: &[Vec3], faces: &[[usize; 3]], p: Side, c: Side) -> Result<Hinge, Unfoldable> {
+    let both = [p.0, c.0];
+    let (start, next) = (faces[p.0][p.1], faces[p.0][(p.1 + 1) % 3]);
+    if faces[c.0][c.1] == start {
+        return Err(Unfoldable::Orientation { faces: both });
+    }
+    let normal = |face: usize| {
+        let [a, b, c] = faces[face].map(|v| vertices[v]);
+        (b - a).cross(&(c - a)).normalize()
+    };
+    let point = vertices[start];
+    let axis = (vertices[next] - point).normalize();
+    let (n_p, n_c) = (normal(p.0), normal(c.0));
+    let angle = libm::atan2(axis.dot(&n_p.cross(&n_c)), n_p.dot(&n_c));
+    if angle.abs() > std::f64::consts::PI - TOL_BACK_TO_BACK {
+        return Err(Unfoldable::FoldedFlat { faces: both });
+    }
+    Ok(Hinge { faces: both, sides: [p.1, c.1], angle, point, axis })
+}

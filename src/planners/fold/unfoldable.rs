@@ -1,0 +1,87 @@
+//! What makes a mesh impossible to fold from one sheet.
+
+use std::fmt;
+
+/// Why a mesh is no target. Faces are numbered as in the mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unfoldable {
+    Empty,
+    TooLarge {
+        faces: usize,
+        limit: usize,
+    },
+    /// A face with another number of corners than three.
+    NotTriangle {
+        face: usize,
+        corners: usize,
+    },
+    /// A face of no area, or that names a vertex that there isn't, or one twice.
+    Degenerate {
+        face: usize,
+    },
+    /// An edge at which more than two faces meet.
+    NonManifold {
+        faces: Vec<usize>,
+    },
+    /// Two faces that run along their common edge in the same direction.
+    Orientation {
+        faces: [usize; 2],
+    },
+    /// Two faces with the same corners, back to back.
+    FoldedFlat {
+        faces: [usize; 2],
+    },
+    /// Faces that no chain of hinges joins.
+    Disconnected {
+        faces: [usize; 2],
+    },
+    /// A side of another length (m) than all panels have.
+    UnequalSides {
+        face: usize,
+        side: f64,
+        wanted: f64,
+    },
+}
+
+impl fmt::Display for Unfoldable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unfoldable::Empty => write!(f, "the mesh has no faces"),
+            Unfoldable::TooLarge { faces, limit } => {
+                write!(f, "the mesh has {faces} faces; at most {limit} can be planned")
+            }
+            Unfoldable::NotTriangle { face, corners } => {
+                write!(f, "face {face} has {corners} corners; only triangles fold")
+            }
+            Unfoldable::Degenerate { face } => write!(f, "face {face} has no area"),
+            Unfoldable::NonManifold { faces } => {
+                let names: Vec<String> = faces.iter().map(usize::to_string).collect();
+                write!(f, "faces {} meet at one edge; a hinge joins two", listed(&names))
+            }
+            Unfoldable::Orientation { faces: [a, b] } => {
+                write!(f, "faces {a} and {b} are not turned the same way: one is seen from inside")
+            }
+            Unfoldable::FoldedFlat { faces: [a, b] } => {
+                write!(f, "faces {a} and {b} lie on each other")
+            }
+            Unfoldable::Disconnected { faces: [a, b] } => {
+                write!(f, "no chain of common edges leads from face {a} to face {b}")
+            }
+            Unfoldable::UnequalSides { face, side, wanted } => write!(
+                f,
+                "face {face} has a side of {:.4} mm; the panels' sides are {:.4} mm",
+                side * 1e3,
+                wanted * 1e3
+            ),
+        }
+    }
+}
+
+/// `1, 2 and 3`
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}

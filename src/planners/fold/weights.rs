@@ -1,0 +1,89 @@
+//! What a hinge costs for every face that it carries.
+//!
+//! With the leaves folded first (Alg. 2), what a hinge moves already has its final form and nothing
+//! else moves with it: one rigid body about a fixed axis. With the quintic motion of a step of one
+//! second the mean torque of hinge e is `3.75 |φ_e| Σ_j K(e, j)`, over the faces j that it carries,
+//! where K is the moment of inertia of face j of the target about the line through e. So the energy
+//! of a layout is a sum over faces and the hinges on their paths from the root, and what a pair
+//! contributes does not depend on the layout.
+
+use super::target::Target;
+use crate::geometry::Vec3;
+
+/// `∫ |s''|` of the quintic `10x³ - 15x⁴ + 6x⁵` over 0..1: twice its greatest slope.
+pub const QUINTIC: f64 = 3.75;
+
+/// What a panel's mass is spread over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inertia {
+    /// Evenly over the triangle, without thickness.
+    Lamina,
+    /// All in the centroid: what the paper's numbers amount to.
+    Point,
+}
+
+/// Cost of every hinge for every face, N·m for a step of one second.
+#[derive(Clone, Debug)]
+pub struct Weights {
+    faces: usize,
+    /// By hinge, then by face.
+    table: Vec<f64>,
+}
+
+impl Weights {
+    /// `masses`: of each face, kg.
+    pub fn new(target: &Target, masses: &[f64], inertia: Inertia) -> Weights {
+        let faces = target.faces.len();
+        let mut table = Vec::with_capacity(faces * target.hinges.len());
+        for hinge in &target.hinges {
+            for (face, &mass) in masses.iter().enumerate() {
+                let corners = target.corners(face);
+                let moment = moment_about(&corners, mass, inertia, &hinge.point, &hinge.axis);
+                table.push(QUINTIC * hinge.angle.abs() * moment);
+            }
+        }
+        Weights { faces, table }
+    }
+
+    /// All panels of the same mass, spread evenly.
+    pub fn uniform(target: &Target, mass: f64) -> Weights {
+        Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)
+    }
+
+    /// What hinge `hinge` spends on carrying `face`.
+    #[inline]
+    pub fn at(&self, hinge: usize, face: usize) -> f64 {
+        self.table[hinge * self.faces + face]
+    }
+
+    /// By face.
+    pub fn of_hinge(&self, hinge: usize) -> &[f64] {
+        &self.table[hinge * self.faces..][..self.faces]
+    }
+
+    /// The largest weight: the scale for tolerances.
+    pub fn greatest(&self) -> f64 {
+        self.table.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The same with `extra[hinge]` added for every face.
+    pub fn raised(&self, extra: &[f64]) -> Weights {
+        let table = self.table.iter().enumerate().map(|(i, w)| w + extra[i / self.faces]).collect();
+        Weights { faces: self.faces, table }
+    }
+}
+
+/// Moment of inertia (kg·m²) of a triangle about the line through `point` along the unit `axis`.
+pub fn moment_about(corners: &[Vec3; 3], mass: f64, inertia: Inertia, point: &Vec3, axis: &Vec3) -> f64 {
+    let off = |p: &Vec3| {
+        let v = p - point;
+        v - axis * axis.dot(&v)
+    };
+    let sum: Vec3 = corners.iter().map(off).sum();
+    match inertia {
+        Inertia::Lamina => {
+            mass / 12.0 * (corners.iter().map(|c| off(c).norm_squared()).sum::<f64>() + sum.norm_squared())
+        }
+        Inertia::Point => mass * (sum / 3.0).norm_squared(),
+    }
+}
