@@ -372,7 +372,12 @@ extern fn emit(
 
 /// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it.
 ///
-/// `.html` is a page that plays the plan in any browser, from one file that loads nothing else.
+/// The end of the file's name says how. `.html` is a page that plays the plan in any browser, from
+/// one file that loads nothing else. `.png` is a picture at the time `at` from a `side`; +x is ahead.
+/// `.svg` is a drawing: a behaviour as its series-parallel graph, a robot as the graph of its
+/// modules, flat panels on hinges as the pattern to cut and fold, true to scale, a lattice or truss
+/// stage by stage.
+///
 /// A behaviour is planned first. Unlike `emit`, it draws what the verifier does not accept, too:
 /// played up to the failure, with what is to blame marked, and still reported as an error.
 ///
@@ -380,6 +385,7 @@ extern fn emit(
 /// ```modl
 /// use std.smores.Driver1
 /// show(Driver1().drive(t: 1s), "drive.html")
+/// show(Driver1(), "driver.png", side: front)
 /// ```
 extern fn show(
   what: Plan | Behavior | Config | Lattice | Truss | Layout,
@@ -387,6 +393,8 @@ extern fn show(
   sample: Time = 10ms,
   unstable_for: Time = 0s,
   stability: footprint | centres = footprint,
+  at: Time = 0s,
+  side: corner | front | back | left | right | top = corner,
 )
 
 /// Writes a robot of RoFI modules as a `.rofi` file into the output folder. Not yet available.

@@ -17,34 +17,60 @@ use crate::plan::{
     WorldFrom,
 };
 use crate::robot::Library;
-use crate::view::{self, Showing};
+use crate::view::{self, Showing, Side, Still};
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("show", 5, show)];
+pub const TABLE: &[Native] = &[on_run("show", 7, show)];
 
 fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, 1)?;
-    if !name.ends_with(".html") {
-        return Err(call.refuse(1, "the name of a page ends in `.html`"));
-    }
+    let Some(form) = form(call, &name) else {
+        return Err(call.refuse(1, "a page's name ends in `.html`, a picture's in `.svg` or `.png`"));
+    };
     let settings = settings(interpreter, call, 2)?;
     if let Value::Instance(instance) = call.arg(0)
         && let Some(plan) = interpreter.still(&instance.design)
     {
-        let page = interpreter.page(&instance.design.name, &plan);
-        write_output(interpreter, call, &path, page.into_bytes())?;
+        let bytes = interpreter.drawn(&instance.design.name, &plan, form);
+        write_output(interpreter, call, &path, bytes)?;
         return Ok(Value::Nothing);
     }
     let Some(planned) = interpreter.plan_of(call.arg(0), call.at(0))? else { return Ok(Value::Unknown) };
     let verdict = interpreter.judge(&planned, settings, None);
     interpreter.note_exemptions(&planned, &verdict);
-    let shown = interpreter.draw(&planned, settings, &path, call)?;
+    let shown = interpreter.draw(&planned, settings, form, &path, call)?;
     if !verdict.ok() {
         interpreter.report_failures(&planned, &verdict, call.at(0), Some(&shown));
         return Ok(Value::Unknown);
     }
     Ok(Value::Nothing)
+}
+
+/// How something is drawn, by the end of the file's name.
+#[derive(Clone, Copy)]
+pub enum Form {
+    Page,
+    Svg,
+    Png { time: f64, side: Side },
+}
+
+fn form(call: &Call, name: &str) -> Option<Form> {
+    let ending = name.rsplit_once('.').map(|(_, ending)| ending)?;
+    let side = match call.word(6) {
+        Some("front") => Side::Front,
+        Some("back") => Side::Back,
+        Some("left") => Side::Left,
+        Some("right") => Side::Right,
+        Some("top") => Side::Top,
+        _ => Side::Corner,
+    };
+    match ending {
+        "html" => Some(Form::Page),
+        "svg" => Some(Form::Svg),
+        "png" => Some(Form::Png { time: call.number(5).unwrap_or(0.0), side }),
+        _ => None,
+    }
 }
 
 /// Where the page of a plan file goes: beside it.
@@ -59,13 +85,14 @@ impl Interpreter<'_> {
         &mut self,
         planned: &Rc<Planned>,
         settings: Settings,
+        form: Form,
         path: &str,
         call: &Call,
     ) -> Eval<String> {
         let verdict = self.judge(planned, settings, None);
         let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
-        let page = self.page(&planned.robot.name, &plan);
-        write_output(self, call, path, page.into_bytes())
+        let bytes = self.drawn(&planned.robot.name, &plan, form);
+        write_output(self, call, path, bytes)
     }
 
     /// Draws every robot, lattice and truss that the file declares, with its defaults: for `modl show`
@@ -87,18 +114,23 @@ impl Interpreter<'_> {
 
     fn draw_design(&mut self, design: &Rc<Design>, path: &str, call: &Call) -> Eval<()> {
         if let Some(plan) = self.still(design) {
-            let page = self.page(&design.name, &plan);
-            write_output(self, call, path, page.into_bytes())?;
+            let bytes = self.drawn(&design.name, &plan, Form::Page);
+            write_output(self, call, path, bytes)?;
         } else if let Some(planned) = self.plan_pose(design, World::default())? {
             let settings = self.judge_settings();
-            self.draw(&planned, settings, path, call)?;
+            self.draw(&planned, settings, Form::Page, path, call)?;
         }
         Ok(())
     }
 
-    fn page(&self, title: &str, plan: &Plan) -> String {
+    fn drawn(&self, title: &str, plan: &Plan, form: Form) -> Vec<u8> {
         let texts = self.texts_of(plan);
-        view::page(&Showing { title, plan, texts: &texts, command: &self.options.command })
+        let showing = Showing { title, plan, texts: &texts, command: &self.options.command };
+        match form {
+            Form::Page => view::page(&showing).into_bytes(),
+            Form::Svg => view::svg(&showing).into_bytes(),
+            Form::Png { time, side } => view::png(&showing, &Still { time, side, ..Still::default() }),
+        }
     }
 
     /// The user's own files that a plan's causes stand in, in order of loading.

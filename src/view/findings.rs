@@ -6,6 +6,9 @@ use crate::plan::{Body, Cause, CheckKind, Failure, Plan, Verdict, Worst};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};
 
+/// A picture within this of a failure shows it, s.
+const TOL_TIME: f64 = 1e-3;
+
 /// Until when a plan is played: a failed one up to its first failure, s.
 pub fn end(plan: &Plan) -> f64 {
     let duration = plan.body.duration();
@@ -41,6 +44,14 @@ fn failure(failure: &Failure, plan: &Plan) -> Value {
         "modules": modules(&failure.at, plan),
         "blame": failure.blame.iter().map(|cause| cause.0).collect::<Vec<_>>(),
     })
+}
+
+/// The modules that the first failure names, if a time is its own.
+pub fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
+    let first = plan.verdict.as_ref().and_then(|verdict| verdict.failures.first());
+    first
+        .filter(|failure| (failure.time - time).abs() <= TOL_TIME)
+        .map_or_else(Vec::new, |f| modules(&f.at, plan))
 }
 
 /// The modules that are named, or whose links, joints or ports are.

@@ -19,9 +19,25 @@ mod stand;
 mod lattice;
 mod truss;
 
+pub mod picture;
+
+mod bodies;
+mod colour;
+mod mesh;
+mod raster;
+
+pub mod svg;
+
+mod graph;
+mod layers;
+mod pattern;
+mod program;
+
 use crate::plan::Plan;
 
 pub use page::page;
+pub use picture::{Side, Still, png};
+pub use svg::svg;
 
 /// What is shown.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! The page: one file, with its style, its scripts and the plan inside. It loads nothing.
 
-use super::{Showing, data};
+use super::{Showing, Still, data, png};
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
@@ -20,13 +20,23 @@ const SCRIPTS: [&str; 11] = [
     include_str!("page/main.js"),
 ];
 
+/// What is shown where the page can't play.
+const STILL: Still = Still { time: 0.0, side: super::Side::Corner, width: 560, height: 350 };
+
 /// The whole page. Nothing in the plan can break out of its place: the data is JSON in which `<`, `>`
 /// and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
 pub fn page(showing: &Showing) -> String {
     let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
     let plan = unmarked(&data::data(showing).to_string());
     let title = escaped(showing.title);
-    filled(&[("title", &title), ("style", &lean(STYLE)), ("still", ""), ("plan", &plan), ("script", &script)])
+    let still = base64(&png(showing, &STILL));
+    filled(&[
+        ("title", &title),
+        ("style", &lean(STYLE)),
+        ("still", &still),
+        ("plan", &plan),
+        ("script", &script),
+    ])
 }
 
 /// The template with a text at each of its places, which are looked for in the template only.
@@ -64,6 +74,20 @@ fn lean(text: &str) -> String {
         lean.push('\n');
     }
     lean
+}
+
+/// Bytes as text, by RFC 4648.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let bits = (0..3).fold(0u32, |bits, i| bits << 8 | u32::from(three.get(i).copied().unwrap_or(0)));
+        for i in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * i)) as usize & 63];
+            text.push(if i <= three.len() { letter as char } else { '=' });
+        }
+    }
+    text
 }
 
 /// JSON without a character that could mean something in a page.

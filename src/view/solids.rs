@@ -1,6 +1,7 @@
 //! Shapes as a page draws them: unit boxes, cylinders and balls, placed and scaled, and meshes.
 #![allow(non_snake_case)]
 
+use super::mesh::along;
 use super::number::{list, rotation, vector};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
@@ -56,14 +57,6 @@ fn add(placed: &Placed, X_LS: &Pose, meshes: &mut Meshes, found: &mut Vec<Value>
         }
         Shape::Union { parts } => parts.iter().for_each(|part| add(part, &X, meshes, found)),
     }
-}
-
-/// The rotation that takes +z to an axis.
-fn along(axis: &Vec3) -> Pose {
-    let rotation = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), axis).unwrap_or_else(|| {
-        nalgebra::UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 1.0, 0.0, 0.0))
-    });
-    Pose::from_parts(Vec3::zeros().into(), rotation)
 }
 
 impl Meshes {

@@ -358,6 +358,7 @@ function main() {
   theme(matchMedia("(prefers-color-scheme: dark)").matches);
   player.colour(colouring.name);
   resize();
+  const wished = fromAddress();
   fit(true);
   const places = t => {
     const X = new Float32Array(TEXELS * motion.bodies);
@@ -366,7 +367,6 @@ function main() {
   };
   // For scripts and tests.
   window.modl = { plan, stats, state, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y), places, onScreen };
-  const wished = fromAddress();
   draw(0);
   if (!wished && !calmWish.matches) play(true);
   requestAnimationFrame(frame);

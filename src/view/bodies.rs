@@ -1,0 +1,97 @@
+//! What there is to see of a plan at a time: coloured meshes in the world.
+
+use super::colour::{FAILED, PALETTE, Rgb, groups};
+use super::mesh::{Mesh, along};
+use super::{Showing, findings};
+use crate::geometry::pose::shifted;
+use crate::geometry::{Pose, Vec3};
+use crate::plan::verify::history;
+use crate::plan::{Body, CellBox, NodePaths, Stages, Tracks};
+use crate::robot::{Kinematics, Library};
+
+/// Cells of one still picture; of more only so many are drawn.
+const CELLS_MAX: usize = 20_000;
+
+/// A mesh in the world, m, with its colour.
+pub struct Drawn {
+    pub mesh: Mesh,
+    pub colour: Rgb,
+}
+
+/// Everything that is drawn at a time, s.
+pub fn drawn(showing: &Showing, time: f64) -> Vec<Drawn> {
+    let plan = showing.plan;
+    match &plan.body {
+        Body::Tracks(tracks) => robot(showing, tracks, time),
+        Body::Stages(stages) => cells(stages, &plan.library, time),
+        Body::NodePaths(paths) => truss(paths, time),
+    }
+}
+
+fn robot(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Drawn> {
+    let poses = link_poses(showing, tracks, time);
+    let group = groups(&tracks.robot);
+    let failed = findings::failed_modules(showing.plan, time);
+    let mut drawn = Vec::new();
+    let meshes: Vec<Vec<Mesh>> = tracks
+        .robot
+        .library
+        .modules
+        .iter()
+        .map(|kind| kind.links.iter().map(|link| Mesh::of(&link.shape)).collect())
+        .collect();
+    let mut link = 0;
+    for (module, instance) in tracks.robot.modules.iter().enumerate() {
+        let own = if failed.contains(&module) { FAILED } else { PALETTE[group[module] % PALETTE.len()] };
+        for (index, mesh) in meshes[instance.kind].iter().enumerate() {
+            drawn.push(Drawn { mesh: mesh.moved(&poses[link]), colour: own.shaded(index) });
+            link += 1;
+        }
+    }
+    drawn
+}
+
+/// World poses of all links at a time.
+pub fn link_poses(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Pose> {
+    let state = tracks.state(time);
+    let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let base = history(showing.plan, time).last().map_or(state.base, |moment| moment.base);
+    kinematics.link_poses(&state.joints, &base, &mut poses);
+    poses
+}
+
+fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
+    let size = library.cells.get(stages.cell).map_or(1.0, |cell| cell.size);
+    let cells = stages.state(time);
+    let low = |cell: &CellBox| cell.center[2] - cell.size[2] / 2.0;
+    let floor = cells.iter().map(low).fold(f64::INFINITY, f64::min);
+    let cube = |cell: &CellBox| {
+        let mut mesh = Mesh::default();
+        let at = (Vec3::from(cell.center) - Vec3::new(0.0, 0.0, floor)) * size;
+        mesh.add_box(&shifted(at), &(Vec3::from(cell.size) * (0.97 * size)));
+        let full = cell.size.iter().product();
+        Drawn { mesh, colour: Rgb::ramp(full) }
+    };
+    cells.iter().take(CELLS_MAX).map(cube).collect()
+}
+
+fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {
+    let nodes: Vec<Vec3> = paths.state(time).into_iter().map(Vec3::from).collect();
+    let lengths = paths.lengths(time);
+    let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+    let thick = 0.03 * mean;
+    let mut drawn = Vec::new();
+    for (&(a, b), length) in paths.struts.iter().zip(&lengths) {
+        let mut mesh = Mesh::default();
+        let middle = shifted((nodes[a] + nodes[b]) / 2.0) * along(&(nodes[b] - nodes[a]));
+        mesh.tube(&middle, thick / 2.0, *length);
+        drawn.push(Drawn { mesh, colour: PALETTE[0] });
+    }
+    for node in &nodes {
+        let mut mesh = Mesh::default();
+        mesh.ball(&shifted(*node), 1.3 * thick);
+        drawn.push(Drawn { mesh, colour: PALETTE[7] });
+    }
+    drawn
+}

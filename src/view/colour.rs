@@ -1,0 +1,82 @@
+//! Colours that people who see no red or no green tell apart, too (after Okabe and Ito): those of the
+//! page.
+
+use crate::robot::Assembly;
+
+/// Red, green, blue in 0..1, as a screen shows them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rgb(pub [f64; 3]);
+
+pub const PALETTE: [Rgb; 8] = [
+    hex(0x3f83c4),
+    hex(0xe5a128),
+    hex(0x2f9f86),
+    hex(0xc470a2),
+    hex(0x72b8e2),
+    hex(0xd3c43a),
+    hex(0x8b7fc7),
+    hex(0xa0a7ae),
+];
+
+/// Of what a failure names.
+pub const FAILED: Rgb = hex(0xd9480f);
+
+/// From cold to warm (after cividis).
+const RAMP: [Rgb; 5] = [hex(0x1c4a86), hex(0x4f7196), hex(0x7f8c8d), hex(0xbca94f), hex(0xfddc3b)];
+
+/// Parts of one module are told apart by brightness.
+const SHADES: [f64; 8] = [0.0, 0.22, -0.42, -0.3, -0.3, 0.34, -0.2, 0.12];
+
+const fn hex(rgb: u32) -> Rgb {
+    Rgb([
+        ((rgb >> 16) & 0xff) as f64 / 255.0,
+        ((rgb >> 8) & 0xff) as f64 / 255.0,
+        (rgb & 0xff) as f64 / 255.0,
+    ])
+}
+
+impl Rgb {
+    pub fn mixed(self, other: Rgb, part: f64) -> Rgb {
+        Rgb(std::array::from_fn(|i| self.0[i] + (other.0[i] - self.0[i]) * part))
+    }
+
+    /// The colour of the link of this number in a module of this colour.
+    pub fn shaded(self, link: usize) -> Rgb {
+        let shade = SHADES[link % SHADES.len()];
+        if shade == 0.0 {
+            return self;
+        }
+        let grey = 0.3 * self.0[0] + 0.6 * self.0[1] + 0.1 * self.0[2];
+        let dulled = self.mixed(Rgb([grey; 3]), 0.45);
+        Rgb(dulled.0.map(|c| (c * (1.0 + 0.55 * shade)).min(1.0)))
+    }
+
+    /// Of a number in 0..1.
+    pub fn ramp(x: f64) -> Rgb {
+        let x = x.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
+        let i = (x as usize).min(RAMP.len() - 2);
+        RAMP[i].mixed(RAMP[i + 1], x - i as f64)
+    }
+
+    /// `#rrggbb`
+    pub fn code(self) -> String {
+        let [r, g, b] = self.0.map(|c| libm::round(c * 255.0) as u8);
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+/// The part of the whole that each module belongs to, numbered in order: the first step of its path.
+pub fn groups(robot: &Assembly) -> Vec<usize> {
+    let mut known: Vec<&str> = Vec::new();
+    let part = |name: &'_ str| name.find('.').unwrap_or(name.len());
+    let mut numbers = Vec::with_capacity(robot.modules.len());
+    for module in &robot.modules {
+        let name = &module.name[..part(&module.name)];
+        let at = known.iter().position(|k| *k == name).unwrap_or_else(|| {
+            known.push(name);
+            known.len() - 1
+        });
+        numbers.push(at);
+    }
+    numbers
+}

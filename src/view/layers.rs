@@ -1,0 +1,114 @@
+//! Lattices and trusses stage by stage: one small drawing for each, seen from a corner.
+
+use super::Showing;
+use super::colour::Rgb;
+use super::svg::{Drawing, INK, SOFT, around};
+use crate::geometry::Vec3;
+use crate::plan::{CellBox, NodePaths, Stages};
+
+/// Small drawings of one file, and cells of each.
+const PANELS_MAX: usize = 24;
+const CELLS_MAX: usize = 4000;
+
+/// Side of a small drawing, pixels, and how many stand beside each other.
+const PANEL: f64 = 260.0;
+const COLUMNS: usize = 4;
+const HEAD: f64 = 26.0;
+
+/// One drawing: its name, and flat pieces from the farthest to the nearest.
+struct Panel {
+    name: String,
+    pieces: Vec<Flat>,
+}
+
+struct Flat {
+    points: Vec<[f64; 2]>,
+    look: String,
+}
+
+pub fn lattice(showing: &Showing, stages: &Stages) -> String {
+    let instants = stages.instants();
+    let name = |i: usize| match i.checked_sub(1) {
+        None => "start".to_owned(),
+        Some(stage) => format!("{i}. {}", stages.stages[stage].name),
+    };
+    let shown = instants.len().min(PANELS_MAX);
+    let panels =
+        (0..shown).map(|i| Panel { name: name(i), pieces: cubes(&stages.state(instants[i])) }).collect();
+    laid_out(showing, panels, instants.len() - shown)
+}
+
+pub fn truss(showing: &Showing, paths: &NodePaths) -> String {
+    let shown = paths.knots.len().min(PANELS_MAX);
+    let panels = paths.knots[..shown].iter().enumerate().map(|(i, knot)| {
+        let name =
+            if i == 0 { "start".to_owned() } else { format!("after {} s", super::number::short(knot.time)) };
+        let at = |n: usize| flat(&Vec3::from(knot.nodes[n]));
+        let look = |colour: &str| format!("fill=\"none\" stroke=\"{colour}\"");
+        let struts = paths.struts.iter().map(|&(a, b)| Flat { points: vec![at(a), at(b)], look: look(INK) });
+        Panel { name, pieces: struts.collect() }
+    });
+    laid_out(showing, panels.collect(), paths.knots.len() - shown)
+}
+
+/// To the right and up, as seen from the corner.
+fn flat(p: &Vec3) -> [f64; 2] {
+    let (back, up) = (Vec3::new(0.57, -0.71, 0.52).normalize(), Vec3::z());
+    let right = up.cross(&back).normalize();
+    [p.dot(&right), -p.dot(&back.cross(&right))]
+}
+
+/// The three faces of each cube that are seen, the farthest cubes first.
+fn cubes(cells: &[CellBox]) -> Vec<Flat> {
+    let back = Vec3::new(0.57, -0.71, 0.52);
+    let mut order: Vec<&CellBox> = cells.iter().take(CELLS_MAX).collect();
+    order.sort_by(|a, b| {
+        let near = |c: &CellBox| Vec3::from(c.center).dot(&back);
+        near(a).total_cmp(&near(b))
+    });
+    order.into_iter().flat_map(faces).collect()
+}
+
+fn faces(cell: &CellBox) -> [Flat; 3] {
+    let full = cell.size.iter().product();
+    // Away from x, from -y and from z: the sides that the corner sees.
+    [(0, 1.0, 0.78), (1, -1.0, 0.62), (2, 1.0, 1.0)].map(|(axis, side, light)| {
+        let corner = |u: f64, v: f64| {
+            let mut p = Vec3::from(cell.center);
+            p[axis] += side * cell.size[axis] / 2.0;
+            p[(axis + 1) % 3] += u * cell.size[(axis + 1) % 3] / 2.0;
+            p[(axis + 2) % 3] += v * cell.size[(axis + 2) % 3] / 2.0;
+            flat(&p)
+        };
+        let points = vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        let fill = Rgb::ramp(full).mixed(Rgb([1.0; 3]), 0.25).0.map(|c| c * light);
+        Flat { points, look: format!("fill=\"{}\" stroke=\"{INK}\"", Rgb(fill).code()) }
+    })
+}
+
+fn laid_out(showing: &Showing, panels: Vec<Panel>, untold: usize) -> String {
+    let all = || panels.iter().flat_map(|p| p.pieces.iter().flat_map(|f| f.points.iter().copied()));
+    let (from, size) = around(all(), 0.0);
+    let scale = (PANEL - 30.0) / size[0].max(size[1]).max(1e-9);
+    let mut drawing = Drawing::default();
+    for (i, panel) in panels.iter().enumerate() {
+        let corner = [(i % COLUMNS) as f64 * PANEL, (i / COLUMNS) as f64 * (PANEL + HEAD)];
+        let offset = [0, 1].map(|k| corner[k] + (PANEL - size[k] * scale) / 2.0 - from[k] * scale);
+        drawing.words([corner[0] + PANEL / 2.0, corner[1] + 14.0], 12.0, INK, &panel.name);
+        for piece in &panel.pieces {
+            let points: Vec<[f64; 2]> = piece
+                .points
+                .iter()
+                .map(|p| [p[0] * scale + offset[0], p[1] * scale + offset[1] + HEAD])
+                .collect();
+            drawing.polygon(&points, &format!("{} stroke-width=\"0.7\"", piece.look));
+        }
+    }
+    let rows = panels.len().div_ceil(COLUMNS);
+    let mut tall = rows as f64 * (PANEL + HEAD);
+    if untold > 0 {
+        drawing.words([PANEL, tall + 10.0], 12.0, SOFT, &format!("and {untold} more, which are not drawn"));
+        tall += HEAD;
+    }
+    drawing.finish(showing.title, [0.0; 2], [panels.len().min(COLUMNS) as f64 * PANEL, tall + 10.0], "px")
+}

@@ -1,0 +1,148 @@
+//! Shapes as triangles and sharp edges, for pictures that are drawn here and not in a browser.
+#![allow(non_snake_case)]
+
+use crate::geometry::pose::shifted;
+use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+/// Flat pieces that a full turn is drawn with.
+const ROUND: usize = 40;
+
+/// Faces whose normals have a greater cosine are one smooth surface: 32 degrees.
+const SMOOTH: f64 = 0.848;
+
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Corners, and the normals at them.
+    pub triangles: Vec<([Vec3; 3], [Vec3; 3])>,
+    /// Lines to draw.
+    pub edges: Vec<[Vec3; 2]>,
+}
+
+impl Mesh {
+    /// Shapes of a link in the link's frame.
+    pub fn of(shapes: &[Placed]) -> Mesh {
+        let mut mesh = Mesh::default();
+        shapes.iter().for_each(|placed| mesh.add(placed, &Pose::identity()));
+        mesh
+    }
+
+    pub fn add(&mut self, placed: &Placed, X_LS: &Pose) {
+        let X = X_LS * placed.pose;
+        match &placed.shape {
+            Shape::Box { size } => self.add_box(&X, size),
+            Shape::Cylinder { radius, length, axis } => self.tube(&(X * along(axis)), *radius, *length),
+            Shape::Sphere { radius } => self.ball(&X, *radius),
+            Shape::Capsule { radius, length, axis } => {
+                let turned = X * along(axis);
+                self.tube(&turned, *radius, *length);
+                for end in [-0.5, 0.5] {
+                    self.ball(&(turned * shifted(Vec3::new(0.0, 0.0, end * length))), *radius);
+                }
+            }
+            Shape::Hull { points } => {
+                if let Some(faces) = hull::faces(points) {
+                    self.surface(&X, &faces.points, &faces.triangles);
+                }
+            }
+            Shape::Mesh { vertices, triangles, .. } => self.surface(&X, vertices, triangles),
+            Shape::Union { parts } => parts.iter().for_each(|part| self.add(part, &X)),
+        }
+    }
+
+    /// Faces and edges of a box around the frame's origin.
+    pub fn add_box(&mut self, X: &Pose, size: &Vec3) {
+        let corner = |i: usize| {
+            let side = |axis: usize| if i >> axis & 1 == 1 { size[axis] / 2.0 } else { -size[axis] / 2.0 };
+            Vec3::new(side(0), side(1), side(2))
+        };
+        let points: Vec<Vec3> = (0..8).map(corner).collect();
+        const FACES: [[u32; 4]; 6] =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<[u32; 3]> =
+            FACES.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        self.surface(X, &points, &triangles);
+    }
+
+    /// A cylinder along z.
+    pub fn tube(&mut self, X: &Pose, radius: f64, length: f64) {
+        let rim = |i: usize, z: f64| {
+            let (s, c) = libm::sincos(TAU * i as f64 / ROUND as f64);
+            Vec3::new(radius * c, radius * s, z * length)
+        };
+        let out = |i: usize| X.rotation * rim(i, 0.0).normalize();
+        let at = |p: Vec3| X.transform_point(&p.into()).coords;
+        for i in 0..ROUND {
+            let [a, b, c, d] = [rim(i, -0.5), rim(i + 1, -0.5), rim(i + 1, 0.5), rim(i, 0.5)].map(at);
+            let (n, m) = (out(i), out(i + 1));
+            self.triangles.push(([a, b, c], [n, m, m]));
+            self.triangles.push(([a, c, d], [n, m, n]));
+            for (z, p, q) in [(-0.5, b, a), (0.5, d, c)] {
+                let normal = X.rotation * Vec3::new(0.0, 0.0, 2.0 * z);
+                self.triangles.push(([at(Vec3::new(0.0, 0.0, z * length)), p, q], [normal; 3]));
+                self.edges.push([p, q]);
+            }
+        }
+    }
+
+    pub fn ball(&mut self, X: &Pose, radius: f64) {
+        let (around, down) = (ROUND / 2, ROUND / 4);
+        let point = |i: usize, j: usize| {
+            let (s, c) = libm::sincos(TAU * i as f64 / around as f64);
+            let (sin, cos) = libm::sincos(PI * j as f64 / down as f64);
+            X.rotation * Vec3::new(sin * c, sin * s, cos)
+        };
+        for (i, j) in (0..around).flat_map(|i| (0..down).map(move |j| (i, j))) {
+            let n = [point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)];
+            let p = n.map(|n| n * radius + X.translation.vector);
+            self.triangles.push(([p[0], p[1], p[2]], [n[0], n[1], n[2]]));
+            self.triangles.push(([p[0], p[2], p[3]], [n[0], n[2], n[3]]));
+        }
+    }
+
+    /// A surface with its sharp edges as lines.
+    fn surface(&mut self, X: &Pose, points: &[Vec3], triangles: &[[u32; 3]]) {
+        let at = |i: u32| X.transform_point(&points[i as usize].into()).coords;
+        let corners: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(at)).collect();
+        let normal =
+            |[a, b, c]: &[Vec3; 3]| (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vec3::z);
+        let normals: Vec<Vec3> = corners.iter().map(normal).collect();
+        let mut around: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        let mut sides: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+        for (t, [a, b, c]) in triangles.iter().enumerate() {
+            [a, b, c].into_iter().for_each(|i| around.entry(*i).or_default().push(t));
+            for (i, j) in [(a, b), (b, c), (c, a)] {
+                sides.entry((*i.min(j), *i.max(j))).or_default().push(t);
+            }
+        }
+        for (t, triangle) in triangles.iter().enumerate() {
+            let smooth = |i: u32| {
+                let near = around[&i].iter().filter(|o| normals[**o].dot(&normals[t]) > SMOOTH);
+                near.map(|o| normals[*o]).sum::<Vec3>().normalize()
+            };
+            self.triangles.push((corners[t], triangle.map(smooth)));
+        }
+        let sharp = sides.iter().filter(|(_, faces)| match faces[..] {
+            [a, b] => normals[a].dot(&normals[b]) < SMOOTH,
+            _ => true,
+        });
+        self.edges.extend(sharp.map(|((i, j), _)| [at(*i), at(*j)]));
+    }
+
+    pub fn moved(&self, X: &Pose) -> Mesh {
+        let at = |p: Vec3| X.transform_point(&p.into()).coords;
+        let triangles = self.triangles.iter().map(|(p, n)| (p.map(at), n.map(|n| X.rotation * n)));
+        Mesh { triangles: triangles.collect(), edges: self.edges.iter().map(|e| e.map(at)).collect() }
+    }
+}
+
+/// The rotation that takes +z to an axis.
+pub fn along(axis: &Vec3) -> Pose {
+    let turn = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), axis);
+    // The axis that points down: half a turn about x.
+    let turn = turn.unwrap_or_else(|| {
+        nalgebra::UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 1.0, 0.0, 0.0))
+    });
+    Pose::from_parts(Vec3::zeros().into(), turn)
+}

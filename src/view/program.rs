@@ -1,0 +1,230 @@
+//! A behaviour as its series-parallel graph: what stands beside each other runs one after the other,
+//! what stands below each other at the same time.
+
+use super::Showing;
+use super::colour::{PALETTE, groups};
+use super::svg::{Drawing, INK, LETTER, PAPER, SOFT};
+use crate::plan::{Action, Command, ExemptionKind, Node, Target, Tracks};
+use crate::robot::{Assembly, JointId, JointKind, JointOwner};
+use crate::units::{Dimension, quantity};
+
+/// Actions that are drawn; of those beyond it is said that there are more.
+const ACTIONS_MAX: usize = 1500;
+
+/// Compositions within compositions that are drawn.
+const DEPTH_MAX: usize = 60;
+
+const SIZE: f64 = 11.0;
+const TALL: f64 = 24.0;
+const BESIDE: f64 = 22.0;
+const BELOW: f64 = 8.0;
+const RIM: f64 = 9.0;
+const HEAD: f64 = 16.0;
+
+/// A piece with its place worked out, from its upper left corner.
+enum Piece {
+    Label { words: String, colour: String },
+    Row(Vec<Placed>),
+    Column(Vec<Placed>),
+    Frame(String, Box<Placed>),
+}
+
+struct Placed {
+    piece: Piece,
+    at: [f64; 2],
+    size: [f64; 2],
+}
+
+pub fn program(showing: &Showing, tracks: &Tracks) -> String {
+    let mut drawer =
+        Drawer { robot: &tracks.robot, group: groups(&tracks.robot), names: names(&tracks.robot), drawn: 0 };
+    let root = showing.plan.program.as_ref().map(|program| &*program.root);
+    let whole = root.map_or_else(|| label("nothing".into(), SOFT.into()), |root| drawer.piece(root, 0));
+    let mut drawing = Drawing::default();
+    let rim = 24.0;
+    let middle = rim + whole.size[1] / 2.0;
+    let (left, right) = (rim, rim + 20.0 + whole.size[0] + 20.0);
+    let pen = format!("stroke=\"{SOFT}\" stroke-width=\"1.5\"");
+    drawing.line([left, middle], [left + 20.0, middle], &pen);
+    drawing.line([right - 20.0, middle], [right, middle], &pen);
+    draw(&mut drawing, &whole, [left + 20.0, rim]);
+    drawing.circle([left, middle], 5.0, &format!("fill=\"{INK}\""));
+    drawing.circle([right, middle], 5.0, &format!("fill=\"{PAPER}\" stroke=\"{INK}\" stroke-width=\"2\""));
+    drawing.finish(showing.title, [0.0, 0.0], [right + rim, whole.size[1] + 2.0 * rim], "px")
+}
+
+struct Drawer<'a> {
+    robot: &'a Assembly,
+    group: Vec<usize>,
+    /// Of each joint, and its module.
+    names: Vec<(String, Option<usize>, bool)>,
+    drawn: usize,
+}
+
+/// Name, module and whether it is prismatic, of each joint.
+fn names(robot: &Assembly) -> Vec<(String, Option<usize>, bool)> {
+    let name = |owner| match owner {
+        JointOwner::Module { module, joint } => {
+            let slides = robot.module_type(module).joints[joint].kind == JointKind::Prismatic;
+            (robot.joint_name(owner), Some(module), slides)
+        }
+        JointOwner::Bond(_) => (robot.joint_name(owner), None, false),
+    };
+    robot.joints().map(name).collect()
+}
+
+fn label(words: String, colour: String) -> Placed {
+    let wide = words.chars().count() as f64 * SIZE * LETTER + 18.0;
+    Placed { piece: Piece::Label { words, colour }, at: [0.0; 2], size: [wide, TALL] }
+}
+
+impl Drawer<'_> {
+    fn piece(&mut self, node: &Node, depth: usize) -> Placed {
+        if depth > DEPTH_MAX || self.drawn >= ACTIONS_MAX {
+            return label("...".into(), SOFT.into());
+        }
+        match node {
+            Node::Action(action) => {
+                self.drawn += 1;
+                self.action(action)
+            }
+            Node::Series(list) => row(list.iter().map(|n| self.piece(n, depth + 1)).collect()),
+            Node::Parallel(list) => column(list.iter().map(|n| self.piece(n, depth + 1)).collect()),
+            Node::Repeat { body, times } => framed(format!("{times} times"), self.piece(body, depth + 1)),
+            Node::Phase { body, shift, .. } => {
+                framed(format!("from {shift} of its cycle"), self.piece(body, depth + 1))
+            }
+            Node::Approach { shift, .. } => label(format!("to {shift} of the cycle"), SOFT.into()),
+            Node::Stretch { body, duration, .. } => {
+                framed(format!("in {}", quantity(*duration, Dimension::TIME)), self.piece(body, depth + 1))
+            }
+            Node::Exempt { body, kind, .. } => {
+                let kind = match kind {
+                    ExemptionKind::Unstable => "unstable",
+                    ExemptionKind::Slip => "slip",
+                    ExemptionKind::Collision(_) => "collision",
+                    ExemptionKind::Overload(_) => "overload",
+                };
+                framed(format!("allows {kind}"), self.piece(body, depth + 1))
+            }
+        }
+    }
+
+    fn action(&self, action: &Action) -> Placed {
+        let time = |t: f64| quantity(t, Dimension::TIME);
+        let (joint, words) = match &action.command {
+            Command::Move { joint, target: Target::To(to), .. } => {
+                (Some(*joint), format!("to {}", self.amount(*joint, *to)))
+            }
+            Command::Move { joint, target: Target::By(by), .. } => {
+                (Some(*joint), format!("by {}", self.amount(*joint, *by)))
+            }
+            Command::Spin { joint, speed, duration } => {
+                let long = duration.map_or(String::new(), |t| format!(" for {}", time(t)));
+                (Some(*joint), format!("at {}{long}", quantity(*speed, Dimension::ANGULAR_SPEED)))
+            }
+            Command::Follow { joint, .. } => (Some(*joint), "follows a curve".into()),
+            Command::Wait { duration } => (None, format!("wait {}", time(*duration))),
+            Command::Dock { a, b } => {
+                (None, format!("dock {} -- {}", self.robot.port_name(*a), self.robot.port_name(*b)))
+            }
+            Command::Undock { port } => (None, format!("undock {}", self.robot.port_name(*port))),
+        };
+        let known = joint.and_then(|j| self.names.get(j.0 as usize));
+        let colour = known.and_then(|(_, module, _)| *module);
+        let colour =
+            colour.map_or_else(|| SOFT.to_owned(), |m| PALETTE[self.group[m] % PALETTE.len()].code());
+        label(known.map_or(words.clone(), |(name, _, _)| format!("{name} {words}")), colour)
+    }
+
+    fn amount(&self, joint: JointId, x: f64) -> String {
+        let slides = self.names.get(joint.0 as usize).is_some_and(|(_, _, slides)| *slides);
+        if slides {
+            quantity(x, Dimension::LENGTH)
+        } else {
+            format!("{}°", libm::round(x.to_degrees() * 10.0) / 10.0)
+        }
+    }
+}
+
+fn row(mut pieces: Vec<Placed>) -> Placed {
+    let tall = pieces.iter().map(|p| p.size[1]).fold(TALL, f64::max);
+    let mut x = 0.0;
+    for piece in &mut pieces {
+        piece.at = [x, (tall - piece.size[1]) / 2.0];
+        x += piece.size[0] + BESIDE;
+    }
+    Placed { piece: Piece::Row(pieces), at: [0.0; 2], size: [(x - BESIDE).max(0.0), tall] }
+}
+
+fn column(mut pieces: Vec<Placed>) -> Placed {
+    let wide = pieces.iter().map(|p| p.size[0]).fold(0.0, f64::max);
+    let mut y = 0.0;
+    for piece in &mut pieces {
+        piece.at = [BESIDE / 2.0 + (wide - piece.size[0]) / 2.0, y];
+        y += piece.size[1] + BELOW;
+    }
+    Placed { piece: Piece::Column(pieces), at: [0.0; 2], size: [wide + BESIDE, (y - BELOW).max(0.0)] }
+}
+
+fn framed(words: String, mut inner: Placed) -> Placed {
+    inner.at = [RIM, HEAD];
+    let wide = words.chars().count() as f64 * 9.0 * LETTER + 2.0 * RIM;
+    let size = [(inner.size[0] + 2.0 * RIM).max(wide), inner.size[1] + HEAD + RIM];
+    Placed { piece: Piece::Frame(words, Box::new(inner)), at: [0.0; 2], size }
+}
+
+fn draw(drawing: &mut Drawing, placed: &Placed, at: [f64; 2]) {
+    let [w, h] = placed.size;
+    let middle = at[1] + h / 2.0;
+    let pen = format!("stroke=\"{SOFT}\" stroke-width=\"1.5\"");
+    let inside = |p: &Placed| [at[0] + p.at[0], at[1] + p.at[1]];
+    match &placed.piece {
+        Piece::Label { words, colour } => {
+            drawing.rect(
+                at,
+                [w, h],
+                5.0,
+                &format!("fill=\"{colour}\" fill-opacity=\"0.22\" stroke=\"{colour}\" stroke-width=\"1.3\""),
+            );
+            drawing.words([at[0] + w / 2.0, middle], SIZE, INK, words);
+        }
+        Piece::Row(pieces) => {
+            for (i, piece) in pieces.iter().enumerate() {
+                let from = inside(piece);
+                if i > 0 {
+                    drawing.line([from[0] - BESIDE, middle], [from[0], middle], &pen);
+                }
+                draw(drawing, piece, from);
+            }
+        }
+        Piece::Column(pieces) => {
+            let (left, right) = (at[0], at[0] + w);
+            let middles: Vec<f64> = pieces.iter().map(|p| inside(p)[1] + p.size[1] / 2.0).collect();
+            let (top, bottom) = (middles.first().unwrap_or(&middle), middles.last().unwrap_or(&middle));
+            for x in [left, right] {
+                drawing.line([x, *top], [x, *bottom], &format!("stroke=\"{INK}\" stroke-width=\"2.5\""));
+            }
+            for (piece, y) in pieces.iter().zip(&middles) {
+                let from = inside(piece);
+                drawing.line([left, *y], [from[0], *y], &pen);
+                drawing.line([from[0] + piece.size[0], *y], [right, *y], &pen);
+                draw(drawing, piece, from);
+            }
+        }
+        Piece::Frame(words, inner) => {
+            drawing.rect(
+                at,
+                [w, h],
+                8.0,
+                &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-dasharray=\"4 4\""),
+            );
+            let from = inside(inner);
+            let y = from[1] + inner.size[1] / 2.0;
+            drawing.line([at[0], y], [from[0], y], &pen);
+            drawing.line([from[0] + inner.size[0], y], [at[0] + w, y], &pen);
+            drawing.words([at[0] + w / 2.0, at[1] + 8.0], 9.0, SOFT, words);
+            draw(drawing, inner, from);
+        }
+    }
+}

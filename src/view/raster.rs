@@ -1,0 +1,165 @@
+//! Triangles and lines into pixels with a buffer of depths, by the rule of edge functions.
+
+use super::colour::Rgb;
+use super::mesh::Mesh;
+use crate::geometry::Vec3;
+
+/// Nearer than this to the eye, in parts of the distance to the middle, nothing is drawn.
+const NEAR: f64 = 0.02;
+
+/// Lines are drawn as if they were nearer by this part of their distance: they lie on surfaces.
+const LINE_LIFT: f64 = 1.0015;
+
+/// An eye: orthonormal axes right, up and backwards.
+#[derive(Clone, Copy, Debug)]
+pub struct Eye {
+    pub at: Vec3,
+    pub right: Vec3,
+    pub up: Vec3,
+    pub back: Vec3,
+    /// Half the height of the picture at distance 1; of a parallel view: in metres.
+    pub half: f64,
+    pub parallel: bool,
+    /// Distance to the middle of what is seen, m.
+    pub distance: f64,
+}
+
+/// A picture in the making.
+pub struct Canvas {
+    pub width: usize,
+    pub height: usize,
+    pub colours: Vec<[f32; 3]>,
+    /// One over the distance, or its negative in a parallel view: the greater is nearer.
+    pub depths: Vec<f32>,
+}
+
+/// A point in the picture: x and y in pixels, and its depth.
+#[derive(Clone, Copy, Debug)]
+pub struct Spot {
+    pub x: f64,
+    pub y: f64,
+    pub depth: f64,
+}
+
+impl Eye {
+    /// Looks from `at` at `target`; z is up.
+    pub fn new(at: Vec3, target: Vec3, up: Vec3, half: f64, parallel: bool) -> Eye {
+        let back = (at - target).normalize();
+        let right = up.cross(&back).normalize();
+        Eye { at, right, up: back.cross(&right), back, half, parallel, distance: (at - target).norm() }
+    }
+
+    /// Where a point is in a picture of this size; `None` too near or behind.
+    pub fn spot(&self, p: &Vec3, width: usize, height: usize) -> Option<Spot> {
+        let d = p - self.at;
+        let away = -d.dot(&self.back);
+        if !self.parallel && away < NEAR * self.distance {
+            return None;
+        }
+        let scale = height as f64 / 2.0 / self.half / if self.parallel { 1.0 } else { away };
+        Some(Spot {
+            x: width as f64 / 2.0 + d.dot(&self.right) * scale,
+            y: height as f64 / 2.0 - d.dot(&self.up) * scale,
+            depth: if self.parallel { -away } else { 1.0 / away },
+        })
+    }
+
+    /// The direction of sight through a pixel.
+    pub fn ray(&self, x: f64, y: f64, width: usize, height: usize) -> Vec3 {
+        let scale = self.half * 2.0 / height as f64;
+        let (u, v) = ((x - width as f64 / 2.0) * scale, (height as f64 / 2.0 - y) * scale);
+        (self.right * u + self.up * v - self.back).normalize()
+    }
+}
+
+impl Canvas {
+    pub fn new(width: usize, height: usize) -> Canvas {
+        let pixels = width * height;
+        Canvas { width, height, colours: vec![[0.0; 3]; pixels], depths: vec![f32::NEG_INFINITY; pixels] }
+    }
+
+    /// Fills triangles; `shade` colours a point by its place and normal.
+    pub fn fill(&mut self, mesh: &Mesh, eye: &Eye, shade: &mut dyn FnMut(Vec3, Vec3) -> [f32; 3]) {
+        for (corners, normals) in &mesh.triangles {
+            let spots = corners.map(|p| eye.spot(&p, self.width, self.height));
+            if let [Some(a), Some(b), Some(c)] = spots {
+                self.triangle([a, b, c], eye.parallel, &mut |weights| {
+                    let mix = |of: &[Vec3; 3]| of[0] * weights[0] + of[1] * weights[1] + of[2] * weights[2];
+                    shade(mix(corners), mix(normals))
+                });
+            }
+        }
+    }
+
+    fn triangle(&mut self, spots: [Spot; 3], parallel: bool, colour: &mut dyn FnMut([f64; 3]) -> [f32; 3]) {
+        let [a, b, c] = spots;
+        let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        let range = |low: f64, high: f64, size: usize| {
+            (low.floor().max(0.0) as usize, (high.ceil().max(0.0) as usize).min(size))
+        };
+        let bounds = |pick: fn(&Spot) -> f64| {
+            let values = spots.each_ref().map(pick);
+            (values.iter().copied().fold(f64::MAX, f64::min), values.iter().copied().fold(f64::MIN, f64::max))
+        };
+        let ((left, right), (top, bottom)) = (bounds(|s| s.x), bounds(|s| s.y));
+        let ((x0, x1), (y0, y1)) = (range(left, right, self.width), range(top, bottom, self.height));
+        for y in y0..y1 {
+            for x in x0..x1 {
+                let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
+                let u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / area;
+                let v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / area;
+                let w = 1.0 - u - v;
+                if u < 0.0 || v < 0.0 || w < 0.0 {
+                    continue;
+                }
+                let depth = u * a.depth + v * b.depth + w * c.depth;
+                let at = y * self.width + x;
+                if depth as f32 > self.depths[at] {
+                    self.depths[at] = depth as f32;
+                    let weights = match parallel {
+                        true => [u, v, w],
+                        false => [u * a.depth / depth, v * b.depth / depth, w * c.depth / depth],
+                    };
+                    self.colours[at] = colour(weights);
+                }
+            }
+        }
+    }
+
+    /// Draws lines of a width in pixels.
+    pub fn lines(&mut self, lines: &[[Vec3; 2]], eye: &Eye, width: usize, colour: Rgb) {
+        let colour = colour.0.map(|c| c as f32);
+        for [p, q] in lines {
+            let (Some(a), Some(b)) =
+                (eye.spot(p, self.width, self.height), eye.spot(q, self.width, self.height))
+            else {
+                continue;
+            };
+            let length = f64::max((b.x - a.x).abs(), (b.y - a.y).abs());
+            let steps = (length.ceil().max(1.0) as usize).min(4 * (self.width + self.height));
+            for i in 0..=steps {
+                let u = i as f64 / steps as f64;
+                let mix = |from: f64, to: f64| from + (to - from) * u;
+                let depth = mix(a.depth, b.depth) * LINE_LIFT;
+                let (x, y) = (mix(a.x, b.x) - width as f64 / 2.0, mix(a.y, b.y) - width as f64 / 2.0);
+                self.dot(libm::round(x), libm::round(y), width, depth as f32, colour);
+            }
+        }
+    }
+
+    fn dot(&mut self, x: f64, y: f64, width: usize, depth: f32, colour: [f32; 3]) {
+        for (dx, dy) in (0..width).flat_map(|dx| (0..width).map(move |dy| (dx as f64, dy as f64))) {
+            let (x, y) = (x + dx, y + dy);
+            if x < 0.0 || y < 0.0 || x >= self.width as f64 || y >= self.height as f64 {
+                continue;
+            }
+            let at = y as usize * self.width + x as usize;
+            if depth >= self.depths[at] {
+                self.colours[at] = colour;
+            }
+        }
+    }
+}
