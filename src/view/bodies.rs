@@ -9,7 +9,7 @@ use crate::plan::verify::history;
 use crate::plan::{Body, CellBox, NodePaths, Stages, Tracks};
 use crate::robot::{Kinematics, Library};
 
-/// Cells of one still picture; of more only so many are drawn.
+/// Cells of one still picture; of more every second, third, ... is drawn.
 const CELLS_MAX: usize = 20_000;
 
 /// A mesh in the world, m, with its colour.
@@ -73,7 +73,7 @@ fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
         let full = cell.size.iter().product();
         Drawn { mesh, colour: Rgb::ramp(full) }
     };
-    cells.iter().take(CELLS_MAX).map(cube).collect()
+    cells.iter().step_by(cells.len().div_ceil(CELLS_MAX).max(1)).map(cube).collect()
 }
 
 fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {

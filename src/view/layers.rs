@@ -61,7 +61,7 @@ fn flat(p: &Vec3) -> [f64; 2] {
 /// The three faces of each cube that are seen, the farthest cubes first.
 fn cubes(cells: &[CellBox]) -> Vec<Flat> {
     let back = Vec3::new(0.57, -0.71, 0.52);
-    let mut order: Vec<&CellBox> = cells.iter().take(CELLS_MAX).collect();
+    let mut order: Vec<&CellBox> = cells.iter().step_by(cells.len().div_ceil(CELLS_MAX).max(1)).collect();
     order.sort_by(|a, b| {
         let near = |c: &CellBox| Vec3::from(c.center).dot(&back);
         near(a).total_cmp(&near(b))

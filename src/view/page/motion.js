@@ -172,8 +172,13 @@ function progress([first, last], u) {
   return 1 - (speed * (1 - u) * (1 - u)) / (2 * last);
 }
 
+/** More cells than this are drawn only in part. */
+const CELLS_MAX = 30000;
+
 function latticeMotion(plan, body) {
-  const n = body.count;
+  const every = Math.ceil(body.count / CELLS_MAX);
+  const n = Math.ceil(body.count / every);
+  if (every > 1) plan.notes.push(`of ${body.count} cells one in ${every} is drawn`);
   // Configurations are differences: each stage names the cells that it moves.
   const fill = (boxes, runs) => {
     for (const [first, counters, center, size] of runs) {
@@ -191,7 +196,7 @@ function latticeMotion(plan, body) {
           p[1] += dy * k;
           p[2] += dz * k;
         }
-        boxes.set([...p, ...size], 6 * cell);
+        if (cell % every === 0) boxes.set([...p, ...size], (6 * cell) / every);
       }
     }
     return boxes;
@@ -205,7 +210,7 @@ function latticeMotion(plan, body) {
   let low = Infinity;
   for (const boxes of ends) for (let i = 0; i < n; i++) low = Math.min(low, boxes[6 * i + 2] - boxes[6 * i + 5] / 2);
   const stageAt = t => clamp(lastNotAbove(times, t), 0, Math.max(body.stages.length - 1, 0));
-  const modules = Array.from({ length: n }, (_, i) => ({ name: "cell " + i, type: body.cell, group: "" }));
+  const modules = Array.from({ length: n }, (_, i) => ({ name: "cell " + i * every, type: body.cell, group: "" }));
   return {
     bodies: n,
     solids: modules.map((_, i) => ({ body: i, shape: 0, p: [0, 0, 0], q: [0, 0, 0, 1], s: [0.97, 0.97, 0.97], shade: 0 })),
