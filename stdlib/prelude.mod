@@ -397,7 +397,7 @@ extern fn show(
   side: corner | front | back | left | right | top = corner,
 )
 
-/// Writes a robot of RoFI modules as a `.rofi` file into the output folder. Not yet available.
+/// Writes a robot of RoFI modules as a `.rofi` file into the output folder.
 ///
 /// Example:
 /// ```modl check
@@ -406,12 +406,18 @@ extern fn show(
 /// ```
 extern fn save(what: Config, file: Text)
 
-/// Reads a robot from a `.rofi` file of this project; its modules are `modules(c, Rofi)`. Not yet available.
+/// Reads a robot from a `.rofi` file of this project; its modules are `modules(c, Rofi)`.
 ///
 /// Example:
 /// ```modl check
 /// use std.rofi.Rofi
 /// print(len(modules(load("tangled.rofi"), Rofi)))
+/// ```
+/// ```modl tangled.rofi
+/// C
+/// M 0 0 0 0
+/// M 1 90 0 0
+/// E 0 B -Z N -Z A 1
 /// ```
 extern fn load(file: Text) -> Config
 

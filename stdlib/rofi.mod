@@ -62,3 +62,8 @@ config Ring(n: Int = 8) closed {
   }
   base m[0]
 }
+
+/// What `load` makes of a file: the modules are named by their ids, the base is the first.
+config _Loaded(file: Text) closed {
+  part m: Rofi
+}

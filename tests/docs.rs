@@ -37,7 +37,7 @@ fn pieces(all: &[Fence]) -> Vec<Piece<'_>> {
     let mut found: Vec<Piece> = Vec::new();
     for fence in all {
         match fence.modl() {
-            Some(tag) if tag.ends_with(".mod") => {
+            Some(tag) if tag.contains('.') => {
                 let owner =
                     found.last_mut().unwrap_or_else(|| panic!("{}: a file of no program", fence.place));
                 owner.extra.push(fence);

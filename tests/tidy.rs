@@ -29,7 +29,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &["source", "units", "syntax", "check", "geometry", "robot", "plan", "behavior", "planners", "view"],
     ),
     ("serve", &["source", "units", "syntax", "check", "robot", "plan", "interpret"]),
-    ("cli", &["source", "units", "check", "plan", "view", "interpret", "serve"]),
+    ("cli", &["source", "units", "check", "plan", "behavior", "view", "interpret", "serve"]),
 ];
 
 /// Crates and parts of the standard library that belong to one room, or to a few.
@@ -52,8 +52,8 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("std::io", &["plan", "cli"]),
     ("std::net", &[]),
     ("std::process", &["cli"]),
-    ("std::thread", &["interpret"]),
-    ("std::time", &[]),
+    ("std::thread", &["interpret", "cli"]),
+    ("std::time", &["cli"]),
 ];
 
 fn root() -> &'static Path {

@@ -15,12 +15,14 @@ mod run;
 pub mod schedule;
 
 pub mod conflict;
+pub mod faithful;
 pub mod limits;
 
 pub mod gait;
 pub mod mirror;
 
 pub use conflict::{Conflict, Conflicts, conflicts};
+pub use faithful::unfaithful;
 pub use limits::{Issue, IssueKind, Part, issues};
 pub use refusal::{Reason, Refusal};
 pub use schedule::{Problem, Scheduled, Settings, schedule};

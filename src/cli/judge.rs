@@ -6,7 +6,8 @@ use super::report::{self, JsonPlan, Report};
 use super::terminal::{cancelled, listen_for_cancel, print};
 use super::verdict;
 use super::{CallError, Ending};
-use crate::plan::{self, Plan};
+use crate::behavior::unfaithful;
+use crate::plan::{self, Body, CheckKind, Plan, Status, Verdict, Worst};
 use crate::source::{Diagnostic, Sources, Span, code};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -65,7 +66,26 @@ pub fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnost
 }
 
 fn judge(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> bool {
-    let verdict = plan::verify::verify(plan);
+    let mut verdict = plan::verify::verify(plan);
+    // What is not sound has no program that could be played.
+    if !verdict.failures.iter().any(|f| f.kind == CheckKind::Form)
+        && let Some(failure) = unfaithful(plan)
+    {
+        verdict.failures.push(failure);
+        verdict
+            .checks
+            .iter_mut()
+            .filter(|c| c.kind == CheckKind::Form)
+            .for_each(|c| c.status = Status::Failed);
+    }
+    if plan.verdict.as_ref().is_some_and(|stated| differs(stated, &verdict)) {
+        verdict
+            .notes
+            .push("the verdict that the file brings along is another, and was not believed".to_owned());
+    }
+    if plan.program.is_none() && matches!(plan.body, Body::Tracks(_)) {
+        verdict.notes.push("there is no program: a robot has to follow the positions themselves".to_owned());
+    }
     if !globals.json {
         print(&verdict::text(name, plan, &verdict));
     }
@@ -82,4 +102,23 @@ pub fn read(file: &Path) -> Result<Vec<u8>, CallError> {
         read_regular(file, PLAN_BYTES_MAX)
     };
     bytes.map_err(|fault| CallError(format!("the file `{}` {fault}", file.display())))
+}
+
+/// Values of two verdicts that differ by less are the same.
+const TOL_VERDICT: f64 = 1e-6;
+
+/// Whether a verdict says something else than another.
+fn differs(stated: &Verdict, found: &Verdict) -> bool {
+    let worst = |v: &Verdict| {
+        [&v.clearance, &v.margin, &v.torque_margin, &v.bond_margin, &v.speed_margin, &v.slip]
+            .map(|worst: &Option<Worst>| worst.as_ref().map(|w| w.value))
+    };
+    let near = |a: f64, b: f64| (a - b).abs() <= TOL_VERDICT;
+    let same = |(a, b): (Option<f64>, Option<f64>)| match (a, b) {
+        (Some(a), Some(b)) => near(a, b),
+        (a, b) => a.is_none() && b.is_none(),
+    };
+    let all = worst(stated).into_iter().zip(worst(found)).all(same);
+    let travel = stated.travel.iter().zip(&found.travel).all(|(a, b)| near(*a, *b));
+    stated.failures.len() != found.failures.len() || !all || !travel
 }

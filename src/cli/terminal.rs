@@ -6,15 +6,20 @@ use crate::interpret::{Host, WriteError};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
-/// From here on Ctrl-C asks the run to end; a second one ends the process at once.
+/// A run that is asked to end gets this long to do so by itself.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// From here on Ctrl-C asks the run to end, and ends the process if it does not soon: files are
+/// written whole or not at all, so nothing is lost by that.
 pub fn listen_for_cancel() {
     let on_signal = || {
-        if CANCELLED.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
+        CANCELLED.store(true, Ordering::Relaxed);
+        std::thread::park_timeout(PATIENCE);
+        std::process::exit(130);
     };
     // Where signals can't be had, Ctrl-C ends the process, which is as good.
     drop(ctrlc::set_handler(on_signal));

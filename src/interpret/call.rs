@@ -9,7 +9,7 @@ use super::stop::{Eval, Stop, fault};
 use super::value::{Behavior, Callable, Value};
 use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param};
 use crate::plan::{Node, Target};
-use crate::source::{Span, Symbol, code};
+use crate::source::{ReadError, Span, Symbol, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -388,5 +388,28 @@ impl Target {
         match self {
             Target::To(x) | Target::By(x) => x,
         }
+    }
+}
+
+impl Interpreter<'_> {
+    /// The file of the project that an argument names, relative to the file of the call: its path from
+    /// the project's root, and its bytes.
+    pub fn project_file(&mut self, call: &Call, index: usize) -> Eval<(String, Vec<u8>)> {
+        let name = call.text(index)?;
+        let from = &self.sources.file(call.at(index).file).name;
+        let Some(path) = crate::source::files::join(from, name) else {
+            let message = format!("`{name}` leads out of the project");
+            return Err(fault(code::OUTSIDE_PROJECT, call.at(index), message, "outside of the project"));
+        };
+        let bytes = self.stage.read(&path).map_err(|error| {
+            let why = match error {
+                ReadError::NotFound => "there is no such file".to_string(),
+                ReadError::Outside => "it leads out of the project".to_string(),
+                ReadError::TooLarge(limit) => format!("it is larger than {limit} bytes"),
+                ReadError::Failed(why) => why,
+            };
+            fault(code::CANNOT_READ, call.at(index), format!("`{path}` can't be read: {why}"), why)
+        })?;
+        Ok((path, bytes))
     }
 }

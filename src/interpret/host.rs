@@ -78,7 +78,7 @@ impl Default for Limits {
             text: 1 << 24,
             digits: 10_000,
             modules: 10_000,
-            samples: 10_000_000,
+            samples: 2_000_000,
         }
     }
 }

@@ -50,6 +50,7 @@ mod natives_list;
 mod natives_math;
 mod natives_plan;
 mod natives_robot;
+mod natives_rofi;
 mod natives_shape;
 mod natives_show;
 mod natives_squeeze;

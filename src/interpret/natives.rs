@@ -8,8 +8,8 @@ use super::interpreter::Interpreter;
 use super::stop::Eval;
 use super::value::Value;
 use super::{
-    natives_action, natives_family, natives_list, natives_math, natives_plan, natives_robot, natives_shape,
-    natives_show, natives_squeeze,
+    natives_action, natives_family, natives_list, natives_math, natives_plan, natives_robot, natives_rofi,
+    natives_shape, natives_show, natives_squeeze,
 };
 use crate::source::Symbol;
 use std::collections::HashMap;
@@ -57,6 +57,7 @@ pub fn all() -> impl Iterator<Item = &'static Native> {
     let tables: [&'static [Native]; 9] = [
         natives_math::TABLE,
         natives_list::TABLE,
+        natives_rofi::TABLE,
         natives_shape::TABLE,
         natives_family::TABLE,
         natives_robot::TABLE,

@@ -8,7 +8,7 @@ use super::value::{JointSpec, Solid, Value};
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Placed, Pose, Shape, Vec3, soundness};
 use crate::robot::{JointKind, Limits};
-use crate::source::{ReadError, code};
+use crate::source::code;
 use std::rc::Rc;
 
 pub const TABLE: &[Native] = &[
@@ -70,22 +70,8 @@ fn union(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let name = call.text(0)?;
     let scale = call.positive(1, "the scale of a mesh")?;
-    let from = &interpreter.sources.file(call.at(0).file).name;
-    let Some(path) = crate::source::files::join(from, name) else {
-        let message = format!("`{name}` leads out of the project");
-        return Err(fault(code::OUTSIDE_PROJECT, call.at(0), message, "outside of the project"));
-    };
-    let bytes = interpreter.stage.read(&path).map_err(|error| {
-        let why = match error {
-            ReadError::NotFound => "there is no such file".to_string(),
-            ReadError::Outside => "it leads out of the project".to_string(),
-            ReadError::TooLarge(limit) => format!("it is larger than {limit} bytes"),
-            ReadError::Failed(why) => why,
-        };
-        fault(code::CANNOT_READ, call.at(0), format!("`{path}` can't be read: {why}"), why)
-    })?;
+    let (path, bytes) = interpreter.project_file(call, 0)?;
     let (vertices, triangles) = super::stl::read(&bytes, scale).map_err(|why| {
         fault(code::CANNOT_READ, call.at(0), format!("`{path}` is no STL file: {why}"), why)
     })?;

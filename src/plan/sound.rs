@@ -5,6 +5,8 @@ use super::{Body, Plan, Tracks, finite};
 use crate::geometry::{Placed, soundness};
 use crate::robot::{Assembly, JointKind, JointOwner, Library, Link, ModuleType};
 
+/// Farther no joint turns (rad) or moves (m): what turns that often takes the judge for ever.
+const POSITION_MAX: f64 = 1e6;
 /// How far from 1 the norm of a direction or of a rotation may be.
 const TOL_UNIT: f64 = 1e-6;
 
@@ -110,6 +112,8 @@ fn robot(tracks: &Tracks) -> Result<(), String> {
     upright(&tracks.start.base, "the base")?;
     let owners: Vec<JointOwner> = tracks.robot.joints().collect();
     for track in &tracks.tracks {
+        let far = track.segments.iter().flat_map(|s| &s.control).any(|q| q.abs() > POSITION_MAX);
+        need(!far, || format!("a joint is moved beyond {POSITION_MAX} rad or m"))?;
         let owner = owners[track.joint.0 as usize];
         need(takes_commands(&tracks.robot, owner), || {
             format!("{} takes no commands", tracks.robot.joint_name(owner))

@@ -55,7 +55,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { sample: 0.01, unstable_for: 0.0, stability: Stability::Footprint, samples_max: 10_000_000 }
+        Settings { sample: 0.01, unstable_for: 0.0, stability: Stability::Footprint, samples_max: 2_000_000 }
     }
 }
 

@@ -4,6 +4,7 @@
 pub mod assembly;
 pub mod library;
 pub mod mass;
+pub mod rofi;
 
 pub mod kinematics;
 pub mod matching;

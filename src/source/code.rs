@@ -111,5 +111,6 @@ codes! {
     EQUAL_SETPOINTS = "W0003", "the same command twice at one time";
     UNNEEDED_EXEMPTION = "W0004", "an exemption that was not needed";
     JOINT_OVERLAP = "W0005", "links that overlap within the range of their joint";
+    OPEN_LOOP = "W0006", "a connection in a file whose docks do not meet";
     START_SETTLES = "N0001", "the robot settles at the start";
 }

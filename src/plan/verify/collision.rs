@@ -96,10 +96,11 @@ impl Collision {
         let (a, b) = (module(self.modules.0), module(self.modules.1));
         let links = (link(self.modules.0, self.links.0), link(self.modules.1, self.links.1));
         let depth = quantity(self.depth, Dimension::LENGTH);
+        // The depth is that of its worst instant, which comes later.
         let message = if self.modules.0 == self.modules.1 {
-            format!("{} and {} of {a} meet, {depth} deep", links.0, links.1)
+            format!("{} and {} of {a} meet, up to {depth} deep", links.0, links.1)
         } else {
-            format!("{a} and {b} meet, {depth} deep ({} and {})", links.0, links.1)
+            format!("{a} and {b} meet, up to {depth} deep ({} and {})", links.0, links.1)
         };
         Failure {
             kind: CheckKind::Collision,

@@ -1,8 +1,9 @@
 //! The judgement of an articulated robot's plan: one walk, watched by every check.
 
+use super::fault;
 use super::ledger::Ledger;
 use super::walk::{Course, Ended, Waypoint, walk};
-use super::{Tolerances, blame, docking, limits, meeting, stability, torque, travel};
+use super::{Tolerances, blame, docking, limits, meeting, sample, stability, torque, travel};
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 
@@ -19,9 +20,14 @@ pub fn tracks(plan: &Plan, tracks: &Tracks) -> Verdict {
         held: None,
     };
     let missed = docking::judge(&course, &mut ledger);
-    let waypoints = on_the_way(&course, missed, &mut ledger);
-    meeting::judge(&course, &mut ledger);
-    blame::blame(&course, &waypoints, ledger.failures_mut());
+    let samples = sample::count(tracks, &plan.worlds, &plan.exemptions, &plan.settings, &tolerances);
+    if samples > plan.settings.samples_max {
+        ledger.fail(too_many_samples(samples, plan.settings.samples_max));
+    } else {
+        let waypoints = on_the_way(&course, missed, &mut ledger);
+        meeting::judge(&course, &mut ledger);
+        blame::blame(&course, &waypoints, ledger.failures_mut());
+    }
     ledger.check(CheckKind::Form, Status::Proved);
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.
     ledger.check(CheckKind::Conflict, Status::Proved);
@@ -109,15 +115,14 @@ fn link_name(course: &Course, link: usize) -> String {
 
 fn limit_reached(samples_max: usize, time: f64) -> Failure {
     let reached = quantity(time, Dimension::TIME);
-    Failure {
-        kind: CheckKind::Form,
-        time,
-        until: None,
-        at: vec![],
-        message: format!("the judge took {samples_max} samples, the most allowed, and got to {reached} only"),
-        value: samples_max as f64,
-        limit: samples_max as f64,
-        blame: vec![],
-        blames_start: false,
-    }
+    let message =
+        format!("the judge took {samples_max} samples, the most allowed, and got to {reached} only");
+    Failure { time, value: samples_max as f64, limit: samples_max as f64, ..fault(message) }
+}
+
+fn too_many_samples(samples: usize, samples_max: usize) -> Failure {
+    let message = format!(
+        "at the stated time between samples the plan needs {samples} of them, and {samples_max} are allowed"
+    );
+    Failure { value: samples as f64, limit: samples_max as f64, ..fault(message) }
 }

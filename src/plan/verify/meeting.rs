@@ -7,7 +7,7 @@ use super::fault;
 use super::ledger::Ledger;
 use super::walk::Course;
 use crate::geometry::Pose;
-use crate::plan::{CauseId, CheckKind, Tracks};
+use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
 /// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
@@ -29,6 +29,12 @@ pub fn judge(course: &Course, ledger: &mut Ledger) {
         let mut failure = meeting.failure(&tracks.robot);
         failure.blame = blamed(tracks, meeting);
         ledger.fail(failure);
+    }
+    if let Status::Sampled(samples) = found.status {
+        let message = format!(
+            "whether modules meet was not decided within {samples} stretches of time, the most allowed"
+        );
+        ledger.fail(Failure { value: samples as f64, limit: samples as f64, ..fault(message) });
     }
     ledger.verdict.clearance = found.clearance;
     ledger.verdict.samples += found.samples;

@@ -26,7 +26,21 @@ pub fn divisions(tracks: &Tracks, t0: f64, t1: f64, settings: &Settings, toleran
     }
     let by_time = libm::ceil((t1 - t0) / settings.sample - ROUNDING);
     let by_turn = libm::ceil(travel / tolerances.turn_sample - ROUNDING);
-    by_time.max(by_turn).max(1.0).min(settings.samples_max as f64) as usize
+    // Beyond what a machine counts, all of it.
+    by_time.max(by_turn).max(1.0) as usize
+}
+
+/// How many samples a plan takes, refinements not included.
+pub fn count(
+    tracks: &Tracks,
+    worlds: &[WorldFrom],
+    exemptions: &[Exemption],
+    settings: &Settings,
+    tolerances: &Tolerances,
+) -> usize {
+    let instants = instants(tracks, worlds, exemptions);
+    let between = instants.windows(2).map(|w| divisions(tracks, w[0], w[1], settings, tolerances).max(1));
+    between.fold(1, usize::saturating_add)
 }
 
 /// A stretch that is this little longer than a whole number of samples is not divided once more.

@@ -56,9 +56,8 @@ expect 1mm > 2mm, "too short"
 //     ^^^^^^^^^ E0507 too short
 
 --- a built-in that is not there yet ends its statement only
-use std.smores.Smores
-config C { part m: Smores }
-save(C(), "c.rofi")
-//<1-19 E0508 `save` is not available yet
+use std.rofi.Snake
+print(tosnake(Snake(n: 4)).steps)
+//    ^^^^^^^^^^^^^^^^^^^^ E0508 `tosnake` is not available yet
 print("on")
 //> on

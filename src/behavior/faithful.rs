@@ -1,0 +1,103 @@
+//! Whether the program of a plan makes the tracks of that plan: a position-servo robot executes the
+//! program, and the judge judges the tracks.
+
+use super::conflict::conflicts;
+use super::schedule::{Problem, Settings, schedule};
+use crate::plan::{Body, CheckKind, Failure, Plan, Track, Tracks};
+use crate::units::{Dimension, quantity};
+
+/// Positions (rad or m) and times (s) that differ by less are the same.
+const TOL_SAME: f64 = 1e-9;
+
+/// What differs, if anything. A plan without a program, or of another family, has nothing to compare.
+pub fn unfaithful(plan: &Plan) -> Option<Failure> {
+    let (Some(program), Body::Tracks(tracks)) = (&plan.program, &plan.body) else { return None };
+    let joints: Vec<_> = tracks.robot.joints().collect();
+    if let Some(conflict) = conflicts(&program.root).errors.first() {
+        let owner = joints.get(conflict.joint.0 as usize);
+        let name = owner.map_or_else(String::new, |owner| tracks.robot.joint_name(*owner));
+        return Some(failure(format!("the program gives {name} two commands at one time")));
+    }
+    let problem = Problem {
+        robot: tracks.robot.clone(),
+        start: tracks.start.clone(),
+        program: program.root.clone(),
+        start_causes: vec![],
+        bond_causes: vec![],
+        settings: Settings::default(),
+    };
+    let played = match schedule(problem) {
+        Ok(played) => played,
+        Err(refusal) => return Some(failure(format!("the program can't be executed: {}", refusal.reason))),
+    };
+    if played.nominal != plan.nominal {
+        let word = if played.nominal { "depends" } else { "does not depend" };
+        return Some(failure(format!("the program {word} on sensors, and the file says otherwise")));
+    }
+    differs(&played.tracks, tracks).map(failure)
+}
+
+fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
+    if (made.duration - stated.duration).abs() > TOL_SAME {
+        let time = |t| quantity(t, Dimension::TIME);
+        let (made, stated) = (time(made.duration), time(stated.duration));
+        return Some(format!("the program lasts {made}, the motion of the file {stated}"));
+    }
+    let same_docks = made.docks.len() == stated.docks.len()
+        && made
+            .docks
+            .iter()
+            .zip(&stated.docks)
+            .all(|(a, b)| (a.kind, a.bond) == (b.kind, b.bond) && (a.time - b.time).abs() <= TOL_SAME);
+    if !same_docks {
+        return Some("the program docks or undocks otherwise than the motion of the file".to_owned());
+    }
+    let owners = stated.robot.joints().enumerate();
+    for (joint, owner) in owners {
+        let track = |tracks: &Tracks| tracks.tracks.iter().find(|t| t.joint.0 as usize == joint).cloned();
+        let start = stated.start.joints[joint];
+        if !same(track(made).as_ref(), track(stated).as_ref(), start) {
+            let name = stated.robot.joint_name(owner);
+            return Some(format!("the program moves {name} otherwise than the motion of the file"));
+        }
+    }
+    None
+}
+
+/// The same motion: the same pieces, but for those that stand still.
+fn same(a: Option<&Track>, b: Option<&Track>, start: f64) -> bool {
+    let [a, b] = [a, b].map(|track| {
+        let segments = track.map_or(&[][..], |t| &t.segments);
+        let mut at = start;
+        let mut moving = Vec::new();
+        for segment in segments {
+            if segment.control.iter().any(|q| (q - at).abs() > TOL_SAME) {
+                moving.push(segment);
+            }
+            at = *segment.control.last().unwrap_or(&at);
+        }
+        moving
+    });
+    let near = |x: f64, y: f64| (x - y).abs() <= TOL_SAME * f64::max(1.0, x.abs());
+    a.len() == b.len()
+        && a.iter().zip(&b).all(|(a, b)| {
+            near(a.start, b.start)
+                && near(a.end, b.end)
+                && a.control.len() == b.control.len()
+                && a.control.iter().zip(&b.control).all(|(x, y)| near(*x, *y))
+        })
+}
+
+fn failure(message: String) -> Failure {
+    Failure {
+        kind: CheckKind::Form,
+        time: 0.0,
+        until: None,
+        at: vec![],
+        message,
+        value: 0.0,
+        limit: 0.0,
+        blame: vec![],
+        blames_start: false,
+    }
+}

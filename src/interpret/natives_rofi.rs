@@ -1,0 +1,224 @@
+//! `load` and `save`: robots of RoFI modules from and to RoFI's files.
+
+use super::call::Call;
+use super::design::{
+    BondRecord, ConfigDesign, Design, DesignKind, FlatModule, PartElement, PartGroup, SetRecord,
+};
+use super::interpreter::Interpreter;
+use super::natives::{Native, on_run, pure};
+use super::natives_plan::{output_path, write_output};
+use super::stop::{Eval, Stop, fault};
+use super::value::Value;
+use crate::check::typed::DefId;
+use crate::robot::Residual;
+use crate::robot::rofi::{self, Dock, Edge, Module, World};
+use crate::source::{Diagnostic, code};
+use crate::units::{Dimension, quantity};
+use std::rc::Rc;
+
+pub const TABLE: &[Native] = &[pure("load", 1, load), on_run("save", 2, save)];
+
+/// Where the library declares the module.
+const LIBRARY: &str = "std/rofi.mod";
+
+/// RoFI's tools take a loop for closed when no entry of its matrices is farther off than this, in
+/// parts of the pitch (rad).
+const CLOSURE_MAX: f64 = 1e-3;
+
+const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
+
+fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let path = call.text(0)?.to_string();
+    let (Some(kind), Some(loaded)) = (declared(interpreter, "Rofi"), declared(interpreter, "_Loaded")) else {
+        let message = "a robot of RoFI modules needs the library's module";
+        return Err(fault(code::UNKNOWN_IMPORT, call.span, message, "`use std.rofi.Rofi` is missing"));
+    };
+    let (file, bytes) = interpreter.project_file(call, 0)?;
+    let known = |design: &&Rc<Design>| matches!(&design.args[..], [Value::Text(text)] if **text == *file);
+    if let Some(design) = interpreter.designs[loaded.0 as usize].iter().find(known).cloned() {
+        return Ok(instance(interpreter, &design));
+    }
+    let text = String::from_utf8(bytes).map_err(|_| {
+        fault(code::CANNOT_READ, call.at(0), format!("`{path}` is not UTF-8 text"), "no text")
+    })?;
+    let world = rofi::read(&text).map_err(|f| faulty(call, &path, f.line, f.column, &f.what))?;
+    let limit = interpreter.limits().modules;
+    if world.modules.len() > limit {
+        let message = format!("a robot of more than {limit} modules is not allowed");
+        return Err(fault(code::SIZE_LIMIT, call.at(0), message, "too many modules"));
+    }
+    let Some(module) = interpreter.default_design(kind)? else { return Ok(Value::Unknown) };
+    let mut world = world;
+    let design = loop {
+        let design = Rc::new(Design {
+            def: loaded,
+            name: path.clone(),
+            args: vec![Value::text(&file)],
+            kind: DesignKind::Config(configuration(&world, &module, call, &path)?),
+            broken: false.into(),
+        });
+        let open = open_loops(interpreter, &world, &design, call, &path)?;
+        if open.is_empty() {
+            break design;
+        }
+        leave_out(interpreter, &mut world, &open, call, &path);
+    };
+    interpreter.designs[loaded.0 as usize].push(design.clone());
+    Ok(instance(interpreter, &design))
+}
+
+fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
+    Value::Instance(interpreter.whole(design))
+}
+
+/// A declaration of the library's file.
+fn declared(interpreter: &Interpreter, name: &str) -> Option<DefId> {
+    let here = |index: &usize| {
+        let def = interpreter.program.def(DefId(*index as u32));
+        def.name == name && *interpreter.sources.file(def.span.file).name == *LIBRARY
+    };
+    (0..interpreter.program.defs.len()).find(here).map(|index| DefId(index as u32))
+}
+
+fn faulty(call: &Call, path: &str, line: usize, column: usize, what: &str) -> Stop {
+    let message = format!("`{path}`, line {line}, column {column}: {what}");
+    fault(code::CANNOT_READ, call.at(0), message, format!("line {line}: {what}"))
+}
+
+/// Modules, positions and connections, as the clauses of a configuration would have made them.
+fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) -> Eval<ConfigDesign> {
+    let config = ConfigDesign { closed: true, ..ConfigDesign::default() };
+    let name = |m: &Module| -> Rc<str> { format!("m[{}]", m.id).into() };
+    let flat = world.modules.iter().map(|m| FlatModule { name: name(m), design: module.clone() });
+    let elements = world.modules.iter().enumerate();
+    let elements =
+        elements.map(|(offset, m)| PartElement { design: module.clone(), offset, name: name(m) }).collect();
+    let _ = config.modules.set(flat.collect());
+    let _ = config.parts.set(vec![PartGroup { list: true, elements }]);
+    let kind = module.module_type(0);
+    for (index, declared) in world.modules.iter().enumerate() {
+        for (joint, degrees) in JOINTS.iter().zip(declared.joints) {
+            let Some(joint) = kind.joints.iter().position(|j| j.name == *joint) else { continue };
+            let value = degrees.to_radians();
+            if let Some((low, high)) = kind.joints[joint].limits.range
+                && !(low..=high).contains(&value)
+            {
+                let show = |x| quantity(x, Dimension::ANGLE);
+                let name = &kind.joints[joint].name;
+                let what = format!(
+                    "{name} can't be at {}: its range is {} to {}",
+                    show(value),
+                    show(low),
+                    show(high)
+                );
+                return Err(faulty(call, path, declared.line, 1, &what));
+            }
+            let instance = format!("module {}", declared.id).as_str().into();
+            config.sets.borrow_mut().push(SetRecord {
+                module: index,
+                joint,
+                value,
+                span: call.span,
+                instance,
+            });
+        }
+    }
+    let port = |dock: &Dock| {
+        let port = kind.ports.iter().position(|p| p.name == dock.port());
+        (dock.module, port.expect("the library's module has the docks of the format"))
+    };
+    for edge in &world.edges {
+        config.add_bond(BondRecord {
+            a: port(&edge.a),
+            b: port(&edge.b),
+            turn: edge.turn,
+            span: call.span,
+            ends: (call.span, call.span),
+            instance: format!("line {}", edge.line).as_str().into(),
+        });
+    }
+    config.order.set(1);
+    config.base.set(Some(0));
+    config.complete.set(true);
+    Ok(config)
+}
+
+/// The connections that close loops and do not meet, with what is missing. Refuses a robot of several
+/// pieces.
+fn open_loops(
+    interpreter: &mut Interpreter,
+    world: &World,
+    design: &Rc<Design>,
+    call: &Call,
+    path: &str,
+) -> Eval<Vec<Residual>> {
+    let Some(robot) = interpreter.robot_of(design)? else { return Ok(Vec::new()) };
+    if let Some(&loose) = robot.kinematics.tree.loose.first() {
+        let Module { id, line, .. } = &world.modules[loose];
+        let what = format!("module {id} does not hang together with module {}", world.modules[0].id);
+        return Err(faulty(call, path, *line, 1, &what));
+    }
+    let pitch = robot.assembly.module_type(0).ports[0].pose.translation.vector.norm() * 2.0;
+    let open = |r: &Residual| r.distance > CLOSURE_MAX * pitch || r.angle > CLOSURE_MAX;
+    Ok(robot.residuals().into_iter().filter(open).collect())
+}
+
+/// Two docks that are apart hold nothing, whatever the file says: RoFI's own tangler writes such lines.
+fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual], call: &Call, path: &str) {
+    let lines: Vec<String> = open.iter().map(|r| world.edges[r.bond].line.to_string()).collect();
+    let worst = open.iter().map(|r| r.distance).fold(0.0, f64::max);
+    let message = format!(
+        "`{path}`: {} that the docks of line {} do not meet: up to {} are missing",
+        if open.len() == 1 { "a connection was left out, for" } else { "connections were left out, for" },
+        super::connect::shorten(&lines),
+        quantity(worst, Dimension::LENGTH),
+    );
+    interpreter.add_report(
+        Diagnostic::warning(code::OPEN_LOOP, message)
+            .label(call.at(0), "the modules hang together without them")
+            .hint("the other connections decide where the modules are, from the lowest id outwards"),
+    );
+    let mut index = 0;
+    world.edges.retain(|_| {
+        index += 1;
+        open.iter().all(|r| r.bond != index - 1)
+    });
+}
+
+fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let design = call.instance(0)?.design.clone();
+    let (path, _) = output_path(call, 1)?;
+    let Some(robot) = interpreter.robot_at(&design, call.at(0))? else { return Ok(Value::Unknown) };
+    let mut world = World::default();
+    for (index, module) in robot.assembly.modules.iter().enumerate() {
+        let kind = robot.assembly.module_type(index);
+        let position = |joint: &&str| {
+            let joint = kind.joints.iter().position(|j| j.name == **joint)?;
+            Some(degrees(robot.start.joints[robot.kinematics.joint(index, joint)]))
+        };
+        let positions: Option<Vec<f64>> = JOINTS.iter().map(|joint| position(&joint)).collect();
+        let (Some([alpha, beta, gamma]), Some(_)) =
+            (positions.as_deref(), Dock::of_port(index, &kind.ports[0].name))
+        else {
+            let message = format!("{} is no RoFI module: a `.rofi` file can't say what it is", module.name);
+            return Err(call.refuse(0, message));
+        };
+        world.modules.push(Module { id: index as u64, joints: [*alpha, *beta, *gamma], line: 0 });
+    }
+    for bond in &robot.assembly.bonds {
+        let dock = |at: crate::robot::PortRef| {
+            Dock::of_port(at.module, &robot.assembly.module_type(at.module).ports[at.port].name)
+        };
+        if let (Some(a), Some(b)) = (dock(bond.a), dock(bond.b)) {
+            world.edges.push(Edge { a, b, turn: bond.turn, line: 0 });
+        }
+    }
+    write_output(interpreter, call, &path, rofi::write(&world).into_bytes())?;
+    Ok(Value::Nothing)
+}
+
+/// Without the rounding of radians.
+fn degrees(angle: f64) -> f64 {
+    const PARTS: f64 = 1e9;
+    (angle.to_degrees() * PARTS).round() / PARTS
+}

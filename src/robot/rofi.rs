@@ -1,0 +1,252 @@
+//! RoFI's text format of configurations: modules with the positions of their joints, and connections.
+//!
+//! One thing a line: `C` begins a configuration, `M id alpha beta gamma` (degrees) is a module,
+//! `E id side dock orientation dock side id` a connection of two docks. Sides are `A` and `B`, docks
+//! `+X`, `-X` and `-Z` of a side's shoe, orientations `N`, `E`, `S`, `W`: quarter turns.
+
+use std::collections::HashMap;
+use std::fmt::Write;
+
+/// A configuration. Modules are in order of their ids.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct World {
+    pub modules: Vec<Module>,
+    pub edges: Vec<Edge>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Module {
+    pub id: u64,
+    /// alpha, beta and gamma, degrees.
+    pub joints: [f64; 3],
+    pub line: usize,
+}
+
+/// Two docks that hold each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edge {
+    pub a: Dock,
+    pub b: Dock,
+    /// In quarter turns.
+    pub turn: u32,
+    pub line: usize,
+}
+
+/// A dock of a module, by the module's place in the list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Dock {
+    pub module: usize,
+    pub side: Side,
+    pub face: Face,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    A,
+    B,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Face {
+    PlusX,
+    MinusX,
+    MinusZ,
+}
+
+/// What a file says wrongly, and where: line and column count from 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    pub line: usize,
+    pub column: usize,
+    pub what: String,
+}
+
+const SIDES: [(&str, Side); 2] = [("A", Side::A), ("B", Side::B)];
+const FACES: [(&str, Face); 3] = [("+X", Face::PlusX), ("-X", Face::MinusX), ("-Z", Face::MinusZ)];
+const TURNS: [&str; 4] = ["N", "E", "S", "W"];
+
+impl Dock {
+    /// As the library's module names it: `a_plus_x`.
+    pub fn port(&self) -> &'static str {
+        match (self.side, self.face) {
+            (Side::A, Face::PlusX) => "a_plus_x",
+            (Side::A, Face::MinusX) => "a_minus_x",
+            (Side::A, Face::MinusZ) => "a_minus_z",
+            (Side::B, Face::PlusX) => "b_plus_x",
+            (Side::B, Face::MinusX) => "b_minus_x",
+            (Side::B, Face::MinusZ) => "b_minus_z",
+        }
+    }
+
+    /// The dock of a port of the library's module.
+    pub fn of_port(module: usize, port: &str) -> Option<Dock> {
+        let all = SIDES.iter().flat_map(|(_, side)| FACES.iter().map(move |(_, face)| (*side, *face)));
+        all.map(|(side, face)| Dock { module, side, face }).find(|dock| dock.port() == port)
+    }
+}
+
+/// Reads the one configuration of a file.
+pub fn read(text: &str) -> Result<World, Fault> {
+    let mut reader = Reader::default();
+    for (index, line) in text.lines().enumerate() {
+        let words = Words::new(index + 1, line);
+        match words.words.first().map(|(_, word)| *word) {
+            None => {}
+            Some(word) if word.starts_with('#') => {}
+            Some("C") if reader.begun => {
+                return Err(words.fault(0, "a second configuration: the file is a sequence, not one robot"));
+            }
+            Some("C") => reader.begun = true,
+            Some(_) if !reader.begun => return Err(words.fault(0, "a file begins with a line `C`")),
+            Some("M") => reader.module(&words)?,
+            Some("E") => reader.edge(&words)?,
+            Some(other) => {
+                return Err(words.fault(0, format!("`{other}` is none of `C`, `M` and `E`")));
+            }
+        }
+    }
+    reader.finish()
+}
+
+/// The file of a configuration, which reads back to the same.
+pub fn write(world: &World) -> String {
+    let mut text = String::from("C\n");
+    for Module { id, joints: [alpha, beta, gamma], .. } in &world.modules {
+        let _ = writeln!(text, "M {id} {alpha} {beta} {gamma}");
+    }
+    for Edge { a, b, turn, .. } in &world.edges {
+        let (id_a, id_b) = (world.modules[a.module].id, world.modules[b.module].id);
+        let [side_a, side_b] = [a, b].map(|dock| name_of(&SIDES, dock.side));
+        let [face_a, face_b] = [a, b].map(|dock| name_of(&FACES, dock.face));
+        let turn = TURNS[*turn as usize % TURNS.len()];
+        let _ = writeln!(text, "E {id_a} {side_a} {face_a} {turn} {face_b} {side_b} {id_b}");
+    }
+    text
+}
+
+fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: T) -> &'static str {
+    names.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| name)
+}
+
+#[derive(Default)]
+struct Reader {
+    begun: bool,
+    modules: Vec<Module>,
+    /// Place in `modules` of each id.
+    places: HashMap<u64, usize>,
+    edges: Vec<Edge>,
+    /// The edge at each dock.
+    taken: HashMap<Dock, usize>,
+}
+
+impl Reader {
+    fn module(&mut self, words: &Words) -> Result<(), Fault> {
+        let id = words.id(1)?;
+        let mut joints = [0.0; 3];
+        for (k, joint) in joints.iter_mut().enumerate() {
+            *joint = words.number(2 + k)?;
+        }
+        if self.places.insert(id, self.modules.len()).is_some() {
+            return Err(words.fault(1, format!("a second module {id}")));
+        }
+        self.modules.push(Module { id, joints, line: words.line });
+        Ok(())
+    }
+
+    fn edge(&mut self, words: &Words) -> Result<(), Fault> {
+        let a = self.dock(words, (1, 2, 3))?;
+        let turn = words.one_of(4, &TURNS, "an orientation")?;
+        let b = self.dock(words, (7, 6, 5))?;
+        let edge = Edge { a, b, turn: turn as u32, line: words.line };
+        for (dock, column) in [(a, 1), (b, 7)] {
+            if let Some(&other) = self.taken.get(&dock) {
+                let known = &self.edges[other];
+                // The same connection said twice is no harm.
+                if known.turn == edge.turn && [(known.a, known.b), (known.b, known.a)].contains(&(a, b)) {
+                    return Ok(());
+                }
+                let message = format!("this dock was connected in line {}", known.line);
+                return Err(words.fault(column, message));
+            }
+        }
+        if a == b {
+            return Err(words.fault(1, "a dock can't hold itself"));
+        }
+        self.taken.extend([(a, self.edges.len()), (b, self.edges.len())]);
+        self.edges.push(edge);
+        Ok(())
+    }
+
+    fn dock(&self, words: &Words, (id, side, face): (usize, usize, usize)) -> Result<Dock, Fault> {
+        let number = words.id(id)?;
+        let Some(&module) = self.places.get(&number) else {
+            return Err(words.fault(id, format!("no module {number} stands above")));
+        };
+        let side = SIDES[words.one_of(side, &SIDES.map(|(name, _)| name), "a side")?].1;
+        let face = FACES[words.one_of(face, &FACES.map(|(name, _)| name), "a dock")?].1;
+        Ok(Dock { module, side, face })
+    }
+
+    fn finish(self) -> Result<World, Fault> {
+        if self.modules.is_empty() {
+            return Err(Fault { line: 1, column: 1, what: "there are no modules in it".into() });
+        }
+        let mut order: Vec<usize> = (0..self.modules.len()).collect();
+        order.sort_by_key(|&m| self.modules[m].id);
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(to, &from)| place[from] = to);
+        let moved = |dock: Dock| Dock { module: place[dock.module], ..dock };
+        let edges = self.edges.into_iter().map(|e| Edge { a: moved(e.a), b: moved(e.b), ..e });
+        let modules = order.iter().map(|&m| self.modules[m].clone()).collect();
+        Ok(World { modules, edges: edges.collect() })
+    }
+}
+
+/// The words of a line with their columns.
+struct Words<'t> {
+    line: usize,
+    length: usize,
+    words: Vec<(usize, &'t str)>,
+}
+
+impl<'t> Words<'t> {
+    fn new(line: usize, text: &'t str) -> Words<'t> {
+        let start = text.as_ptr() as usize;
+        let column = |word: &str| text[..word.as_ptr() as usize - start].chars().count() + 1;
+        let words = text.split_whitespace().map(|word| (column(word), word)).collect();
+        Words { line, length: text.chars().count(), words }
+    }
+
+    fn fault(&self, index: usize, what: impl Into<String>) -> Fault {
+        let column = self.words.get(index).map_or(self.length + 1, |(column, _)| *column);
+        Fault { line: self.line, column, what: what.into() }
+    }
+
+    fn word(&self, index: usize, what: &str) -> Result<&'t str, Fault> {
+        let word = self.words.get(index).map(|(_, word)| *word);
+        word.ok_or_else(|| self.fault(index, format!("{what} is missing")))
+    }
+
+    fn id(&self, index: usize) -> Result<u64, Fault> {
+        let word = self.word(index, "the id of a module")?;
+        word.parse().map_err(|_| self.fault(index, format!("`{word}` is no id of a module")))
+    }
+
+    /// An angle in degrees.
+    fn number(&self, index: usize) -> Result<f64, Fault> {
+        let word = self.word(index, "a joint's position")?;
+        let number = word.parse().ok().filter(|x: &f64| x.is_finite());
+        number.ok_or_else(|| self.fault(index, format!("`{word}` is no number of degrees")))
+    }
+
+    /// One of some words, or its number.
+    fn one_of(&self, index: usize, names: &[&str], what: &str) -> Result<usize, Fault> {
+        let word = self.word(index, what)?;
+        let by_number = word.parse().ok().filter(|n: &usize| *n < names.len());
+        names
+            .iter()
+            .position(|name| *name == word)
+            .or(by_number)
+            .ok_or_else(|| self.fault(index, format!("`{word}` is not {what}: {} are", names.join(", "))))
+    }
+}
