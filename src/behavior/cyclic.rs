@@ -110,8 +110,15 @@ impl Run<'_> {
         }
         let positions = self.positions();
         let first = self.rehearse(body, positions, cause)?;
+        let goes = moves(&first);
         let second = self.rehearse(body, first.end, cause)?;
         let duration = second.duration;
+        if goes && !moves(&second) {
+            return Err(Refusal::at(
+                cause,
+                Reason::NotCyclic { what: "a behaviour that does not come back" },
+            ));
+        }
         let cut = tick_near(shift * duration);
         let absolute = absolute_joints(body);
         let tracks = second.tracks.iter().map(|track| {
@@ -229,4 +236,10 @@ fn not_cyclic(body: &Arc<Node>) -> Option<&'static str> {
         Command::Undock { .. } => Some("undocking"),
         _ => None,
     })
+}
+
+/// Whether any joint moves.
+fn moves(played: &Played) -> bool {
+    let segments = played.tracks.iter().flat_map(|track| &track.segments);
+    segments.into_iter().any(|s| s.control.iter().any(|q| *q != s.control[0]))
 }

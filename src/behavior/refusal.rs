@@ -2,6 +2,7 @@
 
 use super::joints::Mute;
 use crate::plan::CauseId;
+use crate::units::{Dimension, quantity};
 
 /// A behaviour that can't be carried out, or whose schedule exceeds a limit.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,13 +72,18 @@ impl std::fmt::Display for Reason {
                 write!(f, "the motion begins at {begins:.6}, but `{joint}` is at {at:.6}")
             }
             Reason::NoTimeToStop { joint, needed, given } => {
-                write!(f, "`{joint}` needs {needed:.6} s to stop, which leaves nothing of {given:.6} s")
+                write!(
+                    f,
+                    "`{joint}` needs {} to stop, which leaves nothing of {}",
+                    time(*needed),
+                    time(*given)
+                )
             }
             Reason::StillTurning { joint, speed } => {
                 write!(f, "the plan ends while `{joint}` still turns at {speed:.6} per second")
             }
             Reason::NeverHolds => write!(f, "the condition never holds, and there is no timeout"),
-            Reason::Aborted { message, time } => write!(f, "aborted at {time:.6} s: {message}"),
+            Reason::Aborted { message, time } => write!(f, "aborted at {}: {message}", self::time(*time)),
             Reason::PortTaken { port, by } => write!(f, "`{port}` is taken by `{by}`"),
             Reason::PortFree { port } => write!(f, "nothing is docked at `{port}`"),
             Reason::NoMate { a, b } => write!(f, "`{a}` and `{b}` do not mate"),
@@ -87,4 +93,8 @@ impl std::fmt::Display for Reason {
             Reason::Limit { what, limit } => write!(f, "more than {limit} {what}"),
         }
     }
+}
+
+fn time(seconds: f64) -> String {
+    quantity(seconds, Dimension::TIME)
 }

@@ -45,6 +45,8 @@ pub enum DefItem<'a> {
 pub struct DefInfo<'a> {
     pub name: Symbol,
     pub span: Span,
+    /// Of the whole declaration.
+    pub whole: Span,
     /// Index among the loaded files.
     pub file: usize,
     pub doc: Option<Arc<str>>,
@@ -382,10 +384,11 @@ impl<'a> Checker<'a> {
             K::Truss(x) => (x.name, DefItem::Truss(x)),
             K::Use(_) | K::Test(_) | K::Statement(_) | K::Error => return,
         };
-        let id = self.add_def(file, name, item.doc.as_deref(), def);
+        let id = self.add_def(file, name, item, def);
         if let DefItem::Record(record) = def {
             for (doc, method) in &record.methods {
-                self.add_def(file, method.name, doc.as_deref(), DefItem::Method(method, id));
+                let id = self.add_def(file, method.name, item, DefItem::Method(method, id));
+                self.defs[id.0 as usize].doc = doc.as_deref().map(Arc::from);
             }
         }
         if let Some(Entity::Def(first)) = self.scopes[file].get(&name.text).copied() {
@@ -395,12 +398,13 @@ impl<'a> Checker<'a> {
         self.scopes[file].insert(name.text, Entity::Def(id));
     }
 
-    fn add_def(&mut self, file: usize, name: ast::Name, doc: Option<&str>, item: DefItem<'a>) -> DefId {
+    fn add_def(&mut self, file: usize, name: ast::Name, whole: &ast::Item, item: DefItem<'a>) -> DefId {
         self.defs.push(DefInfo {
             name: name.text,
             span: name.span,
+            whole: whole.span,
             file,
-            doc: doc.map(Arc::from),
+            doc: whole.doc.as_deref().map(Arc::from),
             item,
             signature: None,
             members: None,
@@ -504,7 +508,14 @@ impl<'a> Checker<'a> {
                 own.push(DefId(index as u32));
             }
             let kind = info.typed.unwrap_or(DefKind::Error);
-            defs.push(typed::Def { name: info.name, span: info.span, file, doc: info.doc, kind });
+            defs.push(typed::Def {
+                name: info.name,
+                span: info.span,
+                whole: info.whole,
+                file,
+                doc: info.doc,
+                kind,
+            });
         }
         (Program { defs, statements, tests, own }, self.diagnostics)
     }

@@ -44,6 +44,8 @@ pub struct Def {
     pub name: Symbol,
     /// Of the name.
     pub span: Span,
+    /// Of the whole declaration.
+    pub whole: Span,
     pub file: FileId,
     pub doc: Option<Arc<str>>,
     pub kind: DefKind,

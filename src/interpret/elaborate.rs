@@ -30,6 +30,9 @@ impl Interpreter<'_> {
     /// The design of a declaration with these arguments; `None` where an argument is unknown or the
     /// declaration was not understood.
     pub fn design_of(&mut self, def: DefId, args: Args, span: Span) -> Eval<Option<Rc<Design>>> {
+        if self.faulty[def.0 as usize] {
+            return Ok(None);
+        }
         let Some(params) = params_of(&self.program.def(def).kind) else { return Ok(None) };
         let Some((args, shown)) = self.fill_params(def, params, args)? else { return Ok(None) };
         let known = self.designs[def.0 as usize].iter().find(|d| same_args(&d.args, &args)).cloned();

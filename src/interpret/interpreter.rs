@@ -49,6 +49,8 @@ pub struct Interpreter<'a> {
     pub binders: Vec<Binder>,
     pub written: Vec<String>,
     pub tests: Vec<TestResult>,
+    /// Declarations in which `check` found mistakes: what comes of them is unknown.
+    pub faulty: Vec<bool>,
     /// Whether something could not be judged because of an error reported before.
     pub unjudged: bool,
     steps: u64,
@@ -102,6 +104,7 @@ impl<'a> Interpreter<'a> {
             binders: Vec::new(),
             written: Vec::new(),
             tests: Vec::new(),
+            faulty: faulty(checked),
             unjudged: false,
             steps: 0,
             nesting: 0,
@@ -283,4 +286,13 @@ impl<'a> Interpreter<'a> {
     pub fn whole(&self, design: &Rc<Design>) -> Rc<Instance> {
         Instance::whole(design.clone())
     }
+}
+
+fn faulty(checked: &Checked) -> Vec<bool> {
+    let errors = checked.diagnostics.iter().filter(|d| d.is_error());
+    let places: Vec<Span> = errors.filter_map(Diagnostic::span).collect();
+    let within = |whole: Span| {
+        places.iter().any(|p| p.file == whole.file && whole.start <= p.start && p.end <= whole.end)
+    };
+    checked.program.defs.iter().map(|def| within(def.whole)).collect()
 }

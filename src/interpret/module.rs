@@ -10,6 +10,7 @@ use crate::check::typed::{
     DefId, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement, PortClause,
 };
 use crate::geometry::pose::{shifted, turned};
+use crate::geometry::soundness::SIZE_MAX;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{Joint, JointKind, Limits, Link, ModuleType, Motor, Port, mass};
 use crate::source::{Diagnostic, Span, code};
@@ -143,6 +144,10 @@ impl Interpreter<'_> {
     pub fn placement(&mut self, at: Option<&Placement>, frame: &mut Frame) -> Eval<Pose> {
         let Some(at) = at else { return Ok(Pose::identity()) };
         let mut pose = match self.eval(&at.position, frame)? {
+            Value::Vec3(position, _) if position.iter().any(|c| c.abs() > SIZE_MAX) => {
+                let message = "nothing is placed farther away than 1000 km";
+                return Err(fault(code::BAD_VALUE, at.position.span, message, "too far"));
+            }
             Value::Vec3(position, _) => shifted(position),
             _ => Pose::identity(),
         };

@@ -54,7 +54,7 @@ pub const fn on_run(
 
 /// All built-ins, one table a subject.
 pub fn all() -> impl Iterator<Item = &'static Native> {
-    let tables: [&'static [Native]; 9] = [
+    let tables: [&'static [Native]; 10] = [
         natives_math::TABLE,
         natives_list::TABLE,
         natives_rofi::TABLE,

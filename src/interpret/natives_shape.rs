@@ -8,7 +8,7 @@ use super::value::{JointSpec, Solid, Value};
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Placed, Pose, Shape, Vec3, soundness};
 use crate::robot::{JointKind, Limits};
-use crate::source::code;
+use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
 pub const TABLE: &[Native] = &[
@@ -48,9 +48,33 @@ fn capsule(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn prism(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let height = call.positive(1, "the height of a prism")?;
     let outline = points(call, 0)?;
+    if !convex(&outline) {
+        let label = "the outline turns both ways, or crosses itself";
+        return Err(Diagnostic::error(code::BAD_SHAPE, "the outline of a prism must be convex")
+            .label(call.at(0), label)
+            .hint("make it a `union` of convex prisms")
+            .into());
+    }
     let end = |z: f64| outline.iter().map(move |p| Vec3::new(p.x, p.y, z));
     solid(call, 2, Shape::Hull { points: end(-height / 2.0).chain(end(height / 2.0)).collect() })
 }
+
+/// Whether a closed outline turns one way round, and once.
+fn convex(outline: &[Vec3]) -> bool {
+    let n = outline.len();
+    let side = |i: usize| outline[(i + 1) % n].xy() - outline[i % n].xy();
+    let turn = |i: usize| {
+        let (a, b) = (side(i), side(i + 1));
+        libm::atan2(a.x * b.y - a.y * b.x, a.dot(&b))
+    };
+    let turns: Vec<f64> = (0..n).filter(|&i| side(i).norm() > 0.0).map(turn).collect();
+    let (least, greatest) = turns.iter().fold((0.0, 0.0), |(l, g): (f64, f64), t| (l.min(*t), g.max(*t)));
+    let whole: f64 = turns.iter().sum();
+    (least >= -TOL_TURN || greatest <= TOL_TURN) && whole.abs() < std::f64::consts::TAU + TOL_TURN
+}
+
+/// Corners that turn by less than this (rad) are straight.
+const TOL_TURN: f64 = 1e-9;
 
 fn hull(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     solid(call, 1, Shape::Hull { points: points(call, 0)? })
