@@ -218,7 +218,6 @@ pub struct JointBetween {
     /// Indices of `links`.
     pub parent: usize,
     pub child: usize,
-    /// Evaluates to a [`Type::JointKind`].
     pub kind: Expr,
     pub at: Option<Placement>,
     /// What a clause of its own says of a joint that follows others.
