@@ -196,7 +196,7 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             let joint = kind.joints.iter().position(|j| j.name == **joint)?;
             Some(degrees(robot.start.joints[robot.kinematics.joint(index, joint)]))
         };
-        let positions: Option<Vec<f64>> = JOINTS.iter().map(|joint| position(&joint)).collect();
+        let positions: Option<Vec<f64>> = JOINTS.iter().map(position).collect();
         let (Some([alpha, beta, gamma]), Some(_)) =
             (positions.as_deref(), Dock::of_port(index, &kind.ports[0].name))
         else {
