@@ -326,6 +326,11 @@ fn the_fastest_is_taken_that_the_model_allows() {
     let (from, to) = (row(100), column(100));
     let free = found(&task(&from, &to));
     assert_eq!((free.method, free.balanced), (Method::Accordion, true));
+    // An array with even sides is as good as the squarest: 20 by 50 for 1000.
+    let (long, high) = (row(1000), column(1000));
+    let even = found(&task(&long, &high));
+    assert_eq!((even.method, even.balanced), (Method::Accordion, true));
+    assert!(even.stages.duration() < 1.05 * accordion(TERMS, 1000).expect("there is a way").duration());
     let paper = found(&Task { demand: Demand::Paper, ..task(&from, &to) });
     assert_eq!(paper.method, Method::Shear);
     assert!(near(paper.stages.duration(), paper.lower_bound), "the shear meets the bound");

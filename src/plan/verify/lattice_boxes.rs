@@ -15,7 +15,9 @@ const PAIRS_MAX: usize = 500;
 pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Result<(), Meeting>> {
     let contacts = pairs_near(before, |i, j| {
         if lasts(before, after, i, j) {
-            forest.touch(i as u32, j as u32, before, after);
+            let moved = |k: usize, axis: usize| after[k].middle(axis) - before[k].middle(axis);
+            let parting = (0..3).map(|axis| (moved(i, axis) - moved(j, axis)).abs()).max();
+            forest.touch(i as u32, j as u32, parting.unwrap_or(0));
         }
         None
     });

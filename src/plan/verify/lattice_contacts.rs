@@ -37,15 +37,11 @@ impl Forest {
         at as u32
     }
 
-    /// Records a contact that lasts the stage.
-    pub fn touch(&mut self, a: u32, b: u32, before: &[Cube], after: &[Cube]) {
-        let (i, j) = (a as usize, b as usize);
-        for axis in 0..3 {
-            let moved = |k: usize| after[k].middle(axis) - before[k].middle(axis);
-            let parting = (moved(i) - moved(j)).abs();
-            if parting > self.parting {
-                (self.parting, self.parted) = (parting, (a, b));
-            }
+    /// Records a contact that lasts the stage. Its cells move against each other by `parting`, twice, at
+    /// most along an axis.
+    pub fn touch(&mut self, a: u32, b: u32, parting: i64) {
+        if parting > self.parting {
+            (self.parting, self.parted) = (parting, (a, b));
         }
         let (p, q) = (self.root(a), self.root(b));
         if p != q {

@@ -55,7 +55,7 @@ pub fn judge(
     let contacts = |places: &[Place], forest: &mut Forest| {
         for pair in places.windows(2) {
             if pair[0].before.1 == pair[1].before.0 && pair[0].after.1 == pair[1].after.0 {
-                forest.touch(pair[0].cell, pair[1].cell, before, after);
+                forest.touch(pair[0].cell, pair[1].cell, parting(&pair[0], &pair[1]));
             }
         }
     };
@@ -80,7 +80,7 @@ pub fn judge(
         }
     }
     for (a, b) in beside {
-        side_by_side(lanes.lane(a), lanes.lane(b), |p, q| forest.touch(p, q, before, after));
+        side_by_side(lanes.lane(a), lanes.lane(b), |p, q| forest.touch(p.cell, q.cell, parting(p, q)));
     }
     Some(Ok(()))
 }
@@ -135,6 +135,12 @@ impl Lanes {
     }
 }
 
+/// Twice the distance by which two cells move against each other.
+fn parting(a: &Place, b: &Place) -> i64 {
+    let moved = |p: &Place| p.after.0 + p.after.1 - p.before.0 - p.before.1;
+    (moved(a) - moved(b)).abs()
+}
+
 /// The first two neighbours that meet.
 fn in_line(places: &[Place]) -> Option<Meeting> {
     places.windows(2).find_map(|pair| {
@@ -163,7 +169,7 @@ fn merge(a: &[Place], b: &[Place], merged: &mut Vec<Place>) {
 /// Finds the cells of two lanes that face each other all the while: their overlap along the axis is
 /// concave in the progress, so it is positive inside where it is nowhere negative at the ends, unless
 /// it is 0 at both.
-fn side_by_side(a: &[Place], b: &[Place], mut touch: impl FnMut(u32, u32)) {
+fn side_by_side(a: &[Place], b: &[Place], mut touch: impl FnMut(&Place, &Place)) {
     let overlap = |p: (i64, i64), q: (i64, i64)| p.1.min(q.1) - p.0.max(q.0);
     let (mut i, mut j) = (0, 0);
     while i < a.len() && j < b.len() {
@@ -172,7 +178,7 @@ fn side_by_side(a: &[Place], b: &[Place], mut touch: impl FnMut(u32, u32)) {
         while ahead < b.len() && b[ahead].before.0 <= a[i].before.1 {
             let (start, end) = (overlap(a[i].before, b[ahead].before), overlap(a[i].after, b[ahead].after));
             if start >= 0 && end >= 0 && start + end > 0 {
-                touch(a[i].cell, b[ahead].cell);
+                touch(&a[i], &b[ahead]);
             }
             ahead += 1;
         }

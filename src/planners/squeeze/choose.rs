@@ -4,7 +4,7 @@ use super::bound::lower_bound;
 use super::retime::retime;
 use super::shape::Shape;
 use super::way::{Terms, Way};
-use super::ways::ways;
+use super::ways::{Candidate, ways};
 use super::{Demand, Found, Method, Refusal, Task};
 use crate::plan::verify::lattice::ends;
 use crate::plan::{CauseId, CellLimits, Model, Ratio, Stage, Stages};
@@ -40,33 +40,36 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
         let model = Model { balanced, contact_force };
         stages(way, Frame { cell: index, time_unit, limits, model })
     };
-    let mut found: Vec<(Method, bool, Stages)> = Vec::new();
+    let any_balanced = candidates.iter().any(|candidate| candidate.way.is_balanced());
+    if task.demand == Demand::Balanced && !any_balanced {
+        return Err(Refusal::Unbalanced { method: task.method });
+    }
+    let allowed = |candidate: &Candidate| match task.demand {
+        Demand::Paper => true,
+        Demand::Auto | Demand::Balanced if any_balanced => candidate.way.is_balanced(),
+        // A shear turns the whole robot by a quarter; the others do so by a little.
+        _ => candidate.method != Method::Shear || task.method == Method::Shear,
+    };
+    let mut candidates: Vec<Candidate> = candidates.into_iter().filter(allowed).collect();
+    candidates.sort_by(|a, b| a.way.duration().total_cmp(&b.way.duration()));
+    let mut best: Option<(Method, bool, Stages)> = None;
     for candidate in candidates {
+        let time = |stages: &Stages| stages.duration() / time_unit;
+        // A bound on forces only slows a plan down.
+        if best.as_ref().is_some_and(|(_, _, stages)| time(stages) <= candidate.way.duration()) {
+            break;
+        }
         let balanced = candidate.way.is_balanced();
         // What the paper's model allows is not held to more.
         let mut stages = fill(candidate.way, balanced && task.demand != Demand::Paper);
         if let Some(force) = contact_force {
             retime(&mut stages, force)?;
         }
-        found.push((candidate.method, balanced, stages));
+        if best.as_ref().is_none_or(|(_, _, least)| time(&stages) < time(least)) {
+            best = Some((candidate.method, balanced, stages));
+        }
     }
-    let any_balanced = found.iter().any(|(_, balanced, _)| *balanced);
-    if task.demand == Demand::Balanced && !any_balanced {
-        return Err(Refusal::Unbalanced { method: task.method });
-    }
-    let steady = match task.demand {
-        Demand::Paper => false,
-        Demand::Auto | Demand::Balanced => any_balanced,
-    };
-    let turns_least = |method: Method| {
-        // A shear turns the whole robot by a quarter; the others do so by a little.
-        task.demand == Demand::Auto && method == Method::Shear && task.method == Method::Auto
-    };
-    let (method, balanced, stages) = found
-        .into_iter()
-        .filter(|(method, balanced, _)| (*balanced || !steady) && !turns_least(*method))
-        .min_by(|a, b| a.2.duration().total_cmp(&b.2.duration()))
-        .ok_or(Refusal::Method { method: task.method })?;
+    let (method, balanced, stages) = best.ok_or(Refusal::Method { method: task.method })?;
     check_ends(&stages, &from, &to)?;
     let lower_bound = lower_bound(&from, &to, contact_force) * time_unit;
     Ok(Found { why: why(task, method, balanced), stages, lower_bound, method, balanced })

@@ -42,8 +42,11 @@ pub fn ways(terms: Terms, from: &Shape, to: &Shape, wanted: Method) -> Result<Ve
     let context = Context { terms, supple, wanted };
     let all: Vec<Vec<Candidate>> =
         (0..3).map(|axis| context.to_row(from, axis, &|i| i)).collect::<Result<_, Refusal>>()?;
+    // Where one of the shapes is a row, it is that row that the ways go through.
+    let is_row = |axis: usize| from.is_row_along(axis) || to.is_row_along(axis);
+    let any_row = (0..3).any(is_row);
     for (axis, starts) in all.iter().enumerate() {
-        if starts.is_empty() {
+        if starts.is_empty() || (any_row && !is_row(axis)) {
             continue;
         }
         for end in context.to_row(to, axis, &|i| i)? {
