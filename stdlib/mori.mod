@@ -13,19 +13,25 @@ connector Edge {
 /// A triangular panel of side `side`, drawn flat with its front up and its first edge towards -y.
 ///
 /// Side, thickness and mass are those of the origami-folding paper; speed and torque of the edges
-/// are round figures, for the paper states none.
+/// are round figures, for the paper states none. The edges are bevelled on both sides, so that two
+/// panels close up to 60 degrees between them: the paper's hinges leave as much room.
 module Mori(side: Length = 80mm, thickness: Length = 6mm) {
   let apothem = side / (2 * sqrt(3))
 
+  // A tenth of a millimetre inside the edges, so that panels side by side do not meet.
+  let middle = apothem - 0.1mm
+
+  // Where the bevel ends: half the thickness above the middle, at 30 degrees.
+  let outside = middle - thickness / 2 * sqrt(3)
+
+  require outside > 0mm, "the panel is too thick for its side: the bevels meet"
+
   mass 26g
 
-  // A tenth of a millimetre inside the edges, so that panels side by side do not meet.
-  link panel = prism(
-    [
-      [2 * (apothem - 0.1mm) * cos(a), 2 * (apothem - 0.1mm) * sin(a), 0mm]
-      for a in [-150deg, -30deg, 90deg]
-    ],
-    height: thickness,
+  link panel = hull(
+    [[2 * middle * cos(a), 2 * middle * sin(a), 0mm] for a in [-150deg, -30deg, 90deg]]
+      ++ [[2 * outside * cos(a), 2 * outside * sin(a), z]
+          for a in [-150deg, -30deg, 90deg] for z in [-thickness / 2, thickness / 2]],
   )
 
   for i in 0..3 {

@@ -1367,6 +1367,8 @@ extern type Layout {
   panels: Int
   /// The hinges that fold: pairs of faces of the target.
   hinges: List<List<Int>>
+  /// Pairs of panels that lie on each other in the plane.
+  overlaps: List<List<Int>>
 }
 
 /// What `fold` found: the layout, the order of folding, and the motion.
@@ -1377,32 +1379,55 @@ extern type Folding is Plan {
   layout: Layout
   /// How many flat patterns there are: spanning trees of the target's faces.
   layouts: Int
-  /// What the motors spend.
+  /// What the motors spend, in the measure of the origami-folding paper: the sum of mean torques.
   energy: Energy
-  /// Whether it is proved that no layout and no order spends less.
+  /// No layout spends less with the leaves folded first.
+  bound: Energy
+  /// Whether it is proved that no layout spends less with the leaves folded first, and this is how it
+  /// folds.
   optimal: Bool
+  /// The faces that could stay on the ground for the same least energy, as far as they were looked for.
+  ties: List<Int>
   /// The face that stays on the ground.
   root: Int
+  /// The faces that fold in each step.
+  order: List<List<Int>>
   /// The folded robot.
   robot: Config
 }
 
-/// Finds the flat pattern for a shape and the order in which to fold it. Not yet available.
+/// Finds the flat pattern of panels for a shape that folds for the least energy, the order in which to
+/// fold it without collisions, and the motion.
+///
+/// The target is a mesh of triangles whose sides are those of the panels, each edge of which joins two
+/// faces at most; panel `i` becomes face `i`. The module is a triangular panel with a hinge at each of
+/// its three edges. `root` is the face that stays where it is; without it, the best is found.
+///
+/// `exact` proves its answer without looking at every layout; `enumerate` looks at every one;
+/// `heuristic` takes the one that the paper's own measure prefers. Energies are those of even thin
+/// panels without gravity, with the leaves folded first. Where that order collides, other layouts of
+/// the same energy are tried, then other orders: `optimal` tells.
+///
+/// `step` is how long each step takes; by default as long as the fastest hinge needs. `budget` bounds
+/// the layouts and branchings that are looked at; `seed` makes another choice among equals. The plan's
+/// world has neither gravity nor ground.
 ///
 /// Example:
-/// ```modl check
+/// ```modl
 /// use std.mori.Mori
 /// use std.shapes.octahedron
-/// print(fold(octahedron(edge: 80mm), module: Mori).layouts)
+/// let octa = fold(octahedron(edge: 80mm), module: Mori)
+/// print(octa.layouts, octa.optimal, octa.steps)
+/// print(verify(octa).ok)
 /// ```
 extern fn fold(
   target: Mesh,
   module: Module,
   root: auto | Int = auto,
   method: exact | heuristic | enumerate = exact,
+  step: auto | Time = auto,
   seed: Int = 0,
   budget: Int = 100_000_000,
-  timeout: Time?,
 ) -> Folding
 
 /// What `squeeze` found. What cells go through is what the verifier finds.

@@ -46,6 +46,7 @@ mod verdicts;
 mod natives;
 mod natives_action;
 mod natives_family;
+mod natives_fold;
 mod natives_list;
 mod natives_math;
 mod natives_plan;

@@ -99,7 +99,8 @@ fn modules(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn collect(instance: &Rc<Instance>, kind: crate::check::typed::DefId, found: &mut Vec<Value>) {
-    if instance.design.def == kind {
+    // A robot that a planner put together has the declaration of its modules.
+    if instance.design.def == kind && (instance.design.module().is_some() || instance.parts().is_none()) {
         found.push(Value::Instance(instance.clone()));
         return;
     }

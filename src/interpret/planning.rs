@@ -3,6 +3,7 @@
 use super::causes::PlanCauses;
 use super::design::Design;
 use super::interpreter::Interpreter;
+use super::natives_fold::Folded;
 use super::natives_squeeze::Squeezed;
 use super::record::{Record, StateValue, first_world};
 use super::robot_of::Robot;
@@ -34,6 +35,8 @@ pub struct Planned {
     pub actions: u64,
     /// What `squeeze` says of it.
     pub squeezed: Option<Squeezed>,
+    /// What `fold` says of it.
+    pub folded: Option<Folded>,
     /// Verdicts so far.
     judged: RefCell<Vec<Judged>>,
 }
@@ -66,11 +69,24 @@ impl Planned {
         causes: Vec<CauseId>,
         actions: u64,
     ) -> Planned {
-        Planned { robot, body, plan, causes, actions, squeezed: None, judged: RefCell::default() }
+        Planned {
+            robot,
+            body,
+            plan,
+            causes,
+            actions,
+            squeezed: None,
+            folded: None,
+            judged: RefCell::default(),
+        }
     }
 
     pub fn with_squeezed(self, squeezed: Squeezed) -> Planned {
         Planned { squeezed: Some(squeezed), ..self }
+    }
+
+    pub fn with_folded(self, folded: Folded) -> Planned {
+        Planned { folded: Some(folded), ..self }
     }
 
     pub fn actions(&self) -> usize {
@@ -143,7 +159,8 @@ impl Interpreter<'_> {
         Ok(Some(planned))
     }
 
-    fn assemble_plan(
+    /// A plan of what was scheduled, with what was too fast in it.
+    pub fn assemble_plan(
         &self,
         design: Rc<Design>,
         robot: Rc<Robot>,
@@ -172,8 +189,8 @@ impl Interpreter<'_> {
         Settings { samples_max: self.limits().samples, ..Settings::default() }
     }
 
-    /// Durations that turned out shorter than the joints' limits allow.
-    fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
+    /// Durations that turned out shorter than the joints' limits allow; gives whether there are none.
+    pub fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
         for issue in issues {
             let issue = behavior::Issue { cause: ids[issue.cause.0 as usize], ..issue.clone() };
             let diagnostic = self.issue(&issue);
@@ -320,7 +337,7 @@ impl Interpreter<'_> {
         }
     }
 
-    fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
+    pub fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
         super::verdicts::refused(self, refusal, ids, span)
     }
 }

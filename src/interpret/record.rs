@@ -1,7 +1,8 @@
 //! Records: what built-ins give back, and the fields by which it is asked.
 
-use super::design::Design;
+use super::design::{Design, Instance};
 use super::interpreter::Interpreter;
+use super::natives_fold::{FlatPattern, Folded};
 use super::natives_squeeze::Squeezed;
 use super::planning::Planned;
 use super::robot_of::Robot;
@@ -11,6 +12,7 @@ use super::value::Value;
 use super::verdicts;
 use crate::geometry::Vec3;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
+use crate::planners::fold::pattern::Pattern;
 use crate::robot::State;
 use crate::source::{Span, Symbol};
 use crate::units::{Dimension, quantity};
@@ -26,6 +28,8 @@ pub enum Record {
     Frame(Vec<Vec3>, Vec<(usize, usize)>),
     /// Of a truss.
     Rigidity(Rc<Design>),
+    /// A flat pattern with the target that it folds into.
+    Layout(Rc<FlatPattern>),
 }
 
 /// A state of a robot, with when and where it was taken.
@@ -52,8 +56,14 @@ impl Interpreter<'_> {
                     Some(squeezed) if SQUEEZING.contains(&field.as_str()) => {
                         self.squeezing_field(planned, squeezed, field.as_str())
                     }
-                    _ => self.plan_field(planned, field.as_str()),
+                    _ => match &planned.folded {
+                        Some(folded) if FOLDING.contains(&field.as_str()) => {
+                            folding_field(planned, folded, field.as_str())
+                        }
+                        _ => self.plan_field(planned, field.as_str()),
+                    },
                 },
+                Record::Layout(layout) => layout_field(layout, field.as_str()),
                 Record::Report(verdict) => report_field(verdict, field.as_str()),
                 Record::State(state) => state.field(field.as_str()),
                 Record::World(world) => world_field(world, field.as_str()),
@@ -89,6 +99,41 @@ impl Interpreter<'_> {
             "assumes" => Value::Record(Rc::new(Record::World(first_world(&planned.plan)))),
             _ => Value::Unknown,
         }
+    }
+}
+
+/// The fields of a `Folding` beside those of a plan.
+const FOLDING: &[&str] =
+    &["plan", "layout", "layouts", "energy", "bound", "optimal", "ties", "root", "order", "robot"];
+
+fn folding_field(planned: &Rc<Planned>, folded: &Folded, field: &str) -> Value {
+    let numbers = |faces: &[usize]| Value::list(faces.iter().map(|f| Value::count(*f)).collect());
+    match field {
+        "plan" => Value::Record(Rc::new(Record::Plan(planned.clone()))),
+        "layout" => Value::Record(Rc::new(Record::Layout(folded.pattern.clone()))),
+        "layouts" => Value::whole(folded.layouts.clone()),
+        "energy" => Value::Quantity(folded.energy, ENERGY),
+        "bound" => Value::Quantity(folded.bound, ENERGY),
+        "optimal" => Value::Bool(folded.optimal),
+        "ties" => numbers(&folded.ties),
+        "root" => Value::count(folded.pattern.layout.root),
+        "order" => Value::list(folded.steps.iter().map(|step| numbers(step)).collect()),
+        "robot" => Value::Instance(Instance::whole(planned.robot.clone())),
+        _ => Value::Unknown,
+    }
+}
+
+fn layout_field(pattern: &FlatPattern, field: &str) -> Value {
+    let FlatPattern { target, layout } = pattern;
+    let pair = |[a, b]: [usize; 2]| Value::list(vec![Value::count(a), Value::count(b)]);
+    match field {
+        "panels" => Value::count(target.faces.len()),
+        "hinges" => {
+            let hinges = layout.hinges();
+            Value::list(hinges.into_iter().map(|hinge| pair(target.hinges[hinge].faces)).collect())
+        }
+        "overlaps" => Value::list(Pattern::of(target, layout).overlaps().into_iter().map(pair).collect()),
+        _ => Value::Unknown,
     }
 }
 
@@ -148,6 +193,8 @@ pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
     Some(match record {
         "Plan" => &["duration", "actions", "steps", "start", "end", "assumes"],
         "Squeezing" => SQUEEZING,
+        "Folding" => FOLDING,
+        "Layout" => &["panels", "hinges", "overlaps"],
         "Report" => &[
             "ok",
             "clearance",

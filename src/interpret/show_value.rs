@@ -79,6 +79,7 @@ impl Interpreter<'_> {
             Record::Frame(nodes, struts) => {
                 format!("a frame of {} nodes and {} struts", nodes.len(), struts.len())
             }
+            Record::Layout(pattern) => format!("a flat pattern of {} panels", pattern.target.faces.len()),
             Record::Rigidity(design) => match &design.kind {
                 super::design::DesignKind::Truss(truss) => {
                     let r = &truss.rigidity;

@@ -41,11 +41,13 @@ pub struct Settings {
     pub flat: bool,
     /// Nodes and tried exchanges in all.
     pub budget: u64,
+    /// Another seed, another choice among layouts that tie.
+    pub seed: u64,
 }
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { root: None, flat: false, budget: 100_000_000 }
+        Settings { root: None, flat: false, budget: 100_000_000, seed: 0 }
     }
 }
 
@@ -92,7 +94,7 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
     roots.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     // Where nothing costs anything, any addition will do.
     let slack = if roots[0].0 > 0.0 { SLACK * roots[0].0 } else { SLACK };
-    let raised = raised(target, weights, slack);
+    let raised = raised(target, weights, slack, settings.seed);
     let mut routes = Routes::new(target, &raised);
     let mut search = Search {
         target,
@@ -116,10 +118,10 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
 
 /// The weights with an addition for every hinge; no layout's additions come to more than the slack,
 /// for it has fewer pairs of a face and a hinge above it than the square of its faces.
-fn raised(target: &Target, weights: &Weights, slack: f64) -> Weights {
+fn raised(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weights {
     let n = target.faces.len();
     let step = slack / (n * n) as f64;
-    let extra: Vec<f64> = (0..target.hinges.len()).map(|hinge| step * fraction(hinge)).collect();
+    let extra: Vec<f64> = (0..target.hinges.len()).map(|hinge| step * fraction(hinge, seed)).collect();
     weights.raised(&extra)
 }
 
@@ -320,12 +322,14 @@ impl Search<'_> {
     }
 }
 
-/// A number in (0, 1] for every hinge, without pattern: the fractions of multiples of the golden
-/// ratio.
-fn fraction(hinge: usize) -> f64 {
-    const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mixed = (hinge as u64 + 1).wrapping_mul(GOLDEN);
-    let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+/// A number in (0, 1] for every hinge, without pattern: two rounds of SplitMix64.
+fn fraction(hinge: usize, seed: u64) -> f64 {
+    let mixed = [hinge as u64 + 1, seed].into_iter().fold(0, |state: u64, word| {
+        let x = (state ^ word).wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        x ^ (x >> 31)
+    });
     ((mixed >> 32) as f64 + 1.0) / (1u64 << 32) as f64
 }
 
