@@ -28,11 +28,16 @@ module Mori(side: Length = 80mm, thickness: Length = 6mm) {
 
   mass 26g
 
-  link panel = hull(
-    [[2 * middle * cos(a), 2 * middle * sin(a), 0mm] for a in [-150deg, -30deg, 90deg]]
-      ++ [[2 * outside * cos(a), 2 * outside * sin(a), z]
-          for a in [-150deg, -30deg, 90deg] for z in [-thickness / 2, thickness / 2]],
+  // Drawn, and weighed, as it lies flat; judged with its bevels.
+  link panel = prism(
+    [[2 * middle * cos(a), 2 * middle * sin(a), 0mm] for a in [-150deg, -30deg, 90deg]],
+    height: thickness,
   )
+    collides hull(
+      [[2 * middle * cos(a), 2 * middle * sin(a), 0mm] for a in [-150deg, -30deg, 90deg]]
+        ++ [[2 * outside * cos(a), 2 * outside * sin(a), z]
+            for a in [-150deg, -30deg, 90deg] for z in [-thickness / 2, thickness / 2]],
+    )
 
   for i in 0..3 {
     port edge[i] : Edge on panel
