@@ -3,6 +3,7 @@
 
 use modl::geometry::Vec3;
 use modl::geometry::pose::turned;
+use modl::interpret::Mode;
 use modl::planners::fold::enumerate::{self, census};
 use modl::planners::fold::exact::{self, NoLayout, SLACK, optimum};
 use modl::planners::fold::heuristic::{Measure, preferred};
@@ -400,6 +401,31 @@ fn shaken() -> impl Strategy<Value = Target> {
             Target::new(vertices, &faces).ok()
         },
     )
+}
+
+/// The program that folding is for: plans and a pattern are written, and every plan passes the judge.
+#[test]
+fn plans_and_patterns_of_a_program_are_written() {
+    let text = "use std.mori.Mori
+use std.shapes.{octahedron, quadruped18}
+let octa = fold(octahedron(edge: 80mm), module: Mori)
+show(octa.layout, \"octahedron.svg\")
+emit(octa.plan, \"octahedron.plan.json\")
+let quad = fold(quadruped18(edge: 80mm), module: Mori, root: 4)
+emit(reverse(quad.plan), \"quadruped_unfold.plan.json\")
+";
+    let ran = crate::interpret::run_text(text, Mode::Run);
+    assert!(ran.outcome.diagnostics.is_empty(), "{:?}", ran.outcome.diagnostics);
+    let written = &ran.host.written;
+    let names: Vec<&String> = written.keys().collect();
+    assert_eq!(names, ["octahedron.plan.json", "octahedron.svg", "quadruped_unfold.plan.json"]);
+    let pattern = String::from_utf8_lossy(&written["octahedron.svg"]);
+    assert_eq!(pattern.matches("<polygon").count(), 8, "a panel each");
+    for plan in written.iter().filter(|(name, _)| name.ends_with(".json")) {
+        let text = String::from_utf8_lossy(plan.1);
+        let plan = modl::plan::file::read(&text).expect("it reads back");
+        assert!(modl::plan::verify::verify(&plan).ok());
+    }
 }
 
 proptest! {

@@ -45,7 +45,7 @@ const QUINTIC_ACCELERATION: f64 = 5.773_502_691_896_258;
 
 /// What the planner says of a plan beside the plan itself.
 pub struct Folded {
-    pub pattern: Rc<FlatPattern>,
+    pub pattern: FlatPattern,
     pub layouts: BigInt,
     pub energy: f64,
     pub bound: f64,
@@ -249,7 +249,7 @@ impl Task<'_> {
     fn answer(&self, layout: Layout, outcome: Outcome, first: &Choice, optimal: bool) -> Value {
         let Outcome { planned, steps, energy, step } = outcome;
         let layouts = count::layouts(&self.target);
-        let pattern = Rc::new(FlatPattern { target: self.target.clone(), layout });
+        let pattern = FlatPattern { target: self.target.clone(), layout };
         let bound = first.bound / (step * step);
         let ties = first.ties.clone();
         let folded = Folded { pattern, layouts, energy, bound, optimal, ties, steps };

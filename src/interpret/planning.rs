@@ -329,7 +329,7 @@ impl Interpreter<'_> {
         match value {
             Value::Behavior(behavior) => self.plan_behavior(behavior, span),
             Value::Record(record) => match &**record {
-                Record::Plan(planned) => Ok(Some(planned.clone())),
+                Record::Plan(planned) | Record::Layout(planned) => Ok(Some(planned.clone())),
                 _ => Ok(None),
             },
             Value::Instance(instance) => self.plan_pose(&instance.robot, World::default()),

@@ -28,8 +28,8 @@ pub enum Record {
     Frame(Vec<Vec3>, Vec<(usize, usize)>),
     /// Of a truss.
     Rigidity(Rc<Design>),
-    /// A flat pattern with the target that it folds into.
-    Layout(Rc<FlatPattern>),
+    /// The flat pattern of a plan that folds it.
+    Layout(Rc<Planned>),
 }
 
 /// A state of a robot, with when and where it was taken.
@@ -63,7 +63,10 @@ impl Interpreter<'_> {
                         _ => self.plan_field(planned, field.as_str()),
                     },
                 },
-                Record::Layout(layout) => layout_field(layout, field.as_str()),
+                Record::Layout(planned) => match &planned.folded {
+                    Some(folded) => layout_field(&folded.pattern, field.as_str()),
+                    None => Value::Unknown,
+                },
                 Record::Report(verdict) => report_field(verdict, field.as_str()),
                 Record::State(state) => state.field(field.as_str()),
                 Record::World(world) => world_field(world, field.as_str()),
@@ -110,7 +113,7 @@ fn folding_field(planned: &Rc<Planned>, folded: &Folded, field: &str) -> Value {
     let numbers = |faces: &[usize]| Value::list(faces.iter().map(|f| Value::count(*f)).collect());
     match field {
         "plan" => Value::Record(Rc::new(Record::Plan(planned.clone()))),
-        "layout" => Value::Record(Rc::new(Record::Layout(folded.pattern.clone()))),
+        "layout" => Value::Record(Rc::new(Record::Layout(planned.clone()))),
         "layouts" => Value::whole(folded.layouts.clone()),
         "energy" => Value::Quantity(folded.energy, ENERGY),
         "bound" => Value::Quantity(folded.bound, ENERGY),

@@ -79,7 +79,10 @@ impl Interpreter<'_> {
             Record::Frame(nodes, struts) => {
                 format!("a frame of {} nodes and {} struts", nodes.len(), struts.len())
             }
-            Record::Layout(pattern) => format!("a flat pattern of {} panels", pattern.target.faces.len()),
+            Record::Layout(planned) => {
+                let panels = planned.folded.as_ref().map_or(0, |folded| folded.pattern.target.faces.len());
+                format!("a flat pattern of {panels} panels")
+            }
             Record::Rigidity(design) => match &design.kind {
                 super::design::DesignKind::Truss(truss) => {
                     let r = &truss.rigidity;
