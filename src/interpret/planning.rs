@@ -17,7 +17,7 @@ use crate::plan::{
 use crate::robot::{JointId, State};
 use crate::source::{Span, code};
 use sha2::{Digest, Sha256};
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -319,6 +319,8 @@ impl Interpreter<'_> {
                 body: body.clone(),
                 state,
                 time,
+                planned: planned.clone(),
+                base: OnceCell::new(),
             }))),
             _ => Value::Unknown,
         }

@@ -10,12 +10,14 @@ use super::stop::Eval;
 use super::truss::free_motions;
 use super::value::Value;
 use super::verdicts;
-use crate::geometry::Vec3;
+use crate::geometry::{Pose, Vec3};
+use crate::plan::verify::history;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
 use crate::planners::fold::pattern::Pattern;
 use crate::robot::State;
 use crate::source::{Span, Symbol};
 use crate::units::{Dimension, quantity};
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 #[derive(Debug)]
@@ -38,6 +40,9 @@ pub struct StateValue {
     pub body: Rc<Robot>,
     pub state: State,
     pub time: f64,
+    pub planned: Rc<Planned>,
+    /// Where the base is in the world, once it was asked for.
+    pub base: OnceCell<Pose>,
 }
 
 const ACCELERATION: Dimension = Dimension::ACCELERATION;
@@ -264,7 +269,7 @@ impl StateValue {
     fn field(&self, field: &str) -> Value {
         match field {
             "time" => Value::time(self.time),
-            "base" => Value::Pose(Rc::new(self.state.base)),
+            "base" => Value::Pose(Rc::new(self.base())),
             "com" => {
                 let poses = self.poses();
                 let (com, _) = self.body.kinematics.centre_of_mass(&self.body.assembly, &poses);
@@ -275,11 +280,22 @@ impl StateValue {
     }
 
     /// World poses of all links.
-    pub fn poses(&self) -> Vec<crate::geometry::Pose> {
-        let mut poses = vec![self.state.base; self.body.kinematics.link_count()];
+    pub fn poses(&self) -> Vec<Pose> {
+        let stood = self.base();
+        let mut poses = vec![stood; self.body.kinematics.link_count()];
         let base = self.body.assembly.base;
-        self.body.kinematics.link_poses_from(base, &self.state.joints, &self.state.base, &mut poses);
+        self.body.kinematics.link_poses_from(base, &self.state.joints, &stood, &mut poses);
         poses
+    }
+
+    /// The pose of the base module's body in the world: where standing, rolling and tipping have brought
+    /// it by then.
+    fn base(&self) -> Pose {
+        let stand = || {
+            let moments = history(&self.planned.plan, self.time);
+            moments.last().map_or(self.state.base, |moment| moment.base)
+        };
+        *self.base.get_or_init(stand)
     }
 }
 

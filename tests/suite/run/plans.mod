@@ -40,3 +40,15 @@ config B { part m: Smores
 }
 print(plan(Pc(A().b(), B().b())).duration)
 //         ^^^^^^^^^^^^^^^^^^^^ E0406 two robots: A and B
+
+--- states are in the world
+use std.smores.Smores
+config D {
+  part m: Smores
+  behavior go = Pc(spin(m.left, 2rad/s, for: 2s), spin(m.right, 2rad/s, for: 2s))
+}
+let p = plan(D().go())
+let way = p.end.base.position - p.start.base.position
+// Two wheels of 45.3 mm turn by 4 rad.
+expect abs(norm(way) - 4 * 45.3mm) < 0.01mm
+expect norm(way - verify(p).displacement) < 0.001mm
