@@ -291,7 +291,11 @@ impl StateValue {
     /// The pose of the base module's body in the world: where standing, rolling and tipping have brought
     /// it by then.
     fn base(&self) -> Pose {
+        let grounded = self.planned.plan.worlds.iter().any(|w| w.world.ground != Ground::Off);
         let stand = || {
+            if !grounded {
+                return self.state.base;
+            }
             let moments = history(&self.planned.plan, self.time);
             moments.last().map_or(self.state.base, |moment| moment.base)
         };
