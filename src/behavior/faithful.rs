@@ -3,7 +3,7 @@
 
 use super::conflict::conflicts;
 use super::schedule::{Problem, Settings, schedule};
-use crate::plan::{Body, CheckKind, Failure, Plan, Track, Tracks};
+use crate::plan::{Body, Failure, Plan, Track, Tracks};
 use crate::units::{Dimension, quantity};
 
 /// Positions (rad or m) and times (s) that differ by less are the same.
@@ -16,7 +16,7 @@ pub fn unfaithful(plan: &Plan) -> Option<Failure> {
     if let Some(conflict) = conflicts(&program.root).errors.first() {
         let owner = joints.get(conflict.joint.0 as usize);
         let name = owner.map_or_else(String::new, |owner| tracks.robot.joint_name(*owner));
-        return Some(failure(format!("the program gives {name} two commands at one time")));
+        return Some(Failure::form(format!("the program gives {name} two commands at one time")));
     }
     let problem = Problem {
         robot: tracks.robot.clone(),
@@ -28,13 +28,15 @@ pub fn unfaithful(plan: &Plan) -> Option<Failure> {
     };
     let played = match schedule(problem) {
         Ok(played) => played,
-        Err(refusal) => return Some(failure(format!("the program can't be executed: {}", refusal.reason))),
+        Err(refusal) => {
+            return Some(Failure::form(format!("the program can't be executed: {}", refusal.reason)));
+        }
     };
     if played.nominal != plan.nominal {
         let word = if played.nominal { "depends" } else { "does not depend" };
-        return Some(failure(format!("the program {word} on sensors, and the file says otherwise")));
+        return Some(Failure::form(format!("the program {word} on sensors, and the file says otherwise")));
     }
-    differs(&played.tracks, tracks).map(failure)
+    differs(&played.tracks, tracks).map(Failure::form)
 }
 
 fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
@@ -86,18 +88,4 @@ fn same(a: Option<&Track>, b: Option<&Track>, start: f64) -> bool {
                 && a.control.len() == b.control.len()
                 && a.control.iter().zip(&b.control).all(|(x, y)| near(*x, *y))
         })
-}
-
-fn failure(message: String) -> Failure {
-    Failure {
-        kind: CheckKind::Form,
-        time: 0.0,
-        until: None,
-        at: vec![],
-        message,
-        value: 0.0,
-        limit: 0.0,
-        blame: vec![],
-        blames_start: false,
-    }
 }

@@ -25,7 +25,7 @@ pub fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
     for (file, bytes) in files.iter().zip(texts) {
         let name = file.to_string_lossy().into_owned();
         match parsed(&name, bytes) {
-            Ok(plan) => ok &= judge(&name, &plan, &mut report, globals),
+            Ok(plan) => ok &= report_verdict(&name, &plan, &mut report, globals),
             Err(fault) => {
                 let (sources, diagnostic) = *fault;
                 report.add(&sources, &[diagnostic], &report::style(globals, ""), globals);
@@ -65,7 +65,8 @@ pub fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnost
     })
 }
 
-fn judge(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> bool {
+/// The verdict on a plan file, which includes that its program makes its motion.
+pub fn judged(plan: &Plan) -> Verdict {
     let mut verdict = plan::verify::verify(plan);
     // What is not sound has no program that could be played.
     if !verdict.failures.iter().any(|f| f.kind == CheckKind::Form)
@@ -86,6 +87,11 @@ fn judge(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> boo
     if plan.program.is_none() && matches!(plan.body, Body::Tracks(_)) {
         verdict.notes.push("there is no program: a robot has to follow the positions themselves".to_owned());
     }
+    verdict
+}
+
+fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> bool {
+    let verdict = judged(plan);
     if !globals.json {
         print(&verdict::text(name, plan, &verdict));
     }

@@ -6,7 +6,7 @@ use super::report::{self, Report};
 use super::terminal::{listen_for_cancel, print_error};
 use super::{CallError, Ending, judge, output};
 use crate::interpret::WriteError;
-use crate::plan::{Body, Plan, verify};
+use crate::plan::{Body, Plan};
 use crate::view::{self, Showing};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -37,7 +37,7 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
             return Ok((Ending::Wrong, vec![]));
         }
     };
-    let verdict = verify::verify(&plan);
+    let verdict = judge::judged(&plan);
     let ok = verdict.ok();
     let plan = Plan { verdict: Some(verdict), ..plan };
     let stem = file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());

@@ -1,7 +1,6 @@
 //! `fold`: the planner of folding, as it is called, and what it gives back.
 
 use super::call::Call;
-use super::causes::PlanCauses;
 use super::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, PartElement, PartGroup};
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run};
@@ -12,7 +11,7 @@ use super::stop::{Eval, Stop, fault};
 use super::value::Value;
 use crate::behavior::{self, Problem};
 use crate::geometry::Pose;
-use crate::plan::{Action, CauseId, Command, Ground, Node, Otherwise, Profile, Target as MoveTarget, World};
+use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as MoveTarget, World};
 use crate::planners::fold::enumerate::{self, TooManyFaces};
 use crate::planners::fold::exact::{self, NoLayout};
 use crate::planners::fold::heuristic::{self, Measure};
@@ -26,9 +25,6 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 pub const TABLE: &[Native] = &[on_run("fold", 7, fold)];
-
-/// The stated world: the energies are without gravity, and the root is held.
-const WORLD: World = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
 
 /// How far sides may be off those of the panels, as a part of them.
 const TOL_SIDE: f64 = 1e-6;
@@ -268,10 +264,7 @@ impl Task<'_> {
             Value::Word(_) => self.shortest_step(&robot, layout),
             _ => self.call.positive(4, "the time of a step")?,
         };
-        let mut causes = PlanCauses::default();
-        // The planner calls its only cause 0.
-        let cause = interpreter.cause(self.call.span, Vec::new(), "");
-        causes.number(cause);
+        let causes = interpreter.planner_causes(self.call.span);
         let problem = Problem {
             robot: robot.assembly.as_ref().clone(),
             start: flat,
@@ -282,7 +275,7 @@ impl Task<'_> {
         };
         let scheduled = behavior::schedule(problem)
             .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, self.call.span))?;
-        let (mut planned, issues) = interpreter.assemble_plan(design, robot, scheduled, &causes, WORLD);
+        let (mut planned, issues) = interpreter.assemble_plan(design, robot, scheduled, &causes, World::FREE);
         if !issues.is_empty() {
             return Err(self.call.refuse(4, "the hinges can't fold as fast as that"));
         }

@@ -14,7 +14,6 @@ use super::value::Value;
 use crate::check::typed::DefKind;
 use crate::plan::{
     Body, CauseId, CellLimits, Knot, Model, NodePaths, Plan, Ratio, Run, Settings, Stages, Way, World,
-    WorldFrom,
 };
 use crate::robot::Library;
 use crate::view::{self, Showing, Side, Still};
@@ -151,18 +150,7 @@ impl Interpreter<'_> {
             DesignKind::Truss(truss) => Body::NodePaths(nodes(truss, &mut library)?),
             _ => return None,
         };
-        Some(Plan {
-            provenance: self.provenance(),
-            worlds: vec![WorldFrom { from: 0.0, world: World::default() }],
-            settings: self.judge_settings(),
-            library: Arc::new(library),
-            body,
-            program: None,
-            nominal: false,
-            causes: PlanCauses::default().table(&self.causes, self.sources),
-            exemptions: Vec::new(),
-            verdict: None,
-        })
+        Some(self.bare_plan("", body, Arc::new(library), World::default(), &PlanCauses::default()))
     }
 }
 

@@ -1,7 +1,6 @@
 //! `squeeze`: the planner of lattices, as it is called.
 
 use super::call::Call;
-use super::causes::PlanCauses;
 use super::design::{Design, DesignKind};
 use super::interpreter::Interpreter;
 use super::lattice::LatticeDesign;
@@ -10,7 +9,7 @@ use super::planning::Planned;
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
-use crate::plan::{Body, Ground, Plan, World, WorldFrom};
+use crate::plan::{Body, World};
 use crate::planners::squeeze::{self, Demand, Found, Method, Profile, Refusal, Task};
 use crate::robot::{Cell, Library};
 use crate::source::{Diagnostic, code};
@@ -18,9 +17,6 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 pub const TABLE: &[Native] = &[on_run("squeeze", 6, squeeze)];
-
-/// The paper's world: nothing pulls, and there is no ground.
-const WORLD: World = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
 
 /// What the planner says of a plan beside the plan itself.
 pub struct Squeezed {
@@ -85,27 +81,13 @@ fn planned(
     found: Found,
 ) -> Value {
     let Found { stages, lower_bound, method, balanced, why } = found;
-    let mut causes = PlanCauses::default();
-    let cause = interpreter.cause(call.span, Vec::new(), "");
-    // The planner calls its only cause 0.
-    causes.number(cause);
+    let causes = interpreter.planner_causes(call.span);
     let told = |stage: &crate::plan::Stage| (stage.name.clone(), stage.duration() * stages.time_unit);
     let squeezed =
         Squeezed { lower_bound, method, balanced, why, stages: stages.stages.iter().map(told).collect() };
-    let mut provenance = interpreter.provenance();
-    provenance.planner = "squeeze".into();
-    let plan = Plan {
-        provenance,
-        worlds: vec![WorldFrom { from: 0.0, world: WORLD }],
-        settings: interpreter.judge_settings(),
-        library: Arc::new(Library { cells: vec![cell], ..Library::default() }),
-        body: Body::Stages(stages),
-        program: None,
-        nominal: false,
-        causes: causes.table(&interpreter.causes, interpreter.sources),
-        exemptions: Vec::new(),
-        verdict: None,
-    };
+    let library = Arc::new(Library { cells: vec![cell], ..Library::default() });
+    // The paper's world.
+    let plan = interpreter.bare_plan("squeeze", Body::Stages(stages), library, World::FREE, &causes);
     let planned = Planned::new(design, None, plan, causes.ids, 0).with_squeezed(squeezed);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }

@@ -14,7 +14,7 @@ use crate::geometry::Vec3;
 use crate::plan::{
     Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom,
 };
-use crate::robot::{JointId, State};
+use crate::robot::{JointId, Library, State};
 use crate::source::{Span, code};
 use sha2::{Digest, Sha256};
 use std::cell::{OnceCell, RefCell};
@@ -169,19 +169,41 @@ impl Interpreter<'_> {
         world: World,
     ) -> (Planned, Vec<behavior::Issue>) {
         let Scheduled { tracks, program, exemptions, nominal, actions, issues } = scheduled;
-        let plan = Plan {
-            provenance: self.provenance(),
+        let library = tracks.robot.library.clone();
+        let bare = self.bare_plan("behavior", Body::Tracks(tracks), library, world, causes);
+        let plan = Plan { program: Some(program), nominal, exemptions, ..bare };
+        (Planned::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
+    }
+
+    /// A plan without a program, and without a verdict. Without a planner nobody planned it.
+    pub fn bare_plan(
+        &self,
+        planner: &str,
+        body: Body,
+        library: Arc<Library>,
+        world: World,
+        causes: &PlanCauses,
+    ) -> Plan {
+        Plan {
+            provenance: Provenance { planner: planner.to_owned(), ..self.provenance() },
             worlds: vec![WorldFrom { from: 0.0, world }],
             settings: self.judge_settings(),
-            library: tracks.robot.library.clone(),
-            body: Body::Tracks(tracks),
-            program: Some(program),
-            nominal,
+            library,
+            body,
+            program: None,
+            nominal: false,
             causes: causes.table(&self.causes, self.sources),
-            exemptions,
+            exemptions: Vec::new(),
             verdict: None,
-        };
-        (Planned::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
+        }
+    }
+
+    /// The causes of a plan all of which one call of a planner commands: number 0 is that call.
+    pub fn planner_causes(&mut self, call: Span) -> PlanCauses {
+        let mut causes = PlanCauses::default();
+        let cause = self.cause(call, Vec::new(), "");
+        causes.number(cause);
+        causes
     }
 
     /// The default options of the judge, within the limits of the run.
@@ -261,7 +283,6 @@ impl Interpreter<'_> {
             self.sources.files().map(|(_, file)| (file.name.to_string(), hash(&file.text))).collect();
         sources.sort();
         Provenance {
-            planner: "behavior".into(),
             sources,
             seed: Some(self.options.seed),
             tool: format!("modl {}", env!("CARGO_PKG_VERSION")),

@@ -11,7 +11,7 @@ use super::truss::free_motions;
 use super::value::Value;
 use super::verdicts;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::history;
+use crate::plan::verify::base_at;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
 use crate::planners::fold::pattern::Pattern;
 use crate::robot::State;
@@ -296,8 +296,7 @@ impl StateValue {
             if !grounded {
                 return self.state.base;
             }
-            let moments = history(&self.planned.plan, self.time);
-            moments.last().map_or(self.state.base, |moment| moment.base)
+            base_at(&self.planned.plan, self.time).unwrap_or(self.state.base)
         };
         *self.base.get_or_init(stand)
     }

@@ -118,6 +118,23 @@ pub struct Failure {
     pub blames_start: bool,
 }
 
+impl Failure {
+    /// Of a plan that is not well formed, or that can't be judged as a whole.
+    pub fn form(message: String) -> Failure {
+        Failure {
+            kind: CheckKind::Form,
+            time: 0.0,
+            until: None,
+            at: vec![],
+            message,
+            value: 0.0,
+            limit: 0.0,
+            blame: vec![],
+            blames_start: false,
+        }
+    }
+}
+
 /// What the cells of a lattice go through, by the forces that the judge found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -25,6 +25,11 @@ pub struct World {
     pub friction: f64,
 }
 
+impl World {
+    /// Nothing pulls, and there is no ground.
+    pub const FREE: World = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
+}
+
 impl Default for World {
     fn default() -> World {
         World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0 }

@@ -5,7 +5,7 @@ use super::mesh::{Mesh, along};
 use super::{Showing, findings};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::history;
+use crate::plan::verify::base_at;
 use crate::plan::{Body, CellBox, NodePaths, Stages, Tracks};
 use crate::robot::{Kinematics, Library};
 
@@ -56,7 +56,7 @@ pub fn link_poses(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Pose> {
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
-    let base = history(showing.plan, time).last().map_or(state.base, |moment| moment.base);
+    let base = base_at(showing.plan, time).unwrap_or(state.base);
     kinematics.link_poses(&state.joints, &base, &mut poses);
     poses
 }

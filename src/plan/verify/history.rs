@@ -3,6 +3,7 @@
 
 use super::collision;
 use super::footprint::hull;
+use super::thinned::Thinned;
 use super::torque::Gauge;
 use super::walk::{Course, Sample, walk};
 use super::{Precision, Tolerances, contact};
@@ -43,60 +44,54 @@ pub struct Moment {
 /// The moments of an articulated robot's plan, in order of time, from the start to `until` (s).
 /// Empty for plans of other families, and for plans that mean nothing.
 pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
-    let Body::Tracks(tracks) = &plan.body else { return vec![] };
+    let tolerances = Tolerances::default();
+    let mut moments = Thinned::new(MOMENTS_MAX);
+    // The latest, where it was not kept.
+    let mut last = None;
+    let mut gauge = Gauge::default();
+    visit(plan, until, &tolerances, &mut |sample| {
+        let weighed = moments.seen().is_multiple_of(moments.stride() * LOADS_EACH);
+        if moments.turn() {
+            let loads = if weighed { gauge.read(sample, &tolerances) } else { vec![] };
+            moments.keep(Moment { loads, ..moment(sample) });
+            last = None;
+        } else {
+            last = Some(moment(sample));
+        }
+    });
+    let mut moments = moments.into_kept();
+    moments.extend(last);
+    moments
+}
+
+/// World pose of the base module's body (`X_WB`) at a time (s): where standing, rolling and tipping have
+/// brought it by then. `None` for plans that have no such body, or that mean nothing.
+pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
+    let mut base = None;
+    visit(plan, time, &Tolerances::default(), &mut |sample| {
+        base = Some(sample.stance.base_pose(sample.model));
+    });
+    base
+}
+
+/// Walks a sound plan of an articulated robot.
+fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&Sample)) {
+    let Body::Tracks(tracks) = &plan.body else { return };
     if !sound::faults(plan).is_empty() {
-        return vec![];
+        return;
     }
     let course = Course {
         tracks,
         worlds: &plan.worlds,
         exemptions: &plan.exemptions,
         settings: &plan.settings,
-        tolerances: &Tolerances::default(),
+        tolerances,
         held: None,
     };
-    let mut kept = Kept { moments: vec![], stride: 1, seen: 0, last: None };
-    let mut gauge = Gauge::default();
     walk(course, None, until.min(tracks.duration), &mut |sample, _| {
-        let loads = || gauge.read(sample, course.tolerances);
-        kept.see(sample, loads);
+        see(sample);
         true
     });
-    kept.moments.extend(kept.last);
-    kept.moments
-}
-
-/// Moments at even numbers of samples, however many there are, and the last.
-struct Kept {
-    moments: Vec<Moment>,
-    /// One in so many samples is kept.
-    stride: usize,
-    seen: usize,
-    /// The latest, where it was not kept.
-    last: Option<Moment>,
-}
-
-impl Kept {
-    fn see(&mut self, sample: &Sample, loads: impl FnOnce() -> Vec<(usize, f64)>) {
-        let turn = self.seen.is_multiple_of(self.stride);
-        let weighed = self.seen.is_multiple_of(self.stride * LOADS_EACH);
-        self.seen += 1;
-        if !turn {
-            self.last = Some(moment(sample));
-            return;
-        }
-        if self.moments.len() == MOMENTS_MAX {
-            let mut odd = false;
-            self.moments.retain(|_| {
-                odd = !odd;
-                odd
-            });
-            self.stride *= 2;
-        }
-        let loads = if weighed { loads() } else { vec![] };
-        self.moments.push(Moment { loads, ..moment(sample) });
-        self.last = None;
-    }
 }
 
 fn moment(sample: &Sample) -> Moment {

@@ -1,7 +1,7 @@
 //! The judgement of an articulated robot's plan: one walk, watched by every check.
 
-use super::fault;
 use super::ledger::Ledger;
+use super::thinned::Thinned;
 use super::walk::{Course, Ended, Waypoint, walk};
 use super::{Tolerances, blame, docking, limits, meeting, sample, stability, torque, travel};
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
@@ -42,14 +42,14 @@ const WAYPOINTS_MAX: usize = 16;
 /// Everything that is judged from sample to sample. Returns places to walk on from.
 fn on_the_way(course: &Course, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Waypoint> {
     let mut loops = docking::Watch::new(course, missed);
-    let mut waypoints = Waypoints { kept: vec![], stride: 1, next: 0 };
+    let mut waypoints = Thinned::new(WAYPOINTS_MAX);
     let mut standing = stability::Watch::new(course.settings, course.tolerances);
     let mut travel = travel::Watch::new(course.tolerances);
     let mut torque = torque::Watch::new(course.tolerances);
-    let mut samples = 0;
     let ended = walk(*course, None, course.tracks.duration, &mut |sample, waypoint| {
-        waypoints.pass(samples, waypoint);
-        samples += 1;
+        if waypoints.turn() {
+            waypoints.keep(waypoint());
+        }
         loops.see(sample);
         if let Some(lack) = standing.see(sample, ledger) {
             ledger.fail(lack.failure());
@@ -64,40 +64,14 @@ fn on_the_way(course: &Course, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<W
     if let Ended::Limit(time) = ended {
         ledger.fail(limit_reached(course.settings.samples_max, time));
     }
-    ledger.verdict.samples = samples;
+    ledger.verdict.samples = waypoints.seen();
     torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
     torque.finish(ledger);
     standing.finish(ledger);
     let names = |link| link_name(course, link);
     travel.finish(names, ledger);
     loops.finish(ledger);
-    waypoints.kept
-}
-
-/// Waypoints at even distances, however long the way is.
-struct Waypoints {
-    kept: Vec<Waypoint>,
-    /// One in so many samples is kept.
-    stride: usize,
-    next: usize,
-}
-
-impl Waypoints {
-    fn pass(&mut self, sample: usize, waypoint: &dyn Fn() -> Waypoint) {
-        if sample < self.next {
-            return;
-        }
-        if self.kept.len() == WAYPOINTS_MAX {
-            let mut odd = false;
-            self.kept.retain(|_| {
-                odd = !odd;
-                odd
-            });
-            self.stride *= 2;
-        }
-        self.kept.push(waypoint());
-        self.next = sample + self.stride;
-    }
+    waypoints.into_kept()
 }
 
 fn link_name(course: &Course, link: usize) -> String {
@@ -117,12 +91,12 @@ fn limit_reached(samples_max: usize, time: f64) -> Failure {
     let reached = quantity(time, Dimension::TIME);
     let message =
         format!("the judge took {samples_max} samples, the most allowed, and got to {reached} only");
-    Failure { time, value: samples_max as f64, limit: samples_max as f64, ..fault(message) }
+    Failure { time, value: samples_max as f64, limit: samples_max as f64, ..Failure::form(message) }
 }
 
 fn too_many_samples(samples: usize, samples_max: usize) -> Failure {
     let message = format!(
         "at the stated time between samples the plan needs {samples} of them, and {samples_max} are allowed"
     );
-    Failure { value: samples as f64, limit: samples_max as f64, ..fault(message) }
+    Failure { value: samples as f64, limit: samples_max as f64, ..Failure::form(message) }
 }

@@ -3,7 +3,6 @@
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::Bodies;
 use super::collision::{self, Collision, Precision};
-use super::fault;
 use super::ledger::Ledger;
 use super::walk::Course;
 use crate::geometry::Pose;
@@ -19,7 +18,7 @@ pub fn judge(course: &Course, ledger: &mut Ledger) {
         Err(unsound) => {
             let message =
                 format!("the shape of {}.{} can't be judged: {}", unsound.module, unsound.link, unsound.why);
-            return ledger.fail(fault(message));
+            return ledger.fail(Failure::form(message));
         }
     };
     for index in &found.used {
@@ -34,7 +33,7 @@ pub fn judge(course: &Course, ledger: &mut Ledger) {
         let message = format!(
             "whether modules meet was not decided within {samples} stretches of time, the most allowed"
         );
-        ledger.fail(Failure { value: samples as f64, limit: samples as f64, ..fault(message) });
+        ledger.fail(Failure { value: samples as f64, limit: samples as f64, ..Failure::form(message) });
     }
     ledger.verdict.clearance = found.clearance;
     ledger.verdict.samples += found.samples;

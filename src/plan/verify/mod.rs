@@ -46,6 +46,7 @@ mod docking;
 mod history;
 mod judge;
 mod meeting;
+mod thinned;
 
 pub mod lattice;
 mod lattice_boxes;
@@ -58,7 +59,7 @@ pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};
 pub use collision::{Collision, Findings, Precision};
 pub use contact::{Patch, Touch};
-pub use history::{MOMENTS_MAX, Moment, clearances, history};
+pub use history::{MOMENTS_MAX, Moment, base_at, clearances, history};
 pub use model::Model;
 pub use stance::Stance;
 pub use tolerances::Tolerances;
@@ -113,7 +114,7 @@ fn unjudged(what: &str) -> Verdict {
     let why = format!("{what} can't be judged yet");
     Verdict {
         checks: vec![Check { kind: CheckKind::Form, status: Status::NotChecked(why.clone()) }],
-        failures: vec![fault(why)],
+        failures: vec![Failure::form(why)],
         ..Verdict::default()
     }
 }
@@ -122,22 +123,7 @@ fn unjudged(what: &str) -> Verdict {
 fn unsound(faults: Vec<String>) -> Verdict {
     Verdict {
         checks: vec![Check { kind: CheckKind::Form, status: Status::Failed }],
-        failures: faults.into_iter().map(fault).collect(),
+        failures: faults.into_iter().map(Failure::form).collect(),
         ..Verdict::default()
-    }
-}
-
-/// A plan that is not even well formed.
-fn fault(message: String) -> Failure {
-    Failure {
-        kind: CheckKind::Form,
-        time: 0.0,
-        until: None,
-        at: vec![],
-        message,
-        value: 0.0,
-        limit: 0.0,
-        blame: vec![],
-        blames_start: false,
     }
 }

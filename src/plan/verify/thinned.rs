@@ -1,0 +1,48 @@
+//! Even selections from a sequence whose length nobody knows beforehand.
+
+/// At most so many items at even distances, however many are seen.
+pub struct Thinned<T> {
+    kept: Vec<T>,
+    most: usize,
+    /// One in so many is kept.
+    stride: usize,
+    seen: usize,
+}
+
+impl<T> Thinned<T> {
+    pub fn new(most: usize) -> Thinned<T> {
+        Thinned { kept: vec![], most, stride: 1, seen: 0 }
+    }
+
+    /// Counts one more; whether it is to be kept.
+    pub fn turn(&mut self) -> bool {
+        let turn = self.seen.is_multiple_of(self.stride);
+        self.seen += 1;
+        if turn && self.kept.len() == self.most {
+            let mut odd = false;
+            self.kept.retain(|_| {
+                odd = !odd;
+                odd
+            });
+            self.stride *= 2;
+        }
+        turn
+    }
+
+    /// Keeps the one whose turn it is.
+    pub fn keep(&mut self, item: T) {
+        self.kept.push(item);
+    }
+
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
+    pub fn seen(&self) -> usize {
+        self.seen
+    }
+
+    pub fn into_kept(self) -> Vec<T> {
+        self.kept
+    }
+}
