@@ -43,6 +43,11 @@ mod planning;
 mod record;
 mod verdicts;
 
+mod fold_panel;
+mod fold_plan;
+mod fold_sheet;
+mod folding;
+
 mod natives;
 mod natives_action;
 mod natives_family;

@@ -2,8 +2,8 @@
 
 use super::causes::PlanCauses;
 use super::design::Design;
+use super::folding::Folded;
 use super::interpreter::Interpreter;
-use super::natives_fold::Folded;
 use super::natives_squeeze::Squeezed;
 use super::record::{Record, StateValue, first_world};
 use super::robot_of::Robot;

@@ -1,8 +1,8 @@
 //! Records: what built-ins give back, and the fields by which it is asked.
 
-use super::design::{Design, Instance};
+use super::design::Design;
+use super::folding::{FOLDING, folding_field, layout_field};
 use super::interpreter::Interpreter;
-use super::natives_fold::{FlatPattern, Folded};
 use super::natives_squeeze::Squeezed;
 use super::planning::Planned;
 use super::robot_of::Robot;
@@ -13,7 +13,6 @@ use super::verdicts;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::base_at;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
-use crate::planners::fold::pattern::Pattern;
 use crate::robot::State;
 use crate::source::{Span, Symbol};
 use crate::units::{Dimension, quantity};
@@ -107,41 +106,6 @@ impl Interpreter<'_> {
             "assumes" => Value::Record(Rc::new(Record::World(first_world(&planned.plan)))),
             _ => Value::Unknown,
         }
-    }
-}
-
-/// The fields of a `Folding` beside those of a plan.
-const FOLDING: &[&str] =
-    &["plan", "layout", "layouts", "energy", "bound", "optimal", "ties", "root", "order", "robot"];
-
-fn folding_field(planned: &Rc<Planned>, folded: &Folded, field: &str) -> Value {
-    let numbers = |faces: &[usize]| Value::list(faces.iter().map(|f| Value::count(*f)).collect());
-    match field {
-        "plan" => Value::Record(Rc::new(Record::Plan(planned.clone()))),
-        "layout" => Value::Record(Rc::new(Record::Layout(planned.clone()))),
-        "layouts" => Value::whole(folded.layouts.clone()),
-        "energy" => Value::Quantity(folded.energy, ENERGY),
-        "bound" => Value::Quantity(folded.bound, ENERGY),
-        "optimal" => Value::Bool(folded.optimal),
-        "ties" => numbers(&folded.ties),
-        "root" => Value::count(folded.pattern.layout.root),
-        "order" => Value::list(folded.steps.iter().map(|step| numbers(step)).collect()),
-        "robot" => Value::Instance(Instance::whole(planned.robot.clone())),
-        _ => Value::Unknown,
-    }
-}
-
-fn layout_field(pattern: &FlatPattern, field: &str) -> Value {
-    let FlatPattern { target, layout } = pattern;
-    let pair = |[a, b]: [usize; 2]| Value::list(vec![Value::count(a), Value::count(b)]);
-    match field {
-        "panels" => Value::count(target.faces.len()),
-        "hinges" => {
-            let hinges = layout.hinges();
-            Value::list(hinges.into_iter().map(|hinge| pair(target.hinges[hinge].faces)).collect())
-        }
-        "overlaps" => Value::list(Pattern::of(target, layout).overlaps().into_iter().map(pair).collect()),
-        _ => Value::Unknown,
     }
 }
 

@@ -363,9 +363,9 @@ fn overlapping_path(target: &Target, layout: &Layout) -> Option<Vec<Arc>> {
     let paths = pairs.iter().map(|&[a, b]| local::path(layout, a, b));
     let shortest = paths.min_by_key(Vec::len)?;
     let arc_of = |&index: &usize| {
-        let hinge = &target.hinges[index];
-        let end = usize::from(layout.hinge[hinge.faces[1]] == Some(index));
-        routes::arc(hinge.faces[end], hinge.sides[end])
+        let [a, b] = target.hinges[index].faces;
+        let below = if layout.hinge[b] == Some(index) { b } else { a };
+        routes::arc(below, layout.across(target, below).side)
     };
     Some(shortest.iter().map(arc_of).collect())
 }

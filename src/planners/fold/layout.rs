@@ -15,6 +15,16 @@ pub struct Layout {
     pub order: Vec<usize>,
 }
 
+/// Where a face hangs on its parent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Across {
+    pub parent: usize,
+    /// The parent's side at the hinge.
+    pub parent_side: usize,
+    /// The face's own.
+    pub side: usize,
+}
+
 impl Layout {
     /// From the hinges that fold. `None` where they are no spanning tree.
     pub fn of_hinges(target: &Target, hinges: &[usize], root: usize) -> Option<Layout> {
@@ -46,6 +56,13 @@ impl Layout {
     pub fn of_pairs(target: &Target, pairs: &[[usize; 2]], root: usize) -> Option<Layout> {
         let hinges: Option<Vec<usize>> = pairs.iter().map(|&[a, b]| target.hinge_between(a, b)).collect();
         Layout::of_hinges(target, &hinges?, root)
+    }
+
+    /// The hinge of a face, from both sides; no root has one.
+    pub fn across(&self, target: &Target, face: usize) -> Across {
+        let hinge = &target.hinges[self.hinge[face].expect("only the root has none")];
+        let own = usize::from(hinge.faces[1] == face);
+        Across { parent: self.parent[face], parent_side: hinge.sides[1 - own], side: hinge.sides[own] }
     }
 
     /// The hinges that fold, in order of number.

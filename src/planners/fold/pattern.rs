@@ -1,6 +1,6 @@
 //! The flat pattern of a layout in the plane, and whether faces of it overlap.
 
-use super::layout::Layout;
+use super::layout::{Across, Layout};
 use super::target::Target;
 
 /// Sides are equal where they differ by less than this part.
@@ -75,7 +75,7 @@ pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
     let mut corners = vec![[[0, 0]; 3]; target.faces.len()];
     corners[layout.root] = [[0, 0], [1, 0], [0, 1]];
     for &face in &layout.order[1..] {
-        let (parent, k, m) = across(target, layout, face);
+        let Across { parent, parent_side: k, side: m } = layout.across(target, face);
         let p = corners[parent];
         let (a, b, c) = (p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
         corners[face][m] = b;
@@ -83,13 +83,6 @@ pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
         corners[face][(m + 2) % 3] = [a[0] + b[0] - c[0], a[1] + b[1] - c[1]];
     }
     corners
-}
-
-/// Of a face: its parent, the parent's side and its own side at their hinge.
-fn across(target: &Target, layout: &Layout, face: usize) -> (usize, usize, usize) {
-    let hinge = &target.hinges[layout.hinge[face].expect("every face but the root has a hinge")];
-    let own = usize::from(hinge.faces[1] == face);
-    (layout.parent[face], hinge.sides[1 - own], hinge.sides[own])
 }
 
 fn on_lattice(target: &Target, layout: &Layout) -> Pattern {
@@ -110,7 +103,7 @@ fn in_plane(target: &Target, layout: &Layout) -> Pattern {
             let [a, b, _] = target.corners(face);
             (0, [0.0, 0.0], [(b - a).norm(), 0.0])
         } else {
-            let (parent, k, m) = across(target, layout, face);
+            let Across { parent, parent_side: k, side: m } = layout.across(target, face);
             (m, corners[parent][(k + 1) % 3], corners[parent][k])
         };
         let own = target.corners(face);
