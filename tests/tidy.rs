@@ -37,6 +37,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("parry3d_f64", &["geometry"]),
     ("glamx", &["geometry"]),
     ("clarabel", &["optimize"]),
+    ("robust", &["planners"]),
     ("pest", &["syntax"]),
     ("pest_derive", &["syntax"]),
     ("miette", &["source"]),

@@ -2,18 +2,24 @@
 //!
 //! The bound of a node is that of [`routes`](super::routes): each face takes its own cheapest path
 //! over the arcs still allowed. Where the paths form a tree, it is the node's best layout. Else the
-//! face into which they disagree most is entered across one side in each child: the children are
-//! disjoint and complete. Where the pattern may not overlap, a tree whose pattern does is split
-//! along the path between two overlapping faces: any layout with all of the path's arcs overlaps, so
-//! the children leave out the first arc; keep it and leave out the second; and so on.
+//! bound is raised by prices ([`lagrange`](super::lagrange)), and the face into which paths disagree
+//! most is entered across one side in each child: the children are disjoint and complete. Where the
+//! pattern may not overlap, a tree whose pattern does is split along the path between two overlapping
+//! faces: any layout with all of the path's arcs overlaps, so the children leave out the first arc;
+//! keep it and leave out the second; and so on.
+//!
+//! All roots are searched together, always the node of least bound next, so that the gap at the end
+//! of a budget is as small as it can be. Roots that are equal by symmetry are searched once.
 //!
 //! Equal costs are told apart by a tiny addition for every hinge, or symmetric targets would be
 //! searched for ever. The proof holds up to what the additions come to, [`SLACK`] of the energy.
 
+use super::lagrange::{self, Effort, Lagrange, Prices};
 use super::layout::Layout;
 use super::local;
 use super::pattern::Pattern;
 use super::routes::{self, Allowed, Arc, Routes};
+use super::symmetry;
 use super::target::Target;
 use super::weights::Weights;
 use std::cmp::Ordering;
@@ -29,8 +35,23 @@ pub const TOL_TIE: f64 = 1e-9;
 /// A bound this near to the best energy, as part of it, is rounding away from it.
 const TOL_BOUND: f64 = 1e-12;
 
-/// Nodes that wait at one time, so that memory stays bounded.
-const WAITING_MAX: usize = 100_000;
+/// What may wait at one time, bytes.
+const HELD_MAX: usize = 1 << 29;
+
+/// What a node takes for each face, bytes: a path shared with its parent, a cost, uses, arcs.
+const FACE_BYTES: usize = 48;
+
+/// Rounds of one ascent.
+const ROUNDS: usize = 6;
+
+/// An ascent that closed less than this part of the gap is the last before branching.
+const WORTHWHILE: f64 = 0.05;
+
+/// Steps of an ascent that begins where another ended are longer by this.
+const RESUMED: f64 = 0.5;
+
+/// An ascent whose steps are shorter has converged.
+const LENGTH_MIN: f64 = 0.01;
 
 /// What is searched and how long.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +60,7 @@ pub struct Settings {
     pub root: Option<usize>,
     /// Whether patterns that overlap in the plane are left out.
     pub flat: bool,
-    /// Nodes and tried exchanges in all.
+    /// Faces settled on paths, exchanges weighed, and nodes, in all.
     pub budget: u64,
     /// Another seed, another choice among layouts that tie.
     pub seed: u64,
@@ -86,16 +107,20 @@ pub enum NoLayout {
 
 /// The layout of least energy.
 pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Result<Optimum, NoLayout> {
-    let bounds = Routes::new(target, weights);
-    let mut roots: Vec<(f64, usize)> = match settings.root {
-        Some(root) => vec![(bounds.bound(root), root)],
-        None => (0..target.faces.len()).map(|root| (bounds.bound(root), root)).collect(),
+    let n = target.faces.len();
+    let plain = Routes::new(target, weights);
+    let equals = match settings.root {
+        Some(root) => vec![root; n],
+        None => symmetry::orbits(target, weights),
     };
-    roots.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let asked: Vec<usize> = match settings.root {
+        Some(root) => vec![root],
+        None => (0..n).filter(|face| equals[*face] == *face).collect(),
+    };
+    let least = asked.iter().map(|root| plain.bound(*root)).fold(f64::INFINITY, f64::min);
     // Where nothing costs anything, any addition will do.
-    let slack = if roots[0].0 > 0.0 { SLACK * roots[0].0 } else { SLACK };
+    let slack = if least > 0.0 { SLACK * least } else { SLACK };
     let raised = raised(target, weights, slack, settings.seed);
-    let mut routes = Routes::new(target, &raised);
     let mut search = Search {
         target,
         weights,
@@ -103,17 +128,24 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
         flat: settings.flat,
         slack,
         best: None,
-        reached: Vec::new(),
+        reached: vec![f64::INFINITY; n],
+        aims: vec![f64::INFINITY; n],
+        waiting: BinaryHeap::new(),
+        held: 0,
         open: f64::INFINITY,
         nodes: 0,
         left: settings.budget,
     };
-    for &(bound, root) in &roots {
-        if search.best.as_ref().is_none_or(|best| bound <= best.energy * (1.0 + TOL_TIE)) {
-            search.at_root(&mut routes, root);
-        }
+    for root in asked {
+        search.push(Node { root, bound: plain.bound(root), number: 0, ways: None });
     }
-    search.finish()
+    let mut bounds = Bounds { routes: Routes::new(target, &raised), lagrange: None };
+    search.run(&mut bounds);
+    let equals: Vec<Option<usize>> = match settings.root {
+        Some(root) => (0..n).map(|face| (face == root).then_some(root)).collect(),
+        None => equals.into_iter().map(Some).collect(),
+    };
+    search.finish(&equals)
 }
 
 /// The weights with an addition for every hinge; no layout's additions come to more than the slack,
@@ -125,11 +157,6 @@ fn raised(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weights 
     weights.raised(&extra)
 }
 
-struct Found {
-    layout: Layout,
-    energy: f64,
-}
-
 struct Search<'s> {
     target: &'s Target,
     weights: &'s Weights,
@@ -139,26 +166,51 @@ struct Search<'s> {
     /// The most that the additions come to in one layout, N·m.
     slack: f64,
     best: Option<Found>,
-    /// (root, least energy found there, with the additions)
-    reached: Vec<(usize, f64)>,
+    /// By root: least energy found there, with the additions.
+    reached: Vec<f64>,
+    /// By root: about what its best layout costs, were it to lie flat.
+    aims: Vec<f64>,
+    waiting: BinaryHeap<Node>,
+    /// What the waiting nodes take, bytes.
+    held: usize,
     /// Least bound of what was left unsearched.
     open: f64,
     nodes: u64,
     left: u64,
 }
 
+struct Found {
+    layout: Layout,
+    energy: f64,
+}
+
 struct Node {
+    root: usize,
     bound: f64,
     number: u64,
+    /// `None`: nothing is known yet but the bound.
+    ways: Option<Ways>,
+}
+
+/// What is known of a node.
+struct Ways {
     allowed: Allowed,
     paths: Vec<Rc<[Arc]>>,
     costs: Vec<f64>,
+    prices: Rc<Prices>,
+    /// Of the next step of an ascent.
+    length: f64,
+    /// Whether another ascent may raise the bound further.
+    rising: bool,
+    /// How often paths entered each face across each of its sides at the end of the last ascent.
+    uses: Vec<[u32; 3]>,
 }
 
-/// The least bound is the greatest; of equal ones the newest.
+/// The least bound is the greatest; of equal ones the newest, then the first root's.
 impl Ord for Node {
     fn cmp(&self, other: &Node) -> Ordering {
-        other.bound.total_cmp(&self.bound).then(self.number.cmp(&other.number))
+        let newest = self.number.cmp(&other.number);
+        other.bound.total_cmp(&self.bound).then(newest).then(other.root.cmp(&self.root))
     }
 }
 impl PartialOrd for Node {
@@ -173,126 +225,218 @@ impl PartialEq for Node {
 }
 impl Eq for Node {}
 
-impl Search<'_> {
-    fn at_root(&mut self, routes: &mut Routes, root: usize) {
-        let Some(first) = self.first(routes, root) else { return };
-        let mut at_root = f64::INFINITY;
-        if disputed(self.target, root, &first.paths).is_some() {
-            self.start(root, &mut at_root);
-        }
-        let mut waiting = BinaryHeap::from([first]);
-        while let Some(node) = waiting.pop() {
-            if node.bound >= self.cutoff(at_root) {
-                break;
+/// What computes bounds.
+struct Bounds<'s> {
+    routes: Routes<'s>,
+    /// Made when it is first needed.
+    lagrange: Option<Lagrange<'s>>,
+}
+
+impl<'s> Search<'s> {
+    fn run(&mut self, bounds: &mut Bounds<'s>) {
+        while let Some(node) = self.waiting.pop() {
+            self.held -= node.size();
+            if node.bound >= self.cutoff(node.root) {
+                continue;
             }
-            if self.left == 0 || waiting.len() > WAITING_MAX {
+            if self.left == 0 || self.held > HELD_MAX {
                 self.open = self.open.min(node.bound);
-                break;
+                if self.best.is_none() {
+                    self.start(node.root);
+                }
+                return;
             }
             self.left -= 1;
-            for child in self.branch(routes, root, node, &mut at_root) {
-                if child.bound < self.cutoff(at_root) {
-                    waiting.push(child);
+            self.look(bounds, node);
+        }
+    }
+
+    fn push(&mut self, node: Node) {
+        if node.bound < self.cutoff(node.root) {
+            self.held += node.size();
+            self.waiting.push(node);
+        }
+    }
+
+    /// One step further with a node: paths, then a better bound, then its children or its answer.
+    fn look(&mut self, bounds: &mut Bounds<'s>, node: Node) {
+        let Node { root, bound, ways, .. } = node;
+        let Some(mut ways) = ways else {
+            let Some(ways) = self.first(&mut bounds.routes, root) else { return };
+            let bound = bound.max(ways.costs.iter().sum());
+            return self.push(Node { root, bound, number: 0, ways: Some(ways) });
+        };
+        match disputed(root, &uses(self.target, &ways.paths)) {
+            None => self.settle(bounds, root, bound, ways),
+            Some(_) if ways.rising => {
+                let raised = self.rise(bounds, root, bound, &mut ways);
+                if let Some(bound) = raised {
+                    self.push(Node { root, bound, number: self.nodes, ways: Some(ways) });
                 }
             }
+            Some(by_paths) => {
+                let face = disputed(root, &ways.uses).filter(|face| ways.allowed[*face].count_ones() > 1);
+                self.enter_across_each(bounds, root, bound, &ways, face.unwrap_or(by_paths));
+            }
         }
-        if at_root.is_finite() {
-            self.reached.push((root, at_root));
+    }
+
+    /// Raises the bound by prices; the new one, or `None` where nothing below the cutoff is left.
+    fn rise(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: &mut Ways) -> Option<f64> {
+        if self.aims[root].is_infinite() {
+            self.start(root);
         }
+        let cutoff = self.cutoff(root);
+        let aim = if cutoff.is_finite() { cutoff } else { self.aims[root].max(bound) };
+        let (target, raised) = (self.target, self.raised);
+        let lagrange = bounds.lagrange.get_or_insert_with(|| Lagrange::new(target, raised));
+        let (mut left, mut allowed) = (self.left, ways.allowed.clone());
+        let effort = Effort { cutoff, aim, rounds: ROUNDS, length: ways.length };
+        let found = lagrange.ascend(root, &mut allowed, &ways.prices, effort, &mut left, |chosen, steps| {
+            let layout = Layout::of_hinges(target, &lagrange::mended(target, root, chosen), root);
+            let layout = layout.expect("what was mended is a tree");
+            self.offer(local::improved(target, self.weights, layout, steps));
+            self.cutoff(root)
+        });
+        self.left = left;
+        ways.prices = found.prices.into();
+        ways.uses = found.uses;
+        // A child begins with steps that are not yet as short as its parent's last.
+        ways.length = (found.length / RESUMED).min(1.0);
+        let cutoff = self.cutoff(root);
+        ways.rising = found.bound - bound > WORTHWHILE * (cutoff - bound) && found.length > LENGTH_MIN;
+        let bound = bound.max(found.bound);
+        if bound >= cutoff || !self.reroute(&mut bounds.routes, root, ways, allowed) {
+            return None;
+        }
+        Some(bound.max(ways.costs.iter().sum()))
+    }
+
+    /// Paths that agree are the node's best layout, if it may lie as it does.
+    fn settle(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: Ways) {
+        let layout = self.layout(root, &ways.paths);
+        match self.flat.then(|| overlapping_path(self.target, &layout)).flatten() {
+            Some(path) => self.without_path(bounds, root, bound, &ways, &path),
+            None => self.offer(layout),
+        }
+    }
+
+    fn enter_across_each(
+        &mut self,
+        bounds: &mut Bounds<'s>,
+        root: usize,
+        bound: f64,
+        ways: &Ways,
+        face: usize,
+    ) {
+        self.nodes += 1;
+        for side in (0..3).filter(|side| ways.allowed[face] & (1 << side) != 0) {
+            let mut allowed = ways.allowed.clone();
+            keep(self.target, &mut allowed, routes::arc(face, side));
+            self.child(bounds, root, bound, ways, allowed);
+        }
+    }
+
+    fn without_path(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: &Ways, path: &[Arc]) {
+        self.nodes += 1;
+        let mut allowed = ways.allowed.clone();
+        for &an_arc in path {
+            let mut left_out = allowed.clone();
+            let (face, side) = routes::head(an_arc);
+            left_out[face] &= !(1 << side);
+            self.child(bounds, root, bound, ways, left_out);
+            keep(self.target, &mut allowed, an_arc);
+        }
+    }
+
+    fn child(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, parent: &Ways, allowed: Allowed) {
+        let mut ways = Ways {
+            allowed: Vec::new(),
+            paths: parent.paths.clone(),
+            costs: parent.costs.clone(),
+            prices: parent.prices.clone(),
+            length: parent.length,
+            rising: true,
+            uses: Vec::new(),
+        };
+        if self.reroute(&mut bounds.routes, root, &mut ways, allowed) {
+            let bound = bound.max(ways.costs.iter().sum());
+            self.push(Node { root, bound, number: self.nodes, ways: Some(ways) });
+        }
+    }
+
+    /// Puts a node under other arcs: only paths that lost one are sought anew. `false` where a face
+    /// can't be reached any more.
+    fn reroute(&mut self, routes: &mut Routes, root: usize, ways: &mut Ways, allowed: Allowed) -> bool {
+        for face in 0..ways.paths.len() {
+            let lost = ways.paths[face].iter().any(|&a| {
+                let (entered, side) = routes::head(a);
+                allowed[entered] & (1 << side) == 0
+            });
+            if lost {
+                self.left = self.left.saturating_sub(ways.paths[face].len() as u64);
+                let Some((cost, path)) = routes.route(root, face, &allowed) else { return false };
+                (ways.costs[face], ways.paths[face]) = (cost, path);
+            }
+        }
+        ways.allowed = allowed;
+        true
     }
 
     /// Under the raised weights: what reaches this is no better than what is known.
-    fn cutoff(&self, at_root: f64) -> f64 {
+    fn cutoff(&self, root: usize) -> f64 {
         let tie = self.best.as_ref().map_or(f64::INFINITY, |best| best.energy * (1.0 + TOL_TIE) + self.slack);
-        tie.min(at_root * (1.0 - TOL_BOUND))
+        tie.min(self.reached[root] * (1.0 - TOL_BOUND))
     }
 
     /// A layout to begin with, by growth and exchange.
-    fn start(&mut self, root: usize, at_root: &mut f64) {
-        let mut first = match &self.best {
-            Some(best) => best.layout.rerooted(self.target, root),
-            None => local::grown(self.target, self.weights, root),
-        };
-        first = local::improved(self.target, self.weights, first, &mut self.left);
-        if !self.flat || Pattern::of(self.target, &first).overlaps().is_empty() {
-            self.offer(first, at_root);
+    fn start(&mut self, root: usize) {
+        let grown = local::grown(self.target, self.weights, root);
+        let mut first = local::improved(self.target, self.weights, grown, &mut self.left);
+        if let Some(best) = &self.best {
+            let rerooted = best.layout.rerooted(self.target, root);
+            let other = local::improved(self.target, self.weights, rerooted, &mut self.left);
+            if other.energy(self.weights) < first.energy(self.weights) {
+                first = other;
+            }
         }
+        self.offer(first);
     }
 
-    fn offer(&mut self, layout: Layout, at_root: &mut f64) {
-        let energy = layout.energy(self.weights);
-        *at_root = at_root.min(layout.energy(self.raised));
+    /// Takes a layout for the best where it is better, and lies flat if it has to.
+    fn offer(&mut self, layout: Layout) {
+        let (energy, raised, root) = (layout.energy(self.weights), layout.energy(self.raised), layout.root);
+        self.aims[root] = self.aims[root].min(raised);
+        if raised >= self.reached[root]
+            || self.flat && !Pattern::of(self.target, &layout).overlaps().is_empty()
+        {
+            return;
+        }
+        self.reached[root] = raised;
         if self.best.as_ref().is_none_or(|best| energy < best.energy * (1.0 - TOL_TIE)) {
             self.best = Some(Found { layout, energy });
         }
     }
 
-    fn first(&mut self, routes: &mut Routes, root: usize) -> Option<Node> {
+    fn first(&mut self, routes: &mut Routes, root: usize) -> Option<Ways> {
         let n = self.target.faces.len();
         let mut allowed: Allowed = vec![0; n];
         for (face, sides) in self.target.sides.iter().enumerate().filter(|(face, _)| *face != root) {
             allowed[face] = (0..3).filter(|&k| sides[k].is_some()).map(|k| 1 << k).sum();
         }
-        let mut node =
-            Node { bound: 0.0, number: 0, allowed, paths: vec![Rc::from([]); n], costs: vec![0.0; n] };
+        let mut ways = Ways {
+            allowed,
+            paths: vec![Rc::from([]); n],
+            costs: vec![0.0; n],
+            prices: Rc::from([]),
+            length: 1.0,
+            rising: true,
+            uses: Vec::new(),
+        };
         for face in (0..n).filter(|face| *face != root) {
-            (node.costs[face], node.paths[face]) = routes.route(root, face, &node.allowed)?;
+            (ways.costs[face], ways.paths[face]) = routes.route(root, face, &ways.allowed)?;
         }
-        node.bound = node.costs.iter().sum();
-        Some(node)
-    }
-
-    /// What is left of a node: nothing where its best layout is its answer.
-    fn branch(&mut self, routes: &mut Routes, root: usize, node: Node, at_root: &mut f64) -> Vec<Node> {
-        if let Some(face) = disputed(self.target, root, &node.paths) {
-            self.nodes += 1;
-            let sides = (0..3).filter(|side| node.allowed[face] & (1 << side) != 0);
-            let kept = sides.map(|side| {
-                let mut allowed = node.allowed.clone();
-                keep(self.target, &mut allowed, routes::arc(face, side));
-                allowed
-            });
-            let kept: Vec<Allowed> = kept.collect();
-            return kept.into_iter().filter_map(|allowed| self.child(routes, root, &node, allowed)).collect();
-        }
-        let layout = self.layout(root, &node.paths);
-        if self.flat
-            && let Some(path) = overlapping_path(self.target, &layout)
-        {
-            self.nodes += 1;
-            return self.without_path(routes, root, &node, &path);
-        }
-        self.offer(layout, at_root);
-        Vec::new()
-    }
-
-    fn without_path(&mut self, routes: &mut Routes, root: usize, node: &Node, path: &[Arc]) -> Vec<Node> {
-        let mut children = Vec::new();
-        let mut allowed = node.allowed.clone();
-        for &an_arc in path {
-            let mut left_out = allowed.clone();
-            let (face, side) = routes::head(an_arc);
-            left_out[face] &= !(1 << side);
-            children.extend(self.child(routes, root, node, left_out));
-            keep(self.target, &mut allowed, an_arc);
-        }
-        children
-    }
-
-    /// The node under fewer arcs: only paths that lost one are sought anew.
-    fn child(&mut self, routes: &mut Routes, root: usize, node: &Node, allowed: Allowed) -> Option<Node> {
-        let (mut paths, mut costs) = (node.paths.clone(), node.costs.clone());
-        for face in 0..paths.len() {
-            let lost = paths[face].iter().any(|&a| {
-                let (entered, side) = routes::head(a);
-                allowed[entered] & (1 << side) == 0
-            });
-            if lost {
-                (costs[face], paths[face]) = routes.route(root, face, &allowed)?;
-            }
-        }
-        let bound = costs.iter().sum();
-        Some(Node { bound, number: self.nodes, allowed, paths, costs })
+        Some(ways)
     }
 
     /// The tree that paths form which agree.
@@ -306,19 +450,27 @@ impl Search<'_> {
         Layout::of_hinges(self.target, &hinges, root).expect("paths that agree form a tree")
     }
 
-    fn finish(self) -> Result<Optimum, NoLayout> {
+    /// `equals`: by face, the root that was searched in its place, if any.
+    fn finish(self, equals: &[Option<usize>]) -> Result<Optimum, NoLayout> {
         let closed = self.open.is_infinite();
         let Some(best) = self.best else {
             return Err(if closed { NoLayout::AllOverlap } else { NoLayout::Budget });
         };
         let tie = best.energy * (1.0 + TOL_TIE) + self.slack;
-        let reaching = self.reached.iter().filter(|(_, energy)| *energy <= tie);
-        let mut roots: Vec<usize> = reaching.map(|(root, _)| *root).collect();
-        roots.sort_unstable();
+        let reaches = |root: &usize| equals[*root].is_some_and(|searched| self.reached[searched] <= tie);
+        let roots = (0..equals.len()).filter(reaches).collect();
         // The additions make bounds greater, by at most the slack.
         let bound = (self.open.min(best.energy * (1.0 - TOL_BOUND)) - self.slack).max(0.0);
         let proof = if closed { Proof::Optimal } else { Proof::Open };
         Ok(Optimum { layout: best.layout, energy: best.energy, bound, proof, roots, nodes: self.nodes })
+    }
+}
+
+impl Node {
+    /// About what it takes, bytes.
+    fn size(&self) -> usize {
+        let Some(ways) = &self.ways else { return 0 };
+        FACE_BYTES * ways.paths.len() + size_of_val(&*ways.prices)
     }
 }
 
@@ -341,13 +493,18 @@ fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     allowed[back] &= !(1 << side);
 }
 
-/// The face into which most paths differ from the commonest way; `None` where all agree.
-fn disputed(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Option<usize> {
+/// How often paths enter each face across each of its sides.
+fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     let mut uses = vec![[0u32; 3]; target.faces.len()];
     for &an_arc in paths.iter().flat_map(|path| path.iter()) {
         let (face, side) = routes::head(an_arc);
         uses[face][side] += 1;
     }
+    uses
+}
+
+/// The face into which most paths differ from the commonest way; `None` where all agree.
+fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
     let dissent = |face: &usize| {
         let u = uses[*face];
         u.iter().sum::<u32>() - u.iter().max().expect("there are three")

@@ -5,7 +5,7 @@ use super::target::Target;
 use super::weights::Weights;
 
 /// An exchange has to gain this part of the energy, or rounding would go round in circles.
-const GAIN_MIN: f64 = 1e-13;
+const GAIN_MIN: f64 = 1e-11;
 
 /// A tree grown from the root: always the face is added whose path costs it least.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
@@ -39,46 +39,113 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
 }
 
 /// Exchanges a hinge that folds for one that doesn't as long as that helps. `steps`: how many
-/// layouts may be tried, counted down.
+/// exchanges may be weighed, counted down.
 pub fn improved(target: &Target, weights: &Weights, mut layout: Layout, steps: &mut u64) -> Layout {
-    let mut energy = layout.energy(weights);
-    while let Some((better, less)) = exchange(target, weights, &layout, energy, steps) {
-        (layout, energy) = (better, less);
+    let gain = layout.energy(weights) * GAIN_MIN;
+    while let Some(better) = exchange(target, weights, &layout, gain, steps) {
+        layout = better;
     }
     layout
 }
 
-/// The best single exchange, if one helps.
+/// What the branches of a layout cost, so that an exchange is weighed without making its layout.
+struct Branches {
+    hinges: usize,
+    faces: usize,
+    /// By face, then by hinge: what the hinge would spend on carrying the face and all below it.
+    below: Vec<f64>,
+    /// By face c, then by face b: what the hinges between the root and b would spend on carrying c and
+    /// all below it.
+    along: Vec<f64>,
+}
+
+impl Branches {
+    fn new(target: &Target, weights: &Weights, layout: &Layout) -> Branches {
+        let (faces, hinges) = (target.faces.len(), target.hinges.len());
+        let mut below: Vec<f64> =
+            (0..faces * hinges).map(|at| weights.at(at % hinges, at / hinges)).collect();
+        for &face in layout.order[1..].iter().rev() {
+            let parent = layout.parent[face];
+            for hinge in 0..hinges {
+                below[parent * hinges + hinge] += below[face * hinges + hinge];
+            }
+        }
+        let mut along = vec![0.0; faces * faces];
+        for c in 0..faces {
+            for &b in &layout.order[1..] {
+                let hinge = layout.hinge[b].expect("only the root has none");
+                along[c * faces + b] = along[c * faces + layout.parent[b]] + below[c * hinges + hinge];
+            }
+        }
+        Branches { hinges, faces, below, along }
+    }
+
+    fn below(&self, face: usize, hinge: usize) -> f64 {
+        self.below[face * self.hinges + hinge]
+    }
+
+    fn along(&self, c: usize, b: usize) -> f64 {
+        self.along[c * self.faces + b]
+    }
+}
+
+/// The best single exchange, if one gains more than `gain`.
+///
+/// One more hinge between a and b closes a cycle; on a's side of it, some face c loses the hinge to
+/// its parent, and the branch below c hangs from b by its face a. Outside the branch nothing changes.
+/// Within it, the hinges between c and a carry what was on their other side.
 fn exchange(
     target: &Target,
     weights: &Weights,
     layout: &Layout,
-    energy: f64,
+    gain: f64,
     steps: &mut u64,
-) -> Option<(Layout, f64)> {
-    let mut best: Option<(Layout, f64)> = None;
-    let folding = layout.hinges();
-    for added in (0..target.hinges.len()).filter(|h| folding.binary_search(h).is_err()) {
-        for dropped in cycle(target, layout, added) {
-            if *steps == 0 {
-                return best;
-            }
-            *steps -= 1;
-            let hinges: Vec<usize> = folding.iter().map(|&h| if h == dropped { added } else { h }).collect();
-            let Some(other) = Layout::of_hinges(target, &hinges, layout.root) else { continue };
-            let less = other.energy(weights);
-            if less < best.as_ref().map_or(energy * (1.0 - GAIN_MIN), |b| b.1) {
-                best = Some((other, less));
+) -> Option<Layout> {
+    let branches = Branches::new(target, weights, layout);
+    let depths = layout.depths();
+    let folding = |face: usize| layout.hinge[face].expect("only the root has none");
+    let mut best: Option<(usize, usize)> = None;
+    let mut least = -gain;
+    let mut way = Vec::new();
+    for (added, hinge) in target.hinges.iter().enumerate() {
+        let [p, q] = hinge.faces;
+        if layout.hinge[p] == Some(added) || layout.hinge[q] == Some(added) {
+            continue;
+        }
+        for (a, b) in [(p, q), (q, p)] {
+            side_of_cycle(layout, &depths, a, b, &mut way);
+            for (i, &c) in way.iter().enumerate() {
+                *steps = steps.checked_sub(1)?;
+                let turned = way[..i].iter().map(|&x| {
+                    let between = folding(x);
+                    branches.below(c, between) - 2.0 * branches.below(x, between)
+                });
+                let now = branches.along(c, b) + branches.below(c, added) + turned.sum::<f64>();
+                let change = now - branches.along(c, c);
+                if change < least {
+                    (best, least) = (Some((added, folding(c))), change);
+                }
             }
         }
     }
-    best
+    let (added, dropped) = best?;
+    let hinges: Vec<usize> =
+        layout.hinges().into_iter().map(|h| if h == dropped { added } else { h }).collect();
+    Some(Layout::of_hinges(target, &hinges, layout.root).expect("an exchange on a cycle keeps a tree"))
 }
 
-/// The hinges of the tree on the cycle that one more hinge closes.
-fn cycle(target: &Target, layout: &Layout, added: usize) -> Vec<usize> {
-    let [a, b] = target.hinges[added].faces;
-    path(layout, a, b)
+/// The faces from `a` up to where its way to the root meets that of `b`, without that face.
+fn side_of_cycle(layout: &Layout, depths: &[usize], a: usize, b: usize, way: &mut Vec<usize>) {
+    way.clear();
+    let (mut x, mut y) = (a, b);
+    while x != y {
+        if depths[x] >= depths[y] {
+            way.push(x);
+            x = layout.parent[x];
+        } else {
+            y = layout.parent[y];
+        }
+    }
 }
 
 /// The hinges of the tree between two faces.

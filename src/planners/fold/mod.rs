@@ -15,8 +15,10 @@ pub mod count;
 pub mod layout;
 pub mod weights;
 
+pub mod lagrange;
 pub mod local;
 pub mod routes;
+pub mod symmetry;
 
 pub mod exact;
 

@@ -2,6 +2,7 @@
 
 use super::layout::{Across, Layout};
 use super::target::Target;
+use robust::{Coord, orient2d};
 
 /// Sides are equal where they differ by less than this part.
 const TOL_EQUAL: f64 = 1e-6;
@@ -124,12 +125,14 @@ fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
     !parts(a, b) && !parts(b, a)
 }
 
-/// Whether the line through a side of `a` has all of `b` on its outer side.
+/// Whether the line through a side of `a` has all of `b` on its outer side. Where a corner lies is
+/// computed without rounding; the tolerance is for the rounding of the corners themselves.
 fn parts(a: &[Point; 3], b: &[Point; 3]) -> bool {
+    let coordinate = |[x, y]: Point| Coord { x, y };
     (0..3).any(|k| {
         let (p, q) = (a[k], a[(k + 1) % 3]);
-        let d = [q[0] - p[0], q[1] - p[1]];
-        let tol = TOL_OVERLAP * (d[0] * d[0] + d[1] * d[1]);
-        b.iter().all(|x| d[0] * (x[1] - p[1]) - d[1] * (x[0] - p[0]) <= tol)
+        let [dx, dy] = [q[0] - p[0], q[1] - p[1]];
+        let tol = TOL_OVERLAP * (dx * dx + dy * dy);
+        b.iter().all(|&x| orient2d(coordinate(p), coordinate(q), coordinate(x)) <= tol)
     })
 }

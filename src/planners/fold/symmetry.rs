@@ -1,0 +1,116 @@
+//! Roots that are equal by symmetry: what holds for one face holds for every face of its orbit.
+
+use super::target::Target;
+use super::weights::Weights;
+
+/// Lengths and weights that differ by less than this part, and angles by less than this (rad), are
+/// equal. Far below the part of the energy to which optima are proved.
+const TOL_EQUAL: f64 = 1e-10;
+
+/// By face: the first face to which an isometry of the target, mirrors included, carries it. Only
+/// isometries that keep every weight count.
+pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
+    let n = target.faces.len();
+    let lengths: Vec<[f64; 3]> = (0..n).map(|face| lengths(target, face)).collect();
+    let mut first: Vec<usize> = (0..n).collect();
+    let scale = weights.greatest();
+    for face in 1..n {
+        for (turn, mirrored) in (0..6).map(|i| (i % 3, i >= 3)) {
+            let image = (face, turn, mirrored);
+            let Some((faces, hinges)) = isometry(target, &lengths, image) else { continue };
+            if first[face] != find(&mut first, 0) && keeps(weights, &faces, &hinges, scale) {
+                for (from, &to) in faces.iter().enumerate() {
+                    let (a, b) = (find(&mut first, from), find(&mut first, to));
+                    let least = a.min(b);
+                    (first[a], first[b]) = (least, least);
+                }
+            }
+        }
+    }
+    (0..n).map(|face| find(&mut first, face)).collect()
+}
+
+fn find(first: &mut [usize], face: usize) -> usize {
+    let mut at = face;
+    while first[at] != at {
+        at = first[at];
+    }
+    first[face] = at;
+    at
+}
+
+fn lengths(target: &Target, face: usize) -> [f64; 3] {
+    let corners = target.corners(face);
+    [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
+}
+
+fn equal(a: f64, b: f64) -> bool {
+    (a - b).abs() <= TOL_EQUAL * (a.abs() + b.abs() + f64::MIN_POSITIVE)
+}
+
+/// A face with the number of its side that is the image of side 0, and whether sides are counted
+/// backwards from there.
+type Image = (usize, usize, bool);
+
+fn side(image: Image, k: usize) -> usize {
+    let (_, turn, mirrored) = image;
+    if mirrored { (turn + 3 - k) % 3 } else { (turn + k) % 3 }
+}
+
+/// Where faces and hinges go when face 0 goes to the given image; `None` where that is no isometry.
+fn isometry(target: &Target, lengths: &[[f64; 3]], image: Image) -> Option<(Vec<usize>, Vec<usize>)> {
+    let n = target.faces.len();
+    let mut images: Vec<Option<Image>> = vec![None; n];
+    images[0] = Some(image);
+    let mut hinges = vec![0; target.hinges.len()];
+    let mut waiting = vec![0];
+    while let Some(face) = waiting.pop() {
+        let to = images[face].expect("it was given one");
+        for k in 0..3 {
+            let there = side(to, k);
+            if !equal(lengths[face][k], lengths[to.0][there]) {
+                return None;
+            }
+            let (from, goal) = match (target.sides[face][k], target.sides[to.0][there]) {
+                (None, None) => continue,
+                (Some(from), Some(goal)) => (from, goal),
+                _ => return None,
+            };
+            let turned = target.hinges[from].angle - target.hinges[goal].angle;
+            if turned.abs() > TOL_EQUAL {
+                return None;
+            }
+            hinges[from] = goal;
+            let (next, m) = across(target, from, face, k);
+            let (other, there) = across(target, goal, to.0, there);
+            // Side `m` of the next face is to become side `there` of the other.
+            let turn = if to.2 { (there + m) % 3 } else { (there + 3 - m) % 3 };
+            let wanted = (other, turn, to.2);
+            match images[next] {
+                Some(known) if known != wanted => return None,
+                Some(_) => {}
+                None => {
+                    images[next] = Some(wanted);
+                    waiting.push(next);
+                }
+            }
+        }
+    }
+    Some((images.into_iter().map(|i| i.expect("the target is connected").0).collect(), hinges))
+}
+
+/// The face across a side, with the number that the side has there.
+fn across(target: &Target, hinge: usize, face: usize, side: usize) -> (usize, usize) {
+    let hinge = &target.hinges[hinge];
+    let own = usize::from(!(hinge.faces[0] == face && hinge.sides[0] == side));
+    (hinge.faces[1 - own], hinge.sides[1 - own])
+}
+
+fn keeps(weights: &Weights, faces: &[usize], hinges: &[usize], scale: f64) -> bool {
+    hinges.iter().enumerate().all(|(hinge, &to)| {
+        faces
+            .iter()
+            .enumerate()
+            .all(|(face, &goal)| (weights.at(hinge, face) - weights.at(to, goal)).abs() <= TOL_EQUAL * scale)
+    })
+}
