@@ -1394,6 +1394,8 @@ extern type Folding is Plan {
   order: List<List<Int>>
   /// The folded robot.
   robot: Config
+  /// The joints of the folded robot, in the order of the layout's hinges.
+  hinges: List<Joint<Angle>>
 }
 
 /// Finds the flat pattern of panels for a shape that folds for the least energy, the order in which to

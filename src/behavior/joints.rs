@@ -47,8 +47,8 @@ fn of_module(robot: &Assembly, module: usize, joint: usize) -> Facts {
     let kind = robot.module_type(module);
     let declared = &kind.joints[joint];
     let mute = match declared.kind {
-        JointKind::Fixed => Some(Mute::Fixed),
         _ if declared.mimic.is_some() => Some(Mute::Mimic),
+        JointKind::Fixed => Some(Mute::Fixed),
         _ if declared.passive => Some(Mute::Passive),
         _ => None,
     };

@@ -62,7 +62,7 @@ impl<'a> Checker<'a> {
             Callee::Value(value) => self.call_value(scope, span, value, args),
             Callee::Error => {
                 for arg in args {
-                    self.expr(scope, &arg.value, None);
+                    self.expr(scope, &arg.value, Some(&Type::Error));
                 }
                 error_expr(span)
             }
@@ -228,7 +228,7 @@ impl<'a> Checker<'a> {
                 );
             }
             for arg in args {
-                self.expr(scope, &arg.value, None);
+                self.expr(scope, &arg.value, Some(&Type::Error));
             }
             return error_expr(span);
         };
@@ -242,7 +242,7 @@ impl<'a> Checker<'a> {
             }
             typed.push(match f.params.get(i) {
                 Some(ty) => self.expect(scope, &arg.value, ty, Role::Place("this argument")),
-                None => self.expr(scope, &arg.value, None),
+                None => self.expr(scope, &arg.value, Some(&Type::Error)),
             });
         }
         if args.len() != f.params.len() {
@@ -302,7 +302,7 @@ impl<'a> Checker<'a> {
                         None => {
                             misnamed = true;
                             self.no_parameter(name, n, params);
-                            self.expr(scope, &arg.value, None);
+                            self.expr(scope, &arg.value, Some(&Type::Error));
                             continue;
                         }
                     }
@@ -314,7 +314,7 @@ impl<'a> Checker<'a> {
                 }
                 None if named || next >= params.len() => {
                     self.too_many(name, arg, params, named);
-                    self.expr(scope, &arg.value, None);
+                    self.expr(scope, &arg.value, Some(&Type::Error));
                     continue;
                 }
                 None => {
@@ -327,7 +327,7 @@ impl<'a> Checker<'a> {
                     Diagnostic::error(code::ARGUMENTS, format!("`{}` is given twice", params[index].name))
                         .label(arg.value.span, "given again here"),
                 );
-                self.expr(scope, &arg.value, None);
+                self.expr(scope, &arg.value, Some(&Type::Error));
                 continue;
             }
             filled[index] = true;
@@ -412,10 +412,13 @@ impl<'a> Checker<'a> {
             let want = bindings.apply(pattern);
             if has_params(&want) {
                 let (need, have) = (self.words(&want), self.words(&got.ty));
-                self.report(
-                    Diagnostic::error(code::TYPE_MISMATCH, format!("`{name}` wants {need}; this is {have}"))
-                        .label(got.span, format!("this is {have}")),
-                );
+                let message = format!("`{name}` wants {need}; this is {have}");
+                let mut d = Diagnostic::error(code::TYPE_MISMATCH, message)
+                    .label(got.span, format!("this is {have}"));
+                if let Some(hint) = self.type_hint(&got, &want) {
+                    d = d.hint(hint);
+                }
+                self.report(d);
                 return error_expr(got.span);
             }
             return self.coerce(got, &want, Role::Param(name));

@@ -1,10 +1,10 @@
 //! Configurations: parts, ports, behaviours, and the clauses that connect them.
 
 use super::checker::{Checker, Entity, Scope};
-use super::expr::{Role, expr_of};
+use super::expr::Role;
 use super::typed::{
-    BehaviorDef, ConfigClause, ConfigDef, DefId, DefKind, Exemption, ExemptionKind, Expr, ExprKind,
-    MemberKind, PartCount, PartDef,
+    BehaviorDef, ConfigClause, ConfigDef, DefId, DefKind, Exemption, ExemptionKind, Expr, MemberKind,
+    PartCount, PartDef,
 };
 use super::types::{Family, Type};
 use crate::source::suggest::suggest;
@@ -325,9 +325,8 @@ impl<'a> Checker<'a> {
             Some(ast::PathStep::Field(n)) if is_module && n.text == "port" => Some(Type::Port),
             _ => None,
         };
-        let choice_step = ["joint", "port"].contains(&name.text.as_str());
-        if choice_step && matches!(object.kind, ExprKind::Joint { .. } | ExprKind::Port { .. }) {
-            return expr_of(span, object.ty.clone(), object.kind);
+        if ["joint", "port"].contains(&name.text.as_str()) {
+            return self.chosen(span, object, name);
         }
         self.field_of(span, object, name, chosen.as_ref().or(want))
     }

@@ -93,10 +93,11 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    fn type_hint(&self, got: &Expr, want: &Type) -> Option<String> {
+    pub fn type_hint(&self, got: &Expr, want: &Type) -> Option<String> {
         let written = self.quoted(got.span).unwrap_or("it");
         match (&got.ty, want) {
             (Type::Fn(f), _) if self.fits(&f.result, want) => Some(format!("call it: `{written}()`")),
+            (Type::Port, Type::Joint(_)) => Some(format!("the joint of its connection is `{written}.joint`")),
             (Type::Optional(_), _) => {
                 Some(format!("say what stands in when it is missing: `{written} else ...`"))
             }

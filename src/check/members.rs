@@ -85,6 +85,7 @@ impl<'a> Checker<'a> {
                 _ => {}
             }
         }
+        coordinates(members);
         for clause in &module.clauses {
             if let ModuleClauseKind::Alias { name, target } = &clause.kind {
                 self.add_alias(members, *name, *target);
@@ -263,16 +264,25 @@ impl<'a> Checker<'a> {
         };
         if let (Some(chosen), K::Field { object: inner, field: name }) = (chosen, &object.kind) {
             let inner = self.expr(scope, inner, None);
-            if let Type::Instance(id) = &inner.ty
-                && self.family(*id) == Some(Family::Module)
-            {
-                return self.field_of(span, inner, *name, Some(&chosen));
-            }
-            let object = self.field_of(object.span, inner, *name, None);
-            return self.field_of(span, object, field, want);
+            let want = match &inner.ty {
+                Type::Instance(id) if self.family(*id) == Some(Family::Module) => Some(&chosen),
+                _ => None,
+            };
+            let object = self.field_of(object.span, inner, *name, want);
+            return self.chosen(span, object, field);
         }
         let object = self.expr(scope, object, None);
         self.field_of(span, object, field, want)
+    }
+
+    /// `.joint` or `.port` behind what may be of the one name space or the other already.
+    pub fn chosen(&mut self, span: Span, object: Expr, field: ast::Name) -> Expr {
+        match (field.text.as_str(), object.kind) {
+            ("joint", kind @ ExprKind::Joint { .. }) | ("port", kind @ ExprKind::Port { .. }) => {
+                expr_of(span, object.ty, kind)
+            }
+            (_, kind) => self.field_of(span, Expr { kind, ..object }, field, None),
+        }
     }
 
     pub fn field_of(&mut self, span: Span, object: Expr, field: ast::Name, want: Option<&Type>) -> Expr {
@@ -293,6 +303,9 @@ impl<'a> Checker<'a> {
             Type::Range(element) if ["from", "to"].contains(&field.text.as_str()) => {
                 let kind = ExprKind::Field { object: Box::new(object), field: field.text };
                 expr_of(span, (*element).clone(), kind)
+            }
+            Type::Port if field.text == "joint" => {
+                expr_of(span, Type::joint(Dimension::ANGLE), ExprKind::Hinge(Box::new(object)))
             }
             Type::Pose if field.text == "position" => {
                 let kind = ExprKind::Field { object: Box::new(object), field: field.text };
@@ -531,6 +544,35 @@ fn wants(want: &Type, kind: fn(&Type) -> bool) -> bool {
         Type::Optional(t) | Type::List(t) => wants(t, kind),
         Type::Choice(c) => c.types.iter().any(|t| wants(t, kind)),
         other => kind(other),
+    }
+}
+
+/// Coordinates that move no link are lengths where the joints are that they are sums of.
+fn coordinates(members: &mut Members) {
+    // One may follow another, in either order.
+    for _ in 0..members.joints.len() {
+        let mut changed = false;
+        for index in 0..members.joints.len() {
+            let ModuleClauseKind::Mimic { value, .. } = members.joints[index].clause else { continue };
+            let followed = first_name(value).and_then(|name| members.joint_index.get(&name));
+            let Some(dimension) = followed.map(|joint| members.joints[*joint].dimension) else { continue };
+            changed |= members.joints[index].dimension != dimension;
+            members.joints[index].dimension = dimension;
+        }
+        if !changed {
+            break;
+        }
+    }
+}
+
+/// The first name in a sum of names times factors.
+fn first_name(sum: &ast::Expr) -> Option<Symbol> {
+    match &sum.kind {
+        K::Name(name) => Some(*name),
+        K::Unary { operand, .. } => first_name(operand),
+        K::Binary { op: ast::BinaryOp::Mul, right, .. } => first_name(right),
+        K::Binary { left, .. } => first_name(left),
+        _ => None,
     }
 }
 

@@ -24,6 +24,7 @@ mod names;
 mod operators;
 mod type_expr;
 pub mod typed;
+mod typed_expr;
 pub mod types;
 
 use crate::source::{Diagnostic, Files, Sources};

@@ -41,6 +41,10 @@ impl<'a> Checker<'a> {
     }
 
     pub fn unknown_name(&mut self, scope: &Scope, span: Span, name: Symbol, want: Option<&Type>) -> Expr {
+        // Nobody knows what is wanted here, so it may be a word of a choice.
+        if want.is_some_and(Type::is_error) {
+            return error_expr(span);
+        }
         let choice = want.and_then(choice_of).filter(|c| !c.words.is_empty());
         if let Some(choice) = choice {
             let words: Vec<&str> = choice.words.iter().map(|w| w.as_str()).collect();

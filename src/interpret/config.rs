@@ -9,6 +9,7 @@ use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
 use crate::check::typed::{ConfigClause, ConfigDef, Expr, PartCount, PartDef, Require};
+use crate::robot::JointOwner;
 use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
@@ -173,6 +174,7 @@ impl Interpreter<'_> {
                 .map(|m| FlatModule { name: join_path(&part.name, &m.name), design: m.design.clone() }),
         );
         let shift = part.offset;
+        let bonds = config.bonds.borrow().len();
         for bond in inner.bonds.borrow().iter() {
             let mut bond = bond.clone();
             bond.a.0 += shift;
@@ -182,7 +184,10 @@ impl Interpreter<'_> {
         }
         for set in inner.sets.borrow().iter() {
             let mut set = set.clone();
-            set.module += shift;
+            match &mut set.joint {
+                JointOwner::Module { module, .. } => *module += shift,
+                JointOwner::Bond(bond) => *bond += bonds,
+            }
             set.instance = inherited(&part.name, &set.instance);
             config.sets.borrow_mut().push(set);
         }
@@ -251,20 +256,27 @@ impl Interpreter<'_> {
         let target = self.eval(joint, frame)?;
         let position = self.eval(value, frame)?;
         let (Value::Joint(target), Some(position)) = (target, position.as_number()) else { return Ok(()) };
-        let kind = target.robot.module_type(target.module);
-        let declared = &kind.joints[target.joint];
-        if declared.mimic.is_some() {
-            let message = format!("`{}` follows other joints and can't be set", target.name());
-            return Err(fault(code::BAD_ACTION, joint.span, message, "follows other joints"));
-        }
-        if let Some((low, high)) = declared.limits.range
+        let limits = match target.owner {
+            JointOwner::Module { module, joint: index } => {
+                let declared = &target.robot.module_type(module).joints[index];
+                if declared.mimic.is_some() {
+                    let message = format!("`{}` follows other joints and can't be set", target.name());
+                    return Err(fault(code::BAD_ACTION, joint.span, message, "follows other joints"));
+                }
+                declared.limits
+            }
+            JointOwner::Bond(bond) => {
+                let bond = target.robot.bonds()[bond].clone();
+                self.hinge_at(&target.robot, bond.a)?.map(|hinge| hinge.limits).unwrap_or_default()
+            }
+        };
+        if let Some((low, high)) = limits.range
             && !(low..=high).contains(&position)
         {
             return Err(out_of_range(&target.name(), position, (low, high), target.dimension, value.span));
         }
         let record = SetRecord {
-            module: target.module,
-            joint: target.joint,
+            joint: target.owner,
             value: position,
             span,
             instance: self.binder_notes().as_str().into(),

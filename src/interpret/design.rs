@@ -10,7 +10,7 @@ use super::robot_of::Robot;
 use super::truss::TrussDesign;
 use super::value::{JointValue, PortValue, Value};
 use crate::check::typed::DefId;
-use crate::robot::{Cell, ModuleType, Strut};
+use crate::robot::{Cell, JointOwner, ModuleType, Strut};
 use crate::source::Span;
 use std::cell::{Cell as Flag, OnceCell, RefCell};
 use std::collections::HashMap;
@@ -107,8 +107,7 @@ pub struct BondRecord {
 /// `set`, with where it stands.
 #[derive(Clone)]
 pub struct SetRecord {
-    pub module: usize,
-    pub joint: usize,
+    pub joint: JointOwner,
     pub value: f64,
     pub span: Span,
     pub instance: Rc<str>,
@@ -273,7 +272,8 @@ impl Instance {
     pub fn joint(&self, joint: usize) -> Option<Value> {
         let module = self.design.module()?;
         let dimension = *module.joint_dimensions.get(joint)?;
-        Some(Value::Joint(JointValue { robot: self.robot.clone(), module: self.offset, joint, dimension }))
+        let owner = JointOwner::Module { module: self.offset, joint };
+        Some(Value::Joint(JointValue { robot: self.robot.clone(), owner, dimension }))
     }
 
     /// A port of a module instance, or the list of an array's ports.
@@ -298,10 +298,20 @@ impl std::fmt::Debug for Instance {
 }
 
 impl JointValue {
-    /// Path name: `leg[2].m[0].tilt`; without the module where the robot is a lone module.
+    /// Path name: `leg[2].m[0].tilt`; the joint of a connection goes by its two ports.
     pub fn name(&self) -> String {
-        let joint = &self.robot.module_type(self.module).joints[self.joint].name;
-        format!("{}.{joint}", self.robot.module_name(self.module))
+        match self.owner {
+            JointOwner::Module { module, joint } => {
+                let joint = &self.robot.module_type(module).joints[joint].name;
+                format!("{}.{joint}", self.robot.module_name(module))
+            }
+            JointOwner::Bond(bond) => {
+                let BondRecord { a, b, .. } = self.robot.bonds()[bond].clone();
+                let [a, b] =
+                    [a, b].map(|(module, port)| PortValue { robot: self.robot.clone(), module, port }.name());
+                format!("{a} -- {b}")
+            }
+        }
     }
 }
 

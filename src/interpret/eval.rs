@@ -79,6 +79,10 @@ impl Interpreter<'_> {
                 Ok(on_instance(&self.eval(object, frame)?, |instance| instance.joint(*joint)))
             }
             ExprKind::Port { object, port } => self.eval_port(object, *port, frame),
+            ExprKind::Hinge(port) => match self.eval(port, frame)? {
+                Value::Port(port) => self.hinge_of(&port, span),
+                _ => Ok(Value::Unknown),
+            },
             ExprKind::Field { object, field } => match self.eval(object, frame)? {
                 Value::Unknown => Ok(Value::Unknown),
                 value => self.field(&value, *field, span),

@@ -3,16 +3,16 @@
 use super::design::Instance;
 use super::planning::Planned;
 use super::record::Record;
-use super::value::Value;
+use super::value::{JointValue, Value};
 use crate::planners::fold::pattern::Pattern;
 use crate::planners::fold::{Layout, Target};
+use crate::robot::JointOwner;
 use crate::units::Dimension;
 use num_bigint::BigInt;
 use std::rc::Rc;
 
 const ENERGY: Dimension = Dimension::TORQUE;
 
-/// What the planner says of its plan.
 /// What the planner says of a plan beside the plan itself.
 pub struct Folded {
     pub pattern: FlatPattern,
@@ -34,7 +34,7 @@ pub struct FlatPattern {
 
 /// The fields of a `Folding` beside those of a plan.
 pub const FOLDING: &[&str] =
-    &["plan", "layout", "layouts", "energy", "bound", "optimal", "ties", "root", "order", "robot"];
+    &["plan", "layout", "layouts", "energy", "bound", "optimal", "ties", "root", "order", "robot", "hinges"];
 
 pub fn folding_field(planned: &Rc<Planned>, folded: &Folded, field: &str) -> Value {
     let numbers = |faces: &[usize]| Value::list(faces.iter().map(|f| Value::count(*f)).collect());
@@ -49,6 +49,15 @@ pub fn folding_field(planned: &Rc<Planned>, folded: &Folded, field: &str) -> Val
         "root" => Value::count(folded.pattern.layout.root),
         "order" => Value::list(folded.steps.iter().map(|step| numbers(step)).collect()),
         "robot" => Value::Instance(Instance::whole(planned.robot.clone())),
+        "hinges" => {
+            let layout = &folded.pattern.layout;
+            // The bonds of the robot stand in the order of their faces, behind the root.
+            let bond = |hinge| layout.order[1..].iter().position(|face| layout.hinge[*face] == Some(hinge));
+            let owners = layout.hinges().into_iter().filter_map(bond).map(JointOwner::Bond);
+            let joint =
+                |owner| JointValue { robot: planned.robot.clone(), owner, dimension: Dimension::ANGLE };
+            Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
+        }
         _ => Value::Unknown,
     }
 }

@@ -26,6 +26,7 @@ mod elaborate;
 mod cells;
 mod connector;
 mod facts;
+mod hinge;
 mod lattice;
 mod module;
 mod stl;

@@ -10,8 +10,8 @@ use super::natives_plan::{output_path, write_output};
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
 use crate::check::typed::DefId;
-use crate::robot::Residual;
 use crate::robot::rofi::{self, Dock, Edge, Module, World};
+use crate::robot::{JointOwner, Residual};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
@@ -115,8 +115,7 @@ fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) ->
             }
             let instance = format!("module {}", declared.id).as_str().into();
             config.sets.borrow_mut().push(SetRecord {
-                module: index,
-                joint,
+                joint: JointOwner::Module { module: index, joint },
                 value,
                 span: call.span,
                 instance,

@@ -255,7 +255,7 @@ impl Interpreter<'_> {
         let mut start = StartCauses::default();
         for set in design.sets() {
             let cause = self.start_cause(set.span, &set.instance);
-            let joint = JointId(robot.kinematics.joint(set.module, set.joint) as u32);
+            let joint = robot.joint_of(set.joint);
             // A later `set` of a joint replaces an earlier one.
             start.joints.retain(|(other, _)| *other != joint);
             start.joints.push((joint, causes.number(cause)));

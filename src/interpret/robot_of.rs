@@ -7,7 +7,9 @@ use super::stop::Eval;
 use super::value::{JointValue, PortValue};
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
-use crate::robot::{Assembly, Bond, JointId, Kinematics, Library, ModuleInstance, PortRef, Residual, State};
+use crate::robot::{
+    Assembly, Bond, JointId, JointOwner, Kinematics, Library, ModuleInstance, PortRef, Residual, State,
+};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -28,7 +30,11 @@ pub struct Robot {
 
 impl Robot {
     pub fn joint(&self, joint: &JointValue) -> JointId {
-        let index = self.kinematics.joint(joint.module, joint.joint);
+        self.joint_of(joint.owner)
+    }
+
+    pub fn joint_of(&self, owner: JointOwner) -> JointId {
+        let index = joint_index(&self.kinematics, owner);
         JointId(u32::try_from(index).expect("joints are counted in 32 bits"))
     }
 
@@ -184,10 +190,17 @@ impl Interpreter<'_> {
     }
 }
 
+fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
+    match owner {
+        JointOwner::Module { module, joint } => kinematics.joint(module, joint),
+        JointOwner::Bond(bond) => kinematics.hinge(bond).expect("only hinges are named"),
+    }
+}
+
 fn start_joints(design: &Rc<Design>, assembly: &Assembly, kinematics: &Kinematics) -> Vec<f64> {
     let mut joints = vec![0.0; assembly.joints().count()];
     for set in design.sets() {
-        joints[kinematics.joint(set.module, set.joint)] = set.value;
+        joints[joint_index(kinematics, set.joint)] = set.value;
     }
     joints
 }

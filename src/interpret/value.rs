@@ -9,7 +9,7 @@ use super::record::Record;
 use crate::check::typed::{DefId, Expr, Local};
 use crate::geometry::{Placed, Pose, Vec3};
 use crate::plan;
-use crate::robot::{JointKind, Limits};
+use crate::robot::{JointKind, JointOwner, Limits};
 use crate::source::Symbol;
 use crate::units::Dimension;
 use num_bigint::BigInt;
@@ -76,10 +76,7 @@ pub enum Callable {
 #[derive(Clone, Debug)]
 pub struct JointValue {
     pub robot: Rc<Design>,
-    /// Index among the robot's modules.
-    pub module: usize,
-    /// Index among the module's joints.
-    pub joint: usize,
+    pub owner: JointOwner,
     /// Of its position.
     pub dimension: Dimension,
 }
@@ -230,9 +227,7 @@ impl Value {
             (Instance(a), Instance(b)) => {
                 Rc::ptr_eq(&a.design, &b.design) && Rc::ptr_eq(&a.robot, &b.robot) && a.offset == b.offset
             }
-            (Joint(a), Joint(b)) => {
-                Rc::ptr_eq(&a.robot, &b.robot) && (a.module, a.joint) == (b.module, b.joint)
-            }
+            (Joint(a), Joint(b)) => Rc::ptr_eq(&a.robot, &b.robot) && a.owner == b.owner,
             (Port(a), Port(b)) => Rc::ptr_eq(&a.robot, &b.robot) && (a.module, a.port) == (b.module, b.port),
             (Behavior(a), Behavior(b)) => Rc::ptr_eq(a, b) || a.node == b.node,
             (Cells(a), Cells(b)) => a == b,

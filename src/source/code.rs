@@ -65,6 +65,7 @@ codes! {
     BAD_TRUSS = "E0312", "a truss declaration that is not sound";
     BAD_LATTICE = "E0313", "a lattice that is empty, disconnected or malformed";
     BAD_SHAPE = "E0314", "a shape that is not sound";
+    NO_HINGE = "E0315", "a connection that has no joint";
     // E04xx: behaviours.
     CONFLICT = "E0401", "two commands to one joint at one time";
     TOO_FAST = "E0402", "a speed that the joint cannot reach";

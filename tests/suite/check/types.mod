@@ -192,3 +192,24 @@ config my_arm { }
 --- nothing has no value
 let x = print(1)
 //      ^^^^^^^^ E0202 no value
+
+--- joints of connections
+use std.mori.Mori
+use std.smores.Smores
+config Strip { part m[3]: Mori
+  for i in 0..2 { connect m[i].edge[1] -- m[i + 1].edge[0] }
+  behavior a() = move(m[1].edge[1], to: 10deg)
+//                    ^^^^^^^^^^^^ E0202 this is a `Port` | `m[1].edge[1].joint`
+  behavior b() = move(m[1].edge.joint, to: 10deg)
+//                              ^^^^^ E0107 a `List<Port>` has no `joint`
+}
+config Stiff { part m: Smores
+  behavior b() = move(m.tilt.port, to: 10deg)
+//                           ^^^^ E0107 a `Joint<Angle>` has no `port`
+}
+
+--- words of a call that is wrong itself
+print(plan(wait(1s), wolrd: settle), nothing(off, 1mm + 1s))
+//                   ^^^^^ E0205 no parameter `wolrd`
+//                                   ^^^^^^^ E0101 no such name
+//                                                    ^ E0201 a length and a time

@@ -57,3 +57,20 @@ config C { part m: Smores
 //                    ^^^^^^^^^^^^^^^^^^^^^^^ W0003 the same command
 //                                             ~~~~~~~~~~~~~~~~~~~~~~~ in parallel
 }
+
+--- joints of connections
+use std.mori.Mori
+use std.smores.Smores
+config Strip { part m[3]: Mori
+  for i in 0..2 { connect m[i].edge[1] -- m[i + 1].edge[0] }
+  set m[1].edge[0].joint = 20deg
+  set m[2].edge[0].joint = 200deg
+//                         ^^^^^^ E0309 its range is -180deg to 180deg
+  set m[2].edge[1].joint = 10deg
+//    ^^^^^^^^^^^^^^^^^^ E0315 no joint at m[2].edge[1] | nothing is connected
+}
+config Stiff { part m[2]: Smores
+  connect m[0].top -- m[1].bottom
+  behavior a() = move(m[0].top.joint, to: 10deg)
+//                    ^^^^^^^^^^^^^^ E0315 connections of MagnetFace do not turn
+}

@@ -76,3 +76,47 @@ print(pose(C(0deg).l.end))
 // 100 mm turned down by 60 degrees, then 50 mm level.
 print(pose(C(60deg).l.end))
 //> at [100mm, 0mm, -86.6025mm]
+
+--- joints of connections
+use std.mori.Mori
+config Strip { part m[3]: Mori
+  for i in 0..2 { connect m[i].edge[1] -- m[i + 1].edge[0] }
+  set m[0].edge[1].joint = 90deg
+  port tail = m[2].edge[1]
+  base m[0]
+  behavior fold(by: Angle) = move(m[1].edge[1].joint, to: by)
+}
+config Long { part s[2]: Strip
+  connect s[0].tail -- s[1].m[0].edge[0]
+  set s[0].tail.joint = -20deg
+}
+// Two centres turn about the edge between them: 2 r cos(q / 2), with the apothem r.
+let r = 80mm / (2 * sqrt(3))
+let short = Strip()
+print(abs(distance(short.m[0], short.m[1]) - 2 * r * cos(45deg)) < 1e-9mm)
+//> true
+let l = Long()
+let apart = [distance(l.s[0].m[0], l.s[0].m[1]), distance(l.s[0].m[2], l.s[1].m[0])]
+let wanted = [2 * r * cos(45deg), 2 * r * cos(10deg)]
+print([abs(apart[i] - wanted[i]) < 1e-9mm for i in 0..2])
+//> [true, true]
+let p = plan(l.s[1].fold(60deg), world: world(gravity: 0m/s^2, ground: off))
+print(verify(p).ok, p.end.angle(l.s[1].m[2].edge[0].joint), p.end.angle(l.s[1].m[0].edge[1].joint))
+//> true 60deg 90deg
+print(l.s[0].tail.joint)
+//> s[0].m[2].edge[1] -- s[1].m[0].edge[0]
+
+--- coordinates have the dimension of the joints that they follow
+module Slide {
+  mass 1kg
+  link rail = box(200mm, 50mm, 50mm)
+  link cart = box(50mm, 50mm, 50mm, friction: 0.5) at [0mm, 0mm, 60mm]
+  joint x : rail -> cart = prismatic(axis: X, range: -80mm..80mm, max_speed: 50mm/s, max_force: 100N)
+  joint back = -1 * twice
+  joint twice = 2 * x
+}
+config Slides { part s: Slide
+  behavior go() = move(s.back, to: 20mm)
+//                     ^^^^^^ E0403 s.back follows other joints
+}
+print(plan(Slides().go()).duration)

@@ -1,0 +1,176 @@
+//! The typed tree of statements and expressions.
+
+use super::typed::{DefId, Local, MemberId};
+use super::types::Type;
+use crate::source::{Span, Symbol};
+use std::sync::Arc;
+
+pub use crate::syntax::ast::{BinaryOp, UnaryOp};
+
+/// Statements with the frame that they run in.
+#[derive(Clone, Debug, Default)]
+pub struct Body {
+    pub statements: Vec<Stmt>,
+    pub frame: usize,
+}
+
+#[derive(Clone, Debug)]
+pub struct Test {
+    pub name: String,
+    pub span: Span,
+    pub body: Body,
+}
+
+#[derive(Clone, Debug)]
+pub struct Stmt {
+    pub span: Span,
+    pub kind: StmtKind,
+}
+
+#[derive(Clone, Debug)]
+pub enum StmtKind {
+    Let { local: Local, value: Expr },
+    Expr(Expr),
+    Expect { condition: Expr, message: Option<Expr> },
+    If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
+    For { binder: Local, iterable: Expr, body: Vec<Stmt> },
+}
+
+#[derive(Clone, Debug)]
+pub struct Expr {
+    pub span: Span,
+    pub ty: Type,
+    pub kind: ExprKind,
+}
+
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    Error,
+    /// In SI; the dimension is in `ty`.
+    Number(f64),
+    /// A whole number that fits.
+    Int(i64),
+    /// A whole number of more digits.
+    BigInt(Symbol),
+    Bool(bool),
+    Text(Arc<str>),
+    /// Pieces to be joined; values are shown as `print` shows them.
+    Interpolation(Vec<Expr>),
+    /// A word of a choice.
+    Word(Symbol),
+    /// `_`, or an argument left out that has no default: the missing value of an optional type.
+    Missing,
+    Local(Local),
+    /// A top-level `let`.
+    Global(DefId),
+    /// A function used as a value.
+    FnValue(DefId),
+    /// A behaviour used as a value: a function of its parameters.
+    BehaviorValue {
+        object: Box<Expr>,
+        behavior: usize,
+    },
+    /// The instance whose body this is.
+    This,
+    Member {
+        object: Box<Expr>,
+        member: MemberId,
+    },
+    /// A joint of a module instance; `joint` indexes [`ModuleDef::joints`].
+    Joint {
+        object: Box<Expr>,
+        joint: usize,
+    },
+    /// A port or a port array of a module instance; indexes [`ModuleDef::ports`].
+    Port {
+        object: Box<Expr>,
+        port: usize,
+    },
+    /// The joint that lives in the connection at a port.
+    Hinge(Box<Expr>),
+    /// A field of a record.
+    Field {
+        object: Box<Expr>,
+        field: Symbol,
+    },
+    List(Vec<Expr>),
+    Comprehension {
+        body: Box<Expr>,
+        clauses: Vec<Clause>,
+    },
+    Vec3(Box<[Expr; 3]>),
+    Range {
+        from: Box<Expr>,
+        to: Box<Expr>,
+    },
+    Unary {
+        op: UnaryOp,
+        operand: Box<Expr>,
+    },
+    Binary {
+        op: BinaryOp,
+        left: Box<Expr>,
+        right: Box<Expr>,
+    },
+    /// `x else y` for an optional `x`.
+    OrElse {
+        value: Box<Expr>,
+        otherwise: Box<Expr>,
+    },
+    /// `move(..., timeout: 2s) else b` for behaviours.
+    TimeoutElse {
+        action: Box<Expr>,
+        otherwise: Box<Expr>,
+    },
+    /// Drops radians, so that the dimension is that of `ty`.
+    DropRadians(Box<Expr>),
+    Index {
+        object: Box<Expr>,
+        index: Box<Expr>,
+    },
+    If {
+        condition: Box<Expr>,
+        then: Box<Expr>,
+        otherwise: Option<Box<Expr>>,
+    },
+    Block {
+        statements: Vec<Stmt>,
+        value: Option<Box<Expr>>,
+    },
+    /// Runs in a frame of its own: the parameters are its first slots, and each capture copies a
+    /// local of the frame where the lambda stands (first) to a slot of the new one (second).
+    Lambda {
+        captures: Vec<(Local, Local)>,
+        params: usize,
+        body: Arc<Expr>,
+        frame: usize,
+    },
+    /// A call of a user's function or a built-in; arguments in the order of the parameters. `None`:
+    /// take the default.
+    Call {
+        def: DefId,
+        args: Vec<Option<Expr>>,
+    },
+    /// A call of a function value.
+    CallValue {
+        callee: Box<Expr>,
+        args: Vec<Expr>,
+    },
+    /// A call of a behaviour of an instance of a configuration.
+    CallBehavior {
+        object: Box<Expr>,
+        behavior: usize,
+        args: Vec<Option<Expr>>,
+    },
+    /// An instance of a module, cell, strut, config, lattice or truss.
+    Instance {
+        def: DefId,
+        args: Vec<Option<Expr>>,
+    },
+}
+
+#[derive(Clone, Debug)]
+pub enum Clause {
+    For { binder: Local, iterable: Expr },
+    If(Expr),
+}
