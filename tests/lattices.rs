@@ -3,10 +3,9 @@
 
 use modl::plan::verify::verify;
 use modl::plan::{
-    Body, Cause, CauseId, CellLimits, Ground, Model, Plan, Provenance, Ratio, Settings, Stage, Stages,
-    Verdict, World, WorldFrom,
+    Body, Cause, CellLimits, Model, Plan, Provenance, Ratio, Settings, Stages, Verdict, World, WorldFrom,
 };
-use modl::planners::squeeze::{Leg, Profile, Terms, Way};
+use modl::planners::squeeze::{Frame, Profile, Terms, Way};
 use modl::robot::{Cell, Library};
 use std::sync::Arc;
 
@@ -21,24 +20,7 @@ pub fn unit_cell() -> Cell {
 }
 
 pub fn stages_of(way: Way, model: Model) -> Stages {
-    let mut configurations = way.configurations.into_iter();
-    let start = configurations.next().expect("a way begins somewhere");
-    let stage = |(leg, end): (Leg, _)| Stage {
-        name: leg.name.into(),
-        time_squared: leg.time_squared,
-        law: leg.law,
-        end,
-        cause: CauseId(0),
-    };
-    Stages {
-        cell: 0,
-        count: way.count,
-        time_unit: 1.0,
-        limits: UNIT,
-        model,
-        start,
-        stages: way.legs.into_iter().zip(configurations).map(stage).collect(),
-    }
+    way.into_stages(Frame { cell: 0, time_unit: 1.0, limits: UNIT, model })
 }
 
 pub fn plan_of(stages: Stages) -> Plan {
@@ -50,10 +32,9 @@ pub fn plan_of(stages: Stages) -> Plan {
         instance: String::new(),
         caller: None,
     };
-    let world = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
     Plan {
         provenance: Provenance { planner: "squeeze".into(), ..Provenance::default() },
-        worlds: vec![WorldFrom { from: 0.0, world }],
+        worlds: vec![WorldFrom { from: 0.0, world: World::FREE }],
         settings: Settings::default(),
         library: Arc::new(Library { cells: vec![unit_cell()], ..Library::default() }),
         body: Body::Stages(stages),

@@ -6,7 +6,7 @@
 
 use super::lattices::{BALANCED, PAPER, TERMS, judged, judged_plan, plan_of, stages_of, unit_cell};
 use modl::plan::verify::lattice::{ends, peak_forces};
-use modl::plan::{Body, Law, Ratio, Stages, reversed};
+use modl::plan::{Body, Law, Ratio, Stages, Unfit, joined, reversed};
 use modl::planners::squeeze::{
     Demand, Found, Method, Profile, Refusal, Task, Terms, Way, accordion, fold, halve, shear, squeeze,
     to_row, unroll,
@@ -293,6 +293,37 @@ fn random_sets_become_each_other() {
     }
     let (from, to) = (random_set(&mut seed, 400), random_set(&mut seed, 400));
     check(&task(&from, &to));
+}
+
+#[test]
+fn plans_are_joined_where_the_shapes_are_the_same() {
+    let (tee, ell) = (
+        [[0, 0, 0], [1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 2, 0], [1, 3, 0]],
+        [[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 1, 0], [2, 2, 0], [2, 3, 0]],
+    );
+    let slab = block([2, 3, 1]);
+    let plan = |from: &[[i64; 3]], to: &[[i64; 3]]| plan_of(found(&task(from, to)).stages);
+    let (first, second) = (plan(&tee, &ell), plan(&ell, &slab));
+    // The cells of the second plan are numbered in another way, and end in other places.
+    for (p, q, to) in [(&first, &second, &slab[..]), (&first, &reversed(&first), &tee)] {
+        let both = joined(p, q).expect("the one ends as the other starts");
+        let verdict = judged_plan(&both);
+        assert!(verdict.ok(), "{:?}", verdict.failures);
+        assert!(near(verdict.duration, p.body.duration() + q.body.duration()));
+        assert_ends(&both.body, &tee, to);
+        let Body::Stages(stages) = &both.body else { panic!("it is a lattice") };
+        let jump = stages.state(p.body.duration() * (1.0 - 1e-9));
+        let seam = stages.state(p.body.duration() * (1.0 + 1e-9));
+        let apart = |k: usize| jump.iter().zip(&seam).map(move |(a, b)| (a.center[k] - b.center[k]).abs());
+        assert!((0..3).all(|axis| apart(axis).all(|distance| distance < 1e-6)), "no cell jumps");
+    }
+    assert_eq!(joined(&second, &first), Err(Unfit::Shapes));
+    let more = plan(&row(5), &column(5));
+    assert_eq!(joined(&first, &more), Err(Unfit::CellCounts { first: 6, second: 5 }));
+    let mut others = second.clone();
+    let cell = Cell { name: "Other".into(), ..unit_cell() };
+    others.library = std::sync::Arc::new(modl::robot::Library { cells: vec![cell], ..Default::default() });
+    assert_eq!(joined(&first, &others), Err(Unfit::Cells));
 }
 
 #[test]

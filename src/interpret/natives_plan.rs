@@ -93,14 +93,11 @@ fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 fn plan_at(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
-    if planned.body.is_none() {
-        return Err(call.refuse(0, "a state is one of joints, and this robot has none"));
-    }
     let time = call.number(1)?;
     if !(0.0..=planned.plan.body.duration()).contains(&time) {
         return Err(call.refuse(1, "this is before the plan begins or after it ends"));
     }
-    Ok(interpreter.state_at(&planned, time))
+    interpreter.state_at(&planned, time, call.at(0))
 }
 
 fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -332,19 +332,22 @@ impl Interpreter<'_> {
         verdict
     }
 
-    pub fn state_at(&mut self, planned: &Rc<Planned>, time: f64) -> Value {
+    /// The state at a time; refused where there are no joints, at the place that asks.
+    pub fn state_at(&mut self, planned: &Rc<Planned>, time: f64, span: Span) -> Eval<Value> {
+        let Some(body) = &planned.body else {
+            let message = "a state is one of joints, and this robot has none";
+            return Err(fault(code::BAD_VALUE, span, message, "no joints; `show(.., at: ..)` draws it"));
+        };
         let time = time.clamp(0.0, planned.plan.body.duration());
-        match (planned.plan.body.state(time), &planned.body) {
-            (Snapshot::Robot(state), Some(body)) => Value::Record(Rc::new(Record::State(StateValue {
-                robot: planned.robot.clone(),
-                body: body.clone(),
-                state,
-                time,
-                planned: planned.clone(),
-                base: OnceCell::new(),
-            }))),
-            _ => Value::Unknown,
-        }
+        let Snapshot::Robot(state) = planned.plan.body.state(time) else { return Ok(Value::Unknown) };
+        Ok(Value::Record(Rc::new(Record::State(StateValue {
+            robot: planned.robot.clone(),
+            body: body.clone(),
+            state,
+            time,
+            planned: planned.clone(),
+            base: OnceCell::new(),
+        }))))
     }
 
     /// The plan that a value is or gives.

@@ -52,7 +52,7 @@ impl Interpreter<'_> {
     pub fn field(&mut self, value: &Value, field: Symbol, span: Span) -> Eval<Value> {
         match value {
             Value::Behavior(behavior) => match self.plan_behavior(behavior, span)? {
-                Some(planned) => Ok(self.plan_field(&planned, field.as_str())),
+                Some(planned) => self.plan_field(&planned, field.as_str(), span),
                 None => Ok(Value::Unknown),
             },
             Value::Record(record) => Ok(match &**record {
@@ -64,7 +64,7 @@ impl Interpreter<'_> {
                         Some(folded) if FOLDING.contains(&field.as_str()) => {
                             folding_field(planned, folded, field.as_str())
                         }
-                        _ => self.plan_field(planned, field.as_str()),
+                        _ => self.plan_field(planned, field.as_str(), span)?,
                     },
                 },
                 Record::Layout(planned) => match &planned.folded {
@@ -96,16 +96,16 @@ impl Interpreter<'_> {
         }
     }
 
-    fn plan_field(&mut self, planned: &Rc<Planned>, field: &str) -> Value {
-        match field {
+    fn plan_field(&mut self, planned: &Rc<Planned>, field: &str, span: Span) -> Eval<Value> {
+        Ok(match field {
             "duration" => Value::time(planned.plan.body.duration()),
             "actions" => Value::count(planned.actions()),
             "steps" => Value::count(planned.steps()),
-            "start" => self.state_at(planned, 0.0),
-            "end" => self.state_at(planned, planned.plan.body.duration()),
+            "start" => self.state_at(planned, 0.0, span)?,
+            "end" => self.state_at(planned, planned.plan.body.duration(), span)?,
             "assumes" => Value::Record(Rc::new(Record::World(first_world(&planned.plan)))),
             _ => Value::Unknown,
-        }
+        })
     }
 }
 

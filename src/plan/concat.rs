@@ -2,6 +2,7 @@
 //! names of its modules and a rigid motion.
 
 use super::carry::Carrier;
+use super::seam::join_stages;
 use super::time::{DURATION_MAX, tick_after};
 use super::{
     Body, Change, Knot, Node, NodePaths, Plan, Program, Settings, Stability, Tracks, Unfit, WorldFrom,
@@ -33,7 +34,14 @@ pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, Unfit> {
             }));
             Ok(new)
         }
-        (Body::Stages(_), Body::Stages(_)) => Err(Unfit::Lattices),
+        (Body::Stages(a), Body::Stages(b)) => {
+            if p.library.cells.get(a.cell) != q.library.cells.get(b.cell) {
+                return Err(Unfit::Cells);
+            }
+            let mut new = framed(p, q, seam, vec![]);
+            new.body = Body::Stages(join_stages(a, b, p.causes.len() as u32)?);
+            Ok(new)
+        }
         _ => Err(Unfit::Families),
     }
 }

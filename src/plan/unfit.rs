@@ -15,8 +15,14 @@ pub enum Unfit {
     Robots(Mismatch),
     /// Two trusses that differ in their struts, or in where a node is.
     Trusses { node: Option<String> },
-    /// Lattice plans are joined by the planner that makes them.
-    Lattices,
+    /// Two lattices of different cells.
+    Cells,
+    /// Two lattices with other numbers of cells.
+    CellCounts { first: u64, second: u64 },
+    /// The shape in which the one ends is not that in which the other starts.
+    Shapes,
+    /// The numbers of lattice plans do not fit into those of a plan together.
+    Inexact,
     /// Together they are longer than a plan may be, s.
     TooLong { duration: f64 },
 }
@@ -36,7 +42,14 @@ impl std::fmt::Display for Unfit {
             Unfit::Trusses { node: Some(node) } => {
                 write!(f, "node `{node}` is not where the second plan starts when the first ends")
             }
-            Unfit::Lattices => write!(f, "plans of lattices cannot be joined; plan the whole way at once"),
+            Unfit::Cells => write!(f, "the plans are of different cells"),
+            Unfit::CellCounts { first, second } => {
+                write!(f, "the first plan moves {first} cells, the second {second}")
+            }
+            Unfit::Shapes => {
+                write!(f, "the first plan does not end in the shape in which the second starts")
+            }
+            Unfit::Inexact => write!(f, "the plans together have numbers too large to be kept exactly"),
             Unfit::TooLong { duration } => {
                 write!(f, "together the plans last {duration} s, longer than a plan may be")
             }

@@ -8,8 +8,7 @@
 //! (balanced plans), F4 a bound on the forces.
 
 use super::lattice_contacts::Forest;
-pub use super::lattice_grid::Cube;
-use super::lattice_grid::Grid;
+pub use super::lattice_grid::{Cube, Grid};
 use super::lattice_lanes::Meeting;
 use super::lattice_law::{Change, Pace, carries_on};
 use super::ledger::{Ledger, lower};

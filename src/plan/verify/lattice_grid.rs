@@ -18,6 +18,12 @@ impl Cube {
     pub fn size(&self, axis: usize) -> i64 {
         self.hi[axis] - self.lo[axis]
     }
+
+    /// The same cell elsewhere.
+    pub fn shifted(&self, by: [i64; 3]) -> Cube {
+        let shifted = |face: [i64; 3]| [0, 1, 2].map(|axis| face[axis] + by[axis]);
+        Cube { lo: shifted(self.lo), hi: shifted(self.hi) }
+    }
 }
 
 /// No face is further out: sums over all cells of products of two of them stay below 2¹²⁷.
@@ -25,7 +31,7 @@ const FACE_MAX: i128 = 1 << 48;
 /// Finest grid, lines a cell.
 const LINES_MAX: i128 = 1 << 40;
 
-/// A grid that all faces of a plan lie on.
+/// A grid that all faces of a plan, or of several, lie on.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     /// Lines a cell size.
@@ -33,10 +39,14 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The coarsest that there is; an error where it is too fine.
+    /// Of all configurations of a plan.
     pub fn of(stages: &Stages) -> Result<Grid, String> {
+        Grid::over(stages.start.iter().chain(stages.stages.iter().flat_map(|stage| &stage.end)))
+    }
+
+    /// The coarsest that there is; an error where it is too fine.
+    pub fn over<'a>(runs: impl Iterator<Item = &'a Run>) -> Result<Grid, String> {
         let mut lines: i128 = 2;
-        let runs = stages.start.iter().chain(stages.stages.iter().flat_map(|stage| &stage.end));
         for run in runs {
             let steps = run.counters.iter().flat_map(|counter| counter.step);
             for Ratio(_, denominator) in run.center.into_iter().chain(run.size).chain(steps) {

@@ -3,11 +3,11 @@
 use super::bound::lower_bound;
 use super::retime::retime;
 use super::shape::Shape;
-use super::way::{Terms, Way};
+use super::way::{Frame, Terms, Way};
 use super::ways::{Candidate, ways};
 use super::{Demand, Found, Method, Refusal, Task};
 use crate::plan::verify::lattice::ends;
-use crate::plan::{CauseId, CellLimits, Model, Ratio, Stage, Stages};
+use crate::plan::{CellLimits, Model, Ratio, Stages};
 use crate::robot::Cell;
 
 /// How far limits may be rounded, relative, so that they are short rational numbers.
@@ -38,7 +38,7 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     }
     let fill = |way: Way, balanced: bool| {
         let model = Model { balanced, contact_force };
-        stages(way, Frame { cell: index, time_unit, limits, model })
+        way.into_stages(Frame { cell: index, time_unit, limits, model })
     };
     let any_balanced = candidates.iter().any(|candidate| candidate.way.is_balanced());
     if task.demand == Demand::Balanced && !any_balanced {
@@ -73,34 +73,6 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     check_ends(&stages, &from, &to)?;
     let lower_bound = lower_bound(&from, &to, contact_force) * time_unit;
     Ok(Found { why: why(task, method, balanced), stages, lower_bound, method, balanced })
-}
-
-struct Frame {
-    cell: usize,
-    time_unit: f64,
-    limits: CellLimits,
-    model: Model,
-}
-
-fn stages(way: Way, frame: Frame) -> Stages {
-    let mut configurations = way.configurations.into_iter();
-    let start = configurations.next().unwrap_or_default();
-    let stage = |(leg, end): (super::Leg, Vec<crate::plan::Run>)| Stage {
-        name: leg.name.into(),
-        time_squared: leg.time_squared,
-        law: leg.law,
-        end,
-        cause: CauseId(0),
-    };
-    Stages {
-        cell: frame.cell,
-        count: way.count,
-        time_unit: frame.time_unit,
-        limits: frame.limits,
-        model: frame.model,
-        start,
-        stages: way.legs.into_iter().zip(configurations).map(stage).collect(),
-    }
 }
 
 /// Why no construction applies.

@@ -3,6 +3,7 @@
 use super::Refusal;
 use super::domain::{Domain, Spot};
 use super::way::{Builder, Terms, Way};
+use crate::plan::stretches::{Stretch, stretches};
 use crate::plan::verify::lattice::{Cube, parting};
 
 /// Configurations of listed cells, one after another.
@@ -75,43 +76,9 @@ fn runs(before: &[Spot], after: &[Spot]) -> Vec<Domain> {
         };
         Some((between(before)?, between(after)?))
     };
-    // Of each run: the first cell, and how many there are, with the step.
-    let mut lines: Vec<(usize, usize)> = Vec::new();
-    let mut at = 0;
-    while at < before.len() {
-        let mut end = at + 1;
-        if end < before.len()
-            && let Some(first) = step(at, end)
-        {
-            while end < before.len() && step(end - 1, end) == Some(first) {
-                end += 1;
-            }
-        }
-        lines.push((at, end - at));
-        at = end;
-    }
-    let mut domains = Vec::new();
-    let mut at = 0;
-    while at < lines.len() {
-        let (first, length) = lines[at];
-        let alike = |other: (usize, usize)| {
-            other.1 == length && (length == 1 || step(first, first + 1) == step(other.0, other.0 + 1))
-        };
-        let mut end = at + 1;
-        if let Some(&next) = lines.get(end)
-            && alike(next)
-            && let Some(across) = step(first, next.0)
-        {
-            while lines
-                .get(end)
-                .is_some_and(|&other| alike(other) && step(lines[end - 1].0, other.0) == Some(across))
-            {
-                end += 1;
-            }
-        }
-        let counters = [((end - at) as u64, length as i64), (length as u64, 1)];
-        domains.extend(Domain::new(first as u64, &counters));
-        at = end;
-    }
-    domains
+    let domain = |s: Stretch| {
+        let counters = [(s.times as u64, s.length as i64), (s.length as u64, 1)];
+        Domain::new(s.first as u64, &counters)
+    };
+    stretches(before.len(), step).into_iter().filter_map(domain).collect()
 }

@@ -32,7 +32,7 @@ pub use halve::halve;
 pub use planar::to_row;
 pub use shear::shear;
 pub use unroll::unroll;
-pub use way::{Leg, Profile, Terms, Way};
+pub use way::{Frame, Leg, Profile, Terms, Way};
 
 use crate::plan::{Ratio, Stages};
 

@@ -2,7 +2,7 @@
 
 use super::Refusal;
 use super::domain::{Domain, Spot, WHOLE};
-use crate::plan::{CellLimits, Counter, Law, Ratio, Run};
+use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages};
 
 /// Stages between configurations that name every cell.
 #[derive(Clone, Debug)]
@@ -37,6 +37,17 @@ pub enum Profile {
 pub struct Terms {
     pub limits: CellLimits,
     pub profile: Profile,
+}
+
+/// What a way becomes part of: a plan of cells of a kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// The cell's index in the library.
+    pub cell: usize,
+    /// Seconds of the unit of time.
+    pub time_unit: f64,
+    pub limits: CellLimits,
+    pub model: Model,
 }
 
 type Place<'a> = Box<dyn Fn(u64) -> Spot + 'a>;
@@ -309,6 +320,28 @@ impl Way {
             run.counters.iter_mut().for_each(|counter| counter.step = turn(counter.step));
         }
         self
+    }
+
+    /// The body of a plan; its one cause is 0.
+    pub fn into_stages(self, frame: Frame) -> Stages {
+        let mut configurations = self.configurations.into_iter();
+        let start = configurations.next().unwrap_or_default();
+        let stage = |(leg, end): (Leg, Vec<Run>)| Stage {
+            name: leg.name.into(),
+            time_squared: leg.time_squared,
+            law: leg.law,
+            end,
+            cause: CauseId(0),
+        };
+        Stages {
+            cell: frame.cell,
+            count: self.count,
+            time_unit: frame.time_unit,
+            limits: frame.limits,
+            model: frame.model,
+            start,
+            stages: self.legs.into_iter().zip(configurations).map(stage).collect(),
+        }
     }
 
     /// In units of time.

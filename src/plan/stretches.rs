@@ -1,0 +1,52 @@
+//! Stretches of numbers on which something changes by the same step from each to the next, and
+//! stretches of such stretches: what lists of cells become in closed form.
+
+/// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stretch {
+    pub first: usize,
+    pub times: usize,
+    pub length: usize,
+}
+
+/// Splits 0..count into stretches. `step` says what changes from one number to another; `None` where no
+/// stretch may hold both.
+pub fn stretches<T: PartialEq>(count: usize, step: impl Fn(usize, usize) -> Option<T>) -> Vec<Stretch> {
+    // Of each line: the first number, and how many there are, one step apart.
+    let mut lines: Vec<(usize, usize)> = Vec::new();
+    let mut at = 0;
+    while at < count {
+        let mut end = at + 1;
+        if end < count
+            && let Some(first) = step(at, end)
+        {
+            while end < count && step(end - 1, end).as_ref() == Some(&first) {
+                end += 1;
+            }
+        }
+        lines.push((at, end - at));
+        at = end;
+    }
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < lines.len() {
+        let (first, length) = lines[at];
+        let alike = |other: (usize, usize)| {
+            other.1 == length && (length == 1 || step(first, first + 1) == step(other.0, other.0 + 1))
+        };
+        let mut end = at + 1;
+        if let Some(&next) = lines.get(end)
+            && alike(next)
+            && let Some(across) = step(first, next.0)
+        {
+            while lines.get(end).is_some_and(|&other| {
+                alike(other) && step(lines[end - 1].0, other.0).as_ref() == Some(&across)
+            }) {
+                end += 1;
+            }
+        }
+        found.push(Stretch { first, times: end - at, length });
+        at = end;
+    }
+    found
+}
