@@ -1,7 +1,8 @@
 //! Lattice plans of rows that become columns: how long it takes to make one, to write it, and to judge
 //! it, how large the file is, and how the time of the motion compares with bounds.
 //!
-//! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells.
+//! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells; with names of methods,
+//! those only.
 
 #[path = "../tests/lattices.rs"]
 mod lattices;
@@ -10,6 +11,10 @@ use lattices::{PAPER, TERMS, judged_plan, plan_of, stages_of};
 use modl::planners::squeeze::{Refusal, Terms, Way, accordion, fold, shear};
 use std::time::Instant;
 
+/// The allocator that the tool has.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 type Construction = fn(Terms, u64) -> Result<Way, Refusal>;
 
 const METHODS: [(&str, Construction); 3] = [("accordion", accordion), ("fold", fold), ("shear", shear)];
@@ -17,12 +22,16 @@ const COUNTS: [u64; 7] = [1_000, 4_096, 10_000, 65_536, 100_000, 999_999, 1_000_
 
 fn main() {
     let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(u64::MAX);
-    makespans();
-    println!();
+    let named: Vec<String> = std::env::args().filter(|a| METHODS.iter().any(|(name, _)| name == a)).collect();
+    if named.is_empty() {
+        makespans();
+        println!();
+    }
     println!("| n | method | emit | file | write | verify | stages | runs |");
     println!("|---|---|---|---|---|---|---|---|");
     for n in COUNTS.into_iter().filter(|n| *n <= most) {
-        for (name, construction) in METHODS {
+        let wanted = |name: &str| named.is_empty() || named.iter().any(|n| n == name);
+        for (name, construction) in METHODS.into_iter().filter(|(name, _)| wanted(name)) {
             let start = Instant::now();
             let way = construction(TERMS, n).expect("there is a way");
             let emit = start.elapsed();

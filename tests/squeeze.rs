@@ -265,8 +265,12 @@ fn check(task: &Task) -> Found {
     found
 }
 
-/// A connected set that grows by random neighbours: the same for the same seed.
+/// A connected set in a plane that grows by random neighbours: the same for the same seed.
 fn random_set(seed: &mut u64, count: usize) -> Vec<[i64; 3]> {
+    random_set_in(2, seed, count)
+}
+
+fn random_set_in(dimensions: usize, seed: &mut u64, count: usize) -> Vec<[i64; 3]> {
     let mut random = |below: usize| {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((*seed >> 33) % below as u64) as usize
@@ -274,7 +278,7 @@ fn random_set(seed: &mut u64, count: usize) -> Vec<[i64; 3]> {
     let (mut places, mut known) = (vec![[0_i64; 3]], BTreeSet::from([[0_i64; 3]]));
     while places.len() < count {
         let mut place = places[random(places.len())];
-        place[random(2)] += if random(2) == 0 { 1 } else { -1 };
+        place[random(dimensions)] += if random(2) == 0 { 1 } else { -1 };
         if known.insert(place) {
             places.push(place);
         }
@@ -293,6 +297,38 @@ fn random_sets_become_each_other() {
     }
     let (from, to) = (random_set(&mut seed, 400), random_set(&mut seed, 400));
     check(&task(&from, &to));
+}
+
+#[test]
+fn sets_in_space_melt_and_grow() {
+    let corner = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
+    assert_eq!(check(&task(&row(4), &corner)).method, Method::Melt);
+    let (sets, most) = if whole_range() { (100, 120) } else { (20, 30) };
+    let mut seed = 11;
+    for i in 0..sets {
+        let count = 5 + (i * 31) % most;
+        let (from, to) = (random_set_in(3, &mut seed, count), random_set_in(3, &mut seed, count));
+        check(&task(&from, &to));
+        check(&Task { method: Method::Melt, ..task(&row(count as u64), &to) });
+    }
+    // A frame of a cube, whose boxes close loops, and a solid one.
+    let edge = |p: &[i64; 3]| p.iter().filter(|&&x| x == 0 || x == 3).count() >= 2;
+    let frame: Vec<[i64; 3]> = block([4, 4, 4]).into_iter().filter(edge).collect();
+    check(&task(&frame, &block([2, 4, 4])));
+    check(&Task { method: Method::Melt, ..task(&block([3, 3, 3]), &row(27)) });
+}
+
+#[test]
+fn between_boxes_no_merge_is_missed() {
+    for (from, to) in
+        [([4, 3, 1], [6, 2, 1]), ([3, 3, 1], [9, 1, 1]), ([5, 3, 1], [3, 5, 1]), ([4, 4, 1], [8, 2, 1])]
+    {
+        let (from, to) = (block(from), block(to));
+        let any = Task { demand: Demand::Paper, ..task(&from, &to) };
+        let merged = found(&Task { method: Method::Merge, ..any });
+        assert!(found(&any).stages.duration() < merged.stages.duration());
+        assert!(found(&task(&from, &to)).balanced || !merged.balanced);
+    }
 }
 
 #[test]
@@ -425,10 +461,11 @@ fn limits_of_the_cell_scale_the_plan() {
 
 #[test]
 fn what_is_not_covered_is_refused() {
-    let corner = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
+    let mut tall = block([20, 20, 1]);
+    tall.push([0, 0, 1]);
     assert_eq!(
-        squeeze(&unit_cell(), 0, &task(&row(4), &corner)).expect_err("in space"),
-        Refusal::Solid { first: false }
+        squeeze(&unit_cell(), 0, &task(&row(401), &tall)).expect_err("in space"),
+        Refusal::Solid { first: false, most: 400 }
     );
     assert_eq!(
         squeeze(&unit_cell(), 0, &task(&row(4), &row(5))).expect_err("one more"),

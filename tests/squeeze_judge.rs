@@ -274,6 +274,75 @@ fn lattices_are_judged_in_their_own_world_and_within_their_cells_limits() {
     }
 }
 
+/// A row by where it begins at the start and at the end, and by the gaps between its cells at both.
+type Sliding = (i64, i64, Vec<(i64, i64)>);
+
+/// Rows one above the other.
+fn rows(rows: &[Sliding]) -> (Vec<Flat>, Vec<Flat>) {
+    let (mut before, mut after) = (Vec::new(), Vec::new());
+    for (y, (start, end, gaps)) in rows.iter().enumerate() {
+        let (mut x, mut u) = (*start, *end);
+        for gap in std::iter::once(&(0, 0)).chain(gaps) {
+            (x, u) = (x + gap.0, u + gap.1);
+            before.push([Ratio(x, 1), Ratio(y as i64, 1), Ratio::ONE, Ratio::ONE]);
+            after.push([Ratio(u, 1), Ratio(y as i64, 1), Ratio::ONE, Ratio::ONE]);
+            (x, u) = (x + 1, u + 1);
+        }
+    }
+    (before, after)
+}
+
+/// About the centre of mass, for cells of one layer of whole places.
+fn centred(cells: &[Flat]) -> Vec<Flat> {
+    let sum: i64 = cells.iter().map(|c| c[0].0).sum();
+    let n = cells.len() as i64;
+    cells.iter().map(|c| [ratio(n * c[0].0 - sum, n), c[1], c[2], c[3]]).collect()
+}
+
+#[test]
+fn contacts_may_come_and_go_as_long_as_some_hold() {
+    let sliding = |shift: i64, time: Ratio| {
+        let (before, after) = rows(&[(0, 0, vec![(0, 0); 5]), (0, shift, vec![(0, 0); 3])]);
+        stages(&centred(&before), &[(time, centred(&after))], PAPER)
+    };
+    // No pair of cells is in contact all the while, and there is always one that is. By 3 in 6 units of
+    // time: at half of it the rows pass each other at 1.
+    assert_eq!(faults(sliding(3, Ratio(36, 1))), []);
+    assert_eq!(faults(sliding(3, Ratio(35, 1))), [CheckKind::Speed]);
+    // The forces between the rows: six cells by 12/10, four by 18/10 the other way.
+    let verdict = judged_plan(&plan_of(sliding(3, Ratio(36, 1))));
+    let force = verdict.dynamics.expect("a lattice has them").peak_force;
+    assert!((force - 7.2 * 4.0 / 36.0).abs() < 1e-12, "{force}");
+    // A cell that slides on after it has left the other two: they are 2 wide, of 3.
+    let (before, after) = rows(&[(0, 0, vec![(0, 0)]), (0, 3, vec![])]);
+    let lost = stages(&centred(&before), &[(Ratio(36, 1), centred(&after))], PAPER);
+    let verdict = judged_plan(&plan_of(lost));
+    assert_eq!(kinds(&verdict), [CheckKind::Connectedness]);
+    let expected = 6.0 * (1.0 - libm::sqrt(1.0 / 6.0));
+    assert!((verdict.failures[0].time - expected).abs() < 1e-9, "{:?}", verdict.failures[0]);
+}
+
+/// Whether at an instant all cells hang together over faces.
+fn hangs_together(cells: &[modl::plan::CellBox]) -> bool {
+    let touch = |a: usize, b: usize| {
+        let gap = |axis: usize| {
+            (cells[a].center[axis] - cells[b].center[axis]).abs()
+                - (cells[a].size[axis] + cells[b].size[axis]) / 2.0
+        };
+        (0..3).any(|k| gap(k).abs() < 1e-9 && (0..3).all(|other| other == k || gap(other) < -1e-9))
+    };
+    let mut reached = vec![0];
+    let mut next = 0;
+    while next < reached.len() {
+        let here = reached[next];
+        reached.extend(
+            (0..cells.len()).filter(|&b| touch(here, b)).filter(|b| !reached.contains(b)).collect::<Vec<_>>(),
+        );
+        next += 1;
+    }
+    reached.len() == cells.len()
+}
+
 /// Looks at many instants whether cells overlap: slowly, and in another way than the judge.
 fn overlaps(stages: &Stages) -> bool {
     let whole = stages.duration();
@@ -301,6 +370,28 @@ fn no_cells_overlap_at_any_instant_that_is_looked_at() {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    /// Rows that slide past each other, and open and close: the judge finds them in one piece just where
+    /// sampling does.
+    #[test]
+    fn pieces_are_found_as_by_sampling(
+        all in proptest::collection::vec(
+            (0..4_i64, 0..4_i64, proptest::collection::vec((0..2_i64, 0..2_i64), 0..4)),
+            2..4,
+        )
+    ) {
+        let (before, after) = rows(&all);
+        let stages = stages(&before, &[(Ratio(10_000, 1), after)], PAPER);
+        // Contacts begin and end at fractions with denominators up to 12: between two of them there are
+        // several of these instants.
+        let whole = (0..400).all(|k| {
+            let part = Law::BangBang.part((f64::from(k) + 0.517) / 400.0);
+            hangs_together(&stages.state(stages.duration() * part))
+        });
+        let found = faults(stages);
+        prop_assert_eq!(!found.contains(&CheckKind::Connectedness), whole, "{:?}", found);
+        prop_assert!(!found.contains(&CheckKind::Collision), "{:?}", found);
+    }
 
     /// Cells that go from one random arrangement to another: where sampling finds an overlap, so does
     /// the judge.

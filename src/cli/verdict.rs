@@ -33,6 +33,11 @@ pub fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     }
     out.push('\n');
     worst_lines(&mut out, verdict);
+    if let Some(dynamics) = &verdict.dynamics {
+        for (name, words) in dynamics.in_words(verdict.duration) {
+            line(&mut out, &format!("{name:<14} {words}"));
+        }
+    }
     for (time, words) in &verdict.events {
         line(&mut out, &format!("at {}: {words}", quantity(*time, Dimension::TIME)));
     }

@@ -51,6 +51,7 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             Some("fold") => Method::Fold,
             Some("shear") => Method::Shear,
             Some("merge") => Method::Merge,
+            Some("melt") => Method::Melt,
             _ => Method::Auto,
         },
         demand: match call.word(3) {
@@ -109,9 +110,10 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
                 .hint("`method: accordion` keeps the size of cells: it takes rows and boxes to each other")
                 .into()
         }
-        Refusal::Solid { first } => {
+        Refusal::Solid { first, most } => {
             let index = usize::from(!first);
-            Diagnostic::error(code::NOT_COVERED, "no construction is known for this shape in space")
+            let message = format!("shapes in space of more than {most} cells are not taken to others");
+            Diagnostic::error(code::NOT_COVERED, message)
                 .label(call.at(index), "neither flat nor a box")
                 .hint("covered are all connected shapes in a plane, and boxes of any sides")
                 .into()
@@ -122,6 +124,7 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
                 Method::Fold => "`fold` takes rows to columns, and boxes to boxes whose sides differ by powers of two",
                 Method::Accordion => "`accordion` takes rows and boxes to each other",
                 Method::Merge => "`merge` takes shapes in a plane to each other",
+                Method::Melt => "`melt` takes shapes of up to 400 cells to each other",
                 Method::Auto => "no method takes the one to the other",
             };
             Diagnostic::error(code::NOT_COVERED, format!("the method does not fit these shapes: {wanted}"))

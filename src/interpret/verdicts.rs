@@ -57,6 +57,9 @@ pub fn in_words(verdict: &Verdict) -> String {
     let mut lines = vec![format!("{head}: {}, travels {travel}", seconds(verdict.duration))];
     lines.extend(verdict.failures.iter().take(FAILURES_SHOWN).map(|f| format!("failed {}", failure_line(f))));
     lines.extend(worst_lines(verdict));
+    if let Some(dynamics) = &verdict.dynamics {
+        lines.extend(dynamics.in_words(verdict.duration).map(|(name, words)| format!("{name} {words}")));
+    }
     lines.extend(verdict.checks.iter().map(check_line));
     lines.extend(verdict.notes.iter().map(|note| format!("note: {note}")));
     lines.join("\n  ")

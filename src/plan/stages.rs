@@ -152,6 +152,21 @@ impl Law {
             1.0 - speed * (1.0 - u) * (1.0 - u) / (2.0 * last)
         }
     }
+
+    /// The part of the duration at which the progress is so far: [`progress`](Law::progress), backwards.
+    pub fn part(self, progress: f64) -> f64 {
+        let progress = progress.clamp(0.0, 1.0);
+        let (first, last) = self.ramps();
+        let (first, last) = (first.to_f64(), last.to_f64());
+        let speed = 2.0 / (2.0 - first - last);
+        if progress < speed * first / 2.0 {
+            libm::sqrt(2.0 * first * progress / speed)
+        } else if progress <= 1.0 - speed * last / 2.0 {
+            progress / speed + first / 2.0
+        } else {
+            1.0 - libm::sqrt(2.0 * last * (1.0 - progress) / speed)
+        }
+    }
 }
 
 impl Stage {

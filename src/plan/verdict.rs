@@ -1,6 +1,8 @@
 //! What the judge found: every check with its status, worst values, and failures with their causes.
 
 use super::CauseId;
+use crate::units::display::number;
+use crate::units::{Dimension, quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -147,6 +149,26 @@ pub struct Dynamics {
     pub peak_energy: f64,
     /// Greatest angular momentum about the centre of mass, kg·m²/s.
     pub angular_momentum: f64,
+    /// No motion between the same shapes under the same limits takes less, s.
+    pub lower_bound: f64,
+}
+
+impl Dynamics {
+    /// Names and words, for a plan that lasts so long, s.
+    pub fn in_words(&self, duration: f64) -> [(&'static str, String); 5] {
+        let ratio = if self.lower_bound > 0.0 { duration / self.lower_bound } else { 1.0 };
+        let bound = quantity(self.lower_bound, Dimension::TIME);
+        [
+            (
+                "lower bound",
+                format!("{bound}; this takes {} times that", number(libm::round(ratio * 1e4) / 1e4)),
+            ),
+            ("peak force", quantity(self.peak_force, Dimension::FORCE)),
+            ("peak speed", quantity(self.peak_speed, Dimension::SPEED)),
+            ("peak energy", format!("{}J", number(self.peak_energy))),
+            ("ang. momentum", quantity(self.angular_momentum, Dimension::ANGULAR_MOMENTUM)),
+        ]
+    }
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

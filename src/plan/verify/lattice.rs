@@ -7,10 +7,12 @@
 //! ends, F1 the centre of mass stays, F2 forces between the cells that do it, F3 no angular momentum
 //! (balanced plans), F4 a bound on the forces.
 
+use super::lattice_bound::lower_bound;
 use super::lattice_contacts::Forest;
 pub use super::lattice_grid::{Cube, Grid};
 use super::lattice_lanes::Meeting;
 use super::lattice_law::{Change, Pace, carries_on};
+use super::lattice_moments::{passing, stretches};
 use super::ledger::{Ledger, lower};
 use super::{lattice_boxes, lattice_lanes};
 use crate::plan::{CheckKind, Dynamics, Failure, Ground, Plan, Ratio, Stage, Stages, Status, Verdict};
@@ -78,6 +80,22 @@ pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, String> {
         before = after;
     }
     Ok(peaks)
+}
+
+/// Seconds below which no motion does what the plan does, under the same limits.
+pub fn least_time(stages: &Stages) -> Result<f64, String> {
+    let grid = Grid::of(stages)?;
+    let mut cubes = vec![Cube::default(); stages.count as usize];
+    grid.place(&stages.start, &mut cubes)?;
+    let start = cubes.clone();
+    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    Ok(between(stages, &start, &cubes, grid))
+}
+
+fn between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -> f64 {
+    let middles = |cubes: &[Cube], axis: usize| cubes.iter().map(|cube| cube.middle(axis)).collect();
+    let (before, after) = (|axis| middles(start, axis), |axis| middles(end, axis));
+    lower_bound(before, after, grid.lines, stages.model.contact_force) * stages.time_unit
 }
 
 /// Places of a lattice.
@@ -199,6 +217,10 @@ impl Judgement<'_> {
             std::mem::swap(&mut earlier, &mut before);
             std::mem::swap(&mut before, &mut after);
         }
+        // The start once more, where it needs no more memory.
+        after.clone_from(&before);
+        grid.place(&self.stages.start, &mut after)?;
+        dynamics.lower_bound = between(self.stages, &after, &before, grid);
         ledger.verdict.samples = self.stages.stages.len() + 1;
         ledger.verdict.dynamics = Some(dynamics);
         Ok(())
@@ -210,11 +232,7 @@ impl Judgement<'_> {
         self.sizes(&change, grid.lines, 0.0, None, ledger);
         let first = self.stages.stages.first();
         if first.is_none_or(|stage| stage.time_squared.0 == 0) && change.smallest.0 > 0 {
-            let mut forest = Forest::new(cubes.len());
-            match lattice_boxes::judge(cubes, cubes, &mut forest) {
-                Some(Err(meeting)) => self.meet(&meeting, 0.0, 0.0, None, ledger),
-                _ => self.connected(&mut forest, 0.0, None, ledger),
-            }
+            self.still(cubes, ledger);
         }
         let moving = |stage: &Stage, ramp: Ratio| ramp.0 == 0 && stage.time_squared.0 > 0;
         if let Some(stage) = first.filter(|s| moving(s, s.law.ramps().0)) {
@@ -223,6 +241,15 @@ impl Judgement<'_> {
         if let Some(stage) = self.stages.stages.last().filter(|s| moving(s, s.law.ramps().1)) {
             let end = self.stages.duration();
             self.fail(CheckKind::Rest, end, Some(stage), "the plan ends in motion".into(), ledger);
+        }
+    }
+
+    /// K2 and K3 of cells that do not move.
+    fn still(&self, cubes: &[Cube], ledger: &mut Ledger) {
+        let mut forest = Forest::new(cubes.len());
+        match lattice_boxes::judge(cubes, cubes, &mut forest) {
+            Some(Err(meeting)) => self.meet(&meeting, 0.0, 0.0, None, ledger),
+            _ => self.connected(&mut forest, 0.0, None, ledger),
         }
     }
 
@@ -247,6 +274,10 @@ impl Judgement<'_> {
     fn step(&self, step: &Step, dynamics: &mut Dynamics, ledger: &mut Ledger) -> Result<(), String> {
         let (stage, change) = (step.stage, &step.change);
         if change.is_none() {
+            // What does not move later is judged with the stage before.
+            if step.from == 0.0 && change.smallest.0 > 0 {
+                self.still(step.before, ledger);
+            }
             return Ok(());
         }
         if stage.time_squared.0 == 0 {
@@ -268,13 +299,48 @@ impl Judgement<'_> {
             Some(Ok(())) => {}
         }
         self.contact_speed(step, &forest, ledger);
-        if judged == Some(Ok(())) {
-            self.connected(&mut forest, step.from, Some(stage), ledger);
-        }
-        if forest.is_whole() && change.drift == [0; 3] {
+        if forest.is_whole() {
             self.forces(step, &forest, dynamics, ledger);
+        } else if judged == Some(Ok(())) {
+            self.coming_and_going(step, &forest, dynamics, ledger);
         }
         Ok(())
+    }
+
+    /// K3, K5 and F2 where contacts that last the stage do not join all cells: on each stretch on which
+    /// no contact begins or ends.
+    fn coming_and_going(&self, step: &Step, lasting: &Forest, dynamics: &mut Dynamics, ledger: &mut Ledger) {
+        let found = passing(step.before, step.after)
+            .and_then(|passing| Some((stretches(&passing, step.before.len())?, passing)));
+        let Some((stretches, passing)) = found else {
+            let name = &step.stage.name;
+            let message = format!(
+                "in stage `{name}` the robot hangs together, if at all, by contacts that come and go, and these are too many to be judged"
+            );
+            self.fail(CheckKind::Connectedness, step.from, Some(step.stage), message, ledger);
+            return;
+        };
+        let limit = self.stages.limits.speed_squared;
+        for contact in &passing {
+            let speed = step.pace.speed_squared_in(contact.window, contact.parting, 2 * step.lines, limit);
+            if speed.is_gt() {
+                self.rubs(step, contact.parting, contact.cells, ledger);
+                break;
+            }
+        }
+        for window in stretches {
+            let mut forest = lasting.clone();
+            for contact in passing.iter().filter(|contact| contact.window.holds(window)) {
+                forest.touch(contact.cells.0, contact.cells.1, 0);
+            }
+            if !forest.is_whole() {
+                let progress = window.from.0 as f64 / window.from.1 as f64;
+                let time = step.from + (step.to - step.from) * step.stage.law.part(progress);
+                self.connected(&mut forest, time, Some(step.stage), ledger);
+                return;
+            }
+            self.forces(step, &forest, dynamics, ledger);
+        }
     }
 
     /// K1.
@@ -347,15 +413,19 @@ impl Judgement<'_> {
         self.note_speed(step, forest.parting, 2 * step.lines, &[a, b], ledger);
         let limit = self.stages.limits.speed_squared;
         if step.pace.speed_squared(forest.parting, 2 * step.lines, limit).is_gt() {
-            let value = self.speed(step, forest.parting, 2 * step.lines);
-            let message = format!(
-                "cells {a} and {b}, in contact, move past or from each other at {}; their greatest speed is {}",
-                speed(value),
-                speed(self.cell.speed)
-            );
-            let found = (message, value, self.cell.speed);
-            self.fail_at(CheckKind::Speed, step.from, Some(step.stage), found, &[a, b], ledger);
+            self.rubs(step, forest.parting, (a, b), ledger);
         }
+    }
+
+    fn rubs(&self, step: &Step, parting: i64, (a, b): (u32, u32), ledger: &mut Ledger) {
+        let value = self.speed(step, parting, 2 * step.lines);
+        let message = format!(
+            "cells {a} and {b}, in contact, move past or from each other at {}; their greatest speed is {}",
+            speed(value),
+            speed(self.cell.speed)
+        );
+        let found = (message, value, self.cell.speed);
+        self.fail_at(CheckKind::Speed, step.from, Some(step.stage), found, &[a, b], ledger);
     }
 
     fn speed(&self, step: &Step, distance: i64, lines: i64) -> f64 {
@@ -399,6 +469,9 @@ impl Judgement<'_> {
 
     /// F2 and F4.
     fn forces(&self, step: &Step, forest: &Forest, dynamics: &mut Dynamics, ledger: &mut Ledger) {
+        if step.change.drift != [0; 3] {
+            return;
+        }
         let lines = 2 * i128::from(step.lines);
         for axis in (0..3).filter(|&axis| step.change.axes[axis]) {
             let (force, (a, b)) = match forest.forces(step.before, step.after, axis) {

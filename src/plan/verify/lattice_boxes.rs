@@ -7,6 +7,7 @@
 use super::lattice_contacts::Forest;
 use super::lattice_grid::Cube;
 use super::lattice_lanes::Meeting;
+use super::lattice_window::{self as window, Window};
 
 /// Pairs that are looked at, for each cell: cells that move by little have a few neighbours.
 const PAIRS_MAX: usize = 500;
@@ -25,10 +26,9 @@ pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Res
     if (0..3).any(|axis| one_after_another(before, after, axis)) {
         return Some(Ok(()));
     }
-    let swept: Vec<Cube> = before.iter().zip(after).map(|(a, b)| hull(a, b)).collect();
-    pairs_near(&swept, |i, j| {
+    pairs_near(&swept(before, after), |i, j| {
         let at_start = overlap(&before[i], &before[j]);
-        let meet = at_start || meet(&before[i], &after[i], &before[j], &after[j]);
+        let meet = at_start || meet((&before[i], &after[i]), (&before[j], &after[j]));
         meet.then_some(Meeting { cells: (i as u32, j as u32), at_start })
     })
 }
@@ -41,6 +41,24 @@ fn one_after_another(before: &[Cube], after: &[Cube], axis: usize) -> bool {
         let (a, b) = (pair[0] as usize, pair[1] as usize);
         before[a].hi[axis] <= before[b].lo[axis] && after[a].hi[axis] <= after[b].lo[axis]
     })
+}
+
+/// Looks at every pair of cells that come near each other in the stage. `None`: too many.
+pub fn pairs_near_on_the_way(
+    before: &[Cube],
+    after: &[Cube],
+    mut look: impl FnMut(usize, usize),
+) -> Option<()> {
+    let looked = pairs_near(&swept(before, after), |i, j| {
+        look(i, j);
+        None
+    });
+    looked.map(|_| ())
+}
+
+/// Boxes around all that each cell passes.
+fn swept(before: &[Cube], after: &[Cube]) -> Vec<Cube> {
+    before.iter().zip(after).map(|(a, b)| hull(a, b)).collect()
 }
 
 fn hull(a: &Cube, b: &Cube) -> Cube {
@@ -73,32 +91,9 @@ fn lasts(before: &[Cube], after: &[Cube], i: usize, j: usize) -> bool {
 }
 
 /// Whether two cells overlap at some progress from 0 to 1.
-fn meet(a0: &Cube, a1: &Cube, b0: &Cube, b1: &Cube) -> bool {
-    // Above `low` and below `high`, as fractions with positive denominators.
-    let (mut low, mut high) = ((-1_i128, 1_i128), (2_i128, 1_i128));
-    let less = |p: (i128, i128), q: (i128, i128)| p.0 * q.1 < q.0 * p.1;
-    for axis in 0..3 {
-        let ends = [
-            (b0.hi[axis] - a0.lo[axis], b1.hi[axis] - a1.lo[axis]),
-            (a0.hi[axis] - b0.lo[axis], a1.hi[axis] - b1.lo[axis]),
-        ];
-        for (start, end) in ends {
-            let (start, end) = (i128::from(start), i128::from(end));
-            match (start > 0, end > 0) {
-                (true, true) => {}
-                (false, false) => return false,
-                (true, false) => {
-                    let bound = (start, start - end);
-                    high = if less(bound, high) { bound } else { high };
-                }
-                (false, true) => {
-                    let bound = (-start, end - start);
-                    low = if less(low, bound) { bound } else { low };
-                }
-            }
-        }
-    }
-    less(low, high)
+fn meet(a: (&Cube, &Cube), b: (&Cube, &Cube)) -> bool {
+    let axes = (0..3).try_fold(Window::WHOLE, |open, axis| window::overlap([a, b], axis, open));
+    axes.is_some()
 }
 
 /// Along z, y and x.

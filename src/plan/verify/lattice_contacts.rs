@@ -8,6 +8,7 @@
 use super::lattice_grid::Cube;
 
 /// Cells joined by contacts; a forest, with union and find.
+#[derive(Clone)]
 pub struct Forest {
     above: Vec<u32>,
     /// The contacts that joined two trees.
@@ -16,6 +17,17 @@ pub struct Forest {
     pub parting: i64,
     /// The contact with that difference.
     pub parted: (u32, u32),
+}
+
+/// A cell while forces are handed on from the leaves.
+#[derive(Clone, Copy)]
+struct Knot {
+    /// Twice the sum of the displacements of the cell and of those behind it, in lines.
+    behind: i128,
+    /// How many links it still has.
+    degree: u32,
+    /// The numbers of those that it is linked to in one: of a leaf it is the neighbour.
+    neighbours: u32,
 }
 
 impl Forest {
@@ -76,39 +88,38 @@ impl Forest {
     /// sum of displacements, in lines, of the cells behind it. An error names the sum that is left
     /// over at a root: then something outside would have to push.
     pub fn forces(&self, before: &[Cube], after: &[Cube], axis: usize) -> Result<(i128, (u32, u32)), i128> {
-        let count = self.above.len();
-        // Of each cell: how many links it has, and all its neighbours' numbers in one: of a leaf it is
-        // the neighbour.
-        let mut degree = vec![0_u32; count];
-        let mut neighbours = vec![0_u32; count];
+        let moved = |(old, new): (&Cube, &Cube)| Knot {
+            behind: i128::from(new.middle(axis) - old.middle(axis)),
+            degree: 0,
+            neighbours: 0,
+        };
+        let mut knots: Vec<Knot> = before.iter().zip(after).map(moved).collect();
         for &(a, b) in &self.links {
-            degree[a as usize] += 1;
-            degree[b as usize] += 1;
-            neighbours[a as usize] ^= b;
-            neighbours[b as usize] ^= a;
+            let [p, q] = [a, b].map(|cell| cell as usize);
+            knots[p].degree += 1;
+            knots[p].neighbours ^= b;
+            knots[q].degree += 1;
+            knots[q].neighbours ^= a;
         }
-        let moved = |k: usize| i128::from(after[k].middle(axis) - before[k].middle(axis));
-        let mut behind: Vec<i128> = (0..count).map(moved).collect();
         let mut worst = (0, (0, 0));
-        for leaf in 0..count {
+        for leaf in 0..knots.len() {
             let mut at = leaf;
-            while degree[at] == 1 {
-                let next = neighbours[at] as usize;
-                let force = behind[at];
+            while knots[at].degree == 1 {
+                let Knot { behind: force, neighbours: next, .. } = knots[at];
                 if force.abs() > worst.0 {
-                    worst = (force.abs(), (at as u32, next as u32));
+                    worst = (force.abs(), (at as u32, next));
                 }
-                behind[next] += force;
-                behind[at] = 0;
-                degree[at] = 0;
-                degree[next] -= 1;
-                neighbours[next] ^= at as u32;
+                knots[at] = Knot { behind: 0, degree: 0, neighbours: 0 };
+                let next = next as usize;
+                knots[next].behind += force;
+                knots[next].degree -= 1;
+                knots[next].neighbours ^= at as u32;
                 at = next;
             }
         }
         // What was not handed on is left at the roots.
-        match behind.iter().find(|left| **left != 0) {
-            Some(left) => Err(*left),
+        match knots.iter().find(|knot| knot.behind != 0) {
+            Some(knot) => Err(knot.behind),
             None => Ok(worst),
         }
     }

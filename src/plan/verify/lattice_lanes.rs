@@ -6,8 +6,7 @@
 
 use super::lattice_contacts::Forest;
 use super::lattice_grid::Cube;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use super::lattice_tiles::{Section, Tile, Tiles};
 
 /// Two cells that meet: at the start of the stage, or on the way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,15 +23,14 @@ struct Place {
     cell: u32,
 }
 
-/// Cross-section: low and high along the two axes that do not change.
-type Section = [(i64, i64); 2];
-
 struct Lanes {
     /// By lane; in order along the axis before the stage.
     places: Vec<Place>,
     /// Where each lane begins in `places`, and the end.
     starts: Vec<usize>,
     sections: Vec<Section>,
+    /// Of each lane, in order.
+    tiles: Vec<Tile>,
 }
 
 /// Comparisons of lanes that a stage may take, for each cell: sound plans take a few.
@@ -46,11 +44,10 @@ pub fn judge(
     lines: i64,
     forest: &mut Forest,
 ) -> Option<Result<(), Meeting>> {
-    let lanes = Lanes::of(before, after, axis);
-    for lane in 0..lanes.sections.len() {
-        if let Some(meeting) = in_line(lanes.lane(lane)) {
-            return Some(Err(meeting));
-        }
+    let lanes = Lanes::of(before, after, axis, lines)?;
+    let all = 0..lanes.sections.len();
+    if let Some(meeting) = all.clone().find_map(|lane| in_line(lanes.lane(lane))) {
+        return Some(Err(meeting));
     }
     let contacts = |places: &[Place], forest: &mut Forest| {
         for pair in places.windows(2) {
@@ -59,64 +56,78 @@ pub fn judge(
             }
         }
     };
-    (0..lanes.sections.len()).for_each(|lane| contacts(lanes.lane(lane), forest));
+    all.for_each(|lane| contacts(lanes.lane(lane), forest));
     // Contacts along the axis come first: then the forces take the straight way.
     let mut beside = Vec::new();
     let mut merged = Vec::new();
-    let mut left = COMPARISONS_MAX.saturating_mul(before.len()).saturating_add(1000);
-    for (a, b) in neighbours(&lanes.sections, lines, left)? {
+    let mut left = budget(before.len());
+    let mut meeting = None;
+    lanes.neighbours(|a, b| {
         let (first, second) = (lanes.lane(a), lanes.lane(b));
         left = left.checked_sub(first.len() + second.len())?;
         match facing(&lanes.sections[a], &lanes.sections[b]) {
             Facing::Apart => {}
-            Facing::Beside => beside.push((a, b)),
-            Facing::InLine => {
+            Facing::Beside => beside.push((a as u32, b as u32)),
+            Facing::InLine if meeting.is_none() => {
                 merge(first, second, &mut merged);
-                if let Some(meeting) = in_line(&merged) {
-                    return Some(Err(meeting));
-                }
+                meeting = in_line(&merged);
                 contacts(&merged, forest);
             }
+            Facing::InLine => {}
         }
+        Some(())
+    })?;
+    if let Some(meeting) = meeting {
+        return Some(Err(meeting));
     }
     for (a, b) in beside {
-        side_by_side(lanes.lane(a), lanes.lane(b), |p, q| forest.touch(p.cell, q.cell, parting(p, q)));
+        side_by_side(lanes.lane(a as usize), lanes.lane(b as usize), |p, q| {
+            forest.touch(p.cell, q.cell, parting(p, q));
+        });
     }
     Some(Ok(()))
 }
 
+/// Comparisons that a stage of so many cells may take.
+fn budget(cells: usize) -> usize {
+    COMPARISONS_MAX.saturating_mul(cells).saturating_add(1000)
+}
+
 impl Lanes {
-    fn of(before: &[Cube], after: &[Cube], axis: usize) -> Lanes {
+    /// `None`: too many cross-sections in one place.
+    fn of(before: &[Cube], after: &[Cube], axis: usize, lines: i64) -> Option<Lanes> {
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
-        let mut known: HashMap<Section, u32, BuildHasherDefault<Mixer>> = HashMap::default();
-        let mut sections: Vec<Section> = Vec::new();
-        let mut lane_of: Vec<u32> = Vec::with_capacity(before.len());
-        let mut sizes: Vec<usize> = Vec::new();
+        let section = |cube: &Cube| [(cube.lo[b], cube.hi[b]), (cube.lo[c], cube.hi[c])];
+        let (mut lane_of, mut sizes) = (Vec::with_capacity(before.len()), Vec::new());
+        let mut tiles = Tiles::over(before, (b, c), lines);
+        let mut left = budget(before.len());
         for cube in before {
-            let section = [(cube.lo[b], cube.hi[b]), (cube.lo[c], cube.hi[c])];
+            let section = section(cube);
             let lane = match lane_of.last() {
-                Some(&last) if sections[last as usize] == section => last,
-                _ => *known.entry(section).or_insert_with(|| {
-                    sections.push(section);
-                    sizes.push(0);
-                    sections.len() as u32 - 1
-                }),
+                Some(&last) if tiles.sections[last as usize] == section => last,
+                _ => tiles.lane(section, &mut left)?,
             };
-            lane_of.push(lane);
+            if lane as usize == sizes.len() {
+                sizes.push(0_usize);
+            }
             sizes[lane as usize] += 1;
+            lane_of.push(lane);
         }
+        // In order of tiles, neighbours are near each other in memory, too.
+        let order = tiles.order();
+        let mut next = vec![0; sizes.len()];
         let mut starts = Vec::with_capacity(sizes.len() + 1);
         let mut end = 0;
-        for size in &sizes {
+        for &(_, lane) in &order {
             starts.push(end);
-            end += size;
+            next[lane as usize] = end;
+            end += sizes[lane as usize];
         }
         starts.push(end);
-        let mut next = starts.clone();
         let empty = Place { before: (0, 0), after: (0, 0), cell: 0 };
         let mut places = vec![empty; before.len()];
-        for (cell, (old, new)) in before.iter().zip(after).enumerate() {
-            let at = &mut next[lane_of[cell] as usize];
+        for (cell, ((old, new), lane)) in before.iter().zip(after).zip(lane_of).enumerate() {
+            let at = &mut next[lane as usize];
             places[*at] = Place {
                 before: (old.lo[axis], old.hi[axis]),
                 after: (new.lo[axis], new.hi[axis]),
@@ -124,14 +135,33 @@ impl Lanes {
             };
             *at += 1;
         }
-        for lane in starts.windows(2) {
+        for lane in starts.windows(2).filter(|lane| lane[1] - lane[0] > 1) {
             places[lane[0]..lane[1]].sort_by_key(|place| place.before);
         }
-        Lanes { places, starts, sections }
+        let sections = order.iter().map(|&(_, lane)| tiles.sections[lane as usize]).collect();
+        Some(Lanes { places, starts, sections, tiles: order.into_iter().map(|(tile, _)| tile).collect() })
     }
 
     fn lane(&self, lane: usize) -> &[Place] {
         &self.places[self.starts[lane]..self.starts[lane + 1]]
+    }
+
+    /// Calls with every pair of lanes that can touch: their corners are no more than a cell apart.
+    fn neighbours(&self, mut call: impl FnMut(usize, usize) -> Option<()>) -> Option<()> {
+        // In the same tile and the next of the row, and in three tiles of the next row: the other
+        // halves of the pairs were met before.
+        let tiles = &self.tiles;
+        let mut next_row = 0;
+        for (i, &(row, column)) in tiles.iter().enumerate() {
+            let same = (i + 1..tiles.len()).take_while(|&k| tiles[k] <= (row, column + 1));
+            same.into_iter().try_for_each(|k| call(i, k))?;
+            while next_row < tiles.len() && tiles[next_row] < (row + 1, column - 1) {
+                next_row += 1;
+            }
+            let above = (next_row..tiles.len()).take_while(|&k| tiles[k] <= (row + 1, column + 1));
+            above.into_iter().try_for_each(|k| call(i, k))?;
+        }
+        Some(())
     }
 }
 
@@ -203,58 +233,5 @@ fn facing(a: &Section, b: &Section) -> Facing {
         (x, y) if x > 0 && y > 0 => Facing::InLine,
         (x, y) if (x == 0 && y > 0) || (x > 0 && y == 0) => Facing::Beside,
         _ => Facing::Apart,
-    }
-}
-
-/// Pairs of lanes that can touch: their corners are no more than a cell apart. `None`: more than `most`.
-fn neighbours(sections: &[Section], lines: i64, most: usize) -> Option<Vec<(usize, usize)>> {
-    let origin = |k: usize| sections.iter().map(|s| s[k].0).min().unwrap_or(0);
-    let (first, second) = (origin(0), origin(1));
-    let tile = |s: &Section| ((s[1].0 - second).div_euclid(lines), (s[0].0 - first).div_euclid(lines));
-    let mut order: Vec<((i64, i64), u32)> =
-        sections.iter().enumerate().map(|(lane, s)| (tile(s), lane as u32)).collect();
-    order.sort_unstable();
-    let mut pairs = Vec::new();
-    // In the same tile and the next of the row, and in three tiles of the next row: the other halves
-    // of the pairs were met before.
-    let mut next_row = 0;
-    for (i, &((row, column), lane)) in order.iter().enumerate() {
-        let same = order[i + 1..].iter().take_while(|(tile, _)| *tile <= (row, column + 1));
-        pairs.extend(same.map(|(_, other)| (lane as usize, *other as usize)));
-        while next_row < order.len() && order[next_row].0 < (row + 1, column - 1) {
-            next_row += 1;
-        }
-        let above = order[next_row..].iter().take_while(|(tile, _)| *tile <= (row + 1, column + 1));
-        pairs.extend(above.map(|(_, other)| (lane as usize, *other as usize)));
-        if pairs.len() > most {
-            return None;
-        }
-    }
-    Some(pairs)
-}
-
-/// A quick hash for keys that come from a grid; no order depends on it.
-#[derive(Default)]
-pub struct Mixer(u64);
-
-impl Hasher for Mixer {
-    fn finish(&self) -> u64 {
-        self.0 ^ (self.0 >> 32)
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
-    }
-
-    fn write_u64(&mut self, n: u64) {
-        self.0 = (self.0.rotate_left(5) ^ n).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    }
-
-    fn write_i64(&mut self, n: i64) {
-        self.write_u64(n as u64);
-    }
-
-    fn write_usize(&mut self, n: usize) {
-        self.write_u64(n as u64);
     }
 }

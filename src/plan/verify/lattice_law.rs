@@ -1,6 +1,7 @@
 //! What one pass over the cells says of a stage, and the limits that it is held to: exact.
 
 use super::lattice_grid::Cube;
+use super::lattice_window::Window;
 use crate::plan::{Ratio, Stage};
 use num_bigint::BigInt;
 use std::cmp::Ordering;
@@ -38,15 +39,23 @@ impl Change {
                 let displacement = new.middle(axis) - old.middle(axis);
                 let size = new.size(axis);
                 let resized = (size - old.size(axis)).abs();
-                *moved = i128::from(displacement);
-                change.drift[axis] += *moved;
-                change.axes[axis] |= displacement != 0 || resized != 0;
-                keep(&mut change.farthest, displacement.abs(), cell);
-                keep(&mut change.resized, resized, cell);
+                if displacement != 0 {
+                    *moved = i128::from(displacement);
+                    change.drift[axis] += *moved;
+                    change.axes[axis] = true;
+                    keep(&mut change.farthest, displacement.abs(), cell);
+                }
+                if resized != 0 {
+                    change.axes[axis] = true;
+                    keep(&mut change.resized, resized, cell);
+                }
                 keep(&mut change.largest, size, cell);
                 if size < change.smallest.0 {
                     change.smallest = (size, cell);
                 }
+            }
+            if moved == [0; 3] {
+                continue;
             }
             let square = moved.iter().map(|d| d * d).sum();
             change.squares += square;
@@ -78,6 +87,7 @@ pub struct Pace {
     time_squared: Ratio,
     /// Peak of `σ'` times the duration.
     speed: (i64, i64),
+    ramps: (Ratio, Ratio),
     /// The shorter ramp's part of the duration.
     ramp: Ratio,
 }
@@ -95,7 +105,7 @@ impl Pace {
             _ if first.order(last).is_le() => first,
             _ => last,
         };
-        Pace { time_squared: stage.time_squared, speed: (speed.0, speed.1), ramp }
+        Pace { time_squared: stage.time_squared, speed: (speed.0, speed.1), ramps: (first, last), ramp }
     }
 
     /// How the greatest acceleration (or force) of what moves by `distance / lines` compares with a
@@ -117,6 +127,25 @@ impl Pace {
         let left = product(&[distance, distance, up, up, t.1, limit.1]);
         let right = product(&[lines, lines, down, down, t.0, limit.0]);
         left.cmp(&right)
+    }
+
+    /// The same of what moves by so much in the whole stage, while its progress is in a window. On a ramp
+    /// the square of `σ'` is linear in `σ`.
+    pub fn speed_squared_in(&self, window: Window, distance: i64, lines: i64, limit: Ratio) -> Ordering {
+        let product = |factors: &[i128]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
+        let (t, (up, down)) = (self.time_squared, self.speed);
+        let big = i128::from;
+        let left = product(&[big(distance), big(distance), big(up), big(t.1), big(limit.1)]);
+        let right = product(&[big(lines), big(lines), big(down), big(t.0), big(limit.0)]);
+        // Up to `σ` the square of `σ' T` is at most twice the speed times `σ` by the ramp.
+        let ramped = |ramp: Ratio, (above, below): (i128, i128)| {
+            let left: BigInt = &left * 2 * ramp.1 * above;
+            let right: BigInt = &right * ramp.0 * below;
+            if ramp.0 == 0 { Ordering::Greater } else { left.cmp(&right) }
+        };
+        let rest = (window.from.1 - window.from.0, window.from.1);
+        let (first, last) = (ramped(self.ramps.0, window.to), ramped(self.ramps.1, rest));
+        self.speed_squared(distance, lines, limit).min(first).min(last)
     }
 
     /// `σ''` at its peak times the square of the duration, as a fraction.

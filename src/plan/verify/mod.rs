@@ -49,11 +49,15 @@ mod meeting;
 mod thinned;
 
 pub mod lattice;
+mod lattice_bound;
 mod lattice_boxes;
 mod lattice_contacts;
 mod lattice_grid;
 mod lattice_lanes;
 mod lattice_law;
+mod lattice_moments;
+mod lattice_tiles;
+mod lattice_window;
 
 pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};

@@ -1,12 +1,11 @@
 //! The whole problem: shapes to candidates, and the fastest that the model allows.
 
-use super::bound::lower_bound;
 use super::retime::retime;
 use super::shape::Shape;
 use super::way::{Frame, Terms, Way};
-use super::ways::{Candidate, ways};
+use super::ways::{Candidate, MELT_MAX, ways};
 use super::{Demand, Found, Method, Refusal, Task};
-use crate::plan::verify::lattice::ends;
+use crate::plan::verify::lattice::{ends, least_time};
 use crate::plan::{CellLimits, Model, Ratio, Stages};
 use crate::robot::Cell;
 
@@ -34,7 +33,7 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     let contact_force = task.max_force.map(|force| below(force / unit_force)).transpose()?;
     let candidates = ways(Terms { limits, profile: task.profile }, &from, &to, task.method)?;
     if candidates.is_empty() {
-        return Err(lacking(task, &from, &to, limits));
+        return Err(lacking(task, &from, limits));
     }
     let fill = |way: Way, balanced: bool| {
         let model = Model { balanced, contact_force };
@@ -71,18 +70,18 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     }
     let (method, balanced, stages) = best.ok_or(Refusal::Method { method: task.method })?;
     check_ends(&stages, &from, &to)?;
-    let lower_bound = lower_bound(&from, &to, contact_force) * time_unit;
+    let lower_bound = least_time(&stages).map_err(Refusal::Defect)?;
     Ok(Found { why: why(task, method, balanced), stages, lower_bound, method, balanced })
 }
 
 /// Why no construction applies.
-fn lacking(task: &Task, from: &Shape, to: &Shape, limits: CellLimits) -> Refusal {
-    let covered = |shape: &Shape| shape.is_box() || (0..3).any(|axis| shape.is_flat_across(axis));
-    if !covered(from) || !covered(to) {
-        return Refusal::Solid { first: !covered(from) };
-    }
+fn lacking(task: &Task, from: &Shape, limits: CellLimits) -> Refusal {
     if limits.smallest.order(Ratio(1, 2)).is_gt() && task.method != Method::Accordion {
         return Refusal::Stiff { smallest: limits.smallest };
+    }
+    let covered = |shape: &Shape| shape.is_box() || (0..3).any(|axis| shape.is_flat_across(axis));
+    if task.method == Method::Auto {
+        return Refusal::Solid { first: !covered(from), most: MELT_MAX };
     }
     Refusal::Method { method: task.method }
 }

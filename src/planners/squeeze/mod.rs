@@ -9,12 +9,12 @@
 //! allows the fastest is taken ([`choose`]).
 
 mod accordion;
-mod bound;
 mod choose;
 mod domain;
 mod explicit;
 mod fold;
 mod halve;
+mod melt;
 mod planar;
 mod ranks;
 mod retime;
@@ -29,6 +29,7 @@ pub use choose::squeeze;
 pub use domain::{Domain, Spot};
 pub use fold::fold;
 pub use halve::halve;
+pub use melt::melt;
 pub use planar::to_row;
 pub use shear::shear;
 pub use unroll::unroll;
@@ -50,6 +51,8 @@ pub enum Method {
     Shear,
     /// Any connected sets in planes.
     Merge,
+    /// Any connected sets, in space too, one cell after another.
+    Melt,
 }
 
 /// Whether something outside may turn the robot.
@@ -99,9 +102,10 @@ pub enum Refusal {
     Stiff {
         smallest: Ratio,
     },
-    /// A shape that is neither flat nor a box.
+    /// A shape that is neither flat nor a box, of more cells than melt.
     Solid {
         first: bool,
+        most: usize,
     },
     /// The method is for other shapes.
     Method {
@@ -125,6 +129,7 @@ impl Method {
             Method::Fold => "fold",
             Method::Shear => "shear",
             Method::Merge => "merge",
+            Method::Melt => "melt",
         }
     }
 }

@@ -5,6 +5,7 @@ use super::domain::{Domain, Spot};
 use super::explicit::Listed;
 use super::fold::fold;
 use super::halve::halve;
+use super::melt::melt;
 use super::planar::to_row;
 use super::shape::Shape;
 use super::shear::shear;
@@ -29,24 +30,26 @@ pub fn ways(terms: Terms, from: &Shape, to: &Shape, wanted: Method) -> Result<Ve
         return Ok(vec![Candidate { method, way }]);
     }
     let supple = terms.limits.smallest.order(crate::plan::Ratio(1, 2)).is_le();
+    let boxes = from.is_box() && to.is_box();
     if is_wanted(Method::Fold)
         && supple
-        && from.is_box()
-        && to.is_box()
+        && boxes
         // Between rows and columns the closed form does the same.
         && !((0..3).any(|k| from.is_row_along(k)) && (0..3).any(|k| to.is_row_along(k)))
         && let Some(way) = halve(terms, from.sides, to.sides)
     {
         found.push(Candidate { method: Method::Fold, way: way? });
     }
-    let context = Context { terms, supple, wanted };
-    let all: Vec<Vec<Candidate>> =
-        (0..3).map(|axis| context.to_row(from, axis, &|i| i)).collect::<Result<_, Refusal>>()?;
+    // Between boxes a merge is never the fastest: at its end it unfolds to the row as an accordion does,
+    // and it has squeezed and swapped before.
+    let merges = wanted == Method::Merge || (wanted == Method::Auto && !boxes);
+    let context = Context { terms, supple, wanted, merges };
     // Where one of the shapes is a row, it is that row that the ways go through.
     let is_row = |axis: usize| from.is_row_along(axis) || to.is_row_along(axis);
     let any_row = (0..3).any(is_row);
-    for (axis, starts) in all.iter().enumerate() {
-        if starts.is_empty() || (any_row && !is_row(axis)) {
+    for axis in (0..3).filter(|&axis| !any_row || is_row(axis)) {
+        let starts = context.to_row(from, axis, &|i| i)?;
+        if starts.is_empty() {
             continue;
         }
         for end in context.to_row(to, axis, &|i| i)? {
@@ -54,7 +57,7 @@ pub fn ways(terms: Terms, from: &Shape, to: &Shape, wanted: Method) -> Result<Ve
         }
         // By way of another row: the accordion turns one to the other.
         for other in (0..3).filter(|other| *other != axis) {
-            if !is_wanted(Method::Merge) || !flat_only(from) || !flat_only(to) || to.count() < 3 {
+            if !merges || !flat_only(from) || !flat_only(to) || to.count() < 3 {
                 continue;
             }
             let mut names = vec![0_u64; from.places.len()];
@@ -68,10 +71,19 @@ pub fn ways(terms: Terms, from: &Shape, to: &Shape, wanted: Method) -> Result<Ve
             }
         }
     }
+    let melts = wanted == Method::Melt || (wanted == Method::Auto && found.is_empty());
+    if melts && supple && from.places.len() <= MELT_MAX {
+        let axis = (0..3).find(|&axis| is_row(axis)).unwrap_or(0);
+        let (start, end) = (context.melted(from, axis)?, context.melted(to, axis)?);
+        found.push(Candidate { method: Method::Melt, ..joined(&start, None, &end) });
+    }
     Ok(found)
 }
 
-/// In a plane, and no box.
+/// Cells that melt: each takes some stages, in all of which all cells move a little.
+pub const MELT_MAX: usize = 400;
+
+/// In a plane.
 fn flat_only(shape: &Shape) -> bool {
     (0..3).any(|axis| shape.is_flat_across(axis))
 }
@@ -80,6 +92,8 @@ struct Context {
     terms: Terms,
     supple: bool,
     wanted: Method,
+    /// Whether merges are tried.
+    merges: bool,
 }
 
 /// What was along x goes along `x`, what was along y along `y`.
@@ -103,6 +117,19 @@ fn joined(start: &Candidate, turn: Option<&Way>, end: &Candidate) -> Candidate {
 }
 
 impl Context {
+    /// A way to a row along an axis: melted, where there is none of another kind that is wanted.
+    fn melted(&self, shape: &Shape, axis: usize) -> Result<Candidate, Refusal> {
+        let others = self.to_row(shape, axis, &|i| i)?;
+        let quickest = others.into_iter().min_by(|a, b| a.way.duration().total_cmp(&b.way.duration()));
+        if let Some(quickest) = quickest {
+            return Ok(quickest);
+        }
+        let to = axes(axis, (axis + 1) % 3);
+        let places: Vec<[i64; 3]> = shape.places.iter().map(|p| to.map(|k| p[k])).collect();
+        let way = melt(self.terms, &places, |i| i)?.turned(to);
+        Ok(Candidate { method: Method::Melt, way })
+    }
+
     /// Ways to a row along an axis, in which cell `name(i)` is at `i`.
     fn to_row(
         &self,
@@ -144,7 +171,7 @@ impl Context {
                 add(Method::Accordion, unroll(terms, sides)?.turned([x, axis, z]));
             }
         }
-        if is_wanted(Method::Merge) && self.supple {
+        if self.merges && self.supple {
             for across in (0..3).filter(|&k| k != axis && shape.is_flat_across(k)) {
                 let other = 3 - axis - across;
                 let places: Vec<[i64; 2]> = shape.places.iter().map(|p| [p[axis], p[other]]).collect();

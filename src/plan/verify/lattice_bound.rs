@@ -1,0 +1,50 @@
+//! What no motion of a lattice can beat, whatever it does on the way.
+
+use crate::plan::Ratio;
+
+/// Contacts that a cell can have with sizes from a half on: nine on each of six sides, each shared.
+const CONTACTS: f64 = 27.0;
+
+/// A bound on the time, in units of time, below which no motion gets cells from one shape to the other.
+/// The centre of mass stays. `before` and `after` give twice the centres of all cells along an axis, in
+/// any order, in lines of a grid with so many to a cell.
+///
+/// Some cell must go at least as far along an axis as cells matched in order do, at worst, and to go
+/// `d` from rest to rest takes `2 √d`; for a row and a column `√(2 (n - 1))`. With contact forces of at
+/// most `κ` the moment `S = ½ Σ x²` changes by at least `-c n κ` a unit of time twice, for at most `c`
+/// contacts a cell whose centres are at most 1 apart: so `T² ≥ 2 |ΔS| / (c n κ)`. The derivation is in
+/// `docs/planners/squeeze.md`.
+pub fn lower_bound(
+    before: impl Fn(usize) -> Vec<i64>,
+    after: impl Fn(usize) -> Vec<i64>,
+    lines: i64,
+    contact_force: Option<Ratio>,
+) -> f64 {
+    let mut square = 0.0_f64;
+    for axis in 0..3 {
+        let (mut before, mut after) = (before(axis), after(axis));
+        if before == after {
+            continue;
+        }
+        before.sort_unstable();
+        after.sort_unstable();
+        let count = before.len() as i128;
+        let sum = |places: &[i64]| places.iter().map(|&x| i128::from(x)).sum::<i128>();
+        let (start, end) = (sum(&before), sum(&after));
+        // Times the number of cells, the place about the centre of mass is a whole number.
+        let scale = 2.0 * lines as f64 * count as f64;
+        let apart =
+            |(&a, &b): (&i64, &i64)| ((i128::from(a) - i128::from(b)) * count - (start - end)).unsigned_abs();
+        let farthest = before.iter().zip(&after).map(apart).max().unwrap_or(0);
+        square = square.max(4.0 * farthest as f64 / scale);
+        if let Some(force) = contact_force {
+            let about = |x: i64, sum: i128| (i128::from(x) * count - sum) as f64 / scale;
+            let moment = |places: &[i64], sum: i128| {
+                places.iter().map(|&x| about(x, sum) * about(x, sum)).sum::<f64>() / 2.0
+            };
+            let change = (moment(&before, start) - moment(&after, end)).abs();
+            square = square.max(2.0 * change / (CONTACTS * count as f64 * force.to_f64()));
+        }
+    }
+    libm::sqrt(square)
+}
