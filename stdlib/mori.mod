@@ -12,10 +12,10 @@ connector Edge {
 
 /// A triangular panel of side `side`, drawn flat with its front up and its first edge towards -y.
 ///
-/// Side, thickness and mass are those of the origami-folding paper; speed and torque of the edges
+/// Side, thickness and mass are those of the origami-folding paper, whose passive panels weigh 8 g; speed and torque of the edges
 /// are round figures, for the paper states none. The edges are bevelled on both sides, so that two
 /// panels close up to 60 degrees between them: the paper's hinges leave as much room.
-module Mori(side: Length = 80mm, thickness: Length = 6mm) {
+module Mori(side: Length = 80mm, thickness: Length = 6mm, weight: Mass = 26g) {
   let apothem = side / (2 * sqrt(3))
 
   // A tenth of a millimetre inside the edges, so that panels side by side do not meet.
@@ -26,7 +26,7 @@ module Mori(side: Length = 80mm, thickness: Length = 6mm) {
 
   require outside > 0mm, "the panel is too thick for its side: the bevels meet"
 
-  mass 26g
+  mass weight
 
   // Drawn, and weighed, as it lies flat; judged with its bevels.
   link panel = prism(

@@ -1381,17 +1381,34 @@ extern type Folding is Plan {
   layouts: Int
   /// What the motors spend, in the measure of the origami-folding paper: the sum of mean torques.
   energy: Energy
-  /// No layout spends less with the leaves folded first.
+  /// The greatest torque of a hinge that counts.
+  peak_torque: Torque
+  /// With the leaves folded first no layout has a lower peak torque, where that was minimised; else,
+  /// none spends less energy.
   bound: Energy
-  /// Whether it is proved that no layout spends less with the leaves folded first, and this is how it
-  /// folds.
+  /// No layout folds in fewer steps.
+  fewest_steps: Int
+  /// Whether it is proved that no flat layout is better with the leaves folded first, and this is how
+  /// it folds.
   optimal: Bool
-  /// The faces that could stay on the ground for the same least energy, as far as they were looked for.
+  /// What was minimised, by the least that was found where patterns may overlap and panels may meet.
+  price: Number
+  /// The faces that could stay on the ground for an equally good layout, as far as they were looked for.
   ties: List<Int>
+  /// How many pairs of a layout and a root are known to be equally good; where every layout was looked
+  /// at, all.
+  tied: Int
   /// The face that stays on the ground.
   root: Int
   /// The faces that fold in each step.
   order: List<List<Int>>
+  /// The work of lifting and lowering panels under gravity in this order (Eq. 17 of the paper), the
+  /// root on the ground with its outside down.
+  lifting: Energy
+  /// No order of this layout lifts and lowers less.
+  lifting_bound: Energy
+  /// The faces whose hinges are too thick to close, where `hinge_radius` was given.
+  too_thick: List<Int>
   /// The folded robot.
   robot: Config
   /// The joints of the folded robot, in the order of the layout's hinges.
@@ -1405,14 +1422,25 @@ extern type Folding is Plan {
 /// faces at most; panel `i` becomes face `i`. The module is a triangular panel with a hinge at each of
 /// its three edges. `root` is the face that stays where it is; without it, the best is found.
 ///
-/// `exact` proves its answer without looking at every layout; `enumerate` looks at every one;
-/// `heuristic` takes the one that the paper's own measure prefers. Energies are those of even thin
-/// panels without gravity, with the leaves folded first. Where that order collides, other layouts of
-/// the same energy are tried, then other orders: `optimal` tells.
+/// `exact` proves its answer without looking at every layout, where it can; `enumerate` looks at every
+/// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet, other
+/// layouts of the same energy are tried, then other orders: `optimal` tells.
 ///
-/// `step` is how long each step takes; by default as long as the fastest hinge needs. `budget` bounds
-/// the layouts and branchings that are looked at; `seed` makes another choice among equals. The plan's
-/// world has neither gravity nor ground.
+/// `minimise` says what is to be small with the leaves folded first: the `energy`, the greatest torque,
+/// or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are
+/// even triangles without thickness, with the module's thickness (`prism`), or points. `gravity`: none,
+/// or the root lies on the ground with its outside down, which is then the plan's world. `count`: the
+/// torques of the joints that move, while the others are locked, or of `all`. Only with what stands
+/// first is there a closed form and a proof for large shapes; else every layout is simulated where they
+/// are few, and good ones are improved by exchanges where they are many.
+///
+/// `sequence` is the order of folding: `leaves_first`, `root_first`, the one that lifts and lowers the
+/// least (`least_work`), or that of the least energy for this layout. The faces in `passive` have no
+/// motors and are made of `passive_module`; two of them share no hinge. With the radius of the hinges
+/// it is said which can't close as far as they should. `hinges` gives the layout, as pairs of faces;
+/// then it is folded so or not at all. `step` is how long each step takes; by default
+/// as long as the fastest hinge needs. `budget` bounds the layouts and branchings that are looked at;
+/// `seed` makes another choice among equals. Without gravity there is no ground either.
 ///
 /// Example:
 /// ```modl
@@ -1430,7 +1458,42 @@ extern fn fold(
   step: auto | Time = auto,
   seed: Int = 0,
   budget: Int = 100_000_000,
+  minimise: energy | peak_torque | steps = energy,
+  inertia: lamina | prism | point = lamina,
+  gravity: off | on = off,
+  count: moving | all = moving,
+  sequence: leaves_first | root_first | least_work | least_energy = leaves_first,
+  passive: List<Int> = [],
+  passive_module: Module?,
+  hinge_radius: Length?,
+  hinges: List<List<Int>>?,
 ) -> Folding
+
+/// What orders of folding taken at random spend.
+extern type OrderSample {
+  /// How many were looked at.
+  orders: Int
+  /// Which part of them spends more than the order that they are compared with.
+  worse: Number
+  /// The least energy.
+  least: Energy
+  /// The mean energy.
+  mean: Energy
+  /// The greatest energy.
+  greatest: Energy
+}
+
+/// Compares the order of a folding with others of the same layout, taken at random: the Monte-Carlo
+/// comparison of the origami-folding paper. Each is laid into as few steps as keep its cost, and
+/// measured under the conventions of the folding. The same `seed` takes the same orders.
+///
+/// Example:
+/// ```modl
+/// use std.mori.Mori
+/// use std.shapes.octahedron
+/// print(random_orders(fold(octahedron(edge: 80mm), module: Mori), orders: 100).worse > 0.5)
+/// ```
+extern fn random_orders(of: Folding, orders: Int = 1000, seed: Int = 0) -> OrderSample
 
 /// What `squeeze` found. What cells go through is what the verifier finds.
 extern type Squeezing is Plan {

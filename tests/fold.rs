@@ -7,39 +7,39 @@ use modl::interpret::Mode;
 use modl::planners::fold::enumerate::{self, census};
 use modl::planners::fold::exact::{self, NoLayout, SLACK, optimum};
 use modl::planners::fold::heuristic::{Measure, preferred};
+use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::pattern::Pattern;
 use modl::planners::fold::routes::Routes;
-use modl::planners::fold::weights::Inertia;
 use modl::planners::fold::{Layout, Proof, Target, Unfoldable, Weights, count, order, order_energy, steps};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::sync::LazyLock;
 
-static TRUTH: LazyLock<Value> =
+pub static TRUTH: LazyLock<Value> =
     LazyLock::new(|| serde_json::from_str(include_str!("truth/fold.json")).expect("the truth is JSON"));
 
-const MASS: f64 = 0.026;
-const SIDE: f64 = 0.08;
+pub const MASS: f64 = 0.026;
+pub const SIDE: f64 = 0.08;
 /// What the truth was computed with, m/s².
-const GRAVITY: f64 = 9.8;
+pub const GRAVITY: f64 = 9.8;
 
 fn shapes() -> impl Iterator<Item = (&'static String, &'static Value)> {
     TRUTH["shapes"].as_object().expect("an object").iter()
 }
 
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("a list").iter().map(number).collect()
 }
 
-fn index(value: &Value) -> usize {
+pub fn index(value: &Value) -> usize {
     value.as_u64().expect("a place") as usize
 }
 
-fn mesh(shape: &Value) -> (Vec<Vec3>, Vec<Vec<usize>>) {
+pub fn mesh(shape: &Value) -> (Vec<Vec3>, Vec<Vec<usize>>) {
     let list = |key: &str| shape[key].as_array().expect("a list").iter();
     let vertices = list("vertices_unit_edge").map(|v| {
         let p = numbers(v);
@@ -49,20 +49,20 @@ fn mesh(shape: &Value) -> (Vec<Vec3>, Vec<Vec<usize>>) {
     (vertices.collect(), faces.collect())
 }
 
-fn target(name: &str) -> Target {
+pub fn target(name: &str) -> Target {
     let (vertices, faces) = mesh(&TRUTH["shapes"][name]);
     Target::new(vertices, &faces).unwrap_or_else(|why| panic!("{name}: {why}"))
 }
 
-fn weights(target: &Target) -> Weights {
+pub fn weights(target: &Target) -> Weights {
     Weights::uniform(target, MASS)
 }
 
-fn pairs(value: &Value) -> Vec<[usize; 2]> {
+pub fn pairs(value: &Value) -> Vec<[usize; 2]> {
     value.as_array().expect("a list").iter().map(|p| [index(&p[0]), index(&p[1])]).collect()
 }
 
-fn near(a: f64, b: f64, tol: f64) -> bool {
+pub fn near(a: f64, b: f64, tol: f64) -> bool {
     (a - b).abs() <= tol * a.abs().max(b.abs())
 }
 
@@ -281,7 +281,7 @@ fn orders_of_folding_are_those_of_the_truth() {
     }
 }
 
-fn permutations(items: &mut Vec<usize>, from: usize, visit: &mut impl FnMut(&[usize])) {
+pub fn permutations(items: &mut Vec<usize>, from: usize, visit: &mut impl FnMut(&[usize])) {
     if from == items.len() {
         return visit(items);
     }
@@ -381,7 +381,7 @@ fn a_target_of_which_every_pattern_overlaps_is_refused() {
 }
 
 /// Random targets: a shape with its corners shaken and some faces taken away.
-fn shaken() -> impl Strategy<Value = Target> {
+pub fn shaken() -> impl Strategy<Value = Target> {
     let names =
         vec!["octahedron", "triangular_bipyramid", "snub_disphenoid", "tetrahedron", "quadruped_turtle"];
     let shakes = proptest::collection::vec(-0.02..0.02_f64, 60);

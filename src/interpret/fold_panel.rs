@@ -1,11 +1,16 @@
-//! What `fold` is given: the panel and the shape, checked.
+//! What `fold` is given: the panels and the shape, checked.
 
 use super::call::Call;
 use super::design::Design;
+use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop};
 use super::value::Value;
+use crate::behavior::law;
+use crate::geometry::Vec3;
 use crate::planners::fold::{Target, Unfoldable};
+use crate::robot::{Link, Port};
 use crate::source::{Diagnostic, code};
+use nalgebra::Matrix3;
 use std::rc::Rc;
 
 /// How far sides may be off those of the panels, as a part of them.
@@ -18,44 +23,115 @@ pub struct Panel {
     pub mass: f64,
     /// m
     pub side: f64,
+    /// Of the even plate that is spread as much across itself, m.
+    pub thickness: f64,
+    /// What the hinges of its edges can do.
+    pub able: law::Ability,
 }
 
 impl Panel {
     /// The module in argument `index`.
-    pub fn of(call: &Call, index: usize) -> Eval<Panel> {
+    pub fn of(interpreter: &mut Interpreter, call: &Call, index: usize) -> Eval<Panel> {
         let design = call.instance(index)?.design.clone();
         let no_panel = |why: &str| call.refuse(index, format!("no triangular panel: {why}"));
         let Some(module) = design.module() else { return Err(no_panel("a module is wanted")) };
         let kind = &module.module;
         let [a, b, c] = &kind.ports[..] else { return Err(no_panel("it needs one port for each edge")) };
-        if kind.links.len() != 1 {
-            return Err(no_panel("it has more than one link"));
-        }
+        let [link] = &kind.links[..] else { return Err(no_panel("it has more than one link")) };
         // From the middle of one edge to those of the others it is half a side.
-        let middle = |port: &crate::robot::Port| port.pose.translation.vector;
+        let middle = |port: &Port| port.pose.translation.vector;
         let halves = [(a, b), (b, c), (c, a)].map(|(p, q)| (middle(q) - middle(p)).norm());
         let side = 2.0 * halves[0];
         if halves.iter().any(|half| (2.0 * half - side).abs() > TOL_SIDE * side) {
             return Err(no_panel("its ports are not at the middles of equal edges"));
         }
-        Ok(Panel { mass: kind.links[0].mass, side, design: design.clone() })
+        let Some(robot) = interpreter.robot_of(&design)? else {
+            return Err(no_panel("its module is not sound"));
+        };
+        let library = &robot.assembly.library;
+        let connector = library.modules[0].ports[0].connector;
+        let Some(hinge) = &library.connectors[connector].hinge else {
+            return Err(no_panel("its edges have no hinge"));
+        };
+        let able = law::Ability { speed: hinge.limits.speed, acceleration: hinge.limits.acceleration };
+        let thickness = thickness(link, a.pose.rotation * Vec3::z());
+        Ok(Panel { mass: link.mass, side, thickness, able, design: design.clone() })
     }
+}
+
+/// From how far the mass is spread along the normal: d²/12 of it.
+fn thickness(link: &Link, normal: Vec3) -> f64 {
+    let [xx, yy, zz, xy, xz, yz] = link.inertia;
+    let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let across = inertia.trace() / 2.0 - normal.dot(&(inertia * normal));
+    libm::sqrt((12.0 * across / link.mass).max(0.0))
 }
 
 /// The shape in argument `index`; `module` is where the panel was given.
 pub fn target(call: &Call, index: usize, module: usize, panel: &Panel) -> Eval<Target> {
     let Value::Mesh(mesh) = call.arg(index) else { return Err(call.refuse(index, "a mesh is wanted")) };
-    let unfoldable = |why: Unfoldable| -> Stop {
-        let mut said =
-            Diagnostic::error(code::UNFOLDABLE, why.to_string()).label(call.at(index), "does not fold");
-        if let Unfoldable::UnequalSides { .. } = why {
-            said = said
+    let target = Target::new(mesh.vertices.clone(), &mesh.faces).and_then(|target| {
+        target.check_sides(panel.side, TOL_SIDE * panel.side)?;
+        Ok(target)
+    });
+    target.map_err(|why| {
+        let said = unfoldable(call, index, &why);
+        match why {
+            Unfoldable::UnequalSides { .. } => said
                 .label(call.at(module), "these panels")
-                .hint("give the mesh and the module the same side");
+                .hint("give the mesh and the module the same side")
+                .into(),
+            _ => said.into(),
         }
-        said.into()
-    };
-    let target = Target::new(mesh.vertices.clone(), &mesh.faces).map_err(unfoldable)?;
-    target.check_sides(panel.side, TOL_SIDE * panel.side).map_err(unfoldable)?;
-    Ok(target)
+    })
+}
+
+fn unfoldable(call: &Call, index: usize, why: &Unfoldable) -> Diagnostic {
+    Diagnostic::error(code::UNFOLDABLE, why.to_string()).label(call.at(index), "does not fold")
+}
+
+/// What each face is made of.
+pub struct Panels {
+    /// By face.
+    pub designs: Vec<Rc<Design>>,
+    /// By face, kg.
+    pub masses: Vec<f64>,
+}
+
+/// The faces listed in argument `listed` are made of the module in argument `passive`, which has no
+/// motors; the hinge between two of them is none.
+pub fn panels(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    [listed, passive]: [usize; 2],
+    panel: &Panel,
+    target: Target,
+) -> Eval<(Panels, Target)> {
+    let faces = target.faces.len();
+    let mut panels = Panels { designs: vec![panel.design.clone(); faces], masses: vec![panel.mass; faces] };
+    let list = call.list(listed)?.clone();
+    if list.is_empty() {
+        return Ok((panels, target));
+    }
+    if call.is_missing(passive) {
+        return Err(call.refuse(listed, "of what are they? `passive_module` says it"));
+    }
+    let other = Panel::of(interpreter, call, passive)?;
+    if (other.side - panel.side).abs() > TOL_SIDE * panel.side {
+        return Err(call.refuse(passive, "its sides are not those of the other panels"));
+    }
+    let mut driven = vec![true; faces];
+    for value in list.iter() {
+        let Value::Int(face) = value else { continue };
+        let Some(face) = usize::try_from(*face).ok().filter(|face| *face < faces) else {
+            return Err(call.refuse(listed, format!("there is no face {face}: there are {faces}")));
+        };
+        driven[face] = false;
+        panels.designs[face] = other.design.clone();
+        panels.masses[face] = other.mass;
+    }
+    let target = target.driven(&driven).map_err(|why| -> Stop {
+        unfoldable(call, listed, &why).hint("one of two panels on a hinge has to be active").into()
+    })?;
+    Ok((panels, target))
 }

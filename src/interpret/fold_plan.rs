@@ -1,7 +1,8 @@
 //! From a layout to a plan that the judge lets through.
 
-use super::call::Call;
-use super::fold_panel::Panel;
+use super::fold_method::{Found, Question};
+use super::fold_options::{HINGES, MODULE, SEQUENCE, STEP, Sequence, TARGET};
+use super::fold_panel::Panels;
 use super::fold_sheet::{NoSheet, Pieces, Sheet};
 use super::folding::{FlatPattern, Folded};
 use super::interpreter::Interpreter;
@@ -9,143 +10,188 @@ use super::planning::Planned;
 use super::record::Record;
 use super::stop::Eval;
 use super::value::Value;
+use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
 use crate::plan::{CauseId, World};
-use crate::planners::fold::weights::Inertia;
-use crate::planners::fold::{Layout, Target, Weights, count, exact, order_energy, steps};
+use crate::planners::fold::{Layout, closing, count, exact, order, order_energy, steps};
+use crate::robot::State;
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
-/// Layouts of the same energy that are tried until one folds without collision.
+/// Layouts of the same energy that are sought until one folds without collision.
 const TIES_TRIED: u64 = 6;
 
-/// A layout that may be what is wanted, with what is known about it.
-pub struct Choice {
-    pub layout: Layout,
-    pub bound: f64,
-    pub proved: bool,
-    pub ties: Vec<usize>,
-}
-
-/// A choice with an order that was judged.
+/// A layout with an order that the judge lets through.
 struct Outcome {
     planned: Planned,
+    layout: Layout,
     steps: Vec<Vec<usize>>,
-    /// N·m
-    energy: f64,
-    step: f64,
+    optimal: bool,
 }
 
-/// What is to be folded.
-pub struct Task<'c> {
-    pub call: &'c Call<'c>,
-    pub panel: Panel,
-    pub target: Target,
-    pub weights: Weights,
-    pub settings: exact::Settings,
+/// What is to be folded of what.
+pub struct Task<'t> {
+    pub question: Question<'t>,
+    pub panels: Panels,
 }
 
 impl Task<'_> {
-    /// The first choice that the judge lets through: with the leaves first, then others of the same
-    /// energy, then in other orders.
-    pub fn plan(self, interpreter: &mut Interpreter, first: Choice) -> Eval<Value> {
-        let mut tried: Vec<Vec<usize>> = Vec::new();
-        for tie in 0..=TIES_TRIED {
-            let layout = match tie {
-                0 => first.layout.clone(),
-                // A choice that need not be the best has no ties to look for.
-                _ if !first.proved => break,
-                _ => {
-                    let seed = self.settings.seed.wrapping_add(tie);
-                    let settings = exact::Settings { seed, root: Some(first.layout.root), ..self.settings };
-                    match exact::optimum(&self.target, &self.weights, &settings) {
-                        Ok(other) => other.layout,
-                        Err(_) => break,
-                    }
-                }
-            };
-            if tried.contains(&layout.hinges()) {
-                continue;
-            }
-            tried.push(layout.hinges());
-            let least = first.layout.energy(&self.weights) * (1.0 + exact::TOL_TIE);
-            if layout.energy(&self.weights) > least {
-                continue;
-            }
-            let order = steps::leaves_first(&layout);
-            if let Some(outcome) = self.judged(interpreter, &layout, order)? {
-                return Ok(self.answer(layout, outcome, &first, first.proved));
+    /// The first layout that the judge lets through in the order that is asked for; else the first of
+    /// all in another order.
+    pub fn plan(self, interpreter: &mut Interpreter, found: &Found) -> Eval<Value> {
+        let call = self.question.call;
+        let mut why = None;
+        for layout in self.candidates(found) {
+            let steps = self.steps(&layout)?;
+            let optimal = found.proved && self.question.options.sequence == Sequence::LeavesFirst;
+            match self.judged(interpreter, &layout, &steps)? {
+                Ok(planned) => return Ok(self.answer(Outcome { planned, layout, steps, optimal }, found)),
+                Err(failure) => why = why.or(Some(failure)),
             }
         }
-        let masses = vec![self.panel.mass; self.target.faces.len()];
-        let cheap = order_energy::least_energy(&self.target, &first.layout, &masses, Inertia::Lamina);
-        let cheap = cheap.map(|(order, _)| steps::of_order(&first.layout, &order));
-        for order in cheap.into_iter().chain([steps::root_first(&first.layout)]) {
-            if let Some(outcome) = self.judged(interpreter, &first.layout, order)? {
-                return Ok(self.answer(first.layout.clone(), outcome, &first, false));
+        let why = why.unwrap_or_default();
+        if !call.is_missing(HINGES) {
+            return Err(Diagnostic::error(code::NO_WAY, format!("this layout does not fold so: {why}"))
+                .label(call.at(HINGES), "the layout")
+                .hint("another `sequence` or `root` may let it fold")
+                .into());
+        }
+        let layout = &found.layouts[0];
+        for steps in self.other_orders(layout) {
+            if let Ok(planned) = self.judged(interpreter, layout, &steps)? {
+                let outcome = Outcome { planned, layout: layout.clone(), steps, optimal: false };
+                return Ok(self.answer(outcome, found));
             }
         }
-        let message = "no order of folding was found in which no panels meet";
+        let message = format!("no order of folding was found that the judge lets through: {why}");
         Err(Diagnostic::error(code::NOT_COVERED, message)
-            .label(self.call.at(0), "panels meet on the way")
+            .label(call.at(TARGET), "was not folded")
             .hint("another `root` or `seed` leads to other patterns")
             .into())
     }
 
-    fn answer(&self, layout: Layout, outcome: Outcome, first: &Choice, optimal: bool) -> Value {
-        let Outcome { planned, steps, energy, step } = outcome;
-        let layouts = count::layouts(&self.target);
-        let pattern = FlatPattern { target: self.target.clone(), layout };
-        let bound = first.bound / (step * step);
-        let ties = first.ties.clone();
-        let folded = Folded { pattern, layouts, energy, bound, optimal, ties, steps };
+    /// What was found, then others of the same energy.
+    fn candidates<'f>(&'f self, found: &'f Found) -> impl Iterator<Item = Layout> + 'f {
+        let Question { target, objective, options, .. } = self.question;
+        let first = &found.layouts[0];
+        let least = first.energy(&objective.weights) * (1.0 + exact::TOL_TIE);
+        let mut tried = vec![first.hinges()];
+        let seeds = if found.has_more && found.proved { 1..=TIES_TRIED } else { 1..=0 };
+        let others = seeds.filter_map(move |tie| {
+            let (seed, root) = (options.seed.wrapping_add(tie), Some(first.root));
+            let settings = exact::Settings { seed, root, ..self.question.settings() };
+            let other = exact::optimum(target, &objective.weights, &settings).ok()?.layout;
+            let is_new = !tried.contains(&other.hinges()) && other.energy(&objective.weights) <= least;
+            tried.push(other.hinges());
+            is_new.then_some(other)
+        });
+        found.layouts.iter().cloned().chain(others)
+    }
+
+    /// By face: its weight under the standard gravity, N.
+    fn loads(&self) -> Vec<f64> {
+        self.panels.masses.iter().map(|mass| mass * World::default().gravity).collect()
+    }
+
+    /// The order that is asked for, in steps.
+    fn steps(&self, layout: &Layout) -> Eval<Vec<Vec<usize>>> {
+        let Question { target, options, call, .. } = self.question;
+        Ok(match options.sequence {
+            Sequence::LeavesFirst => steps::leaves_first(layout),
+            Sequence::RootFirst => steps::root_first(layout),
+            Sequence::LeastWork => {
+                steps::of_order(layout, &order::least_lifting(target, layout, &self.loads()).order)
+            }
+            Sequence::LeastEnergy => {
+                let inertia = options.conventions.inertia;
+                let Some((order, _)) =
+                    order_energy::least_energy(target, layout, &self.panels.masses, inertia)
+                else {
+                    let limit = order_energy::HEIGHT_MAX;
+                    let message =
+                        format!("this order is sought in layouts of at most {limit} hinges on a path");
+                    return Err(call.refuse(SEQUENCE, message));
+                };
+                steps::of_order(layout, &order)
+            }
+        })
+    }
+
+    fn other_orders(&self, layout: &Layout) -> Vec<Vec<Vec<usize>>> {
+        let (target, masses) = (self.question.target, &self.panels.masses);
+        let inertia = self.question.options.conventions.inertia;
+        let cheap = order_energy::least_energy(target, layout, masses, inertia);
+        let cheap = cheap.map(|(order, _)| steps::of_order(layout, &order));
+        cheap.into_iter().chain([steps::root_first(layout), steps::leaves_first(layout)]).collect()
+    }
+
+    fn answer(&self, outcome: Outcome, found: &Found) -> Value {
+        let Outcome { planned, layout, steps, optimal } = outcome;
+        let Question { target, objective, options, .. } = self.question;
+        let value = objective.value(&layout)[0];
+        let folded = Folded {
+            layouts: count::layouts(target),
+            effort: objective.effort(&layout, &steps),
+            bound: found.bound,
+            fewest_steps: objective.fewest_steps(options.root),
+            price: if found.least > 0.0 { value / found.least } else { 1.0 },
+            optimal,
+            ties: found.ties.clone(),
+            tied: found.tied,
+            lifting: order::work(target, &layout, &self.loads(), &steps.concat()),
+            lifting_bound: order::bound(target, &layout, &self.loads()),
+            too_thick: options
+                .opening
+                .map_or_else(Vec::new, |opening| closing::too_thick(target, &layout, opening)),
+            masses: self.panels.masses.clone(),
+            conventions: options.conventions,
+            minimise: options.minimise,
+            steps,
+            pattern: FlatPattern { target: target.clone(), layout },
+        };
         Value::Record(Rc::new(Record::Plan(Rc::new(planned.with_folded(folded)))))
     }
 
-    /// The plan of an order, if the judge lets it through.
+    /// The plan of an order, if the judge lets it through; else what it says first.
     fn judged(
         &self,
         interpreter: &mut Interpreter,
         layout: &Layout,
-        order: Vec<Vec<usize>>,
-    ) -> Eval<Option<Outcome>> {
-        let panels = vec![self.panel.design.clone(); self.target.faces.len()];
-        let pieces = Pieces { target: &self.target, layout, panels: &panels, span: self.call.span };
+        order: &[Vec<usize>],
+    ) -> Eval<Result<Planned, String>> {
+        let Question { target, options, call, panel, .. } = self.question;
+        let pieces = Pieces { target, layout, panels: &self.panels.designs, span: call.span };
         let Sheet { design, robot, flat } = pieces.sheet(interpreter)?.map_err(|why| {
             let why = match why {
                 NoSheet::Unsound => "its module is not sound",
                 NoSheet::NoHinge => "its edges have no hinge",
             };
-            self.call.refuse(1, format!("no triangular panel: {why}"))
+            call.refuse(MODULE, format!("no triangular panel: {why}"))
         })?;
-        let step = match self.call.arg(4) {
-            Value::Word(_) => pieces.shortest_step(&robot),
-            _ => self.call.positive(4, "the time of a step")?,
-        };
-        let causes = interpreter.planner_causes(self.call.span);
+        let causes = interpreter.planner_causes(call.span);
         let problem = Problem {
             robot: robot.assembly.as_ref().clone(),
-            start: flat,
-            program: pieces.program(&robot, &order, step),
+            start: State { base: options.base(panel), ..flat },
+            program: pieces.program(&robot, order, options.conventions.step),
             start_causes: Vec::new(),
             bond_causes: (0..robot.assembly.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),
             settings: behavior::Settings::default(),
         };
         let scheduled = behavior::schedule(problem)
-            .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, self.call.span))?;
-        let (mut planned, issues) = interpreter.assemble_plan(design, robot, scheduled, &causes, World::FREE);
+            .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, call.span))?;
+        let (mut planned, issues) =
+            interpreter.assemble_plan(design, robot, scheduled, &causes, options.world());
         if !issues.is_empty() {
-            return Err(self.call.refuse(4, "the hinges can't fold as fast as that"));
+            return Err(call.refuse(STEP, "the hinges can't fold as fast as that"));
         }
         planned.plan.provenance.planner = "fold".into();
-        planned.plan.provenance.seed = Some(self.settings.seed);
+        planned.plan.provenance.seed = Some(options.seed);
         let settings = interpreter.judge_settings();
-        if !interpreter.judge(&planned, settings, None).ok() {
-            return Ok(None);
+        let verdict = interpreter.judge(&planned, settings, None);
+        if verdict.ok() {
+            return Ok(Ok(planned));
         }
-        let masses = vec![self.panel.mass; self.target.faces.len()];
-        let sequence = order.concat();
-        let energy = order_energy::energy(&self.target, layout, &masses, Inertia::Lamina, &sequence);
-        Ok(Some(Outcome { planned, steps: order, energy: energy / (step * step), step }))
+        let first = verdict.failures.iter().min_by(|a, b| a.time.total_cmp(&b.time));
+        Ok(Err(first.map_or_else(String::new, failure_line)))
     }
 }

@@ -4,7 +4,6 @@ use super::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, Pa
 use super::interpreter::Interpreter;
 use super::robot_of::Robot;
 use super::stop::Eval;
-use crate::behavior::law;
 use crate::geometry::Pose;
 use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as MoveTarget};
 use crate::planners::fold::{Layout, Target};
@@ -13,12 +12,6 @@ use crate::source::Span;
 use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
-
-/// Steps are as long as the fastest hinge needs, up to a multiple of this, s.
-const STEP_GRAIN: f64 = 0.01;
-
-/// How long a step takes where no hinge has a limit, s.
-const STEP_FREE: f64 = 1.0;
 
 /// Why panels are no robot that folds.
 pub enum NoSheet {
@@ -49,18 +42,6 @@ pub struct Pieces<'t> {
 impl Pieces<'_> {
     fn angle(&self, face: usize) -> f64 {
         self.layout.hinge[face].map_or(0.0, |hinge| self.target.hinges[hinge].angle)
-    }
-
-    /// What every hinge can do, s.
-    pub fn shortest_step(&self, robot: &Robot) -> f64 {
-        let least = |face: usize| {
-            let limits = robot.assembly.hinge(bond_of(self.layout, face)).map(|hinge| hinge.limits);
-            let limits = limits.unwrap_or_default();
-            let able = law::Ability { speed: limits.speed, acceleration: limits.acceleration };
-            law::least(Profile::Smooth, self.angle(face), able)
-        };
-        let least = self.layout.order[1..].iter().filter_map(|face| least(*face)).fold(0.0, f64::max);
-        if least > 0.0 { (least / STEP_GRAIN).ceil() * STEP_GRAIN } else { STEP_FREE }
     }
 
     /// One step after the other, each of `step` seconds.

@@ -44,6 +44,8 @@ mod planning;
 mod record;
 mod verdicts;
 
+mod fold_method;
+mod fold_options;
 mod fold_panel;
 mod fold_plan;
 mod fold_sheet;

@@ -1,84 +1,51 @@
 //! `fold`: the planner of folding, as it is called.
 
 use super::call::Call;
+use super::fold_method::Question;
+use super::fold_options::{ARGUMENTS, MODULE, Options, PASSIVE, PASSIVE_MODULE, TARGET};
 use super::fold_panel::{self, Panel};
-use super::fold_plan::{Choice, Task};
+use super::fold_plan::Task;
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run};
-use super::stop::{Eval, Stop, fault};
+use super::record::Record;
+use super::stop::Eval;
 use super::value::Value;
-use crate::planners::fold::enumerate::{self, TooManyFaces};
-use crate::planners::fold::exact::{self, NoLayout};
-use crate::planners::fold::heuristic::{self, Measure};
-use crate::planners::fold::{Proof, Target, Weights};
-use crate::source::{Diagnostic, code};
+use crate::planners::fold::objective::Objective;
+use crate::planners::fold::sampling;
+use std::rc::Rc;
 
-pub const TABLE: &[Native] = &[on_run("fold", 7, fold)];
+pub const TABLE: &[Native] = &[on_run("fold", ARGUMENTS, fold), on_run("random_orders", 3, random_orders)];
+
+/// More orders are not compared at a time.
+const ORDERS_MAX: usize = 100_000;
 
 fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let panel = Panel::of(call, 1)?;
-    let target = fold_panel::target(call, 0, 1, &panel)?;
-    let root = match call.arg(2) {
-        Value::Word(_) => None,
-        _ => Some(call.count(2, "a face")?).filter(|root| *root < target.faces.len()).map_or_else(
-            || Err(call.refuse(2, format!("there is no such face: there are {}", target.faces.len()))),
-            |root| Ok(Some(root)),
-        )?,
-    };
-    let seed = call.count(5, "a seed")? as u64;
-    let budget = call.count(6, "a budget")? as u64;
+    let panel = Panel::of(interpreter, call, MODULE)?;
+    let target = fold_panel::target(call, TARGET, MODULE, &panel)?;
+    let (panels, target) = fold_panel::panels(interpreter, call, [PASSIVE, PASSIVE_MODULE], &panel, target)?;
+    let options = Options::of(call, &panel, &target)?;
     interpreter.stage.progress(format!("folding {} panels", target.faces.len()));
-    let weights = Weights::uniform(&target, panel.mass);
-    let settings = exact::Settings { root, flat: true, budget, seed };
-    let first = match call.word(3) {
-        Some("enumerate") => enumerated(&target, &weights, &settings, call)?,
-        Some("heuristic") => preferred(&target, &panel, &settings, call)?,
-        _ => proved(&target, &weights, &settings, call)?,
-    };
-    let folding = Task { call, panel, target, weights, settings };
-    folding.plan(interpreter, first)
-}
-fn proved(target: &Target, weights: &Weights, settings: &exact::Settings, call: &Call) -> Eval<Choice> {
-    let found = exact::optimum(target, weights, settings).map_err(|why| match why {
-        NoLayout::AllOverlap => Stop::from(
-            Diagnostic::error(code::NO_WAY, "every flat pattern of this shape overlaps itself")
-                .label(call.at(0), "can't lie flat in one piece"),
-        ),
-        NoLayout::Budget => fault(
-            code::NOT_COVERED,
-            call.span,
-            "the budget ended before any pattern was found that does not overlap",
-            "a greater `budget` may find one",
-        ),
-    })?;
-    let proved = found.proof == Proof::Optimal;
-    Ok(Choice { layout: found.layout, bound: found.bound, proved, ties: found.roots })
+    let objective = Objective::new(&target, panels.masses.clone(), options.conventions, options.minimise);
+    let question =
+        Question { call, target: &target, objective: &objective, options: &options, panel: &panel };
+    let found = question.answer()?;
+    Task { question, panels }.plan(interpreter, &found)
 }
 
-fn too_many<'a>(call: &'a Call<'a>) -> impl Fn(TooManyFaces) -> Stop + 'a {
-    |TooManyFaces| {
-        let limit = enumerate::FACES_MAX;
-        let message = format!("shapes of more than {limit} faces have too many layouts to look at each");
-        Diagnostic::error(code::NOT_COVERED, message)
-            .label(call.at(0), "too many faces")
-            .hint("`method: exact` proves its answer without looking at every layout")
-            .into()
+fn random_orders(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Value::Record(record) = call.arg(0) else { return Ok(Value::Unknown) };
+    let Record::Plan(planned) = &**record else { return Ok(Value::Unknown) };
+    let Some(folded) = &planned.folded else { return Ok(Value::Unknown) };
+    let orders = call.count(1, "how many orders")?;
+    if orders == 0 || orders > ORDERS_MAX {
+        return Err(call.refuse(1, format!("from 1 to {ORDERS_MAX} orders are compared")));
     }
-}
-
-fn enumerated(target: &Target, weights: &Weights, settings: &exact::Settings, call: &Call) -> Eval<Choice> {
-    let asked = enumerate::Settings { root: settings.root, spectrum: false, budget: settings.budget };
-    let found = enumerate::census(target, weights, &asked).map_err(too_many(call))?;
-    let tie = found.least * (1.0 + exact::TOL_TIE);
-    let ties = (0..found.by_root.len()).filter(|root| found.by_root[*root] <= tie).collect();
-    let bound = if found.complete { found.least } else { 0.0 };
-    Ok(Choice { layout: found.best, bound, proved: found.complete, ties })
-}
-
-fn preferred(target: &Target, panel: &Panel, settings: &exact::Settings, call: &Call) -> Eval<Choice> {
-    let measure = Measure::of_panels(panel.mass, panel.side);
-    let found =
-        heuristic::preferred(target, &measure, settings.root, settings.budget).map_err(too_many(call))?;
-    let ties = vec![found.layout.root];
-    Ok(Choice { layout: found.layout, bound: 0.0, proved: false, ties })
+    let seed = call.count(2, "a seed")? as u64;
+    interpreter.stage.progress(format!("comparing {orders} orders"));
+    let pattern = &folded.pattern;
+    let objective =
+        Objective::new(&pattern.target, folded.masses.clone(), folded.conventions, folded.minimise);
+    let takes = |steps: &[Vec<usize>]| objective.effort(&pattern.layout, steps).energy;
+    let found = sampling::sample(&pattern.layout, orders as u64, seed, folded.effort.energy, takes);
+    Ok(Value::Record(Rc::new(Record::Orders(found))))
 }

@@ -1,7 +1,7 @@
 //! Records: what built-ins give back, and the fields by which it is asked.
 
 use super::design::Design;
-use super::folding::{FOLDING, folding_field, layout_field};
+use super::folding::{FOLDING, ORDER_SAMPLE, folding_field, layout_field, sample_field};
 use super::interpreter::Interpreter;
 use super::natives_squeeze::Squeezed;
 use super::planning::Planned;
@@ -13,6 +13,7 @@ use super::verdicts;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::base_at;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
+use crate::planners::fold::sampling::Sample;
 use crate::robot::State;
 use crate::source::{Span, Symbol};
 use crate::units::{Dimension, quantity};
@@ -31,6 +32,8 @@ pub enum Record {
     Rigidity(Rc<Design>),
     /// The flat pattern of a plan that folds it.
     Layout(Rc<Planned>),
+    /// What random orders of folding take.
+    Orders(Sample),
 }
 
 /// A state of a robot, with when and where it was taken.
@@ -71,6 +74,7 @@ impl Interpreter<'_> {
                     Some(folded) => layout_field(&folded.pattern, field.as_str()),
                     None => Value::Unknown,
                 },
+                Record::Orders(sample) => sample_field(sample, field.as_str()),
                 Record::Report(verdict) => report_field(verdict, field.as_str()),
                 Record::State(state) => state.field(field.as_str()),
                 Record::World(world) => world_field(world, field.as_str()),
@@ -166,6 +170,7 @@ pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
         "Plan" => &["duration", "actions", "steps", "start", "end", "assumes"],
         "Squeezing" => SQUEEZING,
         "Folding" => FOLDING,
+        "OrderSample" => ORDER_SAMPLE,
         "Layout" => &["panels", "hinges", "overlaps"],
         "Report" => &[
             "ok",

@@ -83,6 +83,9 @@ impl Interpreter<'_> {
                 let panels = planned.folded.as_ref().map_or(0, |folded| folded.pattern.target.faces.len());
                 format!("a flat pattern of {panels} panels")
             }
+            Record::Orders(sample) => {
+                format!("{} of {} orders take more energy", sample.worse, sample.orders)
+            }
             Record::Rigidity(design) => match &design.kind {
                 super::design::DesignKind::Truss(truss) => {
                     let r = &truss.rigidity;

@@ -12,6 +12,7 @@ pub mod target;
 pub mod unfoldable;
 
 pub mod count;
+pub mod inertia;
 pub mod layout;
 pub mod weights;
 
@@ -33,6 +34,16 @@ pub mod folded;
 pub mod order;
 pub mod order_energy;
 pub mod steps;
+
+pub mod dynamics;
+pub mod series;
+pub mod simulation;
+
+pub mod objective;
+pub mod survey;
+
+pub mod closing;
+pub mod sampling;
 
 pub use exact::{Optimum, Proof};
 pub use layout::Layout;

@@ -46,6 +46,21 @@ pub fn least_lifting(target: &Target, layout: &Layout, weights: &[f64]) -> Lifti
     all
 }
 
+/// No order of this layout takes less, J: by branch of the root, what it gains or loses in all.
+pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
+    let flat = super::folded::poses(target, layout, |_| false);
+    let gain = |face: usize| {
+        let level = height(target, layout, face, &flat[face]);
+        weights[face] * (height(target, layout, face, &Pose::identity()) - level)
+    };
+    let branches = layout.children().swap_remove(layout.root);
+    let of_branch = |child: usize| -> f64 {
+        let below = (0..flat.len()).filter(|face| layout.is_above(child, *face));
+        below.map(gain).sum::<f64>().abs()
+    };
+    branches.into_iter().map(of_branch).sum()
+}
+
 /// The work of Eq. 17 for an order of all faces but the root, J. Computed step by step from the
 /// places of all faces.
 pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) -> f64 {
@@ -129,6 +144,9 @@ impl Branch {
             return Lifting { order: order.clone(), work: *work, bound: self.bound, optimal };
         }
         let (order, work) = self.programme();
+        // Of equal orders one with the fewest steps: leaves first or root first, as the tree is high.
+        let known = self.known.iter().find(|known| known.1 <= work * (1.0 + TOL_EQUAL));
+        let order = known.map_or(order, |known| known.0.clone());
         Lifting { order, work, bound: work, optimal: true }
     }
 

@@ -5,9 +5,10 @@
 //! ancestors' order; orders that agree on their common ancestors can always be merged.
 
 use super::folded::about;
+use super::inertia::{Inertia, moment_about};
 use super::layout::Layout;
 use super::target::Target;
-use super::weights::{Inertia, QUINTIC, moment_about};
+use super::weights::QUINTIC;
 use crate::geometry::{Pose, Vec3};
 
 /// Trees up to this height are searched: the work grows with the factorial of it.
@@ -38,10 +39,22 @@ pub fn least_energy(
     Some(all)
 }
 
-/// The energy of an order, computed step by step from the places of all faces.
+/// The energy of an order, N·m for steps of one second.
 pub fn energy(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, order: &[usize]) -> f64 {
+    means(target, layout, masses, inertia, order).iter().sum()
+}
+
+/// By face: the mean torque of its hinge while it folds, computed step by step from the places of all
+/// faces; N·m for steps of one second.
+pub fn means(
+    target: &Target,
+    layout: &Layout,
+    masses: &[f64],
+    inertia: Inertia,
+    order: &[usize],
+) -> Vec<f64> {
     let mut folded = vec![false; target.faces.len()];
-    let mut sum = 0.0;
+    let mut means = vec![0.0; target.faces.len()];
     for &face in order {
         let hinge = &target.hinges[layout.hinge[face].expect("the root does not fold")];
         // Before the step, seen from the place that the parent has.
@@ -51,11 +64,12 @@ pub fn energy(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia
         let axis = parent.rotation * hinge.axis;
         for below in (0..folded.len()).filter(|&below| layout.is_above(face, below)) {
             let corners = target.corners(below).map(|c| poses[below].transform_point(&c.into()).coords);
-            sum += hinge.angle.abs() * moment_about(&corners, masses[below], inertia, &point, &axis);
+            let moment = moment_about(&corners, masses[below], inertia, &point, &axis);
+            means[face] += QUINTIC * hinge.angle.abs() * moment;
         }
         folded[face] = true;
     }
-    QUINTIC * sum
+    means
 }
 
 /// What the hinges of a face's path spend on it.

@@ -93,6 +93,18 @@ impl Target {
         Ok(())
     }
 
+    /// Without the hinges between two faces of which neither has motors. `driven`: by face, whether it
+    /// has.
+    pub fn driven(mut self, driven: &[bool]) -> Result<Target, Unfoldable> {
+        self.hinges.retain(|hinge| hinge.faces.iter().any(|face| driven[*face]));
+        self.sides = sides(&self.hinges, self.faces.len());
+        self.connected().map_err(|why| match why {
+            Unfoldable::Disconnected { faces } => Unfoldable::Undriven { faces },
+            other => other,
+        })?;
+        Ok(self)
+    }
+
     /// Corners of a face, m.
     pub fn corners(&self, face: usize) -> [Vec3; 3] {
         self.faces[face].map(|v| self.vertices[v])
@@ -164,13 +176,19 @@ fn hinges(vertices: &[Vec3], faces: &[[usize; 3]]) -> Result<Hinges, Unfoldable>
         }
     }
     found.sort_by_key(|hinge| (hinge.faces[0], hinge.sides[0]));
-    let mut sides = vec![[None; 3]; faces.len()];
-    for (index, hinge) in found.iter().enumerate() {
+    let sides = sides(&found, faces.len());
+    Ok((found, sides))
+}
+
+/// The hinge at each side of each face.
+fn sides(hinges: &[Hinge], faces: usize) -> Vec<[Option<usize>; 3]> {
+    let mut sides = vec![[None; 3]; faces];
+    for (index, hinge) in hinges.iter().enumerate() {
         for end in 0..2 {
             sides[hinge.faces[end]][hinge.sides[end]] = Some(index);
         }
     }
-    Ok((found, sides))
+    sides
 }
 
 /// A face and which of its sides.

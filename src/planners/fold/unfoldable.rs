@@ -35,6 +35,10 @@ pub enum Unfoldable {
     Disconnected {
         faces: [usize; 2],
     },
+    /// Faces that no chain of hinges joins of which each has a face with motors.
+    Undriven {
+        faces: [usize; 2],
+    },
     /// A side of another length (m) than all panels have.
     UnequalSides {
         face: usize,
@@ -66,6 +70,9 @@ impl fmt::Display for Unfoldable {
             }
             Unfoldable::Disconnected { faces: [a, b] } => {
                 write!(f, "no chain of common edges leads from face {a} to face {b}")
+            }
+            Unfoldable::Undriven { faces: [a, b] } => {
+                write!(f, "no chain of hinges with motors leads from face {a} to face {b}")
             }
             Unfoldable::UnequalSides { face, side, wanted } => write!(
                 f,

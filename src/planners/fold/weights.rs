@@ -7,20 +7,11 @@
 //! of a layout is a sum over faces and the hinges on their paths from the root, and what a pair
 //! contributes does not depend on the layout.
 
+use super::inertia::{Inertia, moment_about};
 use super::target::Target;
-use crate::geometry::Vec3;
 
 /// `∫ |s''|` of the quintic `10x³ - 15x⁴ + 6x⁵` over 0..1: twice its greatest slope.
 pub const QUINTIC: f64 = 3.75;
-
-/// What a panel's mass is spread over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inertia {
-    /// Evenly over the triangle, without thickness.
-    Lamina,
-    /// All in the centroid: what the paper's numbers amount to.
-    Point,
-}
 
 /// Cost of every hinge for every face, N·m for a step of one second.
 #[derive(Clone, Debug)]
@@ -70,20 +61,5 @@ impl Weights {
     pub fn raised(&self, extra: &[f64]) -> Weights {
         let table = self.table.iter().enumerate().map(|(i, w)| w + extra[i / self.faces]).collect();
         Weights { faces: self.faces, table }
-    }
-}
-
-/// Moment of inertia (kg·m²) of a triangle about the line through `point` along the unit `axis`.
-pub fn moment_about(corners: &[Vec3; 3], mass: f64, inertia: Inertia, point: &Vec3, axis: &Vec3) -> f64 {
-    let off = |p: &Vec3| {
-        let v = p - point;
-        v - axis * axis.dot(&v)
-    };
-    let sum: Vec3 = corners.iter().map(off).sum();
-    match inertia {
-        Inertia::Lamina => {
-            mass / 12.0 * (corners.iter().map(|c| off(c).norm_squared()).sum::<f64>() + sum.norm_squared())
-        }
-        Inertia::Point => mass * (sum / 3.0).norm_squared(),
     }
 }

@@ -1,0 +1,203 @@
+//! The ways in which `fold` looks for layouts.
+
+use super::call::Call;
+use super::fold_options::{HINGES, METHOD, Options, TARGET};
+use super::fold_panel::Panel;
+use super::stop::{Eval, Stop, fault};
+use super::value::Value;
+use crate::planners::fold::enumerate::{self, TooManyFaces};
+use crate::planners::fold::exact::{self, NoLayout};
+use crate::planners::fold::heuristic::{self, Measure};
+use crate::planners::fold::objective::{Minimise, Objective};
+use crate::planners::fold::survey::{self, Survey};
+use crate::planners::fold::{Layout, Proof, Target};
+use crate::source::{Diagnostic, code};
+
+/// Layouts that are kept to be judged, where each was measured.
+const KEPT: usize = 64;
+
+/// Layouts that may be what is wanted, with what is known about them.
+pub struct Found {
+    /// The best first; none that was passed over is better than those that follow.
+    pub layouts: Vec<Layout>,
+    /// Whether others of the same energy can be sought.
+    pub has_more: bool,
+    /// No layout has a lower peak torque where that is to be small, else spends less energy, with the
+    /// leaves first; N·m.
+    pub bound: f64,
+    /// The least of any layout, also of those whose patterns overlap.
+    pub least: f64,
+    /// Whether none that lies flat is better than the first.
+    pub proved: bool,
+    /// Roots that are equally good.
+    pub ties: Vec<usize>,
+    /// How many pairs of a layout and a root are known to be equally good.
+    pub tied: u64,
+}
+
+/// What is asked.
+pub struct Question<'q> {
+    pub call: &'q Call<'q>,
+    pub target: &'q Target,
+    pub objective: &'q Objective<'q>,
+    pub options: &'q Options,
+    pub panel: &'q Panel,
+}
+
+impl Question<'_> {
+    pub fn answer(&self) -> Eval<Found> {
+        if !self.call.is_missing(HINGES) {
+            return self.given();
+        }
+        match self.call.word(METHOD) {
+            Some("enumerate") => self.enumerated(),
+            Some("heuristic") => self.preferred(),
+            _ if self.objective.adds_up() => self.proved(),
+            _ => Ok(self.surveyed()?.0),
+        }
+    }
+
+    pub fn settings(&self) -> exact::Settings {
+        let Options { root, budget, seed, .. } = *self.options;
+        exact::Settings { root, flat: true, budget, seed }
+    }
+
+    /// From energies for steps of one second.
+    fn scaled(&self, energy: f64) -> f64 {
+        energy / (self.options.conventions.step * self.options.conventions.step)
+    }
+
+    fn proved(&self) -> Eval<Found> {
+        let (weights, settings) = (&self.objective.weights, self.settings());
+        let found = exact::optimum(self.target, weights, &settings).map_err(|why| self.no_layout(why))?;
+        let free = exact::Settings { flat: false, ..settings };
+        let free = exact::optimum(self.target, weights, &free).map_err(|why| self.no_layout(why))?;
+        Ok(Found {
+            bound: self.scaled(found.bound),
+            least: self.scaled(free.energy.min(found.energy)),
+            proved: found.proof == Proof::Optimal,
+            has_more: true,
+            tied: found.roots.len() as u64,
+            ties: found.roots,
+            layouts: vec![found.layout],
+        })
+    }
+
+    fn no_layout(&self, why: NoLayout) -> Stop {
+        match why {
+            NoLayout::AllOverlap => self.all_overlap(),
+            NoLayout::Budget => fault(
+                code::NOT_COVERED,
+                self.call.span,
+                "the budget ended before any pattern was found that does not overlap",
+                "a greater `budget` may find one",
+            ),
+        }
+    }
+
+    fn all_overlap(&self) -> Stop {
+        Diagnostic::error(code::NO_WAY, "every flat pattern of this shape overlaps itself")
+            .label(self.call.at(TARGET), "can't lie flat in one piece")
+            .into()
+    }
+
+    fn too_many(&self, limit: String) -> Stop {
+        let message = format!("shapes of more than {limit} have too many layouts to look at each");
+        Diagnostic::error(code::NOT_COVERED, message)
+            .label(self.call.at(TARGET), "too many layouts")
+            .hint("`method: exact` proves its answer without looking at every layout, where it can")
+            .into()
+    }
+
+    fn too_many_faces(&self) -> impl Fn(TooManyFaces) -> Stop + '_ {
+        |TooManyFaces| self.too_many(format!("{} faces", enumerate::FACES_MAX))
+    }
+
+    fn enumerated(&self) -> Eval<Found> {
+        if !self.objective.adds_up() {
+            let (found, limit) = self.surveyed()?;
+            return if found.proved {
+                Ok(found)
+            } else {
+                Err(self.too_many(format!("{limit} layouts with roots")))
+            };
+        }
+        let Options { root, budget, .. } = *self.options;
+        let asked = enumerate::Settings { root, spectrum: false, budget };
+        let all =
+            enumerate::census(self.target, &self.objective.weights, &asked).map_err(self.too_many_faces())?;
+        let tie = all.least * (1.0 + exact::TOL_TIE);
+        let ties = (0..all.by_root.len()).filter(|root| all.by_root[*root] <= tie).collect();
+        let least = self.scaled(all.least);
+        if !all.complete {
+            let (layouts, tied) = (vec![all.best], all.ties);
+            return Ok(Found { layouts, has_more: false, bound: 0.0, least, proved: false, ties, tied });
+        }
+        // It may overlap: the best that lies flat costs no less.
+        let flat = self.proved()?;
+        Ok(Found { least, ties, tied: all.ties, ..flat })
+    }
+
+    /// The layout of the pairs of faces that are listed, with its best root.
+    fn given(&self) -> Eval<Found> {
+        let refuse = |message: String| self.call.refuse(HINGES, message);
+        let mut hinges = Vec::new();
+        for pair in self.call.list(HINGES)?.iter() {
+            let Value::List(pair) = pair else { continue };
+            let index = |value: &Value| match value {
+                Value::Int(face) => usize::try_from(*face).ok(),
+                _ => None,
+            };
+            let faces: Vec<usize> = pair.iter().filter_map(index).collect();
+            let [a, b] = faces[..] else { return Err(refuse("a hinge is a pair of faces".into())) };
+            let known = a.max(b) < self.target.faces.len();
+            let hinge = known.then(|| self.target.hinge_between(a, b)).flatten();
+            hinges.push(hinge.ok_or_else(|| refuse(format!("faces {a} and {b} share no hinge")))?);
+        }
+        let of_root = |root: usize| Layout::of_hinges(self.target, &hinges, root);
+        let roots = self.options.root.map_or(0..self.target.faces.len(), |root| root..root + 1);
+        let layouts: Option<Vec<Layout>> = roots.map(of_root).collect();
+        let Some(layouts) = layouts else {
+            let faces = self.target.faces.len();
+            return Err(refuse(format!("{} hinges that join not all {faces} faces", hinges.len())));
+        };
+        let values: Vec<f64> = layouts.iter().map(|layout| self.objective.value(layout)[0]).collect();
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let reaches = |(layout, value): (&Layout, &f64)| {
+            (*value <= least * (1.0 + survey::TOL_TIE)).then_some(layout.root)
+        };
+        let ties: Vec<usize> = layouts.iter().zip(&values).filter_map(reaches).collect();
+        let best = layouts.into_iter().filter(|layout| ties.contains(&layout.root)).collect();
+        let (bound, tied) = (self.objective.lower_bound(self.options.root), ties.len() as u64);
+        Ok(Found { layouts: best, has_more: false, bound, least, proved: false, ties, tied })
+    }
+
+    /// Every layout measured, or as many as may be; with how many that are.
+    fn surveyed(&self) -> Eval<(Found, u64)> {
+        let budget = self.options.budget.min(self.objective.measures_max());
+        let settings = survey::Settings { root: self.options.root, flat: true, budget, keep: KEPT };
+        let weights = &self.objective.weights;
+        let found =
+            survey::survey(self.target, weights, &settings, &mut |layout| self.objective.value(layout));
+        let Survey { best, ties, roots, least, complete } = found;
+        let Some((_, first)) = best.first() else { return Err(self.all_overlap()) };
+        let is_measured = complete && self.options.minimise != Minimise::Steps;
+        let bound = if is_measured { first[0] } else { self.objective.lower_bound(self.options.root) };
+        let layouts = best.into_iter().map(|(layout, _)| layout).collect();
+        Ok((
+            Found { layouts, has_more: false, bound, least, proved: complete, ties: roots, tied: ties },
+            budget,
+        ))
+    }
+
+    fn preferred(&self) -> Eval<Found> {
+        let Options { root, budget, .. } = *self.options;
+        let measure = Measure::of_panels(self.panel.mass, self.panel.side);
+        let found =
+            heuristic::preferred(self.target, &measure, root, budget).map_err(self.too_many_faces())?;
+        let least = self.objective.value(&found.layout)[0];
+        let ties = vec![found.layout.root];
+        let (layouts, tied) = (vec![found.layout], found.ties);
+        Ok(Found { layouts, has_more: false, bound: 0.0, least, proved: false, ties, tied })
+    }
+}

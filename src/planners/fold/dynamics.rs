@@ -1,0 +1,116 @@
+//! Dynamics of the folding tree: recursive Newton-Euler (Eq. 3 and 4) for any motion of its hinges.
+//!
+//! Outwards from the root, which is held: where every face is, how it turns and accelerates. Inwards
+//! from the leaves: what its parent has to exert on it; the part about the hinge is the motor's. In
+//! Eq. 3 `p_i` is one vector for each child, from the face's own hinge to the child's. (The paper has
+//! one for each module, which is wrong where a module has two children.)
+
+use super::folded::about;
+use super::inertia::Body;
+use super::layout::Layout;
+use super::target::Target;
+use crate::geometry::{Pose, Vec3};
+
+/// How the hinge of a face stands and moves: rad, rad/s, rad/s². An angle of 0 is level.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Hinging {
+    pub angle: f64,
+    pub speed: f64,
+    pub acceleration: f64,
+}
+
+/// The faces of a layout as bodies on hinges.
+pub struct Dynamics<'t> {
+    target: &'t Target,
+    layout: &'t Layout,
+    bodies: &'t [Body],
+    /// What pulls on everything, m/s².
+    gravity: Vec3,
+    faces: Vec<Moving>,
+}
+
+/// A face while it moves, in the frame of the target.
+#[derive(Clone, Copy)]
+struct Moving {
+    /// Its displacement from its place in the target.
+    pose: Pose,
+    /// A point of its hinge, and the direction about which the motor turns it.
+    origin: Vec3,
+    axis: Vec3,
+    turning: Vec3,
+    spinning_up: Vec3,
+    /// Acceleration of the origin, less gravity.
+    rising: Vec3,
+    /// What its parent exerts: force, and moment about the origin.
+    force: Vec3,
+    moment: Vec3,
+}
+
+const AT_REST: Moving = Moving {
+    pose: Pose {
+        rotation: nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(1.0, 0.0, 0.0, 0.0)),
+        translation: nalgebra::Translation3 { vector: Vec3::new(0.0, 0.0, 0.0) },
+    },
+    origin: Vec3::new(0.0, 0.0, 0.0),
+    axis: Vec3::new(0.0, 0.0, 0.0),
+    turning: Vec3::new(0.0, 0.0, 0.0),
+    spinning_up: Vec3::new(0.0, 0.0, 0.0),
+    rising: Vec3::new(0.0, 0.0, 0.0),
+    force: Vec3::new(0.0, 0.0, 0.0),
+    moment: Vec3::new(0.0, 0.0, 0.0),
+};
+
+impl<'t> Dynamics<'t> {
+    /// `bodies`: of every face. `gravity`: m/s², in the frame of the target.
+    pub fn new(target: &'t Target, layout: &'t Layout, bodies: &'t [Body], gravity: Vec3) -> Dynamics<'t> {
+        Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
+    }
+
+    /// The torques of all hinges, N·m, by face; the root has none. Positive ones turn towards positive
+    /// angles.
+    pub fn torques(&mut self, hinging: impl Fn(usize) -> Hinging, torques: &mut [f64]) {
+        self.outwards(hinging);
+        for &face in self.layout.order[1..].iter().rev() {
+            let Moving { axis, force, moment, origin, .. } = self.faces[face];
+            torques[face] = axis.dot(&moment);
+            let parent = &mut self.faces[self.layout.parent[face]];
+            parent.force += force;
+            parent.moment += moment + (origin - parent.origin).cross(&force);
+        }
+        torques[self.layout.root] = 0.0;
+    }
+
+    fn outwards(&mut self, hinging: impl Fn(usize) -> Hinging) {
+        let layout = self.layout;
+        // Pulled upwards, everything weighs.
+        self.faces[layout.root] = Moving { rising: -self.gravity, ..AT_REST };
+        for &face in &layout.order[1..] {
+            let hinge = &self.target.hinges[layout.hinge[face].expect("only the root has none")];
+            let parent = &self.faces[layout.parent[face]];
+            let Hinging { angle, speed, acceleration } = hinging(face);
+            let local = hinge.axis_from(layout.parent[face]);
+            let axis = parent.pose.rotation * local;
+            let origin = parent.pose.transform_point(&hinge.point.into()).coords;
+            let missing = angle - hinge.angle;
+            let pose =
+                if missing == 0.0 { parent.pose } else { parent.pose * about(&hinge.point, local, missing) };
+            let turning = parent.turning + axis * speed;
+            let spinning_up = parent.spinning_up + axis * acceleration + parent.turning.cross(&axis) * speed;
+            let rising =
+                parent.rising + carried(&parent.turning, &parent.spinning_up, &(origin - parent.origin));
+            let body = &self.bodies[face];
+            let arm = pose.transform_point(&body.centre.into()).coords - origin;
+            let force = (rising + carried(&turning, &spinning_up, &arm)) * body.mass;
+            // In the frame of the face, where its inertia does not change.
+            let (w, dw) = (pose.rotation.inverse() * turning, pose.rotation.inverse() * spinning_up);
+            let twist = pose.rotation * (body.inertia * dw + w.cross(&(body.inertia * w)));
+            let moment = twist + arm.cross(&force);
+            self.faces[face] = Moving { pose, origin, axis, turning, spinning_up, rising, force, moment };
+        }
+    }
+}
+
+/// The acceleration of a point of a body over that of another, `arm` away from it.
+fn carried(turning: &Vec3, spinning_up: &Vec3, arm: &Vec3) -> Vec3 {
+    spinning_up.cross(arm) + turning.cross(&turning.cross(arm))
+}

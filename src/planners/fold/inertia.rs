@@ -1,0 +1,60 @@
+//! What a panel weighs, and what that is spread over.
+
+use super::target::Target;
+use crate::geometry::Vec3;
+use nalgebra::Matrix3;
+
+/// What a panel's mass is spread over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Inertia {
+    /// Evenly over the triangle, without thickness.
+    Lamina,
+    /// Evenly over the triangle with a thickness, m, half of it on either side.
+    Prism(f64),
+    /// All in the centroid: what the paper's numbers amount to.
+    Point,
+}
+
+/// A panel as a rigid body, in its place in the target.
+#[derive(Clone, Copy, Debug)]
+pub struct Body {
+    /// kg
+    pub mass: f64,
+    /// Centre of mass, m.
+    pub centre: Vec3,
+    /// About the centre of mass, kg·m².
+    pub inertia: Matrix3<f64>,
+}
+
+impl Body {
+    pub fn of_panel(corners: &[Vec3; 3], mass: f64, inertia: Inertia) -> Body {
+        let centre = corners.iter().sum::<Vec3>() / 3.0;
+        let second = second_moment(&corners.map(|c| c - centre), inertia) * mass;
+        Body { mass, centre, inertia: Matrix3::identity() * second.trace() - second }
+    }
+
+    /// All panels of a target; `masses`: of each face, kg.
+    pub fn of_target(target: &Target, masses: &[f64], inertia: Inertia) -> Vec<Body> {
+        let body = |(face, &mass): (usize, &f64)| Body::of_panel(&target.corners(face), mass, inertia);
+        masses.iter().enumerate().map(body).collect()
+    }
+}
+
+/// Moment of inertia (kg·m²) of a triangle about the line through `point` along the unit `axis`.
+pub fn moment_about(corners: &[Vec3; 3], mass: f64, inertia: Inertia, point: &Vec3, axis: &Vec3) -> f64 {
+    let second = second_moment(&corners.map(|c| c - point), inertia);
+    mass * (second.trace() - axis.dot(&(second * axis)))
+}
+
+/// `∫ v vᵀ` over the panel by its mass, for corners seen from the point that it is about, m².
+fn second_moment(corners: &[Vec3; 3], inertia: Inertia) -> Matrix3<f64> {
+    let sum: Vec3 = corners.iter().sum();
+    if inertia == Inertia::Point {
+        return sum * sum.transpose() / 9.0;
+    }
+    let spread = corners.iter().map(|v| v * v.transpose()).sum::<Matrix3<f64>>() + sum * sum.transpose();
+    let Inertia::Prism(thickness) = inertia else { return spread / 12.0 };
+    let [a, b, c] = corners;
+    let normal = (b - a).cross(&(c - a)).normalize();
+    (spread + normal * normal.transpose() * (thickness * thickness)) / 12.0
+}

@@ -1,0 +1,57 @@
+//! Orders of folding at random, for comparison with a chosen one (Sec. 5.3.2, Fig. 6).
+
+use super::layout::Layout;
+use super::steps;
+
+/// Random orders are worse where they take more by this part.
+const TOL_EQUAL: f64 = 1e-9;
+
+/// What random orders take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    pub orders: u64,
+    /// How many of them take more than what they are compared with.
+    pub worse: u64,
+    pub least: f64,
+    pub mean: f64,
+    pub greatest: f64,
+}
+
+/// Compares `orders` random orders, each laid into steps, with something that takes `reference`.
+pub fn sample(
+    layout: &Layout,
+    orders: u64,
+    seed: u64,
+    reference: f64,
+    mut takes: impl FnMut(&[Vec<usize>]) -> f64,
+) -> Sample {
+    let mut dice = Dice(seed);
+    let mut order: Vec<usize> = layout.order[1..].to_vec();
+    order.sort_unstable();
+    let mut found = Sample { orders, worse: 0, least: f64::INFINITY, mean: 0.0, greatest: f64::NEG_INFINITY };
+    for _ in 0..orders {
+        // Fisher and Yates.
+        for last in (1..order.len()).rev() {
+            order.swap(last, dice.below(last + 1));
+        }
+        let taken = takes(&steps::of_order(layout, &order));
+        found.worse += u64::from(taken > reference * (1.0 + TOL_EQUAL));
+        found.least = found.least.min(taken);
+        found.greatest = found.greatest.max(taken);
+        found.mean += taken / orders as f64;
+    }
+    found
+}
+
+/// SplitMix64: a seed, and ever the same numbers.
+struct Dice(u64);
+
+impl Dice {
+    /// A number below `limit`, which is far below the range of a word: none is noticeably preferred.
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((u128::from(x ^ (x >> 31)) * limit as u128) >> 64) as usize
+    }
+}

@@ -1,0 +1,114 @@
+//! Folding, simulated: the torque of every hinge in every step. This is the paper's Alg. 1; where the
+//! closed form of [`weights`](super::weights) holds, both agree.
+
+use super::dynamics::{Dynamics, Hinging};
+use super::inertia::Body;
+use super::layout::Layout;
+use super::series::{Rule, Series, Size, TERMS};
+use super::target::Target;
+use crate::geometry::Vec3;
+
+/// What folds how fast under what.
+#[derive(Clone, Copy, Debug)]
+pub struct Circumstances {
+    /// Time of a step, s.
+    pub step: f64,
+    /// m/s², along the root's outward normal: the root lies on the ground with its outside down.
+    pub gravity: f64,
+}
+
+/// The torques of a folding.
+#[derive(Clone, Debug)]
+pub struct Torques {
+    /// By step, then by face: mean and peak of the absolute torque in it, N·m.
+    pub steps: Vec<Vec<Size>>,
+}
+
+/// Whose torques count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {
+    /// Those of the joints that move: the others are locked.
+    Moving,
+    /// Those of all.
+    All,
+}
+
+/// Each step is looked at in two halves: between them the acceleration changes its sign.
+const HALVES: [f64; 2] = [0.25, 0.75];
+
+/// Simulates folding in steps: in each, the hinges of these faces go from level to folded by the
+/// quintic law, and all others are locked.
+pub fn simulate(
+    target: &Target,
+    layout: &Layout,
+    bodies: &[Body],
+    steps: &[Vec<usize>],
+    circumstances: &Circumstances,
+) -> Torques {
+    let rule = Rule::default();
+    let faces = bodies.len();
+    let gravity: Vec3 = target.normal(layout.root) * circumstances.gravity;
+    let mut dynamics = Dynamics::new(target, layout, bodies, gravity);
+    let mut hinging = vec![Hinging::default(); faces];
+    let mut values = vec![[0.0; TERMS]; faces];
+    let mut torques = vec![0.0; faces];
+    let angle = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
+    let mut all = Vec::with_capacity(steps.len());
+    for step in steps {
+        let mut sizes = vec![Size::default(); faces];
+        for middle in HALVES {
+            for (i, point) in rule.points.iter().enumerate() {
+                let at = quintic(middle + 0.25 * point, circumstances.step);
+                for &face in step {
+                    let full = angle(face);
+                    let Hinging { angle, speed, acceleration } = at;
+                    hinging[face] = Hinging {
+                        angle: full * angle,
+                        speed: full * speed,
+                        acceleration: full * acceleration,
+                    };
+                }
+                dynamics.torques(|face| hinging[face], &mut torques);
+                values.iter_mut().zip(&torques).for_each(|(values, torque)| values[i] = *torque);
+            }
+            for (size, values) in sizes.iter_mut().zip(&values) {
+                let half = Series::size(&rule.series(values));
+                size.mean += half.mean / 2.0;
+                size.peak = size.peak.max(half.peak);
+            }
+        }
+        for &face in step {
+            hinging[face] = Hinging { angle: angle(face), ..Hinging::default() };
+        }
+        all.push(sizes);
+    }
+    Torques { steps: all }
+}
+
+/// The quintic law over one unit: place, speed and acceleration after a part of the time.
+pub fn quintic(x: f64, time: f64) -> Hinging {
+    Hinging {
+        angle: x * x * x * (10.0 - 15.0 * x + 6.0 * x * x),
+        speed: 30.0 * x * x * (1.0 - x) * (1.0 - x) / time,
+        acceleration: 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x) / (time * time),
+    }
+}
+
+impl Torques {
+    /// Eq. 5: the sum of mean torques, N·m. `steps`: those that were simulated.
+    pub fn energy(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
+        self.counted(count, steps).map(|size| size.mean).sum()
+    }
+
+    /// The greatest torque, N·m.
+    pub fn peak(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
+        self.counted(count, steps).map(|size| size.peak).fold(0.0, f64::max)
+    }
+
+    fn counted<'s>(&'s self, count: Count, steps: &'s [Vec<usize>]) -> impl Iterator<Item = &'s Size> {
+        self.steps.iter().zip(steps).flat_map(move |(sizes, moving)| {
+            let counts = move |face: &usize| count == Count::All || moving.contains(face);
+            (0..sizes.len()).filter(counts).map(|face| &sizes[face])
+        })
+    }
+}

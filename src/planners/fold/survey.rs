@@ -1,0 +1,167 @@
+//! The best layouts under a measure that has to be computed for each: all are looked at where they
+//! are few, else good ones are improved by exchanges.
+
+use super::count;
+use super::enumerate;
+use super::layout::Layout;
+use super::local;
+use super::pattern::Pattern;
+use super::target::Target;
+use super::weights::Weights;
+use num_traits::ToPrimitive;
+use std::cmp::Ordering;
+
+/// Layouts whose values differ by less than this part are equally good.
+pub const TOL_TIE: f64 = 1e-9;
+
+/// What is looked at and how far.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// `None`: any.
+    pub root: Option<usize>,
+    /// Whether patterns that overlap in the plane are left out.
+    pub flat: bool,
+    /// Pairs of a layout and a root that are measured.
+    pub budget: u64,
+    /// How many of the best are kept.
+    pub keep: usize,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// With their values, the best first.
+    pub best: Vec<(Layout, [f64; 2])>,
+    /// How many pairs of a layout and a root are as good as the first.
+    pub ties: u64,
+    /// Roots with which the first's value is reached, in order.
+    pub roots: Vec<usize>,
+    /// The least first value of all, also of those that overlap.
+    pub least: f64,
+    /// Whether every pair was looked at.
+    pub complete: bool,
+}
+
+/// Values are compared by their first number, then by their second; less is better.
+pub fn survey(
+    target: &Target,
+    weights: &Weights,
+    settings: &Settings,
+    value: &mut dyn FnMut(&Layout) -> [f64; 2],
+) -> Survey {
+    let n = target.faces.len();
+    let roots: Vec<usize> = settings.root.map_or_else(|| (0..n).collect(), |root| vec![root]);
+    let pairs = count::layouts(target) * roots.len();
+    let mut kept =
+        Kept { target, settings, best: Vec::new(), ties: 0, roots: Vec::new(), least: f64::INFINITY };
+    let complete = n <= enumerate::FACES_MAX && pairs.to_u64().is_some_and(|pairs| pairs <= settings.budget);
+    if complete {
+        let walked = enumerate::each(target, u64::MAX, |hinges| {
+            for &root in &roots {
+                let layout = Layout::of_hinges(target, hinges, root).expect("only trees are enumerated");
+                let value = value(&layout);
+                kept.offer(layout, value);
+            }
+        });
+        assert!(walked.is_ok(), "there are no more faces than may be");
+    } else {
+        improve(&mut kept, weights, &roots, value);
+    }
+    let Kept { best, ties, mut roots, least, .. } = kept;
+    roots.sort_unstable();
+    Survey { best, ties, roots, least, complete }
+}
+
+/// From the root whose grown layout is best: exchanges as long as they help.
+fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn FnMut(&Layout) -> [f64; 2]) {
+    let (target, mut left) = (kept.target, kept.settings.budget);
+    let mut starts: Vec<(Layout, [f64; 2])> = Vec::new();
+    for &root in roots.iter().take(usize::try_from(left).unwrap_or(usize::MAX).max(1)) {
+        let mut free = u64::MAX;
+        let grown = local::improved(target, weights, local::grown(target, weights, root), &mut free);
+        let value = value(&grown);
+        kept.offer(grown.clone(), value);
+        starts.push((grown, value));
+        left = left.saturating_sub(1);
+    }
+    starts.sort_by(|a, b| order(&a.1, &b.1));
+    for (mut layout, mut best) in starts {
+        while let Some((better, value)) = exchanged(target, &layout, best, &mut left, kept, value) {
+            (layout, best) = (better, value);
+        }
+        if left == 0 {
+            return;
+        }
+    }
+}
+
+/// The first exchange of a hinge that helps.
+fn exchanged(
+    target: &Target,
+    layout: &Layout,
+    best: [f64; 2],
+    left: &mut u64,
+    kept: &mut Kept,
+    value: &mut dyn FnMut(&Layout) -> [f64; 2],
+) -> Option<(Layout, [f64; 2])> {
+    let folding = layout.hinges();
+    for added in (0..target.hinges.len()).filter(|h| folding.binary_search(h).is_err()) {
+        let [a, b] = target.hinges[added].faces;
+        for dropped in local::path(layout, a, b) {
+            *left = left.checked_sub(1)?;
+            let hinges: Vec<usize> = folding.iter().map(|&h| if h == dropped { added } else { h }).collect();
+            let other = Layout::of_hinges(target, &hinges, layout.root).expect("a cycle lost a hinge");
+            let found = value(&other);
+            kept.offer(other.clone(), found);
+            if order(&found, &best).is_lt() {
+                return Some((other, found));
+            }
+        }
+    }
+    None
+}
+
+/// The best so far.
+struct Kept<'s> {
+    target: &'s Target,
+    settings: &'s Settings,
+    best: Vec<(Layout, [f64; 2])>,
+    ties: u64,
+    roots: Vec<usize>,
+    least: f64,
+}
+
+impl Kept<'_> {
+    fn offer(&mut self, layout: Layout, value: [f64; 2]) {
+        self.least = self.least.min(value[0]);
+        let last = self.best.last().filter(|_| self.best.len() >= self.settings.keep.max(1));
+        if last.is_some_and(|last| order(&value, &last.1).is_gt()) {
+            return;
+        }
+        if self.settings.flat && !Pattern::of(self.target, &layout).overlaps().is_empty() {
+            return;
+        }
+        let against = self.best.first().map_or(Ordering::Less, |best| compare(value[0], best.1[0]));
+        if against.is_lt() {
+            (self.ties, self.roots) = (0, Vec::new());
+        }
+        if against.is_le() {
+            if !self.roots.contains(&layout.root) {
+                self.roots.push(layout.root);
+            }
+            self.ties += 1;
+        }
+        let place = self.best.partition_point(|other| order(&other.1, &value).is_le());
+        self.best.insert(place, (layout, value));
+        self.best.truncate(self.settings.keep.max(1));
+    }
+}
+
+/// With numbers that are nearly equal taken for equal.
+fn order(a: &[f64; 2], b: &[f64; 2]) -> Ordering {
+    compare(a[0], b[0]).then(compare(a[1], b[1]))
+}
+
+fn compare(a: f64, b: f64) -> Ordering {
+    if (a - b).abs() <= TOL_TIE * a.abs().max(b.abs()) { Ordering::Equal } else { a.total_cmp(&b) }
+}
