@@ -5,7 +5,11 @@
 use modl::geometry::Vec3;
 use modl::planners::fold::enumerate::{self, census};
 use modl::planners::fold::exact::{self, Proof, optimum};
-use modl::planners::fold::{Target, Weights, order};
+use modl::planners::fold::inertia::Inertia;
+use modl::planners::fold::meeting::meeting;
+use modl::planners::fold::objective::{Conventions, Minimise, Objective};
+use modl::planners::fold::simulation::Count;
+use modl::planners::fold::{Target, Weights, order, order_energy, steps, survey};
 use std::time::Instant;
 
 const MASS: f64 = 0.026;
@@ -60,4 +64,42 @@ fn main() {
     let all = enumerate::Settings { root: None, spectrum: false, budget: u64::MAX };
     let found = census(&target, &Weights::uniform(&target, MASS), &all).expect("few faces");
     println!("\nicosahedron: {} layouts with 20 roots enumerated in {:?}", found.layouts, start.elapsed());
+    dynamics(&truth);
+}
+
+/// What one layout takes: measured in closed form, simulated, looked at for collisions, ordered.
+fn dynamics(truth: &serde_json::Value) {
+    println!(
+        "\n| shape | closed form | simulated | quick look | order (MI) | peak torque, all layouts and roots |"
+    );
+    println!("|---|---|---|---|---|---|");
+    for name in ["tetrahedron", "octahedron", "quadruped_turtle", "icosahedron"] {
+        let target = target(&truth["shapes"][name]);
+        let masses = vec![MASS; target.faces.len()];
+        let layout = optimum(&target, &Weights::uniform(&target, MASS), &exact::Settings::default())
+            .expect("it has layouts")
+            .layout;
+        let steps = steps::leaves_first(&layout);
+        let plain = Conventions { inertia: Inertia::Lamina, count: Count::Moving, gravity: 0.0, step: 1.0 };
+        let under = Conventions { count: Count::All, gravity: 9.8, ..plain };
+        let [closed, simulated] =
+            [plain, under].map(|c| Objective::new(&target, masses.clone(), c, Minimise::PeakTorque));
+        let time = |work: &mut dyn FnMut()| {
+            let start = Instant::now();
+            (0..REPEATS).for_each(|_| work());
+            start.elapsed() / REPEATS
+        };
+        let by_form = time(&mut || drop(std::hint::black_box(closed.leaves_first(&layout))));
+        let by_steps = time(&mut || drop(std::hint::black_box(simulated.leaves_first(&layout))));
+        let look = time(&mut || drop(std::hint::black_box(meeting(&target, &layout, &steps, 0.02))));
+        let order = time(&mut || {
+            order_energy::least_energy(&target, &layout, &masses, Inertia::Lamina);
+        });
+        let all = survey::Settings { root: None, flat: true, budget: closed.measures_max(), keep: 64 };
+        let start = Instant::now();
+        let found = survey::survey(&target, &closed.weights, &all, &mut |layout| closed.value(layout));
+        let survey = start.elapsed();
+        let ending = if found.complete { "proved" } else { "open" };
+        println!("| {name} | {by_form:?} | {by_steps:?} | {look:?} | {order:?} | {survey:?}, {ending} |");
+    }
 }

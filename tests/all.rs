@@ -18,6 +18,7 @@ mod fold;
 mod fold_collisions;
 mod fold_dynamics;
 mod fold_objective;
+mod fold_random;
 mod gaits;
 mod generated;
 mod ground;

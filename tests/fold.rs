@@ -259,6 +259,9 @@ fn orders_of_folding_are_those_of_the_truth() {
         assert!(near(found.work, number(&case["W_opt_J"]), 1e-9), "{name}: {}", found.work);
         assert!(near(order::work(&target, &layout, &loads, &found.order), found.work, 1e-9), "{name}");
         assert!(found.bound <= found.work * (1.0 + 1e-12));
+        let bound = order::bound(&target, &layout, &loads);
+        let of_root = number(&case["W_lower_bound_J"]) * (1.0 - 1e-9);
+        assert!(of_root <= bound && bound <= found.work * (1.0 + 1e-12), "{name}: {bound}");
         let flat = |steps: Vec<Vec<usize>>| steps.concat();
         let leaves = flat(steps::leaves_first(&layout));
         let first = flat(steps::root_first(&layout));
@@ -292,11 +295,16 @@ pub fn permutations(items: &mut Vec<usize>, from: usize, visit: &mut impl FnMut(
     }
 }
 
-/// Every order of every layout of the tetrahedron, and of some of the bipyramid's.
+/// Every order of every layout of the tetrahedron, and of some of the bipyramid's and octahedron's.
 #[test]
 fn dynamic_programming_equals_brute_force() {
-    for (name, root, every) in [("tetrahedron", 0, 1), ("tetrahedron", 2, 1), ("triangular_bipyramid", 4, 9)]
-    {
+    let cases = [
+        ("tetrahedron", 0, 1),
+        ("tetrahedron", 2, 1),
+        ("triangular_bipyramid", 4, 9),
+        ("octahedron", 3, 190),
+    ];
+    for (name, root, every) in cases {
         let target = target(name);
         let n = target.faces.len();
         let (loads, masses) = (vec![MASS * GRAVITY; n], vec![MASS; n]);

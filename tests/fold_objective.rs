@@ -2,13 +2,15 @@
 //! motors, hinges too thick to close.
 
 use crate::fold::{MASS, TRUTH, index, near, number, pairs, permutations, shaken, target};
+use modl::planners::fold::exact::{NoLayout, Word};
+use modl::planners::fold::heuristic::{Measure, preferred};
 use modl::planners::fold::inertia::{Body, Inertia};
 use modl::planners::fold::objective::{Conventions, Minimise, Objective};
 use modl::planners::fold::sampling::sample;
 use modl::planners::fold::simulation::{Circumstances, Count, simulate};
 use modl::planners::fold::survey::{Settings, Survey, survey};
 use modl::planners::fold::{
-    Layout, Target, Unfoldable, Weights, closing, enumerate, exact, order, order_energy, steps,
+    Layout, Proof, Target, Unfoldable, Weights, closing, enumerate, exact, order, order_energy, steps,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -84,6 +86,33 @@ fn random_orders_under_gravity_are_worse_as_often() {
     assert!((rate - number(&sampled["rate_leaf_allgrav"])).abs() < 0.11, "{rate}");
 }
 
+/// Theorem 1 with each root: how it ranks, and what its choice costs.
+#[test]
+fn the_heuristic_ranks_as_another_program_found() {
+    for name in ["tetrahedron", "octahedron", "quadruped_turtle"] {
+        let target = target(name);
+        let weights = Weights::uniform(&target, MASS);
+        let side = (target.corners(0)[1] - target.corners(0)[0]).norm();
+        let measure = Measure::of_panels(MASS, side);
+        for case in TRUTH["shapes"][name]["MI_full"]["MII_per_root"].as_array().expect("a list") {
+            let root = index(&case["root"]);
+            let found = preferred(&target, &measure, Some(root), u64::MAX).expect("few faces");
+            assert_eq!(found.ties, case["ties"].as_u64().expect("a count"), "{name} at {root}");
+            let mut energies = Vec::new();
+            enumerate::each(&target, u64::MAX, |hinges| {
+                energies.push(Layout::of_hinges(&target, hinges, root).expect("a tree").energy(&weights));
+            })
+            .expect("few faces");
+            energies.sort_by(f64::total_cmp);
+            let chosen = found.layout.energy(&weights);
+            let better = energies.iter().filter(|e| **e < chosen * (1.0 - 1e-9)).count();
+            assert_eq!(better + 1, index(&case["best_rank"]), "{name} at {root}");
+            assert!(near(chosen / energies[0], number(&case["ratio_worst"]), 1e-9), "{name} at {root}");
+            assert_eq!(Value::Bool(chosen < energies[energies.len() / 2]), case["below_median"], "{name}");
+        }
+    }
+}
+
 /// Of all orders, how many take the least work.
 #[test]
 fn as_many_orders_are_optimal_as_another_program_counted() {
@@ -124,7 +153,45 @@ fn the_fewest_steps_are_the_radius() {
         assert_eq!(objective.fewest_steps(None), steps, "{name}");
         let found = surveyed(&objective, &target, None, 10_000);
         assert_eq!(found.best[0].1[0], steps as f64, "{name}");
+        // Of those, the one of least energy, by proof.
+        let height = exact::Settings { height: Some(steps), ..exact::Settings::default() };
+        let best = exact::optimum(&target, &objective.weights, &height).expect("there are some");
+        assert_eq!((best.proof, best.layout.heights()[best.layout.root]), (Proof::Optimal, steps), "{name}");
+        assert!(near(best.energy, found.best[0].1[1], 1e-9), "{name}");
+        let lower = exact::Settings { height: Some(steps - 1), ..height };
+        assert_eq!(exact::optimum(&target, &objective.weights, &lower).err(), Some(NoLayout::AllOverlap));
     }
+}
+
+/// Layouts are asked for in order of their energy, and no other is passed over.
+#[test]
+fn refused_layouts_are_followed_by_the_next_best() {
+    let target = target("triangular_bipyramid");
+    let weights = Weights::uniform(&target, MASS);
+    let mut energies = Vec::new();
+    enumerate::each(&target, u64::MAX, |hinges| {
+        energies.push(Layout::of_hinges(&target, hinges, 0).expect("a tree").energy(&weights));
+    })
+    .expect("few faces");
+    energies.sort_by(f64::total_cmp);
+    let settings = exact::Settings { root: Some(0), ..exact::Settings::default() };
+    for refused in [0, 1, 5, 74, 75] {
+        let mut asked: Vec<Layout> = Vec::new();
+        let best = exact::optimum_of(&target, &weights, &settings, &mut |layout| {
+            assert!(!asked.contains(layout), "each is asked for once");
+            asked.push(layout.clone());
+            if asked.len() > refused { Word::Accept } else { Word::Refuse }
+        });
+        for (layout, energy) in asked.iter().zip(&energies) {
+            assert!(near(layout.energy(&weights), *energy, 3e-9));
+        }
+        match best {
+            Ok(best) => assert!(best.proof == Proof::Optimal && near(best.energy, energies[refused], 3e-9)),
+            Err(why) => assert!(refused == 75 && why == NoLayout::AllOverlap && asked.len() == 75),
+        }
+    }
+    let stopped = exact::optimum_of(&target, &weights, &settings, &mut |_| Word::Stop);
+    assert_eq!(stopped.err(), Some(NoLayout::Budget));
 }
 
 #[test]

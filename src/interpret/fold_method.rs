@@ -14,14 +14,14 @@ use crate::planners::fold::{Layout, Proof, Target};
 use crate::source::{Diagnostic, code};
 
 /// Layouts that are kept to be judged, where each was measured.
-const KEPT: usize = 64;
+const KEPT: usize = 4096;
 
 /// Layouts that may be what is wanted, with what is known about them.
 pub struct Found {
     /// The best first; none that was passed over is better than those that follow.
     pub layouts: Vec<Layout>,
-    /// Whether others of the same energy can be sought.
-    pub has_more: bool,
+    /// How the next best can be sought.
+    pub next: Option<exact::Settings>,
     /// No layout has a lower peak torque where that is to be small, else spends less energy, with the
     /// leaves first; N·m.
     pub bound: f64,
@@ -57,26 +57,41 @@ impl Question<'_> {
         }
     }
 
-    pub fn settings(&self) -> exact::Settings {
-        let Options { root, budget, seed, .. } = *self.options;
-        exact::Settings { root, flat: true, budget, seed }
-    }
-
     /// From energies for steps of one second.
     fn scaled(&self, energy: f64) -> f64 {
         energy / (self.options.conventions.step * self.options.conventions.step)
     }
 
     fn proved(&self) -> Eval<Found> {
-        let (weights, settings) = (&self.objective.weights, self.settings());
-        let found = exact::optimum(self.target, weights, &settings).map_err(|why| self.no_layout(why))?;
-        let free = exact::Settings { flat: false, ..settings };
-        let free = exact::optimum(self.target, weights, &free).map_err(|why| self.no_layout(why))?;
+        let Options { root, budget, seed, minimise, .. } = *self.options;
+        let (target, weights) = (self.target, &self.objective.weights);
+        let plain = exact::Settings { root, flat: true, height: None, budget, seed };
+        let fewest = self.objective.fewest_steps(root);
+        let mut settings = plain;
+        let found = match minimise {
+            Minimise::Steps => (fewest..target.faces.len()).find_map(|height| {
+                settings = exact::Settings { height: Some(height), ..plain };
+                match exact::optimum(target, weights, &settings) {
+                    Err(NoLayout::AllOverlap) => None,
+                    found => Some(found),
+                }
+            }),
+            _ => Some(exact::optimum(target, weights, &plain)),
+        };
+        let found = found.unwrap_or(Err(NoLayout::AllOverlap)).map_err(|why| self.no_layout(why))?;
+        let least = match minimise {
+            Minimise::Steps => fewest as f64,
+            _ => {
+                let free = exact::Settings { flat: false, ..plain };
+                let free = exact::optimum(target, weights, &free).map_err(|why| self.no_layout(why))?;
+                self.scaled(free.energy.min(found.energy))
+            }
+        };
         Ok(Found {
             bound: self.scaled(found.bound),
-            least: self.scaled(free.energy.min(found.energy)),
+            least,
             proved: found.proof == Proof::Optimal,
-            has_more: true,
+            next: Some(settings),
             tied: found.roots.len() as u64,
             ties: found.roots,
             layouts: vec![found.layout],
@@ -131,7 +146,7 @@ impl Question<'_> {
         let least = self.scaled(all.least);
         if !all.complete {
             let (layouts, tied) = (vec![all.best], all.ties);
-            return Ok(Found { layouts, has_more: false, bound: 0.0, least, proved: false, ties, tied });
+            return Ok(Found { layouts, next: None, bound: 0.0, least, proved: false, ties, tied });
         }
         // It may overlap: the best that lies flat costs no less.
         let flat = self.proved()?;
@@ -169,7 +184,7 @@ impl Question<'_> {
         let ties: Vec<usize> = layouts.iter().zip(&values).filter_map(reaches).collect();
         let best = layouts.into_iter().filter(|layout| ties.contains(&layout.root)).collect();
         let (bound, tied) = (self.objective.lower_bound(self.options.root), ties.len() as u64);
-        Ok(Found { layouts: best, has_more: false, bound, least, proved: false, ties, tied })
+        Ok(Found { layouts: best, next: None, bound, least, proved: false, ties, tied })
     }
 
     /// Every layout measured, or as many as may be; with how many that are.
@@ -184,10 +199,7 @@ impl Question<'_> {
         let is_measured = complete && self.options.minimise != Minimise::Steps;
         let bound = if is_measured { first[0] } else { self.objective.lower_bound(self.options.root) };
         let layouts = best.into_iter().map(|(layout, _)| layout).collect();
-        Ok((
-            Found { layouts, has_more: false, bound, least, proved: complete, ties: roots, tied: ties },
-            budget,
-        ))
+        Ok((Found { layouts, next: None, bound, least, proved: complete, ties: roots, tied: ties }, budget))
     }
 
     fn preferred(&self) -> Eval<Found> {
@@ -198,6 +210,6 @@ impl Question<'_> {
         let least = self.objective.value(&found.layout)[0];
         let ties = vec![found.layout.root];
         let (layouts, tied) = (vec![found.layout], found.ties);
-        Ok(Found { layouts, has_more: false, bound: 0.0, least, proved: false, ties, tied })
+        Ok(Found { layouts, next: None, bound: 0.0, least, proved: false, ties, tied })
     }
 }

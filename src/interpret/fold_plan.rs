@@ -13,20 +13,36 @@ use super::value::Value;
 use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
 use crate::plan::{CauseId, World};
-use crate::planners::fold::{Layout, closing, count, exact, order, order_energy, steps};
+use crate::planners::fold::exact::{self, Word};
+use crate::planners::fold::meeting::{Meeting, meeting};
+use crate::planners::fold::{Layout, Proof, closing, count, order, order_energy, steps};
 use crate::robot::State;
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
-/// Layouts of the same energy that are sought until one folds without collision.
-const TIES_TRIED: u64 = 6;
+/// Layouts that are put before the judge, and at which a quick look is taken.
+const JUDGED_MAX: usize = 64;
+const LOOKED_AT_MAX: usize = 4096;
+
+/// In a quick look panels are so much smaller, so that it refuses nothing that the judge may let
+/// through.
+const SHRUNK: f64 = 0.02;
 
 /// A layout with an order that the judge lets through.
 struct Outcome {
     planned: Planned,
     layout: Layout,
     steps: Vec<Vec<usize>>,
-    optimal: bool,
+}
+
+/// Layouts before the judge, one after the other.
+struct Hearing {
+    /// What was let through.
+    passed: Vec<Outcome>,
+    /// Why the first was not.
+    why: Option<String>,
+    looks: usize,
+    judged: usize,
 }
 
 /// What is to be folded of what.
@@ -36,20 +52,23 @@ pub struct Task<'t> {
 }
 
 impl Task<'_> {
-    /// The first layout that the judge lets through in the order that is asked for; else the first of
+    /// The best layout that the judge lets through in the order that is asked for; else the first of
     /// all in another order.
     pub fn plan(self, interpreter: &mut Interpreter, found: &Found) -> Eval<Value> {
         let call = self.question.call;
-        let mut why = None;
-        for layout in self.candidates(found) {
-            let steps = self.steps(&layout)?;
-            let optimal = found.proved && self.question.options.sequence == Sequence::LeavesFirst;
-            match self.judged(interpreter, &layout, &steps)? {
-                Ok(planned) => return Ok(self.answer(Outcome { planned, layout, steps, optimal }, found)),
-                Err(failure) => why = why.or(Some(failure)),
+        let mut hearing = Hearing { passed: Vec::new(), why: None, looks: 0, judged: 0 };
+        let is_proved = found.proved && self.question.options.sequence == Sequence::LeavesFirst;
+        for layout in &found.layouts {
+            match self.heard(interpreter, &mut hearing, layout)? {
+                Word::Accept => return Ok(self.answer(hearing.passed.remove(0), found, is_proved)),
+                Word::Refuse => {}
+                Word::Stop => break,
             }
         }
-        let why = why.unwrap_or_default();
+        if let Some((outcome, proved)) = self.next_best(interpreter, &mut hearing, found)? {
+            return Ok(self.answer(outcome, found, is_proved && proved));
+        }
+        let why = hearing.why.unwrap_or_default();
         if !call.is_missing(HINGES) {
             return Err(Diagnostic::error(code::NO_WAY, format!("this layout does not fold so: {why}"))
                 .label(call.at(HINGES), "the layout")
@@ -59,8 +78,8 @@ impl Task<'_> {
         let layout = &found.layouts[0];
         for steps in self.other_orders(layout) {
             if let Ok(planned) = self.judged(interpreter, layout, &steps)? {
-                let outcome = Outcome { planned, layout: layout.clone(), steps, optimal: false };
-                return Ok(self.answer(outcome, found));
+                let outcome = Outcome { planned, layout: layout.clone(), steps };
+                return Ok(self.answer(outcome, found, false));
             }
         }
         let message = format!("no order of folding was found that the judge lets through: {why}");
@@ -70,22 +89,60 @@ impl Task<'_> {
             .into())
     }
 
-    /// What was found, then others of the same energy.
-    fn candidates<'f>(&'f self, found: &'f Found) -> impl Iterator<Item = Layout> + 'f {
-        let Question { target, objective, options, .. } = self.question;
-        let first = &found.layouts[0];
-        let least = first.energy(&objective.weights) * (1.0 + exact::TOL_TIE);
-        let mut tried = vec![first.hinges()];
-        let seeds = if found.has_more && found.proved { 1..=TIES_TRIED } else { 1..=0 };
-        let others = seeds.filter_map(move |tie| {
-            let (seed, root) = (options.seed.wrapping_add(tie), Some(first.root));
-            let settings = exact::Settings { seed, root, ..self.question.settings() };
-            let other = exact::optimum(target, &objective.weights, &settings).ok()?.layout;
-            let is_new = !tried.contains(&other.hinges()) && other.energy(&objective.weights) <= least;
-            tried.push(other.hinges());
-            is_new.then_some(other)
+    /// Layouts in order of their energy until one is let through; with whether none before it can be.
+    fn next_best(
+        &self,
+        interpreter: &mut Interpreter,
+        hearing: &mut Hearing,
+        found: &Found,
+    ) -> Eval<Option<(Outcome, bool)>> {
+        let Some(settings) = found.next else { return Ok(None) };
+        let Question { target, objective, .. } = self.question;
+        let refused: Vec<Vec<usize>> = found.layouts.iter().map(Layout::hinges).collect();
+        let mut fault = None;
+        let best = exact::optimum_of(target, &objective.weights, &settings, &mut |layout| {
+            if refused.contains(&layout.hinges()) && layout.root == found.layouts[0].root {
+                return Word::Refuse;
+            }
+            self.heard(interpreter, hearing, layout).unwrap_or_else(|stop| {
+                fault = Some(stop);
+                Word::Stop
+            })
         });
-        found.layouts.iter().cloned().chain(others)
+        if let Some(stop) = fault {
+            return Err(stop);
+        }
+        let Ok(best) = best else { return Ok(None) };
+        let passed = std::mem::take(&mut hearing.passed).into_iter();
+        let outcome = passed.into_iter().find(|outcome| outcome.layout == best.layout);
+        Ok(outcome.map(|outcome| (outcome, best.proof == Proof::Optimal)))
+    }
+
+    /// What is said of a layout in the order that is asked for.
+    fn heard(&self, interpreter: &mut Interpreter, hearing: &mut Hearing, layout: &Layout) -> Eval<Word> {
+        let Question { target, call, .. } = self.question;
+        let steps = self.steps(layout)?;
+        if hearing.looks == LOOKED_AT_MAX || hearing.judged == JUDGED_MAX {
+            return Ok(Word::Stop);
+        }
+        hearing.looks += 1;
+        // A given layout is refused in the judge's words.
+        let look = call.is_missing(HINGES).then(|| meeting(target, layout, &steps, SHRUNK)).flatten();
+        if let Some(Meeting { step, faces: [a, b] }) = look {
+            hearing.why.get_or_insert_with(|| format!("panels {a} and {b} meet in step {}", step + 1));
+            return Ok(Word::Refuse);
+        }
+        hearing.judged += 1;
+        Ok(match self.judged(interpreter, layout, &steps)? {
+            Ok(planned) => {
+                hearing.passed.push(Outcome { planned, layout: layout.clone(), steps });
+                Word::Accept
+            }
+            Err(failure) => {
+                hearing.why.get_or_insert(failure);
+                Word::Refuse
+            }
+        })
     }
 
     /// By face: its weight under the standard gravity, N.
@@ -125,8 +182,8 @@ impl Task<'_> {
         cheap.into_iter().chain([steps::root_first(layout), steps::leaves_first(layout)]).collect()
     }
 
-    fn answer(&self, outcome: Outcome, found: &Found) -> Value {
-        let Outcome { planned, layout, steps, optimal } = outcome;
+    fn answer(&self, outcome: Outcome, found: &Found, optimal: bool) -> Value {
+        let Outcome { planned, layout, steps } = outcome;
         let Question { target, objective, options, .. } = self.question;
         let value = objective.value(&layout)[0];
         let folded = Folded {

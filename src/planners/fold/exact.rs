@@ -60,6 +60,8 @@ pub struct Settings {
     pub root: Option<usize>,
     /// Whether patterns that overlap in the plane are left out.
     pub flat: bool,
+    /// Layouts with more hinges on a path from the root are left out.
+    pub height: Option<usize>,
     /// Faces settled on paths, exchanges weighed, and nodes, in all.
     pub budget: u64,
     /// Another seed, another choice among layouts that tie.
@@ -68,7 +70,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { root: None, flat: false, budget: 100_000_000, seed: 0 }
+        Settings { root: None, flat: false, height: None, budget: 100_000_000, seed: 0 }
     }
 }
 
@@ -99,14 +101,45 @@ pub struct Optimum {
 /// Why there is no optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLayout {
-    /// Every layout overlaps in the plane.
+    /// Every layout overlaps in the plane, is too high, or was refused.
     AllOverlap,
-    /// The budget ended before any layout was found that does not overlap.
+    /// The budget ended, or the search was stopped, before any layout was found that does.
     Budget,
+}
+
+/// What is said of a layout that might be the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Word {
+    Accept,
+    /// The next best is sought.
+    Refuse,
+    /// Enough was asked: the search ends here.
+    Stop,
 }
 
 /// The layout of least energy.
 pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Result<Optimum, NoLayout> {
+    search(target, weights, settings, None)
+}
+
+/// The layout of least energy among those that are accepted: layouts are asked for in order of their
+/// energy. (Where the budget ends before one is accepted, a last one is asked for that need not be
+/// the next.)
+pub fn optimum_of(
+    target: &Target,
+    weights: &Weights,
+    settings: &Settings,
+    accepts: &mut dyn FnMut(&Layout) -> Word,
+) -> Result<Optimum, NoLayout> {
+    search(target, weights, settings, Some(accepts))
+}
+
+fn search<'a>(
+    target: &Target,
+    weights: &Weights,
+    settings: &Settings,
+    accepts: Option<&'a mut (dyn FnMut(&Layout) -> Word + 'a)>,
+) -> Result<Optimum, NoLayout> {
     let n = target.faces.len();
     let plain = Routes::new(target, weights);
     let equals = match settings.root {
@@ -126,6 +159,9 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
         weights,
         raised: &raised,
         flat: settings.flat,
+        height: settings.height.unwrap_or(n),
+        accepts,
+        stopped: false,
         slack,
         best: None,
         reached: vec![f64::INFINITY; n],
@@ -139,7 +175,9 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
     for root in asked {
         search.push(Node { root, bound: plain.bound(root), number: 0, ways: None });
     }
-    let mut bounds = Bounds { routes: Routes::new(target, &raised), lagrange: None };
+    let mut routes = Routes::new(target, &raised);
+    routes.longest = search.height;
+    let mut bounds = Bounds { routes, lagrange: None };
     search.run(&mut bounds);
     let equals: Vec<Option<usize>> = match settings.root {
         Some(root) => (0..n).map(|face| (face == root).then_some(root)).collect(),
@@ -157,12 +195,16 @@ fn raised(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weights 
     weights.raised(&extra)
 }
 
-struct Search<'s> {
+struct Search<'s, 'a> {
     target: &'s Target,
     weights: &'s Weights,
     /// With the additions.
     raised: &'s Weights,
     flat: bool,
+    /// The most hinges on a path.
+    height: usize,
+    accepts: Option<&'a mut (dyn FnMut(&Layout) -> Word + 'a)>,
+    stopped: bool,
     /// The most that the additions come to in one layout, N·m.
     slack: f64,
     best: Option<Found>,
@@ -232,16 +274,16 @@ struct Bounds<'s> {
     lagrange: Option<Lagrange<'s>>,
 }
 
-impl<'s> Search<'s> {
+impl<'s> Search<'s, '_> {
     fn run(&mut self, bounds: &mut Bounds<'s>) {
         while let Some(node) = self.waiting.pop() {
             self.held -= node.size();
             if node.bound >= self.cutoff(node.root) {
                 continue;
             }
-            if self.left == 0 || self.held > HELD_MAX {
+            if self.left == 0 || self.held > HELD_MAX || self.stopped {
                 self.open = self.open.min(node.bound);
-                if self.best.is_none() {
+                if self.best.is_none() && !self.stopped {
                     self.start(node.root);
                 }
                 return;
@@ -295,7 +337,7 @@ impl<'s> Search<'s> {
         let found = lagrange.ascend(root, &mut allowed, &ways.prices, effort, &mut left, |chosen, steps| {
             let layout = Layout::of_hinges(target, &lagrange::mended(target, root, chosen), root);
             let layout = layout.expect("what was mended is a tree");
-            self.offer(local::improved(target, self.weights, layout, steps));
+            self.consider(local::improved(target, self.weights, layout, steps));
             self.cutoff(root)
         });
         self.left = left;
@@ -304,7 +346,8 @@ impl<'s> Search<'s> {
         // A child begins with steps that are not yet as short as its parent's last.
         ways.length = (found.length / RESUMED).min(1.0);
         let cutoff = self.cutoff(root);
-        ways.rising = found.bound - bound > WORTHWHILE * (cutoff - bound) && found.length > LENGTH_MIN;
+        let aim = if cutoff.is_finite() { cutoff } else { aim };
+        ways.rising = found.bound - bound > WORTHWHILE * (aim - bound) && found.length > LENGTH_MIN;
         let bound = bound.max(found.bound);
         if bound >= cutoff || !self.reroute(&mut bounds.routes, root, ways, allowed) {
             return None;
@@ -315,9 +358,15 @@ impl<'s> Search<'s> {
     /// Paths that agree are the node's best layout, if it may lie as it does.
     fn settle(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: Ways) {
         let layout = self.layout(root, &ways.paths);
-        match self.flat.then(|| overlapping_path(self.target, &layout)).flatten() {
-            Some(path) => self.without_path(bounds, root, bound, &ways, &path),
-            None => self.offer(layout),
+        if let Some(path) = self.flat.then(|| overlapping_path(self.target, &layout)).flatten() {
+            return self.without_path(bounds, root, bound, &ways, &path);
+        }
+        let arcs: Vec<Arc> = ways.paths.iter().filter_map(|path| path.first().copied()).collect();
+        match self.offer(layout) {
+            Word::Accept => {}
+            // All other layouts of the node lack one of its arcs.
+            Word::Refuse => self.without_path(bounds, root, bound, &ways, &arcs),
+            Word::Stop => self.open = self.open.min(bound),
         }
     }
 
@@ -400,22 +449,42 @@ impl<'s> Search<'s> {
                 first = other;
             }
         }
-        self.offer(first);
+        if self.accepts.is_some() && (self.left == 0 || self.held > HELD_MAX) {
+            self.offer(first);
+        } else {
+            self.consider(first);
+        }
+    }
+
+    /// A layout that need not be the next best: where each is asked for, it is only something to aim
+    /// at.
+    fn consider(&mut self, layout: Layout) {
+        let root = layout.root;
+        self.aims[root] = self.aims[root].min(layout.energy(self.raised));
+        if self.accepts.is_none() {
+            self.offer(layout);
+        }
     }
 
     /// Takes a layout for the best where it is better, and lies flat if it has to.
-    fn offer(&mut self, layout: Layout) {
+    fn offer(&mut self, layout: Layout) -> Word {
         let (energy, raised, root) = (layout.energy(self.weights), layout.energy(self.raised), layout.root);
-        self.aims[root] = self.aims[root].min(raised);
         if raised >= self.reached[root]
+            || self.height < self.target.faces.len() && layout.heights()[root] > self.height
             || self.flat && !Pattern::of(self.target, &layout).overlaps().is_empty()
         {
-            return;
+            return Word::Accept;
+        }
+        let word = self.accepts.as_mut().map_or(Word::Accept, |accepts| accepts(&layout));
+        self.stopped |= word == Word::Stop;
+        if word != Word::Accept {
+            return word;
         }
         self.reached[root] = raised;
         if self.best.as_ref().is_none_or(|best| energy < best.energy * (1.0 - TOL_TIE)) {
             self.best = Some(Found { layout, energy });
         }
+        word
     }
 
     fn first(&mut self, routes: &mut Routes, root: usize) -> Option<Ways> {

@@ -43,6 +43,7 @@ pub mod objective;
 pub mod survey;
 
 pub mod closing;
+pub mod meeting;
 pub mod sampling;
 
 pub use exact::{Optimum, Proof};

@@ -32,6 +32,8 @@ pub struct Routes<'t> {
     distance: Vec<f64>,
     entered: Vec<Arc>,
     queue: BinaryHeap<Waiting>,
+    /// Paths of more hinges are none.
+    pub longest: usize,
 }
 
 /// A face with the least that a path through it costs; the cheapest is the greatest.
@@ -69,6 +71,7 @@ impl<'t> Routes<'t> {
             distance: vec![f64::INFINITY; n],
             entered: vec![UNREACHED; n],
             queue: BinaryHeap::new(),
+            longest: usize::MAX,
         };
         for face in 0..n {
             routes.spread(face);
@@ -105,6 +108,9 @@ impl<'t> Routes<'t> {
     /// The cheapest path from the root to `goal` over allowed arcs, with its cost; `None` where there
     /// is none. Guided by the costs without restriction (A*).
     pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
+        if self.longest < self.toward.len() {
+            return self.route_in_layers(root, goal, allowed);
+        }
         let ahead = &self.toward[goal];
         self.distance.fill(f64::INFINITY);
         self.distance[root] = 0.0;
@@ -134,6 +140,42 @@ impl<'t> Routes<'t> {
             }
         }
         None
+    }
+
+    /// The same with at most as many hinges as may be: one more of them in each round.
+    fn route_in_layers(&self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
+        let mut costs = vec![f64::INFINITY; self.toward.len()];
+        costs[root] = 0.0;
+        // By round, then by face: how it is entered where that became cheaper.
+        let mut entered: Vec<Vec<Arc>> = Vec::new();
+        for _ in 0..self.longest {
+            let mut next = costs.clone();
+            let mut arcs = vec![UNREACHED; costs.len()];
+            for face in (0..costs.len()).filter(|face| costs[*face].is_finite()) {
+                for (index, other) in self.target.around(face) {
+                    let hinge = &self.target.hinges[index];
+                    let side = hinge.sides[usize::from(hinge.faces[1] == other)];
+                    let further = costs[face] + self.weights.at(index, goal);
+                    if allowed[other] & (1 << side) != 0 && further < next[other] {
+                        (next[other], arcs[other]) = (further, arc(other, side));
+                    }
+                }
+            }
+            if next == costs {
+                break;
+            }
+            costs = next;
+            entered.push(arcs);
+        }
+        let mut path = Vec::new();
+        let mut at = goal;
+        for arcs in entered.iter().rev() {
+            if arcs[at] != UNREACHED {
+                path.push(arcs[at]);
+                at = tail(self.target, arcs[at]);
+            }
+        }
+        costs[goal].is_finite().then(|| (costs[goal], path.into()))
     }
 
     fn path_to(&self, root: usize, goal: usize) -> Rc<[Arc]> {

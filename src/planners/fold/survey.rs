@@ -134,14 +134,15 @@ struct Kept<'s> {
 impl Kept<'_> {
     fn offer(&mut self, layout: Layout, value: [f64; 2]) {
         self.least = self.least.min(value[0]);
+        let against = self.best.first().map_or(Ordering::Less, |best| compare(value[0], best.1[0]));
         let last = self.best.last().filter(|_| self.best.len() >= self.settings.keep.max(1));
-        if last.is_some_and(|last| order(&value, &last.1).is_gt()) {
+        let is_kept = last.is_none_or(|last| order(&value, &last.1).is_le());
+        if !is_kept && against.is_gt() {
             return;
         }
         if self.settings.flat && !Pattern::of(self.target, &layout).overlaps().is_empty() {
             return;
         }
-        let against = self.best.first().map_or(Ordering::Less, |best| compare(value[0], best.1[0]));
         if against.is_lt() {
             (self.ties, self.roots) = (0, Vec::new());
         }
@@ -150,6 +151,9 @@ impl Kept<'_> {
                 self.roots.push(layout.root);
             }
             self.ties += 1;
+        }
+        if !is_kept {
+            return;
         }
         let place = self.best.partition_point(|other| order(&other.1, &value).is_le());
         self.best.insert(place, (layout, value));

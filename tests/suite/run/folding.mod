@@ -45,3 +45,108 @@ use std.mori.Mori
 use std.shapes.octahedron
 print(fold(octahedron(edge: 80mm), module: Mori, step: 1s).layouts)
 //                                                     ^^ E0506 can't fold as fast
+
+--- every layout that ties is counted, and random orders are compared
+use std.mori.Mori
+use std.shapes.octahedron
+let all = fold(octahedron(edge: 80mm), module: Mori, method: enumerate)
+print(all.tied, all.ties, all.price, abs(all.energy / all.bound - 1) < 1e-6, all.fewest_steps, all.optimal)
+//> 192 [0, 1, 2, 3, 4, 5, 6, 7] 1 true 3 true
+let some = random_orders(all, orders: 200, seed: 3)
+print(some.orders, some.worse > 0.5, some.least >= all.energy * 0.999999, some.mean > all.energy)
+//> 200 true true true
+print(random_orders(all, orders: 200, seed: 3).mean == some.mean, random_orders(all, orders: 200).mean == some.mean)
+//> true false
+
+--- other objectives and conventions
+use std.mori.Mori
+use std.shapes.{octahedron, quadruped18}
+let plain = fold(octahedron(edge: 80mm), module: Mori, root: 0)
+let peak = fold(octahedron(edge: 80mm), module: Mori, root: 0, minimise: peak_torque)
+print(peak.peak_torque < plain.peak_torque, peak.energy >= plain.energy, peak.optimal)
+//> true true true
+let steps = fold(quadruped18(edge: 80mm), module: Mori, minimise: steps)
+print(steps.steps, steps.fewest_steps, steps.optimal, steps.price)
+//> 4 4 true 1
+let heavy = fold(octahedron(edge: 80mm), module: Mori, root: 0, inertia: prism)
+print(heavy.energy > plain.energy, fold(octahedron(edge: 80mm), module: Mori, root: 0, inertia: point).energy < plain.energy)
+//> true true
+let lifted = fold(octahedron(edge: 80mm), module: Mori, root: 0, gravity: on)
+print(lifted.energy > plain.energy, lifted.assumes.gravity > 9m/s^2, lifted.bound <= lifted.energy, verify(lifted).ok)
+//> true true true true
+
+--- orders
+use std.mori.Mori
+use std.shapes.quadruped18
+let quad = quadruped18(edge: 80mm)
+let work = fold(quad, module: Mori, sequence: least_work)
+let cheap = fold(quad, module: Mori, sequence: least_energy)
+let plain = fold(quad, module: Mori)
+print(work.lifting < plain.lifting, work.lifting >= work.lifting_bound, cheap.energy < plain.energy, cheap.optimal)
+//> true true true false
+
+--- passive panels, and hinges that are too thick
+use std.mori.Mori
+use std.shapes.{tetrahedron, octahedron}
+let light = fold(octahedron(edge: 80mm), module: Mori, passive: [6, 7], passive_module: Mori(weight: 8g))
+print(light.layouts, mass(light.robot), light.optimal)
+//> 160 172g true
+print(fold(tetrahedron(edge: 80mm), module: Mori, root: 0, hinge_radius: 6mm).too_thick)
+//> []
+print(fold(tetrahedron(edge: 80mm), module: Mori, root: 0, hinge_radius: 5mm).too_thick)
+//> [1, 2, 3]
+
+--- a layout of one's own
+use std.mori.Mori
+use std.shapes.tetrahedron
+let path = fold(tetrahedron(edge: 80mm), module: Mori, root: 0, hinges: [[0, 1], [1, 2], [2, 3]])
+print(path.layout.hinges, path.steps, path.optimal, path.energy > path.bound)
+//> [[0, 1], [1, 2], [2, 3]] 3 false true
+
+--- options that don't go together
+use std.mori.Mori
+use std.shapes.octahedron
+print(fold(octahedron(edge: 80mm), module: Mori, method: heuristic, gravity: on).layouts)
+//                                                       ^^^^^^^^^ E0506 moving joints without gravity
+
+--- an order that is not found under gravity
+use std.mori.Mori
+use std.shapes.octahedron
+print(fold(octahedron(edge: 80mm), module: Mori, count: all, sequence: least_energy).layouts)
+//                                                                     ^^^^^^^^^^^^ E0506 moving joints without gravity
+
+--- a value that an option does not know
+use std.mori.Mori
+use std.shapes.octahedron
+print(fold(octahedron(edge: 80mm), module: Mori, inertia: sphere).layouts)
+//                                                        ^^^^^^ E0201
+
+--- passive panels of nothing
+use std.mori.Mori
+use std.shapes.octahedron
+print(fold(octahedron(edge: 80mm), module: Mori, passive: [0]).layouts)
+//                                                        ^^^ E0506 of what
+
+--- passive panels that nothing drives
+use std.mori.Mori
+use std.shapes.octahedron
+print(fold(octahedron(edge: 80mm), module: Mori, passive: [i for i in 0..8], passive_module: Mori(weight: 8g)).layouts)
+//                                                        ^^^^^^^^^^^^^^^^^ E0803 no chain of hinges with motors
+
+--- a passive face that there isn't
+use std.mori.Mori
+use std.shapes.octahedron
+print(fold(octahedron(edge: 80mm), module: Mori, passive: [9], passive_module: Mori).layouts)
+//                                                        ^^^ E0506 there is no face 9
+
+--- hinges that are no layout
+use std.mori.Mori
+use std.shapes.tetrahedron
+print(fold(tetrahedron(edge: 80mm), module: Mori, hinges: [[0, 1], [1, 2]]).layouts)
+//                                                        ^^^^^^^^^^^^^^^^ E0506 join not all 4 faces
+
+--- too many layouts to simulate
+use std.mori.Mori
+use std.shapes.icosahedron
+print(fold(icosahedron(edge: 80mm), module: Mori, method: enumerate, count: all).layouts)
+//         ^^^^^^^^^^^^^^^^^^^^^^^ E0802 too many layouts
