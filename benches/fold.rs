@@ -89,9 +89,15 @@ fn dynamics(truth: &serde_json::Value) {
             (0..REPEATS).for_each(|_| work());
             start.elapsed() / REPEATS
         };
-        let by_form = time(&mut || drop(std::hint::black_box(closed.leaves_first(&layout))));
-        let by_steps = time(&mut || drop(std::hint::black_box(simulated.leaves_first(&layout))));
-        let look = time(&mut || drop(std::hint::black_box(meeting(&target, &layout, &steps, 0.02))));
+        let by_form = time(&mut || {
+            std::hint::black_box(closed.leaves_first(&layout));
+        });
+        let by_steps = time(&mut || {
+            std::hint::black_box(simulated.leaves_first(&layout));
+        });
+        let look = time(&mut || {
+            std::hint::black_box(meeting(&target, &layout, &steps, 0.02));
+        });
         let order = time(&mut || {
             order_energy::least_energy(&target, &layout, &masses, Inertia::Lamina);
         });

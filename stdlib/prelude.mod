@@ -1388,8 +1388,8 @@ extern type Folding is Plan {
   bound: Energy
   /// No layout folds in fewer steps.
   fewest_steps: Int
-  /// Whether it is proved that no flat layout is better with the leaves folded first, and this is how
-  /// it folds.
+  /// Whether it is proved that with the leaves folded first no better layout lies flat and passes the
+  /// verifier, and this is how it folds.
   optimal: Bool
   /// What was minimised, by the least that was found where patterns may overlap and panels may meet.
   price: Number
@@ -1423,8 +1423,8 @@ extern type Folding is Plan {
 /// its three edges. `root` is the face that stays where it is; without it, the best is found.
 ///
 /// `exact` proves its answer without looking at every layout, where it can; `enumerate` looks at every
-/// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet, other
-/// layouts of the same energy are tried, then other orders: `optimal` tells.
+/// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet on the way, the
+/// next best layout is sought, then other orders are tried: `optimal` and `price` tell.
 ///
 /// `minimise` says what is to be small with the leaves folded first: the `energy`, the greatest torque,
 /// or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are

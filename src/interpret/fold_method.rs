@@ -129,7 +129,7 @@ impl Question<'_> {
     }
 
     fn enumerated(&self) -> Eval<Found> {
-        if !self.objective.adds_up() {
+        if !self.objective.adds_up() || self.options.minimise == Minimise::Steps {
             let (found, limit) = self.surveyed()?;
             return if found.proved {
                 Ok(found)

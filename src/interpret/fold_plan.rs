@@ -15,13 +15,14 @@ use crate::behavior::{self, Problem};
 use crate::plan::{CauseId, World};
 use crate::planners::fold::exact::{self, Word};
 use crate::planners::fold::meeting::{Meeting, meeting};
+use crate::planners::fold::objective::Minimise;
 use crate::planners::fold::{Layout, Proof, closing, count, order, order_energy, steps};
 use crate::robot::State;
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
 /// Layouts that are put before the judge, and at which a quick look is taken.
-const JUDGED_MAX: usize = 64;
+const JUDGED_MAX: usize = 200;
 const LOOKED_AT_MAX: usize = 4096;
 
 /// In a quick look panels are so much smaller, so that it refuses nothing that the judge may let
@@ -185,10 +186,15 @@ impl Task<'_> {
     fn answer(&self, outcome: Outcome, found: &Found, optimal: bool) -> Value {
         let Outcome { planned, layout, steps } = outcome;
         let Question { target, objective, options, .. } = self.question;
-        let value = objective.value(&layout)[0];
+        let effort = objective.effort(&layout, &steps);
+        let value = match options.minimise {
+            Minimise::Energy => effort.energy,
+            Minimise::PeakTorque => effort.peak,
+            Minimise::Steps => steps.len() as f64,
+        };
         let folded = Folded {
             layouts: count::layouts(target),
-            effort: objective.effort(&layout, &steps),
+            effort,
             bound: found.bound,
             fewest_steps: objective.fewest_steps(options.root),
             price: if found.least > 0.0 { value / found.least } else { 1.0 },

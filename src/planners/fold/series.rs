@@ -35,8 +35,8 @@ impl Default for Rule {
             let weight = 2.0 / ((1.0 - x * x) * slope * slope);
             let p = polynomials::<TERMS>(x);
             rule.points[i] = x;
-            for k in 0..TERMS {
-                rule.terms[k][i] = weight * p[k] * (k as f64 + 0.5);
+            for (k, term) in rule.terms.iter_mut().enumerate() {
+                term[i] = weight * p[k] * (k as f64 + 0.5);
             }
         }
         rule

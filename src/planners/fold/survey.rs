@@ -6,6 +6,7 @@ use super::enumerate;
 use super::layout::Layout;
 use super::local;
 use super::pattern::Pattern;
+use super::symmetry;
 use super::target::Target;
 use super::weights::Weights;
 use num_traits::ToPrimitive;
@@ -50,10 +51,11 @@ pub fn survey(
     value: &mut dyn FnMut(&Layout) -> [f64; 2],
 ) -> Survey {
     let n = target.faces.len();
-    let roots: Vec<usize> = settings.root.map_or_else(|| (0..n).collect(), |root| vec![root]);
+    // What holds for one root holds for those that are equal to it by symmetry.
+    let equals = settings.root.map_or_else(|| symmetry::orbits(target, weights), |root| vec![root; n]);
+    let roots: Vec<usize> = (0..n).filter(|face| equals[*face] == *face).collect();
     let pairs = count::layouts(target) * roots.len();
-    let mut kept =
-        Kept { target, settings, best: Vec::new(), ties: 0, roots: Vec::new(), least: f64::INFINITY };
+    let mut kept = Kept { target, settings, best: Vec::new(), ties: vec![0; n], least: f64::INFINITY };
     let complete = n <= enumerate::FACES_MAX && pairs.to_u64().is_some_and(|pairs| pairs <= settings.budget);
     if complete {
         let walked = enumerate::each(target, u64::MAX, |hinges| {
@@ -67,8 +69,10 @@ pub fn survey(
     } else {
         improve(&mut kept, weights, &roots, value);
     }
-    let Kept { best, ties, mut roots, least, .. } = kept;
-    roots.sort_unstable();
+    let Kept { best, ties, least, .. } = kept;
+    let asked = settings.root.map_or(0..n, |root| root..root + 1);
+    let roots = asked.clone().filter(|root| ties[equals[*root]] > 0).collect();
+    let ties = asked.map(|root| ties[equals[root]]).sum();
     Survey { best, ties, roots, least, complete }
 }
 
@@ -126,8 +130,8 @@ struct Kept<'s> {
     target: &'s Target,
     settings: &'s Settings,
     best: Vec<(Layout, [f64; 2])>,
-    ties: u64,
-    roots: Vec<usize>,
+    /// By root.
+    ties: Vec<u64>,
     least: f64,
 }
 
@@ -144,13 +148,10 @@ impl Kept<'_> {
             return;
         }
         if against.is_lt() {
-            (self.ties, self.roots) = (0, Vec::new());
+            self.ties.fill(0);
         }
         if against.is_le() {
-            if !self.roots.contains(&layout.root) {
-                self.roots.push(layout.root);
-            }
-            self.ties += 1;
+            self.ties[layout.root] += 1;
         }
         if !is_kept {
             return;
