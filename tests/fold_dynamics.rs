@@ -3,6 +3,7 @@
 
 use crate::fold::{MASS, SIDE, TRUTH, near, number, shaken, target};
 use modl::geometry::Vec3;
+use modl::geometry::pose::turned;
 use modl::planners::fold::dynamics::{Dynamics, Hinging};
 use modl::planners::fold::folded::poses_at;
 use modl::planners::fold::inertia::{Body, Inertia, moment_about};
@@ -161,6 +162,46 @@ proptest! {
         for face in 0..torques.len() {
             let limit = narrow[face] + (narrow[face] - wide[face]) / 3.0;
             prop_assert!((torques[face] - limit).abs() < 1e-6 * scale, "{face}: {} {limit}", torques[face]);
+        }
+    }
+
+    /// Where a target lies, and whether it is mirrored, changes no torque; under gravity, too, for it
+    /// pulls where the root's outside is.
+    #[test]
+    fn torques_do_not_depend_on_place_or_hand(
+        target in shaken(), priorities in proptest::collection::vec(0..1000u32, 40), root in 0..18usize,
+        axis in [-1.0..1.0_f64, -1.0..1.0, 0.1..1.0], angle in 0.0..6.0_f64, grow in 0.5..2.0_f64,
+    ) {
+        let root = root % target.faces.len();
+        let layout = grown(&target, &priorities, root);
+        let spent = |target: &Target, layout: &Layout, gravity: f64, step: f64| {
+            let steps = steps::leaves_first(layout);
+            let under = Circumstances { step, gravity };
+            let torques = simulate(target, layout, &bodies(target, Inertia::Lamina), &steps, &under);
+            [torques.energy(Count::Moving, &steps), torques.energy(Count::All, &steps), torques.peak(Count::All, &steps)]
+        };
+        let faces: Vec<Vec<usize>> = target.faces.iter().map(|f| f.to_vec()).collect();
+        let pairs: Vec<[usize; 2]> = layout.hinges().into_iter().map(|h| target.hinges[h].faces).collect();
+        let plain = spent(&target, &layout, GRAVITY, 0.3);
+        // Grown by a factor, under as much more gravity, everything goes with its square.
+        let turn = turned(Vec3::from(axis), angle);
+        let moved = target.vertices.iter().map(|v| turn * v * grow + Vec3::new(1.0, 2.0, 3.0)).collect();
+        let moved = Target::new(moved, &faces).expect("it still folds");
+        let same = Layout::of_pairs(&moved, &pairs, root).expect("the same tree");
+        for (a, b) in spent(&moved, &same, GRAVITY * grow, 0.3).into_iter().zip(plain) {
+            prop_assert!(near(a, b * grow * grow, 1e-8), "{a} {b}");
+        }
+        let mirrored = target.vertices.iter().map(|v| Vec3::new(-v.x, v.y, v.z)).collect();
+        let turned_round: Vec<Vec<usize>> = faces.iter().map(|f| f.iter().rev().copied().collect()).collect();
+        let mirrored = Target::new(mirrored, &turned_round).expect("it still folds");
+        let same = Layout::of_pairs(&mirrored, &pairs, root).expect("the same tree");
+        for (a, b) in spent(&mirrored, &same, GRAVITY, 0.3).into_iter().zip(plain) {
+            prop_assert!(near(a, b, 1e-8), "{a} {b}");
+        }
+        // Without gravity, with the inverse square of the step.
+        let [slow, fast] = [0.5, 0.25].map(|step| spent(&target, &layout, 0.0, step));
+        for (a, b) in fast.into_iter().zip(slow) {
+            prop_assert!(near(a, 4.0 * b, 1e-9));
         }
     }
 }
