@@ -3,17 +3,17 @@ use std.smores.{Smores, MagnetFace, Driver5}
 
 /// Two fingers that close on rails. It has no motor for turning: the arm's last module does that.
 module Gripper(reach: Length = 60mm) {
-  link palm  = box(20mm, 90mm, 60mm, mass: 120g)
+  link palm = box(20mm, 90mm, 60mm, mass: 120g)
   link upper = box(reach, 10mm, 30mm, mass: 30g, friction: 0.9) at [reach / 2 + 10mm, 30mm, 0mm]
   link lower = box(reach, 10mm, 30mm, mass: 30g, friction: 0.9) at [reach / 2 + 10mm, -30mm, 0mm]
-  joint slide  : palm -> upper = prismatic(axis: -Y, range: 0mm..24mm, max_speed: 40mm/s, max_force: 30N)
+  joint slide : palm -> upper = prismatic(axis: -Y, range: 0mm..24mm, max_speed: 40mm/s, max_force: 30N)
   joint follow : palm -> lower = prismatic(axis: Y, range: 0mm..24mm, max_speed: 40mm/s, max_force: 30N)
   port wrist : MagnetFace on palm at [-10.5mm, 0mm, 0mm] facing -X up +Z
 }
 
 /// A small car that carries the gripper on an arm of two modules.
 config Picker {
-  part car : Driver5
+  part car: Driver5
   part arm[2]: Smores
   part hand: Gripper
   connect car.nose -- arm[0].bottom

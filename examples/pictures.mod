@@ -6,7 +6,7 @@ use std.truss.PneumaticReel
 
 /// The walker of `walkbot.mod`, standing up.
 config Walkbot(bend: Angle = 30deg) {
-  part body  : Body3
+  part body: Body3
   part leg[4]: Leg3(bend: bend)
   for i in 0..4 { connect body.side[i] -- leg[i].hip }
   base body.core
@@ -34,9 +34,9 @@ lattice Ell of ExpandingCube = cells("""
 truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
 
 let w = Walkbot()
-show(Sc(w.stand(), w.step()), "walkbot.png", at: 3s)   // a picture at a time
-show(w.step(), "step.svg")                             // its behaviour: a series-parallel graph
-show(w, "walkbot.svg")                                 // its modules and bonds
-show(Strip(), "strip.svg")                             // true to scale, for scissors
-show(Ell(), "ell.svg")                                 // cells
-show(Pyramid(), "pyramid.png")                         // nodes and struts
+show(Sc(w.stand(), w.step()), "walkbot.png", at: 3s)  // a picture at a time
+show(w.step(), "step.svg")                            // its behaviour: a series-parallel graph
+show(w, "walkbot.svg")                                // its modules and bonds
+show(Strip(), "strip.svg")                            // true to scale, for scissors
+show(Ell(), "ell.svg")                                // cells
+show(Pyramid(), "pyramid.png")                        // nodes and struts

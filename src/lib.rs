@@ -1,13 +1,15 @@
 //! modl: a language for robots that change shape.
 //!
 //! The journey of the data, and the rooms in reading order; each knows only those above it:
-//! text ([`source`], [`units`]) → tree ([`syntax`]) → types ([`check`]) → values ([`interpret`]) →
+//! text ([`source`], [`units`]) → tree ([`syntax`], and back to text: [`format`]) → types ([`check`]) → values ([`interpret`]) →
 //! plan ([`behavior`], [`planners`]) → verdict ([`plan`]) → file or picture ([`view`]). See `docs/architecture.md`.
 
 pub mod source;
 pub mod units;
 
 pub mod syntax;
+
+pub mod format;
 
 pub mod check;
 

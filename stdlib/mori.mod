@@ -36,7 +36,7 @@ module Mori(side: Length = 80mm, thickness: Length = 6mm, weight: Mass = 26g) {
     collides hull(
       [[2 * middle * cos(a), 2 * middle * sin(a), 0mm] for a in [-150deg, -30deg, 90deg]]
         ++ [[2 * outside * cos(a), 2 * outside * sin(a), z]
-            for a in [-150deg, -30deg, 90deg] for z in [-thickness / 2, thickness / 2]],
+          for a in [-150deg, -30deg, 90deg] for z in [-thickness / 2, thickness / 2]],
     )
 
   for i in 0..3 {

@@ -24,17 +24,17 @@ module Rofi(pitch: Length = 100mm) {
 
   joint alpha : shoe_a -> body_a = revolute(axis: X, range: -90deg..90deg, max_speed: rate, max_torque: 10N*m)
   joint gamma : body_a -> body_b = revolute(axis: Z, max_speed: rate, max_torque: 10N*m)
-  joint beta  : body_b -> shoe_b = revolute(axis: X, range: -90deg..90deg, max_speed: rate, max_torque: 10N*m) at [0mm, 0mm, pitch]
+  joint beta : body_b -> shoe_b = revolute(axis: X, range: -90deg..90deg, max_speed: rate, max_torque: 10N*m) at [0mm, 0mm, pitch]
 
   // The two balls of a module touch in one point.
   touching shoe_a shoe_b
   touching shoe_a body_b
   touching body_a shoe_b
 
-  port a_plus_x  : Dock on shoe_a at [pitch / 2, 0mm, 0mm]  facing +X up -Z
+  port a_plus_x : Dock on shoe_a at [pitch / 2, 0mm, 0mm] facing +X up -Z
   port a_minus_x : Dock on shoe_a at [-pitch / 2, 0mm, 0mm] facing -X up +Z
   port a_minus_z : Dock on shoe_a at [0mm, 0mm, -pitch / 2] facing -Z up +X
-  port b_plus_x  : Dock on shoe_b at [pitch / 2, 0mm, 0mm]  facing +X up -Z
+  port b_plus_x : Dock on shoe_b at [pitch / 2, 0mm, 0mm] facing +X up -Z
   port b_minus_x : Dock on shoe_b at [-pitch / 2, 0mm, 0mm] facing -X up +Z
   port b_minus_z : Dock on shoe_b at [0mm, 0mm, -pitch / 2] facing -Z up +X
 }

@@ -19,9 +19,9 @@ connector MagnetFace { mates MagnetFace, turns 4, capture 4mm 5deg }
 /// Pan and tilt come from two motors through a differential: one turns with their sum, one with
 /// their difference.
 module Smores {
-  let rate = 2.4086rad/s                       // 23 rpm
+  let rate = 2.4086rad/s  // 23 rpm
 
-  mass 557.2924g                               // the sum of the links
+  mass 557.2924g  // the sum of the links
 
   // The wheels are the lowest parts; the holder's edges stay 1.3 mm, the top disc 3.3 mm above the ground.
   contact 4mm
@@ -37,16 +37,16 @@ module Smores {
   )
   /// The half with the motors, which tilts.
   link block = box(72.3mm, 72.2mm, 59.6mm, mass: 309.551g, com: [1.7906mm, 0mm, 0mm], friction: 0.35) at [6.45mm, 0mm, 0mm]
-  link top_disc   = cylinder(radius: 42mm, length: 3.2mm, axis: X, mass: 45.716g, com: [-3.8mm, 0mm, 0mm], friction: 0.75) at [47.5mm, 0mm, 0mm]
-  link left_disc  = cylinder(radius: 45.3mm, length: 6mm, axis: Y, mass: 37.2637g, com: [0mm, -0.3mm, 0mm], friction: 1.0) at [0mm, 46.1mm, 0mm]
+  link top_disc = cylinder(radius: 42mm, length: 3.2mm, axis: X, mass: 45.716g, com: [-3.8mm, 0mm, 0mm], friction: 0.75) at [47.5mm, 0mm, 0mm]
+  link left_disc = cylinder(radius: 45.3mm, length: 6mm, axis: Y, mass: 37.2637g, com: [0mm, -0.3mm, 0mm], friction: 1.0) at [0mm, 46.1mm, 0mm]
   link right_disc = cylinder(radius: 45.3mm, length: 6mm, axis: Y, mass: 37.2637g, com: [0mm, 0.3mm, 0mm], friction: 1.0) at [0mm, -46.1mm, 0mm]
 
-  joint tilt  : holder -> block      = revolute(axis: -Y, range: -90deg..90deg, max_speed: rate, max_torque: 2.3N*m)
-  joint front : block -> top_disc    = revolute(axis: X, max_speed: rate, max_torque: 2.3N*m)
-  joint left  : holder -> left_disc  = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
+  joint tilt : holder -> block = revolute(axis: -Y, range: -90deg..90deg, max_speed: rate, max_torque: 2.3N*m)
+  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_torque: 2.3N*m)
+  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
   joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
   alias pan = front
-  motor sum        = tilt + front (max_speed: rate)
+  motor sum = tilt + front (max_speed: rate)
   motor difference = tilt - front (max_speed: rate)
 
   // These parts pass each other by 1 to 2 mm at any tilt; that is how the module is built, and no news.
@@ -54,10 +54,10 @@ module Smores {
   touching top_disc left_disc
   touching top_disc right_disc
 
-  port top    : MagnetFace on top_disc   at [2.5mm, 0mm, 0mm]  facing +X up +Z
-  port bottom : MagnetFace on holder     at [-50mm, 0mm, 0mm]  facing -X up +Z
-  port left   : MagnetFace on left_disc  at [0mm, 3.9mm, 0mm]  facing +Y up +Z
-  port right  : MagnetFace on right_disc at [0mm, -3.9mm, 0mm] facing -Y up +Z
+  port top : MagnetFace on top_disc at [2.5mm, 0mm, 0mm] facing +X up +Z
+  port bottom : MagnetFace on holder at [-50mm, 0mm, 0mm] facing -X up +Z
+  port left : MagnetFace on left_disc at [0mm, 3.9mm, 0mm] facing +Y up +Z
+  port right : MagnetFace on right_disc at [0mm, -3.9mm, 0mm] facing -Y up +Z
 }
 
 // The electro-permanent generation, from 2015.
@@ -65,8 +65,8 @@ module Smores {
 /// The electro-permanent face of SMORES-EP: four magnets, genderless, in four turns.
 connector EPFace {
   mates EPFace, turns 4
-  holds 88.4N                                  // mean of the published pulls
-  holds 1.9N*m                                 // that pull at the lever of the magnets about the face's edge
+  holds 88.4N   // mean of the published pulls
+  holds 1.9N*m  // that pull at the lever of the magnets about the face's edge
   capture 4mm 5deg
 }
 
@@ -74,7 +74,7 @@ connector EPFace {
 ///
 /// The split of the mass is an estimate.
 module SmoresEP {
-  let rate = 2.4086rad/s                       // 23 rpm at no load
+  let rate = 2.4086rad/s  // 23 rpm at no load
 
   mass 454g
   contact 4mm
@@ -88,27 +88,27 @@ module SmoresEP {
     mass: 30g, com: [-22mm, 0mm, 0mm], friction: 0.02,
   )
   link block = box(54mm, 58mm, 38mm, mass: 314g, com: [-13mm, 0mm, 0mm], friction: 0.02) at [5mm, 0mm, 0mm]
-  link top_disc   = cylinder(radius: 31.4mm, length: 5mm, axis: X, mass: 40g, friction: 0.15) at [36.5mm, 0mm, 0mm]
-  link left_disc  = cylinder(radius: 31.25mm, length: 4.4mm, axis: Y, mass: 35g, friction: 1.0) at [0mm, 36.8mm, 0mm]
+  link top_disc = cylinder(radius: 31.4mm, length: 5mm, axis: X, mass: 40g, friction: 0.15) at [36.5mm, 0mm, 0mm]
+  link left_disc = cylinder(radius: 31.25mm, length: 4.4mm, axis: Y, mass: 35g, friction: 1.0) at [0mm, 36.8mm, 0mm]
   link right_disc = cylinder(radius: 31.25mm, length: 4.4mm, axis: Y, mass: 35g, friction: 1.0) at [0mm, -36.8mm, 0mm]
 
   // The driver refuses tilts beyond 80 degrees.
-  joint tilt  : holder -> block      = revolute(axis: -Y, range: -80deg..80deg, max_speed: rate, max_torque: 2.3N*m)
-  joint front : block -> top_disc    = revolute(axis: X, max_speed: rate, max_torque: 1.4N*m)
-  joint left  : holder -> left_disc  = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
+  joint tilt : holder -> block = revolute(axis: -Y, range: -80deg..80deg, max_speed: rate, max_torque: 2.3N*m)
+  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_torque: 1.4N*m)
+  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
   joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
   alias pan = front
-  motor sum        = tilt + front (max_speed: rate)
+  motor sum = tilt + front (max_speed: rate)
   motor difference = tilt - front (max_speed: rate)
 
   touching holder top_disc
   touching top_disc left_disc
   touching top_disc right_disc
 
-  port top    : EPFace on top_disc   at [3.5mm, 0mm, 0mm]  facing +X up +Z
-  port bottom : EPFace on holder     at [-40mm, 0mm, 0mm]  facing -X up +Z
-  port left   : EPFace on left_disc  at [0mm, 3.2mm, 0mm]  facing +Y up +Z
-  port right  : EPFace on right_disc at [0mm, -3.2mm, 0mm] facing -Y up +Z
+  port top : EPFace on top_disc at [3.5mm, 0mm, 0mm] facing +X up +Z
+  port bottom : EPFace on holder at [-40mm, 0mm, 0mm] facing -X up +Z
+  port left : EPFace on left_disc at [0mm, 3.2mm, 0mm] facing +Y up +Z
+  port right : EPFace on right_disc at [0mm, -3.2mm, 0mm] facing -Y up +Z
 }
 
 // Order 1: designs of single modules.
@@ -153,9 +153,9 @@ config Chain3 {
 
 /// Three modules in a row that steer: the outer ones are the axles of a car.
 config Steer3 {
-  part front : Smores
+  part front: Smores
   part center: Smores
-  part back  : Smores
+  part back: Smores
   connect front.bottom -- center.top
   connect center.bottom -- back.top
   base center
@@ -184,8 +184,8 @@ fn _ahead(hip: Port) -> Number = dot(direction(pose(hip), X), Y)
 /// `bend` is how far the knee bends when the leg lifts its foot.
 config Leg3(bend: Angle = 30deg) {
   part thigh: Smores
-  part shin : Smores
-  part foot : Smores
+  part shin: Smores
+  part foot: Smores
   connect thigh.bottom -- shin.top
   connect shin.bottom -- foot.top
   set thigh.tilt = -90deg
@@ -211,8 +211,8 @@ config Leg3(bend: Angle = 30deg) {
 /// A body of three modules, BODY3, with a place for a leg at each corner: front left and right, back left and right.
 config Body3 {
   part front: Smores
-  part core : Smores
-  part back : Smores
+  part core: Smores
+  part back: Smores
   connect front.bottom -- core.top
   connect core.bottom -- back.top
   base core
@@ -245,8 +245,8 @@ config Arm(n: Int = 4) {
 config Puma4 {
   part waist: Smores
   part upper: Smores
-  part fore : Smores
-  part hand : Smores
+  part fore: Smores
+  part hand: Smores
   connect waist.top -- upper.bottom
   connect upper.top -- fore.bottom
   connect fore.top -- hand.bottom
@@ -272,9 +272,9 @@ config Puma4 {
 
 /// Two arms of three modules at the sides of a seventh: GRASPER7.
 config Grasper7 {
-  part m    : Smores
-  part l[3] : Smores
-  part r[3] : Smores
+  part m: Smores
+  part l[3]: Smores
+  part r[3]: Smores
   connect m.left -- l[0].top
   connect m.right -- r[0].top
   for i in 0..2 {
@@ -344,7 +344,7 @@ fn _stride(legs: List<Leg3>, a: Int, b: Int, swing: Angle) -> Behavior = Sc(
 
 /// A body with four legs that walks: WALK4.
 config Walk4(bend: Angle = 30deg) {
-  part body  : Body3
+  part body: Body3
   part leg[4]: Leg3(bend: bend)
   for i in 0..4 { connect body.side[i] -- leg[i].hip }
   base body.core
@@ -362,7 +362,7 @@ config Walk4(bend: Angle = 30deg) {
 /// A spine of five modules with four legs at its ends: FOURLEG17.
 config FourLeg17(bend: Angle = 30deg) {
   part spine[5]: Smores
-  part leg[4]  : Leg3(bend: bend)
+  part leg[4]: Leg3(bend: bend)
   for i in 0..4 { connect spine[i].bottom -- spine[i + 1].top }
   connect spine[0].left -- leg[0].hip
   connect spine[0].right -- leg[1].hip
@@ -385,7 +385,7 @@ config FourLeg17(bend: Angle = 30deg) {
 /// The legs of a side stand too close to swing past each other: it treads on the spot.
 config Walker14(bend: Angle = 30deg) {
   part spine[2]: Smores
-  part leg[4]  : Leg3(bend: bend)
+  part leg[4]: Leg3(bend: bend)
   connect spine[0].bottom -- spine[1].top
   for i in 0..2 {
     connect spine[i].left -- leg[2 * i].hip
@@ -413,7 +413,7 @@ config Walker14(bend: Angle = 30deg) {
 /// Its legs hang from the wheels of the spine: both turntables of a hip swing the leg.
 config Walkbot17 {
   part spine[5]: Smores
-  part leg[4]  : Chain3
+  part leg[4]: Chain3
   for i in 0..4 { connect spine[i].bottom -- spine[i + 1].top }
   connect spine[1].left -- leg[0].m[0].left turn 270deg
   connect spine[1].right -- leg[1].m[0].right turn 90deg
@@ -532,7 +532,7 @@ config Tank7 {
 /// A car of eight modules on the top discs of four arms: RCCAR8.
 config RcCar8 {
   part spine[4]: Smores
-  part arm[4]  : Smores
+  part arm[4]: Smores
   for i in 0..3 { connect spine[i].bottom -- spine[i + 1].top }
   connect spine[0].left -- arm[0].bottom
   connect spine[0].right -- arm[1].bottom
@@ -548,8 +548,8 @@ config RcCar8 {
 
 /// A driving base with a trunk of four modules in front: PROBOSCIS7.
 config Proboscis7 {
-  part back    : Smores
-  part side[2] : Smores
+  part back: Smores
+  part side[2]: Smores
   part trunk[4]: Smores
   connect back.left -- side[0].bottom
   connect back.right -- side[1].bottom
@@ -570,7 +570,7 @@ config Proboscis7 {
 
 /// A chain of four with two arms at its front: SCORPION6.
 config Scorpion6 {
-  part s[4]  : Smores
+  part s[4]: Smores
   part arm[2]: Smores
   for i in 0..3 { connect s[i].bottom -- s[i + 1].top }
   connect s[0].left -- arm[0].bottom
@@ -589,7 +589,7 @@ config Scorpion6 {
 
 /// A cross of nine modules that stands on four feet: CROSS9. Its inner modules are the knees.
 config Cross9(stance: Angle = 90deg) {
-  part m       : Smores
+  part m: Smores
   part inner[4]: Smores
   part outer[4]: Smores
   connect m.top -- inner[0].top
@@ -609,10 +609,10 @@ config Cross9(stance: Angle = 90deg) {
 
 /// A mobile manipulator of eight modules, MOBMANIP8: two drivers, a front support, and an arm behind.
 config MobManip8 {
-  part m      : Smores
+  part m: Smores
   part wheel[2]: Smores
   part support: Smores
-  part arm[4] : Smores
+  part arm[4]: Smores
   connect m.left -- wheel[0].bottom
   connect m.right -- wheel[1].bottom
   connect m.top -- support.bottom

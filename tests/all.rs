@@ -19,6 +19,7 @@ mod fold_collisions;
 mod fold_dynamics;
 mod fold_objective;
 mod fold_random;
+mod format;
 mod gaits;
 mod generated;
 mod ground;

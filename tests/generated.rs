@@ -10,14 +10,14 @@ const VALID: u64 = 40;
 const DAMAGED: u64 = 400;
 
 /// A generator of numbers (xorshift), the same on every machine.
-struct Dice(u64);
+pub struct Dice(u64);
 
 impl Dice {
-    fn new(seed: u64) -> Dice {
+    pub fn new(seed: u64) -> Dice {
         Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub fn below(&mut self, n: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -42,7 +42,7 @@ module Hinge(length: Length = 40mm) {
 ";
 
 /// A program that is right: numbers, a robot that is a tree, behaviours within its limits.
-fn program(dice: &mut Dice) -> String {
+pub fn program(dice: &mut Dice) -> String {
     let mut text = String::from(MODULE);
     let modules = 2 + dice.below(4);
     arithmetic(dice, &mut text);

@@ -16,6 +16,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("source", &[]),
     ("units", &[]),
     ("syntax", &["source"]),
+    ("format", &["source", "syntax"]),
     ("check", &["source", "units", "syntax"]),
     ("geometry", &["units"]),
     ("optimize", &[]),
@@ -29,7 +30,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &["source", "units", "syntax", "check", "geometry", "robot", "plan", "behavior", "planners", "view"],
     ),
     ("serve", &["source", "units", "syntax", "check", "robot", "plan", "interpret"]),
-    ("cli", &["source", "units", "check", "plan", "behavior", "view", "interpret", "serve"]),
+    ("cli", &["source", "units", "format", "check", "plan", "behavior", "view", "interpret", "serve"]),
 ];
 
 /// Crates and parts of the standard library that belong to one room, or to a few.

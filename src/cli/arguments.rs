@@ -78,6 +78,20 @@ pub enum Command {
         #[arg(long)]
         open: bool,
     },
+    /// Lay programs out in the one style
+    #[command(
+        after_help = "Examples:\n  modl fmt walkbot.mod\n  modl fmt .\n  modl fmt --check parts/*.mod\n  \
+        modl fmt - < walkbot.mod\n\nLine breaks are yours; indentation, spaces and blank lines are not. Of a folder all `.mod` \
+        files are taken.\nWhat can't be read stays as it is."
+    )]
+    Fmt {
+        /// Programs and folders; `-` reads standard input and writes to standard output
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+        /// Write nothing; fail where something is not in style
+        #[arg(long)]
+        check: bool,
+    },
     /// Begin a project: a folder with a program that runs, and a test
     #[command(
         after_help = "Example:\n  modl new rover && modl run rover/main.mod\n\nNothing is ever overwritten."

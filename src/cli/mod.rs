@@ -7,6 +7,7 @@
 mod arguments;
 mod disk;
 mod explain;
+mod fmt;
 mod judge;
 mod new;
 mod output;
@@ -58,6 +59,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Test { files, filter } => program::run(files, program::Task::Test(filter.clone()), globals),
         Command::Verify { files } => judge::run(files, globals),
         Command::Show { file, open } => show::run(file, *open, globals),
+        Command::Fmt { files, check } => fmt::run(files, *check, globals),
         Command::New { name } => new::run(name, globals),
         Command::Explain { code } => explain::run(code.as_deref(), globals),
         Command::Completions { shell } => {

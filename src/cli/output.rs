@@ -24,6 +24,21 @@ pub fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, WriteErr
     Ok(folder.join(relative).to_string_lossy().into_owned())
 }
 
+/// Puts other bytes into a file that is there, wherever links lead; whole or not at all. Who may read
+/// it stays as it was.
+pub fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    let target = fs::canonicalize(file)?;
+    let found = fs::metadata(&target)?;
+    if found.permissions().readonly() {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    let parent = target.parent().unwrap_or(Path::new("."));
+    let mut file = tempfile::Builder::new().prefix(".modl-").tempfile_in(parent)?;
+    file.write_all(bytes)?;
+    file.as_file().set_permissions(found.permissions())?;
+    file.persist(&target).map(drop).map_err(|e| e.error)
+}
+
 /// Steps down folder by folder, making the missing ones. A link may lead about, but not out.
 fn parent_below(root: &Path, relative: &Path) -> Result<PathBuf, WriteError> {
     let mut parent = root.to_owned();

@@ -14,10 +14,13 @@ mod characters;
 mod explain;
 mod failure;
 mod lex;
+mod outline;
 mod parse;
 mod recover;
 mod scan;
 mod split;
 mod words;
 
+pub use lex::{Token, TokenKind};
+pub use outline::{Chunk, Outline, Role, Skeleton, skeleton};
 pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, parse};

@@ -1,0 +1,125 @@
+//! `modl fmt`: programs in the one style, in place.
+
+use super::arguments::Globals;
+use super::disk::{FILE_BYTES_MAX, STDIN_NAME, read_at_most, read_regular, system_words};
+use super::report::{self, Report};
+use super::terminal::{print, print_error};
+use super::{CallError, Ending, output};
+use crate::format::format;
+use crate::source::{Diagnostic, Sources, code};
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// Folders within folders that are looked into.
+const DEPTH_MAX: usize = 64;
+
+pub fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<Ending, CallError> {
+    // All files are read first: a call that is wrong does nothing.
+    let mut programs = Vec::new();
+    for file in files {
+        collect(file, 0, &mut programs)?;
+    }
+    let mut report = Report::default();
+    report.written = Some(Vec::new());
+    let mut ok = true;
+    for program in programs {
+        ok &= one(&program, check, &mut report, globals)?;
+    }
+    report.finish(ok, globals);
+    Ok(if ok { Ending::Fine } else { Ending::Wrong })
+}
+
+/// A program to format.
+struct Program {
+    /// `None`: standard input.
+    file: Option<PathBuf>,
+    name: String,
+    bytes: Vec<u8>,
+}
+
+fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(), CallError> {
+    if file == Path::new("-") {
+        let bytes = read_at_most(io::stdin().lock(), FILE_BYTES_MAX)
+            .map_err(|e| CallError(format!("standard input {e}")))?;
+        programs.push(Program { file: None, name: STDIN_NAME.to_owned(), bytes });
+        return Ok(());
+    }
+    let name = file.to_string_lossy().into_owned();
+    if file.is_dir() {
+        let cannot =
+            |e: io::Error| CallError(format!("the folder `{name}` can't be read: {}", system_words(&e)));
+        let entries = fs::read_dir(file).map_err(cannot)?;
+        let mut paths =
+            entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(cannot)?;
+        paths.sort();
+        for path in paths.iter().filter(|path| depth < DEPTH_MAX && belongs(path)) {
+            collect(path, depth + 1, programs)?;
+        }
+        return Ok(());
+    }
+    let bytes =
+        read_regular(file, FILE_BYTES_MAX).map_err(|e| CallError(format!("the file `{name}` {e}")))?;
+    programs.push(Program { file: Some(file.to_owned()), name, bytes });
+    Ok(())
+}
+
+/// Of what lies in a folder: programs, and folders that are neither hidden nor links.
+fn belongs(path: &Path) -> bool {
+    let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+    let kind = fs::symlink_metadata(path).map(|found| found.file_type());
+    let is_folder = kind.as_ref().is_ok_and(fs::FileType::is_dir);
+    let is_program = kind.is_ok_and(|kind| kind.is_file()) && path.extension().is_some_and(|e| e == "mod");
+    !hidden && (is_folder || is_program)
+}
+
+/// Whether all is well with a program.
+fn one(program: &Program, check: bool, report: &mut Report, globals: &Globals) -> Result<bool, CallError> {
+    let Program { file, name, bytes } = program;
+    let mut sources = Sources::default();
+    let style = report::style(globals, "");
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        let diagnostic = Diagnostic::error(code::NOT_UTF8, format!("`{name}` is not UTF-8 text"));
+        report.add(&sources, &[diagnostic], &style, globals);
+        return Ok(false);
+    };
+    let id = sources.add(name, text, false);
+    let Some(formatted) = format(id, text) else {
+        return Err(CallError(format!(
+            "`{name}` stays as it is: formatting would have changed what it means, a defect of modl"
+        )));
+    };
+    report.add(&sources, &formatted.diagnostics, &style, globals);
+    let sound = formatted.diagnostics.is_empty();
+    if file.is_none() && !check {
+        if globals.json {
+            report.printed = Some(formatted.text.lines().map(str::to_owned).collect());
+        } else {
+            print(&formatted.text);
+        }
+        return Ok(sound);
+    }
+    if formatted.text == text {
+        return Ok(sound);
+    }
+    report.written.get_or_insert_default().push(name.clone());
+    if check {
+        if !globals.json {
+            print(&format!("{name}:{}\n", first_difference(text, &formatted.text)));
+        }
+        return Ok(false);
+    }
+    if let Some(file) = file {
+        output::replace(file, formatted.text.as_bytes())
+            .map_err(|e| CallError(format!("the file `{name}` can't be written: {}", system_words(&e))))?;
+        if !globals.json {
+            print_error(&format!("formatted {name}\n"));
+        }
+    }
+    Ok(sound)
+}
+
+/// The first line that is another, from 1.
+fn first_difference(a: &str, b: &str) -> usize {
+    let same = a.split('\n').zip(b.split('\n')).take_while(|(a, b)| a == b);
+    same.count() + 1
+}

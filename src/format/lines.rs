@@ -1,0 +1,138 @@
+//! Lines: what stands on each, how far it is indented, where one is left blank.
+
+use super::columns::Line;
+use super::spacing::{Piece, before_last};
+use crate::syntax::{Outline, Role, TokenKind};
+
+/// Of one level, in spaces.
+const STEP: usize = 2;
+
+/// A bracket that is open.
+struct Open {
+    /// Indentation of the line that it stands on.
+    line: usize,
+}
+
+/// The lines of a text, laid out anew where it can be read.
+pub fn lines(text: &str, outline: &Outline) -> Vec<Line> {
+    let mut layout = Layout { open: Vec::new(), lines: Vec::new(), before: None, opened: false };
+    let start = outline.chunks.first().map_or(0, |chunk| chunk.range.start);
+    let mut tokens = outline.tokens.iter().peekable();
+    let mut at = start;
+    for chunk in &outline.chunks {
+        let mut pieces = Vec::new();
+        while let Some(token) = tokens.next_if(|token| token.start < chunk.range.end) {
+            pieces.push(Piece {
+                token: *token,
+                text: text[token.start..token.end].trim_end_matches('\r'),
+                role: outline.roles.get(&token.start).copied(),
+                margin: token.start == 0 || text.as_bytes()[token.start - 1] == b'\n',
+                begins: outline.begins.contains(&token.start),
+            });
+        }
+        if chunk.sound {
+            layout.chunk(&pieces);
+        } else {
+            layout.as_it_is(&text[chunk.range.clone()]);
+        }
+        at = chunk.range.end;
+    }
+    debug_assert_eq!(at, text.len(), "chunks have no gaps");
+    layout.lines
+}
+
+struct Layout<'t> {
+    open: Vec<Open>,
+    lines: Vec<Line>,
+    /// The last token that is no comment, since the chunk began.
+    before: Option<Piece<'t>>,
+    /// Whether the last line ended with an opening bracket.
+    opened: bool,
+}
+
+impl<'t> Layout<'t> {
+    fn chunk(&mut self, pieces: &[Piece<'t>]) {
+        self.open.clear();
+        self.before = None;
+        self.opened = false;
+        let (mut blanks, mut at) = (0, 0);
+        for line in pieces.split(|piece| piece.token.kind == TokenKind::LineBreak) {
+            at += line.len() + 1;
+            if line.is_empty() {
+                blanks += 1;
+                continue;
+            }
+            self.line(line, pieces.get(at..).unwrap_or_default(), blanks > 0);
+            blanks = 0;
+        }
+        // The blank lines at the end of a chunk stand before the next.
+        if blanks > 1 {
+            self.lines.push(Line::blank());
+        }
+    }
+
+    /// `rest` is what follows the line in its chunk.
+    fn line(&mut self, line: &[Piece<'t>], rest: &[Piece<'t>], blank: bool) {
+        let first = line[0];
+        if blank && !self.opened && !first.closes() {
+            self.lines.push(Line::blank());
+        }
+        let indent = self.indent(line, rest);
+        let mut out = Line { indent, text: String::new(), comment: None };
+        for (index, piece) in line.iter().enumerate() {
+            if piece.token.kind == TokenKind::LineComment && index > 0 {
+                out.comment = Some(piece.text.to_owned());
+            } else {
+                out.text.extend(std::iter::repeat_n(' ', before_last(&line[..=index])));
+                out.text.push_str(piece.text);
+            }
+            match piece.token.kind {
+                TokenKind::Open => self.open.push(Open { line: indent }),
+                TokenKind::Close => drop(self.open.pop()),
+                _ => {}
+            }
+            if !piece.is_comment() {
+                self.before = Some(*piece);
+            }
+            self.opened = piece.opens();
+        }
+        self.lines.push(out);
+    }
+
+    fn indent(&self, line: &[Piece], rest: &[Piece]) -> usize {
+        let first = line[0];
+        // What is commented out, or points at columns of the line above, stays at the margin.
+        if first.token.kind == TokenKind::LineComment && first.margin {
+            return 0;
+        }
+        if first.closes() {
+            return self.open.last().map_or(0, |open| open.line);
+        }
+        let base = self.open.last().map_or(0, |open| open.line + STEP);
+        // A comment stands with what it is about: what comes next.
+        let told = line.iter().chain(rest).find(|p| !p.is_comment() && p.token.kind != TokenKind::LineBreak);
+        match told {
+            Some(told) if self.goes_on(told) => base + STEP,
+            _ => base,
+        }
+    }
+
+    /// Whether a line with this first token continues the one before.
+    fn goes_on(&self, first: &Piece) -> bool {
+        let Some(before) = self.before else { return false };
+        let anew = first.closes() || first.begins || first.role == Some(Role::Each);
+        let otherwise = first.text == "else" && before.text == "}";
+        !(anew || otherwise || before.opens() || before.text == ",")
+    }
+
+    /// Lines that can't be read, without the white space around them.
+    fn as_it_is(&mut self, text: &str) {
+        let blanks = text.len() - text.trim_end().len();
+        for line in text.trim_end().split('\n') {
+            self.lines.push(Line { indent: 0, text: line.trim_end_matches('\r').to_owned(), comment: None });
+        }
+        if text[text.len() - blanks..].matches('\n').count() > 1 {
+            self.lines.push(Line::blank());
+        }
+    }
+}

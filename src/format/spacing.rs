@@ -1,0 +1,104 @@
+//! How many spaces stand between two tokens of one line.
+
+use crate::syntax::{Role, Token, TokenKind};
+
+/// A token with what is known of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<'t> {
+    pub token: Token,
+    pub text: &'t str,
+    pub role: Option<Role>,
+    /// Whether an item, clause or statement begins with it.
+    pub begins: bool,
+    /// Whether it stands in the first column.
+    pub margin: bool,
+}
+
+impl Piece<'_> {
+    pub fn is_comment(&self) -> bool {
+        matches!(
+            self.token.kind,
+            TokenKind::LineComment | TokenKind::BlockComment { .. } | TokenKind::UnclosedComment
+        )
+    }
+
+    pub fn opens(&self) -> bool {
+        self.token.kind == TokenKind::Open
+    }
+
+    pub fn closes(&self) -> bool {
+        self.token.kind == TokenKind::Close
+    }
+
+    /// A number whose unit a `^` beside it would raise.
+    fn has_unit(&self) -> bool {
+        let digits = |c: char| c.is_ascii_digit() || matches!(c, '.' | '_');
+        self.token.kind == TokenKind::Number && !self.text.chars().all(digits)
+    }
+}
+
+/// Between clauses that share a line, and before a comment behind what it is about.
+pub const APART: usize = 2;
+
+/// The spaces before the last of the pieces of a line, of which there are two at least.
+pub fn before_last(line: &[Piece]) -> usize {
+    let [.., before, after] = line else { return 0 };
+    if after.token.kind == TokenKind::LineComment {
+        return APART;
+    }
+    if let Some(spaces) = in_brackets(before, after) {
+        return spaces;
+    }
+    if after.text == "," || after.text == "?" || after.text == "..." {
+        return 0;
+    }
+    if before.is_comment() || after.is_comment() {
+        return 1;
+    }
+    if after.begins && before.text != "," && !before.opens() {
+        return APART;
+    }
+    if after.text == ":" {
+        return usize::from(after.role == Some(Role::Spaced));
+    }
+    if before.role == Some(Role::Prefix) {
+        return usize::from(before.text == "not" || runs_together(before, after));
+    }
+    if matches!(before.text, "." | "..") || matches!(after.text, "." | "..") {
+        return 0;
+    }
+    // `x^2`, but `2m ^ 2`: without the spaces the unit would be squared.
+    if after.text == "^" {
+        return usize::from(before.has_unit());
+    }
+    if before.text == "^" {
+        return usize::from(line.len() > 2 && line[line.len() - 3].has_unit());
+    }
+    if after.role == Some(Role::Tight) || after.role == Some(Role::Angle) {
+        return 0;
+    }
+    if before.role == Some(Role::Angle) && before.text == "<" {
+        return 0;
+    }
+    1
+}
+
+/// Inside of brackets: none, but for braces, which stand off what they hold.
+fn in_brackets(before: &Piece, after: &Piece) -> Option<usize> {
+    match (before.opens(), after.closes()) {
+        (true, true) => Some(0),
+        (true, false) => Some(usize::from(before.text == "{" && before.role != Some(Role::Names))),
+        (false, true) => Some(usize::from(after.text == "}" && after.role != Some(Role::Names))),
+        (false, false) => None,
+    }
+}
+
+/// `- -x` is no `--x`, and `-` before `>` no arrow.
+fn runs_together(before: &Piece, after: &Piece) -> bool {
+    match before.text {
+        "-" => after.text.starts_with(['-', '>']),
+        "+" => after.text.starts_with('+'),
+        "!" => after.text.starts_with('='),
+        _ => false,
+    }
+}
