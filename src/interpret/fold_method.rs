@@ -146,7 +146,15 @@ impl Question<'_> {
         let least = self.scaled(all.least);
         if !all.complete {
             let (layouts, tied) = (vec![all.best], all.ties);
-            return Ok(Found { layouts, next: None, bound: 0.0, least, proved: false, ties, tied });
+            return Ok(Found {
+                layouts,
+                next: None,
+                bound: self.objective.lower_bound(root),
+                least,
+                proved: false,
+                ties,
+                tied,
+            });
         }
         // It may overlap: the best that lies flat costs no less.
         let flat = self.proved()?;
@@ -195,7 +203,10 @@ impl Question<'_> {
         let found =
             survey::survey(self.target, weights, &settings, &mut |layout| self.objective.value(layout));
         let Survey { best, ties, roots, least, complete } = found;
-        let Some((_, first)) = best.first() else { return Err(self.all_overlap()) };
+        let Some((_, first)) = best.first() else {
+            let why = if complete { NoLayout::AllOverlap } else { NoLayout::Budget };
+            return Err(self.no_layout(why));
+        };
         let is_measured = complete && self.options.minimise != Minimise::Steps;
         let bound = if is_measured { first[0] } else { self.objective.lower_bound(self.options.root) };
         let layouts = best.into_iter().map(|(layout, _)| layout).collect();
@@ -210,6 +221,14 @@ impl Question<'_> {
         let least = self.objective.value(&found.layout)[0];
         let ties = vec![found.layout.root];
         let (layouts, tied) = (vec![found.layout], found.ties);
-        Ok(Found { layouts, next: None, bound: 0.0, least, proved: false, ties, tied })
+        Ok(Found {
+            layouts,
+            next: None,
+            bound: self.objective.lower_bound(root),
+            least,
+            proved: false,
+            ties,
+            tied,
+        })
     }
 }

@@ -111,6 +111,9 @@ impl Options {
             let message = "the heuristic estimates energies of moving joints without gravity, nothing else";
             return Err(call.refuse(METHOD, message));
         }
+        if call.word(METHOD) == Some("heuristic") && !call.list(PASSIVE)?.is_empty() {
+            return Err(call.refuse(METHOD, "the heuristic takes all panels for equally heavy"));
+        }
         if self.sequence == Sequence::LeastEnergy && !separate {
             let message =
                 "this order is found for moving joints without gravity only; `least_work` knows gravity";

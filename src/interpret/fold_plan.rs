@@ -21,9 +21,11 @@ use crate::robot::State;
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
-/// Layouts that are put before the judge, and at which a quick look is taken.
-const JUDGED_MAX: usize = 200;
-const LOOKED_AT_MAX: usize = 4096;
+/// Panels that are put before the judge, in all layouts, and pairs of panels at which a quick look is
+/// taken; but at least some layouts.
+const JUDGED_MAX: usize = 1_600;
+const LOOKED_AT_MAX: usize = 400_000;
+const LAYOUTS_MIN: usize = 8;
 
 /// In a quick look panels are so much smaller, so that it refuses nothing that the judge may let
 /// through.
@@ -123,7 +125,10 @@ impl Task<'_> {
     fn heard(&self, interpreter: &mut Interpreter, hearing: &mut Hearing, layout: &Layout) -> Eval<Word> {
         let Question { target, call, .. } = self.question;
         let steps = self.steps(layout)?;
-        if hearing.looks == LOOKED_AT_MAX || hearing.judged == JUDGED_MAX {
+        let faces = target.faces.len();
+        let [looks_max, judged_max] =
+            [LOOKED_AT_MAX / (faces * faces), JUDGED_MAX / faces].map(|most| most.max(LAYOUTS_MIN));
+        if hearing.looks == looks_max || hearing.judged == judged_max {
             return Ok(Word::Stop);
         }
         hearing.looks += 1;

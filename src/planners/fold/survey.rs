@@ -6,6 +6,7 @@ use super::enumerate;
 use super::layout::Layout;
 use super::local;
 use super::pattern::Pattern;
+use super::routes::Routes;
 use super::symmetry;
 use super::target::Target;
 use super::weights::Weights;
@@ -14,6 +15,12 @@ use std::cmp::Ordering;
 
 /// Layouts whose values differ by less than this part are equally good.
 pub const TOL_TIE: f64 = 1e-9;
+
+/// Roots from which good layouts are improved.
+const STARTS: usize = 8;
+
+/// Exchanges that are weighed by energy alone for each of them.
+const EXCHANGES: u64 = 1_000_000;
 
 /// What is looked at and how far.
 #[derive(Clone, Copy, Debug)]
@@ -76,12 +83,15 @@ pub fn survey(
     Survey { best, ties, roots, least, complete }
 }
 
-/// From the root whose grown layout is best: exchanges as long as they help.
+/// From the roots that promise most, the best grown layout first: exchanges as long as they help.
 fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn FnMut(&Layout) -> [f64; 2]) {
     let (target, mut left) = (kept.target, kept.settings.budget);
+    let bounds = Routes::new(target, weights);
+    let mut roots = roots.to_vec();
+    roots.sort_by(|a, b| bounds.bound(*a).total_cmp(&bounds.bound(*b)).then(a.cmp(b)));
     let mut starts: Vec<(Layout, [f64; 2])> = Vec::new();
-    for &root in roots.iter().take(usize::try_from(left).unwrap_or(usize::MAX).max(1)) {
-        let mut free = u64::MAX;
+    for &root in roots.iter().take(STARTS) {
+        let mut free = EXCHANGES;
         let grown = local::improved(target, weights, local::grown(target, weights, root), &mut free);
         let value = value(&grown);
         kept.offer(grown.clone(), value);

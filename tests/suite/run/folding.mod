@@ -151,3 +151,16 @@ use std.mori.Mori
 use std.shapes.icosahedron
 print(fold(icosahedron(edge: 80mm), module: Mori, method: enumerate, count: all).layouts)
 //         ^^^^^^^^^^^^^^^^^^^^^^^ E0802 too many layouts
+
+--- the heuristic knows one mass
+use std.mori.Mori
+use std.shapes.octahedron
+print(fold(octahedron(edge: 80mm), module: Mori, method: heuristic, passive: [0], passive_module: Mori(weight: 8g)).layouts)
+//                                                       ^^^^^^^^^ E0506 equally heavy
+
+--- the least peak torque of a larger shape is approached, and its bound stated
+use std.mori.Mori
+use std.shapes.icosahedron
+let peak = fold(icosahedron(edge: 80mm), module: Mori, minimise: peak_torque)
+print(peak.optimal, peak.bound > 0N*m, peak.bound <= peak.peak_torque, verify(peak).ok)
+//> false true true true
