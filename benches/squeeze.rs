@@ -8,7 +8,7 @@
 mod lattices;
 
 use lattices::{PAPER, TERMS, judged_plan, plan_of, stages_of};
-use modl::planners::squeeze::{Refusal, Terms, Way, accordion, fold, shear};
+use modl::planners::squeeze::{Refusal, Terms, Way, accordion, arms, fold, shear};
 use std::time::Instant;
 
 /// The allocator that the tool has.
@@ -17,7 +17,8 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 type Construction = fn(Terms, u64) -> Result<Way, Refusal>;
 
-const METHODS: [(&str, Construction); 3] = [("accordion", accordion), ("fold", fold), ("shear", shear)];
+const METHODS: [(&str, Construction); 4] =
+    [("accordion", accordion), ("arms", arms), ("fold", fold), ("shear", shear)];
 const COUNTS: [u64; 7] = [1_000, 4_096, 10_000, 65_536, 100_000, 999_999, 1_000_000];
 
 fn main() {
@@ -59,16 +60,17 @@ fn main() {
 
 /// Times in units: of a cell's length at unit acceleration.
 fn makespans() {
-    println!("| n | unit speed >= | lower bound | shear | accordion | fold | peak force, accordion |");
-    println!("|---|---|---|---|---|---|---|");
+    println!("| n | unit speed >= | lower bound | shear | arms | accordion | fold | peak force, arms |");
+    println!("|---|---|---|---|---|---|---|---|");
     for n in [16, 64, 256, 1024, 4096, 16_384, 65_536, 1_000_000] {
         let time = |construction: Construction| construction(TERMS, n).expect("there is a way").duration();
-        let verdict = judged_plan(&plan_of(stages_of(accordion(TERMS, n).expect("a way"), PAPER)));
+        let verdict = judged_plan(&plan_of(stages_of(arms(TERMS, n).expect("a way"), PAPER)));
         println!(
-            "| {n} | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} |",
+            "| {n} | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} |",
             (n - 1) as f64 / 2.0,
             libm::sqrt(2.0 * (n - 1) as f64),
             time(shear),
+            time(arms),
             time(accordion),
             time(fold),
             verdict.dynamics.expect("a lattice has them").peak_force,

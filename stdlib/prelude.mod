@@ -1511,7 +1511,7 @@ extern type Squeezing is Plan {
   angular_momentum: Quantity<kg*m^2/s>
   /// Whether the angular momentum stays zero, so that a free robot is not turned.
   balanced: Bool
-  /// `accordion`, `fold`, `shear`, `merge` or `melt`.
+  /// `accordion`, `fold`, `shear`, `arms`, `merge` or `melt`.
   method: Text
   /// Why this method was taken.
   why: Text
@@ -1525,7 +1525,8 @@ extern type Squeezing is Plan {
 /// Rows, columns, boxes and all connected shapes in a plane are taken to each other. `accordion` keeps
 /// the size of the cells; `fold` is the way of the kinodynamic-reconfiguration paper; `shear` takes a
 /// row to a column in the least time that there is, and turns the robot by a quarter, so that something
-/// outside has to hold it; `merge` is for shapes in a plane. `melt` takes any shapes of up to 400 cells
+/// outside has to hold it; `arms` takes a row to a column in little more, and is balanced where the number
+/// of cells is a multiple of four, or one more; `merge` is for shapes in a plane. `melt` takes any shapes of up to 400 cells
 /// to each other, in space too, cell after cell, in a time that grows with their number. `auto` takes
 /// the fastest that the model allows.
 ///
@@ -1547,7 +1548,7 @@ extern type Squeezing is Plan {
 extern fn squeeze(
   from: Lattice,
   to: Lattice,
-  method: auto | accordion | fold | shear | merge | melt = auto,
+  method: auto | accordion | fold | shear | arms | merge | melt = auto,
   model: auto | balanced | paper = auto,
   max_force: Force?,
   profile: bang_bang | trapezoid = bang_bang,

@@ -8,7 +8,7 @@ use super::lattices::{BALANCED, PAPER, TERMS, judged, judged_plan, plan_of, stag
 use modl::plan::verify::lattice::{ends, peak_forces};
 use modl::plan::{Body, Law, Ratio, Stages, Unfit, joined, reversed};
 use modl::planners::squeeze::{
-    Demand, Found, Method, Profile, Refusal, Task, Terms, Way, accordion, fold, halve, shear, squeeze,
+    Demand, Found, Method, Profile, Refusal, Task, Terms, Way, accordion, arms, fold, halve, shear, squeeze,
     to_row, unroll,
 };
 use modl::robot::Cell;
@@ -319,6 +319,32 @@ fn sets_in_space_melt_and_grow() {
 }
 
 #[test]
+fn arms_turn_up_in_balance_and_faster_than_an_accordion_folds() {
+    for n in 4..=if whole_range() { 2000 } else { 70 } {
+        let way = arms(TERMS, n).expect("there is a way");
+        // Levels swap in turns: an even number of them turns nothing.
+        assert_eq!(way.is_balanced(), n % 4 < 2, "{n}");
+        let (duration, balanced) = (way.duration(), way.is_balanced());
+        let plan = plan_of(stages_of(way, if balanced { BALANCED } else { PAPER }));
+        let verdict = judged_plan(&plan);
+        assert!(verdict.ok(), "{n}: {:?}", verdict.failures);
+        assert_ends(&plan.body, &row(n), &column(n));
+        let again = judged_plan(&reversed(&plan));
+        assert!(again.ok() && near(again.duration, verdict.duration), "{n}: {:?}", again.failures);
+        // Arms of one level more than they are long, from rest to rest; then the squeezed column spreads.
+        if n >= 16 {
+            let level = ((n + 1) / 2) as f64;
+            let closed = 2.0 * libm::sqrt(level - 1.5) + libm::sqrt(n as f64 - 1.0);
+            assert!((closed..closed + 6.0).contains(&duration), "{n}: {duration} for {closed}");
+            assert!(duration < accordion(TERMS, n).expect("there is a way").duration(), "{n}");
+        }
+    }
+    let (from, to) = (row(101), column(101));
+    let balanced = found(&Task { demand: Demand::Balanced, ..task(&from, &to) });
+    assert_eq!(balanced.method, Method::Arms);
+}
+
+#[test]
 fn between_boxes_no_merge_is_missed() {
     for (from, to) in
         [([4, 3, 1], [6, 2, 1]), ([3, 3, 1], [9, 1, 1]), ([5, 3, 1], [3, 5, 1]), ([4, 4, 1], [8, 2, 1])]
@@ -392,10 +418,10 @@ fn one_fold_of_an_array_takes_what_lemma_4_says() {
 fn the_fastest_is_taken_that_the_model_allows() {
     let (from, to) = (row(100), column(100));
     let free = found(&task(&from, &to));
-    assert_eq!((free.method, free.balanced), (Method::Accordion, true));
+    assert_eq!((free.method, free.balanced), (Method::Arms, true));
     // An array with even sides is as good as the squarest: 20 by 50 for 1000.
     let (long, high) = (row(1000), column(1000));
-    let even = found(&task(&long, &high));
+    let even = found(&Task { method: Method::Accordion, ..task(&long, &high) });
     assert_eq!((even.method, even.balanced), (Method::Accordion, true));
     assert!(even.stages.duration() < 1.05 * accordion(TERMS, 1000).expect("there is a way").duration());
     let paper = found(&Task { demand: Demand::Paper, ..task(&from, &to) });
@@ -439,10 +465,11 @@ fn limits_of_the_cell_scale_the_plan() {
     assert!(near(quick.lower_bound, unit.lower_bound * libm::sqrt(2.0)));
     // A slow cell: every stage lasts as long as its contacts need.
     let slow = Cell { speed: 0.01, ..unit_cell() };
-    let slow = squeeze(&slow, 0, &task(&from, &to)).expect("there is a plan");
+    let fixed = Task { method: Method::Accordion, ..task(&from, &to) };
+    let slow = squeeze(&slow, 0, &fixed).expect("there is a plan");
     assert!(slow.stages.stages.iter().all(|stage| stage.time_squared == Ratio(40_000, 1)));
     // With stretches of constant speed it takes little more than half of that.
-    let terms = Task { profile: Profile::Trapezoid, ..task(&from, &to) };
+    let terms = Task { profile: Profile::Trapezoid, ..fixed };
     let cell = Cell { speed: 0.01, ..unit_cell() };
     let steady = squeeze(&cell, 0, &terms).expect("there is a plan");
     assert!(steady.stages.duration() < 0.6 * slow.stages.duration());

@@ -50,6 +50,7 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             Some("accordion") => Method::Accordion,
             Some("fold") => Method::Fold,
             Some("shear") => Method::Shear,
+            Some("arms") => Method::Arms,
             Some("merge") => Method::Merge,
             Some("melt") => Method::Melt,
             _ => Method::Auto,
@@ -88,7 +89,13 @@ fn planned(
         Squeezed { lower_bound, method, balanced, why, stages: stages.stages.iter().map(told).collect() };
     let library = Arc::new(Library { cells: vec![cell], ..Library::default() });
     // The paper's world.
-    let plan = interpreter.bare_plan("squeeze", Body::Stages(stages), library, World::FREE, &causes);
+    let plan = interpreter.bare_plan(
+        &format!("squeeze ({})", method.name()),
+        Body::Stages(stages),
+        library,
+        World::FREE,
+        &causes,
+    );
     let planned = Planned::new(design, None, plan, causes.ids, 0).with_squeezed(squeezed);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }
@@ -121,6 +128,7 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
         Refusal::Method { method } => {
             let wanted = match method {
                 Method::Shear => "`shear` takes a row to a column",
+                Method::Arms => "`arms` takes a row of at least four cells to a column",
                 Method::Fold => "`fold` takes rows to columns, and boxes to boxes whose sides differ by powers of two",
                 Method::Accordion => "`accordion` takes rows and boxes to each other",
                 Method::Merge => "`merge` takes shapes in a plane to each other",

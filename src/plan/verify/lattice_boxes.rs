@@ -1,8 +1,8 @@
 //! Stages in which cells move, or change, along several axes.
 //!
-//! If all cells stay in one order along an axis with no negative gap at either end, none ever meet.
-//! Else the pairs whose swept boxes overlap are judged one by one: two cells overlap at a progress
-//! where six linear inequalities hold.
+//! Planes between which cells stay take the set apart: what is on two sides of one never meets. Of what
+//! can't be taken apart the pairs whose swept boxes overlap are judged one by one: two cells overlap at a
+//! progress where six linear inequalities hold.
 
 use super::lattice_contacts::Forest;
 use super::lattice_grid::Cube;
@@ -23,24 +23,73 @@ pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Res
         None
     });
     contacts?.ok();
-    if (0..3).any(|axis| one_after_another(before, after, axis)) {
-        return Some(Ok(()));
+    for group in groups(before, after) {
+        let hulls: Vec<Cube> =
+            group.iter().map(|&cell| hull(&before[cell as usize], &after[cell as usize])).collect();
+        let found = pairs_near(&hulls, |i, j| {
+            let cells = (group[i].min(group[j]), group[i].max(group[j]));
+            let (i, j) = (cells.0 as usize, cells.1 as usize);
+            let at_start = overlap(&before[i], &before[j]);
+            let meet = at_start || meet((&before[i], &after[i]), (&before[j], &after[j]));
+            meet.then_some(Meeting { cells, at_start })
+        })?;
+        if found.is_err() {
+            return Some(found);
+        }
     }
-    pairs_near(&swept(before, after), |i, j| {
-        let at_start = overlap(&before[i], &before[j]);
-        let meet = at_start || meet((&before[i], &after[i]), (&before[j], &after[j]));
-        meet.then_some(Meeting { cells: (i as u32, j as u32), at_start })
-    })
+    Some(Ok(()))
 }
 
-/// Whether along an axis the cells stay in one order, apart from each other.
-fn one_after_another(before: &[Cube], after: &[Cube], axis: usize) -> bool {
-    let mut order: Vec<u32> = (0..before.len() as u32).collect();
-    order.sort_by_key(|&cell| before[cell as usize].lo[axis]);
-    order.windows(2).all(|pair| {
-        let (a, b) = (pair[0] as usize, pair[1] as usize);
-        before[a].hi[axis] <= before[b].lo[axis] && after[a].hi[axis] <= after[b].lo[axis]
-    })
+/// Halvings of a set of cells by which it is taken apart, one within the other.
+const DEPTH_MAX: usize = 12;
+
+/// Groups of cells that are not known to stay apart: planes across an axis that no cell crosses, neither
+/// at the start nor at the end, take the set apart, then those of another axis each part, and so on. Gaps
+/// are linear in the progress, so between two sides of such a plane nothing meets. Groups of one are left
+/// out.
+fn groups(before: &[Cube], after: &[Cube]) -> Vec<Vec<u32>> {
+    let mut found = Vec::new();
+    let mut open = vec![((0..before.len() as u32).collect::<Vec<u32>>(), 0, DEPTH_MAX)];
+    while let Some((cells, idle, depth)) = open.pop() {
+        // After three axes without a plane there is none.
+        if idle == 3 || depth == 0 {
+            found.push(cells);
+            continue;
+        }
+        let axis = (DEPTH_MAX - depth + idle) % 3;
+        let count = cells.len();
+        let parts = parts(before, after, cells, axis);
+        let whole = parts.first().is_some_and(|part| part.len() == count);
+        let (idle, depth) = if whole { (idle + 1, depth) } else { (0, depth - 1) };
+        open.extend(parts.into_iter().map(|part| (part, idle, depth)));
+    }
+    found
+}
+
+/// The cells between planes across an axis, where there are several.
+fn parts(before: &[Cube], after: &[Cube], mut cells: Vec<u32>, axis: usize) -> Vec<Vec<u32>> {
+    let ends = |cell: u32| (&before[cell as usize], &after[cell as usize]);
+    cells.sort_by_key(|&cell| (ends(cell).0.lo[axis], ends(cell).1.lo[axis]));
+    // The lowest faces of all cells from one on, at both ends.
+    let mut lowest = vec![(i64::MAX, i64::MAX); cells.len() + 1];
+    for (i, &cell) in cells.iter().enumerate().rev() {
+        let (a, b) = ends(cell);
+        lowest[i] = (lowest[i + 1].0.min(a.lo[axis]), lowest[i + 1].1.min(b.lo[axis]));
+    }
+    let mut parts = Vec::new();
+    let mut highest = (i64::MIN, i64::MIN);
+    let mut first = 0;
+    for i in 0..cells.len() {
+        let (a, b) = ends(cells[i]);
+        highest = (highest.0.max(a.hi[axis]), highest.1.max(b.hi[axis]));
+        if highest.0 <= lowest[i + 1].0 && highest.1 <= lowest[i + 1].1 {
+            if i > first {
+                parts.push(cells[first..=i].to_vec());
+            }
+            first = i + 1;
+        }
+    }
+    parts
 }
 
 /// Looks at every pair of cells that come near each other in the stage. `None`: too many.

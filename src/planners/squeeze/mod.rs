@@ -9,6 +9,7 @@
 //! allows the fastest is taken ([`choose`]).
 
 mod accordion;
+mod arms;
 mod choose;
 mod domain;
 mod explicit;
@@ -25,6 +26,7 @@ mod way;
 mod ways;
 
 pub use accordion::accordion;
+pub use arms::arms;
 pub use choose::squeeze;
 pub use domain::{Domain, Spot};
 pub use fold::fold;
@@ -49,6 +51,8 @@ pub enum Method {
     Fold,
     /// A row turns to a column in one go.
     Shear,
+    /// A row to a column: its halves turn up, and merge.
+    Arms,
     /// Any connected sets in planes.
     Merge,
     /// Any connected sets, in space too, one cell after another.
@@ -128,6 +132,7 @@ impl Method {
             Method::Accordion => "accordion",
             Method::Fold => "fold",
             Method::Shear => "shear",
+            Method::Arms => "arms",
             Method::Merge => "merge",
             Method::Melt => "melt",
         }

@@ -1,6 +1,7 @@
 //! Ways between two shapes, put together from the constructions.
 
 use super::accordion::{accordion, balanced_accordion, places_in_column};
+use super::arms::arms;
 use super::domain::{Domain, Spot};
 use super::explicit::Listed;
 use super::fold::fold;
@@ -159,6 +160,9 @@ impl Context {
             }
             if is_wanted(Method::Fold) && self.supple {
                 add(Method::Fold, fold(terms, count)?.turned(turn).reversed());
+            }
+            if is_wanted(Method::Arms) && self.supple && count >= 4 {
+                add(Method::Arms, arms(terms, count)?.turned(turn).reversed());
             }
             if is_wanted(Method::Shear) && self.supple {
                 add(Method::Shear, shear(terms, count)?.turned(turn).reversed());

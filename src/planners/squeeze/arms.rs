@@ -1,0 +1,123 @@
+//! Arms: a row to a column, balanced, and faster than the accordion. The two halves of the row turn up
+//! like the arms of a Λ, each other's mirror image, by the shear; then the two columns that they end as
+//! merge to one, as in a fold.
+//!
+//! The middle stays: two cells, or one if the number is odd. The arms begin half a cell above it and so
+//! hang together with it on both sides of the corner that they turn about.
+
+use super::Refusal;
+use super::domain::{Domain, Spot, WHOLE};
+use super::way::{Builder, Terms, Way};
+
+const HALF: i64 = WHOLE / 2;
+const QUARTER: i64 = WHOLE / 4;
+
+/// From a row along x, cell `i` at `i`, to a column along y. At least four cells.
+pub fn arms(terms: Terms, count: u64) -> Result<Way, Refusal> {
+    let arms = Arms { count };
+    let domains = arms.domains();
+    let mut builder = Builder::new(terms, count, &domains, |i| Spot::whole([i as i64, 0, 0]))?;
+    builder.stage("y-slide", HALF, &domains, move |i| {
+        arms.spot(i, |k, x| ([x - WHOLE * k, HALF], [WHOLE; 2]))
+    })?;
+    builder.twin_stages(
+        "arms",
+        WHOLE,
+        &domains,
+        move |i| arms.spot(i, |k, x| ([x - QUARTER - HALF * k, QUARTER + HALF * k], [HALF; 2])),
+        move |i| arms.spot(i, |k, x| ([x - HALF, WHOLE * k], [WHOLE; 2])),
+    )?;
+    builder.stage("x-squeeze", HALF, &domains, move |i| arms.squeezed(i))?;
+    builder.stage("swap-contract", HALF, &domains, move |i| arms.contracted(i))?;
+    builder.stage("swap-expand", HALF, &domains, move |i| {
+        let mut spot = arms.contracted(i);
+        (spot.center[0], spot.size[0]) = (0, WHOLE);
+        spot
+    })?;
+    builder.stage("y-expand", HALF, &domains, move |i| {
+        let mut spot = Spot::whole([0, arms.place(i), 0]);
+        spot.center[0] = 0;
+        spot
+    })?;
+    Ok(builder.way())
+}
+
+#[derive(Clone, Copy)]
+struct Arms {
+    count: u64,
+}
+
+/// A cell by its level and its side.
+struct Part {
+    /// From the middle outwards; 0 is the middle.
+    level: i64,
+    /// -1 to the left, 1 to the right; 0 for a lone cell in the middle.
+    side: i64,
+}
+
+impl Arms {
+    fn is_odd(self) -> bool {
+        self.count % 2 == 1
+    }
+
+    fn part(self, i: u64) -> Part {
+        let from_left = i as i64;
+        let from_right = self.count as i64 - 1 - from_left;
+        let half = (self.count / 2) as i64;
+        let outermost = if self.is_odd() { half } else { half - 1 };
+        match from_left.cmp(&from_right) {
+            std::cmp::Ordering::Less => Part { level: outermost - from_left, side: -1 },
+            std::cmp::Ordering::Greater => Part { level: outermost - from_right, side: 1 },
+            std::cmp::Ordering::Equal => Part { level: 0, side: 0 },
+        }
+    }
+
+    /// The middle where it is, the arms where `place` says: of a left one, by its level and the place at
+    /// which the arm begins.
+    fn spot(self, i: u64, place: impl Fn(i64, i64) -> ([i64; 2], [i64; 2])) -> Spot {
+        let Part { level, side } = self.part(i);
+        let middle = if self.is_odd() { 0 } else { HALF };
+        let ([x, y], [w, h]) = if level == 0 { ([-middle, 0], [WHOLE; 2]) } else { place(level, -middle) };
+        Spot { center: [-side * x, y, HALF], size: [w, h, WHOLE] }
+    }
+
+    /// Two columns of half the width; a lone cell in the middle stays whole.
+    fn squeezed(self, i: u64) -> Spot {
+        let Part { level, side } = self.part(i);
+        let width = if side == 0 { WHOLE } else { HALF };
+        Spot { center: [side * QUARTER, WHOLE * level, HALF], size: [width, WHOLE, WHOLE] }
+    }
+
+    /// In every level one cell goes up and the other down, in the next the other way round.
+    fn contracted(self, i: u64) -> Spot {
+        let Part { level, side } = self.part(i);
+        let mut spot = self.squeezed(i);
+        if side != 0 {
+            spot.center[1] += if self.is_up(level, side) { QUARTER } else { -QUARTER };
+            spot.size[1] = HALF;
+        }
+        spot
+    }
+
+    fn is_up(self, level: i64, side: i64) -> bool {
+        (level % 2 == 0) == (side > 0)
+    }
+
+    /// In the column.
+    fn place(self, i: u64) -> i64 {
+        let Part { level, side } = self.part(i);
+        let lone = i64::from(self.is_odd());
+        if side == 0 { 0 } else { 2 * level - lone + i64::from(self.is_up(level, side)) }
+    }
+
+    /// On each of them all places are affine: the middle, and every second cell of each arm.
+    fn domains(self) -> Vec<Domain> {
+        let arm = (self.count - 1) / 2;
+        let middle = arm..self.count - arm;
+        let halves = |from: u64| {
+            (0..2.min(arm)).filter_map(move |k| Domain::new(from + k, &[((arm - k).div_ceil(2), 2)]))
+        };
+        let middle = middle.filter_map(|i| Domain::new(i, &[]));
+        halves(0).chain(middle).chain(halves(self.count - arm)).collect()
+    }
+}
