@@ -1533,7 +1533,9 @@ extern type Squeezing is Plan {
 /// `model` says whether a free robot has to be able to do it: `balanced` keeps the angular momentum at
 /// zero, `paper` does not ask for it; `auto` takes a balanced way where one is known, and else one that
 /// turns little. `max_force` bounds the force over a contact of two cells: plans slow down to keep it.
-/// With the `profile` `trapezoid`, stages whose cells get to their greatest speed keep it for a while.
+/// With the `profile` `trapezoid`, stages whose cells get to their greatest speed keep it for a while. A
+/// cell's force bounds its acceleration along each axis, as in the paper; with the `norm` `euclidean`, its
+/// length.
 ///
 /// There is neither gravity nor ground, as in the paper. The result ends as asked up to a translation.
 ///
@@ -1552,6 +1554,7 @@ extern fn squeeze(
   model: auto | balanced | paper = auto,
   max_force: Force?,
   profile: bang_bang | trapezoid = bang_bang,
+  norm: each_axis | euclidean = each_axis,
 ) -> Squeezing
 
 /// What `tosnake` and `reconfigure` found.

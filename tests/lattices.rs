@@ -11,9 +11,9 @@ use std::sync::Arc;
 
 /// Limits of 1 in units of 1.
 pub const UNIT: CellLimits = CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE };
-pub const TERMS: Terms = Terms { limits: UNIT, profile: Profile::BangBang };
-pub const BALANCED: Model = Model { balanced: true, contact_force: None };
-pub const PAPER: Model = Model { balanced: false, contact_force: None };
+pub const TERMS: Terms = Terms { limits: UNIT, profile: Profile::BangBang, euclidean: false };
+pub const BALANCED: Model = Model { balanced: true, contact_force: None, euclidean: false };
+pub const PAPER: Model = Model { balanced: false, contact_force: None, euclidean: false };
 
 pub fn unit_cell() -> Cell {
     Cell { name: "Unit".into(), size: 1.0, shrinks_to: 0.5, mass: 1.0, force: 1.0, speed: 1.0 }

@@ -245,7 +245,15 @@ fn assert_ends(body: &Body, from: &[[i64; 3]], to: &[[i64; 3]]) {
 }
 
 fn task<'a>(from: &'a [[i64; 3]], to: &'a [[i64; 3]]) -> Task<'a> {
-    Task { from, to, method: Method::Auto, demand: Demand::Auto, profile: Profile::BangBang, max_force: None }
+    Task {
+        from,
+        to,
+        method: Method::Auto,
+        demand: Demand::Auto,
+        profile: Profile::BangBang,
+        max_force: None,
+        euclidean: false,
+    }
 }
 
 fn found(task: &Task) -> Found {
@@ -434,6 +442,24 @@ fn the_fastest_is_taken_that_the_model_allows() {
         &Task { demand: Demand::Balanced, method: Method::Shear, ..task(&from, &to) },
     );
     assert_eq!(held.expect_err("it turns"), Refusal::Unbalanced { method: Method::Shear });
+}
+
+#[test]
+fn accelerations_are_bound_in_length_where_asked() {
+    let (from, to) = (row(64), column(64));
+    let shear = Task { method: Method::Shear, ..task(&from, &to) };
+    let (each, whole) = (found(&shear), check(&Task { euclidean: true, ..shear }));
+    // Every cell moves by as much along x as along y.
+    let slower = whole.stages.duration() / each.stages.duration();
+    assert!((slower - libm::pow(2.0, 0.25)).abs() < 1e-8, "{slower}");
+    let mut quick = each.stages;
+    quick.model.euclidean = true;
+    let verdict = judged_plan(&plan_of(quick));
+    assert!(verdict.failures.iter().all(|f| f.kind == modl::plan::CheckKind::Acceleration));
+    assert!(!verdict.ok());
+    // Stages along one axis stay as they are.
+    let fold = Task { method: Method::Fold, ..task(&from, &to) };
+    assert_eq!(check(&Task { euclidean: true, ..fold }).stages.duration(), found(&fold).stages.duration());
 }
 
 #[test]

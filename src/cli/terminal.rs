@@ -11,7 +11,7 @@ use std::time::Duration;
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
 /// A run that is asked to end gets this long to do so by itself.
-const PATIENCE: Duration = Duration::from_millis(500);
+const PATIENCE: Duration = Duration::from_millis(400);
 
 /// From here on Ctrl-C asks the run to end, and ends the process if it does not soon: files are
 /// written whole or not at all, so nothing is lost by that.

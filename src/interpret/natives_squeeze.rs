@@ -16,7 +16,7 @@ use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("squeeze", 6, squeeze)];
+pub const TABLE: &[Native] = &[on_run("squeeze", 7, squeeze)];
 
 /// What the planner says of a plan beside the plan itself.
 pub struct Squeezed {
@@ -62,6 +62,7 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         },
         profile: if call.word(5) == Some("trapezoid") { Profile::Trapezoid } else { Profile::BangBang },
         max_force,
+        euclidean: call.word(6) == Some("euclidean"),
     };
     interpreter.stage.progress(format!("squeezing {} to {}", design.name, goal.name));
     let found = squeeze::squeeze(cell, 0, &task).map_err(|refusal| refused(&refusal, call))?;

@@ -46,6 +46,7 @@ pub fn join_stages(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, Unfit>
     new.limits.speed_squared = looser(a.limits.speed_squared, b.limits.speed_squared, true);
     new.model = Model {
         balanced: a.model.balanced && b.model.balanced,
+        euclidean: a.model.euclidean && b.model.euclidean,
         contact_force: a.model.contact_force.zip(b.model.contact_force).map(|(f, g)| looser(f, g, true)),
     };
     Ok(new)

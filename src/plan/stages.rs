@@ -54,6 +54,8 @@ pub struct Model {
     pub balanced: bool,
     /// Greatest force over one contact, in units of a cell's own; `None`: no bound, as in the paper.
     pub contact_force: Option<Ratio>,
+    /// A cell's force bounds the length of its acceleration, not only the part along each axis.
+    pub euclidean: bool,
 }
 
 /// One stage: from where the one before ended to `end`. Cells that no run names stay; of two runs

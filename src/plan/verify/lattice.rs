@@ -374,10 +374,18 @@ impl Judgement<'_> {
     fn laws(&self, step: &Step, ledger: &mut Ledger) {
         let (change, pace) = (&step.change, &step.pace);
         let lines = 2 * i128::from(step.lines);
-        if pace.acceleration(change.farthest.0.into(), lines, Ratio::ONE).is_gt() {
-            let (distance, cell) = change.farthest;
+        let too_quick = if self.stages.model.euclidean {
+            pace.acceleration_squared(change.square, lines)
+        } else {
+            pace.acceleration(change.farthest.0.into(), lines, Ratio::ONE)
+        };
+        if too_quick.is_gt() {
+            let (mut distance, cell) = (change.farthest.0 as f64, change.farthest.1);
+            if self.stages.model.euclidean {
+                distance = libm::sqrt(change.square as f64);
+            }
             let unit = self.cell.size / self.stages.time_unit / self.stages.time_unit;
-            let value = distance as f64 / lines as f64 * pace.bend() * unit;
+            let value = distance / lines as f64 * pace.bend() * unit;
             let message = format!(
                 "cell {cell} would need an acceleration of {}; its force gives {}",
                 quantity(value, Dimension::ACCELERATION),

@@ -120,6 +120,17 @@ impl Pace {
         left.cmp(&right)
     }
 
+    /// How the square of the greatest acceleration compares with 1 of what moves by a distance with this
+    /// square, in lines.
+    pub fn acceleration_squared(&self, square: i128, lines: i128) -> Ordering {
+        let product = |factors: [i128; 3]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
+        let big = i128::from;
+        let (t, ramp) = (self.time_squared, self.ramp);
+        let left = product([big(self.speed.0), big(ramp.1), big(t.1)]);
+        let right = product([lines * big(self.speed.1), big(ramp.0), big(t.0)]);
+        (BigInt::from(square) * &left * &left).cmp(&(&right * &right))
+    }
+
     /// How the square of the greatest speed of what moves by `distance / lines` compares with a limit.
     pub fn speed_squared(&self, distance: i64, lines: i64, limit: Ratio) -> Ordering {
         let product = |factors: &[i64]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();

@@ -31,12 +31,13 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     };
     let unit_force = cell.mass * cell.size / time_unit / time_unit;
     let contact_force = task.max_force.map(|force| below(force / unit_force)).transpose()?;
-    let candidates = ways(Terms { limits, profile: task.profile }, &from, &to, task.method)?;
+    let terms = Terms { limits, profile: task.profile, euclidean: task.euclidean };
+    let candidates = ways(terms, &from, &to, task.method)?;
     if candidates.is_empty() {
         return Err(lacking(task, &from, limits));
     }
     let fill = |way: Way, balanced: bool| {
-        let model = Model { balanced, contact_force };
+        let model = Model { balanced, contact_force, euclidean: task.euclidean };
         way.into_stages(Frame { cell: index, time_unit, limits, model })
     };
     let any_balanced = candidates.iter().any(|candidate| candidate.way.is_balanced());

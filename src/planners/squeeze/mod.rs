@@ -81,6 +81,8 @@ pub struct Task<'a> {
     pub profile: Profile,
     /// Greatest contact force, N.
     pub max_force: Option<f64>,
+    /// Whether a cell's force bounds the length of its acceleration, not only the part along each axis.
+    pub euclidean: bool,
 }
 
 /// What was found.

@@ -37,6 +37,8 @@ pub enum Profile {
 pub struct Terms {
     pub limits: CellLimits,
     pub profile: Profile,
+    /// Whether the length of an acceleration is bounded, not only its part along each axis.
+    pub euclidean: bool,
 }
 
 /// What a way becomes part of: a plan of cells of a kind.
@@ -61,8 +63,8 @@ pub struct Builder<'a> {
 
 /// What moves in a stage: in quarters, before the centre of mass is held.
 struct Motion {
-    /// Greatest distance from the centre of mass's own, times `WHOLE · count`.
-    farthest: i128,
+    /// Greatest distance along each axis from the centre of mass's own, times `WHOLE · count`.
+    farthest: [i128; 3],
     resized: i64,
     moves: bool,
     balanced: bool,
@@ -93,7 +95,8 @@ impl<'a> Builder<'a> {
     ) -> Result<(), Refusal> {
         let motion = Motion::of(domains, self.way.count, &self.last, &place);
         if motion.moves {
-            let (time_squared, law) = self.least_time(&motion, parting).ok_or(Refusal::TooLarge)?;
+            let (time_squared, law) =
+                least_time(&self.terms, self.way.count, &motion, parting).ok_or(Refusal::TooLarge)?;
             self.way.legs.push(Leg { name, time_squared, law, balanced: motion.balanced });
             self.way.configurations.push(runs(domains, self.way.count, &place)?);
         }
@@ -114,8 +117,8 @@ impl<'a> Builder<'a> {
         let whole = Motion::of(domains, self.way.count, &self.last, &end);
         let resized = 2 * Motion::of(domains, self.way.count, &self.last, &middle).resized;
         let terms = Terms { profile: Profile::Trapezoid, ..self.terms };
-        let (time, law) = least_time(&terms, self.way.count, whole.farthest, parting.max(resized))
-            .ok_or(Refusal::TooLarge)?;
+        let (time, law) =
+            least_time(&terms, self.way.count, &whole, parting.max(resized)).ok_or(Refusal::TooLarge)?;
         let half = Ratio::new(time.0.into(), 4 * i128::from(time.1)).ok_or(Refusal::TooLarge)?;
         let ramp = law.ramps().0.times(Ratio(2, 1)).ok_or(Refusal::TooLarge)?;
         for (law, place) in
@@ -128,19 +131,16 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    fn least_time(&self, motion: &Motion, parting: i64) -> Option<(Ratio, Law)> {
-        least_time(&self.terms, self.way.count, motion.farthest, parting.max(motion.resized))
-    }
-
     pub fn way(self) -> Way {
         self.way
     }
 }
 
-/// Square of the least time in which cells can move by `farthest / (WHOLE · count)` and part (or change
+/// Square of the least time in which cells can move as they do and part (or change
 /// their sizes) by `parting / WHOLE`, with the law that does it.
-fn least_time(terms: &Terms, count: u64, farthest: i128, parting: i64) -> Option<(Ratio, Law)> {
-    let distance = Ratio::new(farthest, i128::from(WHOLE) * i128::from(count))?;
+fn least_time(terms: &Terms, count: u64, motion: &Motion, parting: i64) -> Option<(Ratio, Law)> {
+    let parting = parting.max(motion.resized);
+    let distance = motion.distance(terms, count)?;
     let parting_squared = Ratio::new(i128::from(parting) * i128::from(parting), i128::from(WHOLE * WHOLE))?;
     let speed = terms.limits.speed_squared;
     // The square of the time for the parting at full speed.
@@ -225,7 +225,27 @@ fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> Spot) -> Result<V
     domains.iter().zip(&affine).map(run).collect()
 }
 
+/// Into so many parts a distance along several axes is rounded, up: its square is no square number.
+const ROOT_PARTS: i128 = 1 << 16;
+
 impl Motion {
+    /// What bounds the acceleration: the greatest distance along an axis, or at most the length of the
+    /// greatest along all.
+    fn distance(&self, terms: &Terms, count: u64) -> Option<Ratio> {
+        let whole = i128::from(WHOLE) * i128::from(count);
+        let most = self.farthest.into_iter().max().unwrap_or(0);
+        if !terms.euclidean || self.farthest.iter().sum::<i128>() == most {
+            return Ratio::new(most, whole);
+        }
+        let square = self.farthest.iter().try_fold(0_i128, |sum, reach| {
+            let parts = reach.checked_mul(ROOT_PARTS)?;
+            sum.checked_add(parts.checked_mul(parts)?)
+        })?;
+        let root = square.isqrt();
+        let root = root + i128::from(root * root < square);
+        Ratio::new(root, whole * ROOT_PARTS)
+    }
+
     fn of(
         domains: &[Domain],
         count: u64,
@@ -239,7 +259,7 @@ impl Motion {
             domains.iter().zip(&ends).map(moved).sum::<i128>()
         };
         let drift = [sum(0), sum(1), sum(2)];
-        let mut motion = Motion { farthest: 0, resized: 0, moves: false, balanced: true };
+        let mut motion = Motion { farthest: [0; 3], resized: 0, moves: false, balanced: true };
         // Twelve times the sum of place times displacement, as a cross product; both from the origin.
         let mut turning = [0_i128; 3];
         let mut places = [0_i128; 3];
@@ -256,7 +276,7 @@ impl Motion {
                 }
                 let whole = i128::from(count);
                 let reach = (low * whole - drift[axis]).abs().max((high * whole - drift[axis]).abs());
-                motion.farthest = motion.farthest.max(reach);
+                motion.farthest[axis] = motion.farthest[axis].max(reach);
                 motion.resized = motion.resized.max((b.first.size[axis] - a.first.size[axis]).abs());
                 // Twice the means over the domain.
                 let mean = |affine: &Affine| 2 * affine.sum(domain, axis) / cells;
@@ -275,7 +295,7 @@ impl Motion {
                 *turning += cross * cells;
             }
         }
-        motion.moves = motion.farthest > 0 || motion.resized > 0;
+        motion.moves = motion.farthest != [0; 3] || motion.resized > 0;
         // About the centre of mass, which is held.
         let about = |axis: usize| {
             let (y, z) = ((axis + 1) % 3, (axis + 2) % 3);
