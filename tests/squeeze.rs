@@ -341,7 +341,7 @@ fn arms_turn_up_in_balance_and_faster_than_an_accordion_folds() {
         assert!(again.ok() && near(again.duration, verdict.duration), "{n}: {:?}", again.failures);
         // Arms of one level more than they are long, from rest to rest; then the squeezed column spreads.
         if n >= 16 {
-            let level = ((n + 1) / 2) as f64;
+            let level = n.div_ceil(2) as f64;
             let closed = 2.0 * libm::sqrt(level - 1.5) + libm::sqrt(n as f64 - 1.0);
             assert!((closed..closed + 6.0).contains(&duration), "{n}: {duration} for {closed}");
             assert!(duration < accordion(TERMS, n).expect("there is a way").duration(), "{n}");
