@@ -1,7 +1,7 @@
 //! The command as its users meet it: exit codes, pipes, terminals, files that are odd or hostile.
 
 use std::fs;
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
@@ -448,4 +448,39 @@ mod unix {
         let ran = s.run(&["check", "project/link.mod", "--root", "project"]);
         assert!(ran.code == 2 && ran.err.contains("outside the project"), "{}", ran.err);
     }
+}
+
+/// A watch that says nothing for so long is broken, on any machine.
+const SILENCE_MAX: std::time::Duration = std::time::Duration::from_secs(120);
+
+#[test]
+fn watch_checks_again_when_a_file_changes_that_was_read_or_missed() {
+    let sandbox = Sandbox::new(&[("main.mod", b"use \"part.mod\".{a}\nlet b = a + 1mm\n")]);
+    let mut command = sandbox.command(&["watch", "main.mod"]);
+    let mut child = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("the command runs");
+    let stderr = child.stderr.take().expect("it is piped");
+    let mut lines = BufReader::new(stderr).lines().map(|line| line.expect("diagnostics are UTF-8"));
+    // Whatever the machine's load, each step waits for what it wants to see. A watch that stays silent
+    // is ended.
+    let (done, ended) = std::sync::mpsc::channel::<()>();
+    let id = child.id().to_string();
+    let limit = std::thread::spawn(move || {
+        if ended.recv_timeout(SILENCE_MAX) == Err(std::sync::mpsc::RecvTimeoutError::Timeout) {
+            drop(Command::new("kill").arg(id).status());
+        }
+    });
+    let mut seen = |wanted: &str| assert!(lines.any(|line| line.contains(wanted)), "{wanted} never came");
+    seen("E0103");
+    fs::write(sandbox.path("part.mod"), "let a = 1s\n").expect("a file can be written");
+    seen("--- changed");
+    seen("E0201");
+    fs::write(sandbox.path("part.mod"), "let a = 1mm\n").expect("a file can be written");
+    seen("--- changed");
+    seen("nothing is wrong; watching 2 files");
+    fs::write(sandbox.path("main.mod"), "let b = (\n").expect("a file can be written");
+    seen("E0004");
+    child.kill().expect("it runs");
+    drop(done);
+    limit.join().expect("it only waits");
+    child.wait().expect("it ended");
 }

@@ -56,6 +56,22 @@ pub enum Command {
         #[arg(long, value_name = "TEXT")]
         filter: Option<String>,
     },
+    /// Check programs again whenever a file changes that they read
+    #[command(
+        after_help = "Examples:\n  modl watch walkbot.mod\n  modl watch --test parts/*.mod\n\nWatched are the programs, \
+        what they import, and the files they read. A run that takes\nlong is given up for a newer text. Ctrl-C ends."
+    )]
+    Watch {
+        /// The programs
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+        /// Run the programs instead
+        #[arg(long, conflicts_with = "test")]
+        run: bool,
+        /// Run their tests instead
+        #[arg(long)]
+        test: bool,
+    },
     /// Judge plan files again, from nothing but the files
     #[command(after_help = "Prints every check with its status, and the worst values found.\n\n\
         Example:\n  modl verify out/walkbot.plan.json")]

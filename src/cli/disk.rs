@@ -1,11 +1,13 @@
 //! The project on disk: files below one folder, and nothing else.
 
 use super::CallError;
+use super::watch::Watched;
 use crate::source::{Files, ReadError, library};
 use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 /// No file of a project larger than this is read, bytes.
 pub const FILE_BYTES_MAX: usize = 64 << 20;
@@ -25,6 +27,8 @@ pub struct Project {
     bytes: Vec<u8>,
     /// The root as the user would name it; empty for the working folder.
     pub folder: String,
+    /// Where to note what is read, or looked for.
+    pub watched: Option<Arc<Watched>>,
 }
 
 impl Project {
@@ -37,7 +41,14 @@ impl Project {
             let bytes = read_at_most(io::stdin().lock(), FILE_BYTES_MAX)
                 .map_err(|e| CallError(format!("standard input {e}")))?;
             let name = STDIN_NAME.to_owned();
-            return Ok(Project { root: folder(root)?, stdlib, name, bytes, folder: shown_folder(root) });
+            return Ok(Project {
+                root: folder(root)?,
+                stdlib,
+                name,
+                bytes,
+                folder: shown_folder(root),
+                watched: None,
+            });
         }
         let cannot = |e: ReadFault| CallError(format!("the file `{}` {e}", file.display()));
         let path = fs::canonicalize(file).map_err(|e| cannot(e.into()))?;
@@ -53,7 +64,7 @@ impl Project {
         // Where a link led elsewhere, only the real folder tells the user where the file is.
         let there = fs::canonicalize(if shown == Path::new("") { Path::new(".") } else { shown });
         let folder = if there.is_ok_and(|there| there == root) { shown } else { &root };
-        Ok(Project { folder: shown_folder(folder), root, stdlib, name, bytes })
+        Ok(Project { folder: shown_folder(folder), root, stdlib, name, bytes, watched: None })
     }
 }
 
@@ -62,6 +73,9 @@ impl Files for Project {
         if path == self.name {
             return Ok(self.bytes.clone());
         }
+        if let Some(watched) = &self.watched {
+            watched.note(&self.root.join(path));
+        }
         read_below(&self.root, path)
     }
 
@@ -69,6 +83,9 @@ impl Files for Project {
         let Some(folder) = &self.stdlib else {
             return library::text(path).map(Cow::Borrowed);
         };
+        if let Some(watched) = &self.watched {
+            watched.note(&folder.join(path));
+        }
         let bytes = read_below(folder, path).ok()?;
         String::from_utf8(bytes).ok().map(Cow::Owned)
     }

@@ -17,6 +17,7 @@ mod report;
 mod show;
 mod terminal;
 mod verdict;
+mod watch;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
@@ -57,6 +58,14 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Run { file } => program::run(std::slice::from_ref(file), program::Task::Run, globals),
         Command::Check { files } => program::run(files, program::Task::Check, globals),
         Command::Test { files, filter } => program::run(files, program::Task::Test(filter.clone()), globals),
+        Command::Watch { files, run, test } => {
+            let task = match (run, test) {
+                (true, _) => program::Task::Run,
+                (_, true) => program::Task::Test(None),
+                _ => program::Task::Check,
+            };
+            watch::run(files, &task, globals)
+        }
         Command::Verify { files } => judge::run(files, globals),
         Command::Show { file, open } => show::run(file, *open, globals),
         Command::Fmt { files, check } => fmt::run(files, *check, globals),

@@ -4,13 +4,16 @@ use super::arguments::Globals;
 use super::disk::{Project, STDIN_NAME};
 use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
+use super::watch::Watched;
 use super::{CallError, Ending};
 
 use crate::check;
 use crate::interpret::{self, Limits, Mode, Options, Outcome, TestResult};
 use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+#[derive(Clone, Debug)]
 pub enum Task {
     Run,
     /// As `Run`, and every plan is drawn.
@@ -30,26 +33,46 @@ struct Tally {
 }
 
 pub fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
-    run_all(files, task, globals).map(|(ending, _)| ending)
+    run_all(files, &task, globals, None).map(|(ending, _)| ending)
+}
+
+/// Runs programs; what they depend on is noted, and a run that is stale ends early.
+pub fn run_watched(
+    files: &[PathBuf],
+    task: &Task,
+    globals: &Globals,
+    watched: &Arc<Watched>,
+) -> Result<Ending, CallError> {
+    run_all(files, task, globals, Some(watched)).map(|(ending, _)| ending)
 }
 
 /// Runs one program; gives the files that it wrote, too.
 pub fn run_and_list(file: &Path, task: Task, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
-    run_all(&[file.to_owned()], task, globals)
+    run_all(&[file.to_owned()], &task, globals, None)
 }
 
-fn run_all(files: &[PathBuf], task: Task, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
-    let open = |file: &PathBuf| Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref());
+fn run_all(
+    files: &[PathBuf],
+    task: &Task,
+    globals: &Globals,
+    watched: Option<&Arc<Watched>>,
+) -> Result<(Ending, Vec<String>), CallError> {
+    let open = |file: &PathBuf| {
+        let mut project = Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref())?;
+        project.watched = watched.cloned();
+        Ok(project)
+    };
     // All files are opened first: a call that is wrong does nothing.
     let projects = files.iter().map(open).collect::<Result<Vec<Project>, CallError>>()?;
     listen_for_cancel();
     let mut tally = Tally::default();
     let mut terminal = Terminal::new(globals);
+    terminal.watched = watched.cloned();
     for (file, project) in files.iter().zip(&projects) {
         if files.len() > 1 && matches!(task, Task::Test(_)) && !globals.json {
             print(&format!("{}:\n", file.display()));
         }
-        one(file, project, &task, &mut terminal, &mut tally, globals);
+        one(file, project, task, &mut terminal, &mut tally, globals);
     }
     tally.report.printed = terminal.printed.take().filter(|_| !matches!(task, Task::Check));
     if matches!(task, Task::Test(_)) && !globals.json {
@@ -96,7 +119,9 @@ fn one(
     show_written(outcome.written, tally, task, globals);
     if outcome.cancelled {
         tally.cancelled = true;
-        print_error("interrupted\n");
+        if !terminal.watched.as_ref().is_some_and(|watched| watched.stale()) {
+            print_error("interrupted\n");
+        }
     }
 }
 

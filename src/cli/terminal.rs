@@ -2,9 +2,11 @@
 
 use super::arguments::Globals;
 use super::output;
+use super::watch::Watched;
 use crate::interpret::{Host, WriteError};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -46,6 +48,8 @@ pub struct Terminal {
     folder: PathBuf,
     /// Lines printed, where they go into a JSON object instead of to standard output.
     pub printed: Option<Vec<String>>,
+    /// What the run depends on, if it is to end once that changes.
+    pub watched: Option<Arc<Watched>>,
     shows_progress: bool,
     progress_shown: bool,
 }
@@ -55,6 +59,7 @@ impl Terminal {
         Terminal {
             folder: globals.out.clone(),
             printed: globals.json.then(Vec::new),
+            watched: None,
             shows_progress: !globals.json && io::stderr().is_terminal(),
             progress_shown: false,
         }
@@ -89,6 +94,6 @@ impl Host for Terminal {
     }
 
     fn cancelled(&self) -> bool {
-        cancelled()
+        cancelled() || self.watched.as_ref().is_some_and(|watched| watched.stale())
     }
 }
