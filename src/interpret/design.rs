@@ -139,6 +139,22 @@ impl Groups {
 }
 
 impl ConfigDesign {
+    /// Modules side by side, one list of parts, with nothing connected yet: of what no declaration's body
+    /// describes.
+    pub fn of_modules(modules: Vec<FlatModule>) -> ConfigDesign {
+        let config = ConfigDesign::default();
+        let part = |(offset, module): (usize, &FlatModule)| PartElement {
+            design: module.design.clone(),
+            offset,
+            name: module.name.clone(),
+        };
+        let elements = modules.iter().enumerate().map(part).collect();
+        config.parts.get_or_init(|| vec![PartGroup { list: true, elements }]);
+        config.modules.get_or_init(|| modules);
+        config.order.set(1);
+        config
+    }
+
     pub fn add_bond(&self, bond: BondRecord) {
         let index = self.bonds.borrow().len();
         self.taken.borrow_mut().extend([(bond.a, index), (bond.b, index)]);

@@ -1,6 +1,6 @@
 //! Panels joined as a flat pattern says: the robot that folds, and its program.
 
-use super::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, PartElement, PartGroup};
+use super::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule};
 use super::interpreter::Interpreter;
 use super::robot_of::Robot;
 use super::stop::Eval;
@@ -91,16 +91,8 @@ impl Pieces<'_> {
     fn joined(&self) -> Rc<Design> {
         let name = |face: usize| -> Rc<str> { format!("panel[{face}]").into() };
         let panels = self.panels.iter().enumerate();
-        let elements = panels.clone().map(|(face, panel)| PartElement {
-            design: panel.clone(),
-            offset: face,
-            name: name(face),
-        });
-        let group = PartGroup { list: true, elements: elements.collect() };
-        let config = ConfigDesign::default();
-        assert!(config.parts.set(vec![group]).is_ok(), "it was just made");
         let modules = panels.map(|(face, panel)| FlatModule { name: name(face), design: panel.clone() });
-        assert!(config.modules.set(modules.collect()).is_ok(), "it was just made");
+        let config = ConfigDesign::of_modules(modules.collect());
         for &face in &self.layout.order[1..] {
             let across = self.layout.across(self.target, face);
             config.add_bond(BondRecord {
@@ -113,7 +105,6 @@ impl Pieces<'_> {
             });
         }
         config.base.set(Some(self.layout.root));
-        config.order.set(1);
         config.complete.set(true);
         let panel = &self.panels[self.layout.root];
         Rc::new(Design {

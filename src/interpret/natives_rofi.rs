@@ -1,9 +1,7 @@
 //! `load` and `save`: robots of RoFI modules from and to RoFI's files.
 
 use super::call::Call;
-use super::design::{
-    BondRecord, ConfigDesign, Design, DesignKind, FlatModule, PartElement, PartGroup, SetRecord,
-};
+use super::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run, pure};
 use super::natives_plan::{output_path, write_output};
@@ -87,14 +85,9 @@ fn faulty(call: &Call, path: &str, line: usize, column: usize, what: &str) -> St
 
 /// Modules, positions and connections, as the clauses of a configuration would have made them.
 fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) -> Eval<ConfigDesign> {
-    let config = ConfigDesign { closed: true, ..ConfigDesign::default() };
     let name = |m: &Module| -> Rc<str> { format!("m[{}]", m.id).into() };
-    let flat = world.modules.iter().map(|m| FlatModule { name: name(m), design: module.clone() });
-    let elements = world.modules.iter().enumerate();
-    let elements =
-        elements.map(|(offset, m)| PartElement { design: module.clone(), offset, name: name(m) }).collect();
-    let _ = config.modules.set(flat.collect());
-    let _ = config.parts.set(vec![PartGroup { list: true, elements }]);
+    let modules = world.modules.iter().map(|m| FlatModule { name: name(m), design: module.clone() });
+    let config = ConfigDesign { closed: true, ..ConfigDesign::of_modules(modules.collect()) };
     let kind = module.module_type(0);
     for (index, declared) in world.modules.iter().enumerate() {
         for (joint, degrees) in JOINTS.iter().zip(declared.joints) {
@@ -136,7 +129,6 @@ fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) ->
             instance: format!("line {}", edge.line).as_str().into(),
         });
     }
-    config.order.set(1);
     config.base.set(Some(0));
     config.complete.set(true);
     Ok(config)
