@@ -74,7 +74,7 @@ pub fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, 
             // A run that takes long is given up for the newer text.
             scope.spawn(move || {
                 while !over.load(Ordering::Relaxed) && !look.look() {
-                    std::thread::sleep(LOOK);
+                    std::thread::park_timeout(LOOK);
                 }
             });
             let ran = program::run_watched(files, task, globals, &watched);
@@ -91,7 +91,7 @@ pub fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, 
             if cancelled() {
                 return Ok(Ending::Cancelled);
             }
-            std::thread::sleep(LOOK);
+            std::thread::park_timeout(LOOK);
         }
     }
 }
