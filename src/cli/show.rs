@@ -40,18 +40,16 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
     let verdict = judge::judged(&plan);
     let ok = verdict.ok();
     let plan = Plan { verdict: Some(verdict), ..plan };
-    let stem = file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
-    let stem = stem.strip_suffix(".plan").unwrap_or(&stem);
-    let command = format!("modl show {}", file.file_name().unwrap_or_default().to_string_lossy());
+    let own = file.file_name().unwrap_or_default().to_string_lossy();
+    let to = view::page_name(&own);
+    let stem = to.strip_suffix(".html").unwrap_or(&to);
+    let command = format!("modl show {own}");
     let showing = Showing { title: title(&plan, stem), plan: &plan, texts: &[], command: &command };
     let page = view::page(&showing);
-    let written =
-        output::write(&globals.out, &format!("{stem}.html"), page.as_bytes()).map_err(|e| match e {
-            WriteError::Outside => {
-                CallError(format!("the page of `{name}` would lie outside the output folder"))
-            }
-            WriteError::Failed(why) => CallError(format!("the page of `{name}` can't be written: {why}")),
-        })?;
+    let written = output::write(&globals.out, &to, page.as_bytes()).map_err(|e| match e {
+        WriteError::Outside => CallError(format!("the page of `{name}` would lie outside the output folder")),
+        WriteError::Failed(why) => CallError(format!("the page of `{name}` can't be written: {why}")),
+    })?;
     if !globals.json {
         print_error(&format!("wrote {written}\n"));
     }

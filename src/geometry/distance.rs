@@ -28,7 +28,7 @@ pub fn near(a: &Part, b: &Part, X_AB: &Pose, normal: Option<Vec3>, enough: f64) 
 }
 
 /// By the nearest points of the cores, where the cores are apart.
-fn apart(a: &Part, b: &Part, X_AB: &Pose, normal: Option<Vec3>, enough: f64) -> Option<Nearness> {
+pub(super) fn apart(a: &Part, b: &Part, X_AB: &Pose, normal: Option<Vec3>, enough: f64) -> Option<Nearness> {
     let rounding = a.rounding() + b.rounding();
     let towards = normal.unwrap_or_else(|| X_AB.transform_point(&b.centre.into()).coords - a.centre);
     let found = approach(a, b, X_AB, &towards, enough + rounding)?;

@@ -13,6 +13,7 @@ pub mod part;
 pub mod solid;
 
 pub mod distance;
+pub mod meeting;
 
 mod approach;
 pub mod hull;

@@ -12,7 +12,7 @@ use super::stop::Eval;
 use super::value::Value;
 use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
-use crate::plan::{CauseId, World};
+use crate::plan::{Bound, CauseId, World};
 use crate::planners::fold::exact::{self, Word};
 use crate::planners::fold::meeting::{Meeting, meeting};
 use crate::planners::fold::objective::Minimise;
@@ -189,8 +189,10 @@ impl Task<'_> {
     }
 
     fn answer(&self, outcome: Outcome, found: &Found, optimal: bool) -> Value {
-        let Outcome { planned, layout, steps } = outcome;
+        let Outcome { mut planned, layout, steps } = outcome;
         let Question { target, objective, options, .. } = self.question;
+        let energetic = matches!(options.minimise, Minimise::Energy) && found.bound > 0.0;
+        planned.plan.provenance.bound = energetic.then_some(Bound::FoldingEnergy(found.bound));
         let effort = objective.effort(&layout, &steps);
         let value = match options.minimise {
             Minimise::Energy => effort.energy,

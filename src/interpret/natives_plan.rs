@@ -4,13 +4,14 @@ use super::call::Call;
 use super::host::WriteError;
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run, pure};
-use super::natives_show::{Form, page_beside};
+use super::natives_show::Form;
 use super::planning::{Beginning, Planned};
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
 use crate::plan::{self, Ground, Plan, Settings, Stability, World};
 use crate::source::{Diagnostic, code, files};
+use crate::view;
 use std::rc::Rc;
 
 pub const TABLE: &[Native] = &[
@@ -137,7 +138,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let verdict = interpreter.judge(&planned, settings, None);
     interpreter.note_exemptions(&planned, &verdict);
     let page = match interpreter.options.pages {
-        true => Some(interpreter.draw(&planned, settings, Form::Page, &page_beside(&path), call)?),
+        true => Some(interpreter.draw(&planned, settings, Form::Page, &view::page_name(&path), call)?),
         false => None,
     };
     if !verdict.ok() {

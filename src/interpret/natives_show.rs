@@ -72,12 +72,6 @@ fn form(call: &Call, name: &str) -> Option<Form> {
     }
 }
 
-/// Where the page of a plan file goes: beside it.
-pub fn page_beside(path: &str) -> String {
-    let stem = path.strip_suffix(".json").unwrap_or(path);
-    format!("{}.html", stem.strip_suffix(".plan").unwrap_or(stem))
-}
-
 impl Interpreter<'_> {
     /// Writes the page of a plan with its verdict under these settings; gives the path to show.
     pub fn draw(

@@ -12,11 +12,10 @@ use super::value::{Behavior, Value};
 use crate::behavior::{self, Problem, Scheduled};
 use crate::geometry::Vec3;
 use crate::plan::{
-    Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom,
+    Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
 };
 use crate::robot::{JointId, Library, State};
 use crate::source::{Span, code};
-use sha2::{Digest, Sha256};
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -278,9 +277,11 @@ impl Interpreter<'_> {
 
     /// Names and hashes of all texts.
     pub fn provenance(&self) -> Provenance {
-        let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
-        let mut sources: Vec<(String, String)> =
-            self.sources.files().map(|(_, file)| (file.name.to_string(), hash(&file.text))).collect();
+        let mut sources: Vec<(String, String)> = self
+            .sources
+            .files()
+            .map(|(_, source)| (source.name.to_string(), file::digest(&source.text)))
+            .collect();
         sources.sort();
         Provenance {
             sources,

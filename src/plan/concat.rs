@@ -91,6 +91,7 @@ fn framed(p: &Plan, q: &Plan, seam: f64, renamed: Vec<(String, String)>) -> Plan
         new.provenance.planner = format!("{}, {}", new.provenance.planner, q.provenance.planner);
     }
     let appended = q.provenance.history.clone();
+    new.provenance.bound = None;
     new.provenance.history.push(Change::Joined { at: seam, renamed, appended });
     new.verdict = None;
     new

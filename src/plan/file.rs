@@ -3,6 +3,7 @@
 
 use super::form::{FORMAT, Header, PlanForm, VERSION};
 use super::{Plan, finite, validate};
+use sha2::{Digest, Sha256};
 
 /// Longest text that is read, bytes.
 pub const TEXT_MAX: usize = 1 << 31;
@@ -66,6 +67,11 @@ pub fn read(text: &str) -> Result<Plan, FileError> {
     let plan = form.plan().map_err(FileError::whole)?;
     validate::validate(&plan).map_err(FileError::whole)?;
     Ok(plan)
+}
+
+/// SHA-256 of a text in hexadecimal, as plans and their pages name sources and plans.
+pub fn digest(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// The JSON Schema of plan files.

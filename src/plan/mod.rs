@@ -113,10 +113,23 @@ pub struct Provenance {
     pub sources: Vec<(String, String)>,
     pub seed: Option<u64>,
     pub budget: Option<u64>,
+    /// What the planner proved of every plan for the same task; nothing of a plan changed since.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Bound>,
     /// The tool that planned it, with its version: `modl 0.1.0`.
     pub tool: String,
     /// What was done to the plan since, in order.
     pub history: Vec<Change>,
+}
+
+/// A value that no plan for the same task is below.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Bound {
+    /// Seconds.
+    Duration(f64),
+    /// Of the hinges that fold, J.
+    FoldingEnergy(f64),
 }
 
 /// A change of a whole plan.

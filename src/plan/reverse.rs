@@ -19,6 +19,7 @@ pub fn reversed(plan: &Plan) -> Plan {
     new.exemptions = plan.exemptions.iter().rev().map(|e| turned(e, duration)).collect();
     new.worlds = worlds(&plan.worlds, duration);
     new.verdict = None;
+    new.provenance.bound = None;
     new.provenance.history.push(Change::Reversed);
     retell(&mut new, plan.program.is_some());
     new

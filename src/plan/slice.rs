@@ -23,6 +23,7 @@ pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, Unfit> {
     let worlds = plan.worlds.iter().skip(holds).filter(|w| w.from <= from || w.from < to);
     new.worlds = worlds.map(|w| WorldFrom { from: (w.from - from).max(0.0), world: w.world }).collect();
     new.verdict = None;
+    new.provenance.bound = None;
     new.provenance.history.push(Change::Sliced { from, to });
     retell(&mut new, plan.program.is_some());
     Ok(new)

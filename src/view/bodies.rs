@@ -1,7 +1,8 @@
 //! What there is to see of a plan at a time: coloured meshes in the world.
 
 use super::colour::{FAILED, PALETTE, Rgb, groups};
-use super::mesh::{Mesh, along};
+use super::mesh::Mesh;
+use super::primitives::along;
 use super::{Showing, findings};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Pose, Vec3};

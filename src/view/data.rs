@@ -3,11 +3,10 @@
 use super::number::number;
 use super::solids::Meshes;
 use super::{Showing, findings, lattice, robot, stand, truss};
-use crate::plan::verify::{clearances, history};
-use crate::plan::{Body, Ground, Plan};
+use crate::plan::verify::{CONTACTS_MAX, clearances, history};
+use crate::plan::{Body, Bound, Ground, Plan, file};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 
 /// Bytes of source texts in one page; beyond that only the lines that command something.
 const TEXTS_MAX: usize = 400_000;
@@ -30,6 +29,11 @@ pub fn data(showing: &Showing) -> Value {
         Body::Stages(stages) => lattice::body(stages, &plan.library),
         Body::NodePaths(paths) => truss::body(paths, &plan.library),
     };
+    let (contacts, in_part) = stand::contacts(&moments);
+    if in_part {
+        notes.push(format!("of the contacts with the ground {CONTACTS_MAX} at most are marked"));
+    }
+    let clearance = clearance(plan, end, &mut notes);
     let ground = plan.worlds.first().is_none_or(|world| world.world.ground != Ground::Off);
     json!({
         "title": showing.title,
@@ -47,10 +51,21 @@ pub fn data(showing: &Showing) -> Value {
         "command": showing.command,
         "meshes": meshes.list,
         "stand": stand::stands(&moments),
-        "clearance": stand::curve(&clearances(plan, end, CLEARANCES)),
+        "contacts": contacts,
+        "clearance": clearance,
         "loads": stand::loads(&moments),
         "body": body,
     })
+}
+
+/// The curve of clearances, through the least that the judge found.
+fn clearance(plan: &Plan, end: f64, notes: &mut Vec<String>) -> Vec<Value> {
+    let points = clearances(plan, end, CLEARANCES);
+    if (2..=CLEARANCES).contains(&points.len()) {
+        notes.push(format!("the curve of clearances goes through {} instants, evenly in time", points.len()));
+    }
+    let worst = plan.verdict.iter().find_map(|verdict| verdict.clearance.as_ref());
+    stand::curve(points, worst.filter(|worst| worst.time <= end).map(|worst| (worst.time, worst.value)))
 }
 
 fn sources(texts: &[(String, String)]) -> Vec<Value> {
@@ -70,6 +85,12 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts.extend(made.seed.map(|seed| ("seed", seed.to_string())));
     facts.extend(made.budget.map(|budget| ("budget", budget.to_string())));
     facts.push(("duration", time(plan.body.duration())));
+    facts.extend(made.bound.map(|bound| match bound {
+        Bound::Duration(least) => ("proved bound", format!("no such plan is shorter than {}", time(least))),
+        Bound::FoldingEnergy(least) => {
+            ("proved bound", format!("no such pattern folds with less than {}J", display::number(least)))
+        }
+    }));
     if let Some(verdict) = &plan.verdict {
         facts.push(("verdict", if verdict.ok() { "verified".into() } else { "not verified".into() }));
         facts.push(("energy", format!("{}J", display::number(libm::round(verdict.energy * 1e3) / 1e3))));
@@ -101,6 +122,5 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
 /// Of the plan file without its verdict.
 fn hash(plan: &Plan) -> String {
     let bare = Plan { verdict: None, ..plan.clone() };
-    let text = crate::plan::file::write(&bare).unwrap_or_default();
-    Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
+    file::digest(&file::write(&bare).unwrap_or_default())
 }

@@ -1,7 +1,9 @@
 //! What the judge found, as a page tells it.
 
 use super::Showing;
-use super::number::number;
+use super::number::{number, vector};
+use crate::geometry::Vec3;
+use crate::plan::verify::collision_point;
 use crate::plan::{Body, Cause, CheckKind, Failure, Plan, Verdict, Worst};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};
@@ -36,14 +38,25 @@ pub fn verdict(plan: &Plan) -> Value {
 }
 
 fn failure(failure: &Failure, plan: &Plan) -> Value {
+    let modules = modules(&failure.at, plan);
     json!({
         "time": number(failure.time),
         "until": failure.until.map(number),
         "kind": failure.kind.name(),
         "message": failure.message,
-        "modules": modules(&failure.at, plan),
+        "point": meeting(failure, &modules, plan).as_ref().map(vector),
+        "modules": modules,
         "blame": failure.blame.iter().map(|cause| cause.0).collect::<Vec<_>>(),
     })
+}
+
+/// Where two modules of a collision meet, in the world, m.
+fn meeting(failure: &Failure, modules: &[usize], plan: &Plan) -> Option<Vec3> {
+    if failure.kind != CheckKind::Collision {
+        return None;
+    }
+    let (first, last) = (*modules.first()?, *modules.last()?);
+    collision_point(plan, (first, last), failure.time)
 }
 
 /// The modules that the first failure names, if a time is its own.

@@ -1,8 +1,8 @@
 //! Shapes as triangles and sharp edges, for pictures that are drawn here and not in a browser.
 #![allow(non_snake_case)]
 
-use crate::geometry::pose::shifted;
-use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
+use super::primitives::{Primitive, primitives};
+use crate::geometry::{Placed, Pose, Vec3};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
@@ -24,31 +24,13 @@ impl Mesh {
     /// Shapes of a link in the link's frame.
     pub fn of(shapes: &[Placed]) -> Mesh {
         let mut mesh = Mesh::default();
-        shapes.iter().for_each(|placed| mesh.add(placed, &Pose::identity()));
+        primitives(shapes, &mut |X, piece| match piece {
+            Primitive::Box { size } => mesh.add_box(X, &size),
+            Primitive::Tube { radius, length } => mesh.tube(X, radius, length),
+            Primitive::Ball { radius } => mesh.ball(X, radius),
+            Primitive::Surface { points, triangles } => mesh.surface(X, points, triangles),
+        });
         mesh
-    }
-
-    pub fn add(&mut self, placed: &Placed, X_LS: &Pose) {
-        let X = X_LS * placed.pose;
-        match &placed.shape {
-            Shape::Box { size } => self.add_box(&X, size),
-            Shape::Cylinder { radius, length, axis } => self.tube(&(X * along(axis)), *radius, *length),
-            Shape::Sphere { radius } => self.ball(&X, *radius),
-            Shape::Capsule { radius, length, axis } => {
-                let turned = X * along(axis);
-                self.tube(&turned, *radius, *length);
-                for end in [-0.5, 0.5] {
-                    self.ball(&(turned * shifted(Vec3::new(0.0, 0.0, end * length))), *radius);
-                }
-            }
-            Shape::Hull { points } => {
-                if let Some(faces) = hull::faces(points) {
-                    self.surface(&X, &faces.points, &faces.triangles);
-                }
-            }
-            Shape::Mesh { vertices, triangles, .. } => self.surface(&X, vertices, triangles),
-            Shape::Union { parts } => parts.iter().for_each(|part| self.add(part, &X)),
-        }
     }
 
     /// Faces and edges of a box around the frame's origin.
@@ -135,14 +117,4 @@ impl Mesh {
         let triangles = self.triangles.iter().map(|(p, n)| (p.map(at), n.map(|n| X.rotation * n)));
         Mesh { triangles: triangles.collect(), edges: self.edges.iter().map(|e| e.map(at)).collect() }
     }
-}
-
-/// The rotation that takes +z to an axis.
-pub fn along(axis: &Vec3) -> Pose {
-    let turn = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), axis);
-    // The axis that points down: half a turn about x.
-    let turn = turn.unwrap_or_else(|| {
-        nalgebra::UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 1.0, 0.0, 0.0))
-    });
-    Pose::from_parts(Vec3::zeros().into(), turn)
 }

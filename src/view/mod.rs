@@ -12,6 +12,8 @@ mod data;
 mod findings;
 mod number;
 
+mod primitives;
+
 mod robot;
 mod solids;
 mod stand;
@@ -24,6 +26,7 @@ pub mod picture;
 mod bodies;
 mod colour;
 mod mesh;
+mod palette;
 mod raster;
 
 pub mod svg;
@@ -35,7 +38,7 @@ mod program;
 
 use crate::plan::Plan;
 
-pub use page::page;
+pub use page::{page, page_name};
 pub use picture::{Side, Still, png};
 pub use svg::svg;
 

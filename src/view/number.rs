@@ -19,6 +19,11 @@ pub fn list(numbers: impl IntoIterator<Item = f64>) -> Value {
     Value::Array(numbers.into_iter().map(number).collect())
 }
 
+/// A place on the ground, to a tenth of a millimetre.
+pub fn place(x: f64) -> f64 {
+    libm::round(x * 1e4) / 1e4
+}
+
 /// Whole numbers are written without a fraction.
 pub fn number(x: f64) -> Value {
     let x = short(x);

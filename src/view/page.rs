@@ -1,17 +1,19 @@
 //! The page: one file, with its style, its scripts and the plan inside. It loads nothing.
 
-use super::{Showing, Still, data, png};
+use super::picture::small_png;
+use super::{Showing, Still, data};
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
 
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 12] = [
     include_str!("page/math.js"),
     include_str!("page/motion.js"),
     include_str!("page/shapes.js"),
     include_str!("page/shaders.js"),
     include_str!("page/render.js"),
+    include_str!("page/framing.js"),
     include_str!("page/camera.js"),
     include_str!("page/timeline.js"),
     include_str!("page/curves.js"),
@@ -21,7 +23,7 @@ const SCRIPTS: [&str; 11] = [
 ];
 
 /// What is shown where the page can't play.
-const STILL: Still = Still { time: 0.0, side: super::Side::Corner, width: 560, height: 350 };
+const STILL: Still = Still { time: 0.0, side: super::Side::Corner, width: 480, height: 300 };
 
 /// The whole page. Nothing in the plan can break out of its place: the data is JSON in which `<`, `>`
 /// and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
@@ -29,7 +31,7 @@ pub fn page(showing: &Showing) -> String {
     let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
     let plan = unmarked(&data::data(showing).to_string());
     let title = escaped(showing.title);
-    let still = base64(&png(showing, &STILL));
+    let still = base64(&small_png(showing, &STILL));
     filled(&[
         ("title", &title),
         ("style", &lean(STYLE)),
@@ -37,6 +39,19 @@ pub fn page(showing: &Showing) -> String {
         ("plan", &plan),
         ("script", &script),
     ])
+}
+
+/// What the page of a plan file is called: as the file, with another ending. Of a path the page's
+/// path, beside the file.
+pub fn page_name(plan_file: &str) -> String {
+    let stem = without(without(plan_file, ".json"), ".plan");
+    format!("{stem}.html")
+}
+
+fn without<'a>(name: &'a str, ending: &str) -> &'a str {
+    let at = name.len().saturating_sub(ending.len());
+    let ends = name.get(at..).is_some_and(|rest| rest.eq_ignore_ascii_case(ending));
+    if ends { &name[..at] } else { name }
 }
 
 /// The template with a text at each of its places, which are looked for in the template only.

@@ -3,7 +3,7 @@
 use super::bodies::{Drawn, drawn};
 use super::colour::Rgb;
 use super::raster::{Canvas, Eye};
-use super::{Showing, findings};
+use super::{Showing, findings, palette};
 use crate::geometry::Vec3;
 use crate::plan::Ground;
 
@@ -66,11 +66,21 @@ impl Default for Still {
 
 /// A picture as the bytes of a PNG file.
 pub fn png(showing: &Showing, still: &Still) -> Vec<u8> {
+    let pixels = pixels(&canvas(showing, still), still);
+    encoded(still, &pixels, None)
+}
+
+/// The same in a few colours, a fifth as large: for a page to hold.
+pub fn small_png(showing: &Showing, still: &Still) -> Vec<u8> {
+    let (colours, pixels) = palette::reduced(&pixels(&canvas(showing, still), still));
+    encoded(still, &pixels, Some(&colours))
+}
+
+fn canvas(showing: &Showing, still: &Still) -> Canvas {
     let time = still.time.clamp(0.0, findings::end(showing.plan));
     let bodies = drawn(showing, time);
     let grounded = showing.plan.worlds.first().is_none_or(|w| w.world.ground != Ground::Off);
-    let scene = Scene::new(bodies, grounded, still);
-    encoded(&scene.canvas(), still.width, still.height)
+    Scene::new(bodies, grounded, still).canvas()
 }
 
 struct Scene {
@@ -215,8 +225,9 @@ fn ball(bodies: &[Drawn]) -> (Vec3, f64) {
     ((low + high) / 2.0, ((high - low).norm() / 2.0).max(1e-6))
 }
 
-/// The fine picture's means as PNG.
-fn encoded(canvas: &Canvas, width: usize, height: usize) -> Vec<u8> {
+/// The fine picture's means: red, green and blue of each pixel.
+fn pixels(canvas: &Canvas, still: &Still) -> Vec<u8> {
+    let (width, height) = (still.width, still.height);
     let mut pixels = Vec::with_capacity(width * height * 3);
     for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
         for part in 0..3 {
@@ -228,13 +239,25 @@ fn encoded(canvas: &Canvas, width: usize, height: usize) -> Vec<u8> {
             pixels.push(libm::roundf(mean * 255.0) as u8);
         }
     }
+    pixels
+}
+
+/// Pixels as PNG: red, green and blue of each, or its place among the colours.
+fn encoded(still: &Still, pixels: &[u8], colours: Option<&[[u8; 3]]>) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
-    encoder.set_color(png::ColorType::Rgb);
+    let mut encoder = png::Encoder::new(&mut bytes, still.width as u32, still.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
+    match colours {
+        None => encoder.set_color(png::ColorType::Rgb),
+        Some(colours) => {
+            encoder.set_color(png::ColorType::Indexed);
+            encoder.set_palette(colours.as_flattened());
+            encoder.set_filter(png::Filter::NoFilter);
+        }
+    }
     let mut writer = encoder.write_header().expect("a picture has at least one pixel");
-    writer.write_image_data(&pixels).expect("a picture has as many pixels as it says");
+    writer.write_image_data(pixels).expect("a picture has as many pixels as it says");
     writer.finish().expect("memory takes all bytes");
     bytes
 }

@@ -1,10 +1,9 @@
 //! Shapes as a page draws them: unit boxes, cylinders and balls, placed and scaled, and meshes.
 #![allow(non_snake_case)]
 
-use super::mesh::along;
 use super::number::{list, rotation, vector};
-use crate::geometry::pose::shifted;
-use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
+use super::primitives::{Primitive, primitives};
+use crate::geometry::{Placed, Vec3};
 use serde_json::{Value, json};
 
 /// Unit shapes that every page has: 0 a box, 1 a cylinder along z, 2 a ball.
@@ -23,40 +22,17 @@ pub struct Meshes {
 /// The solids of a link, in its frame: `{shape, p, q, s}`.
 pub fn solids(shapes: &[Placed], meshes: &mut Meshes) -> Value {
     let mut found = Vec::new();
-    shapes.iter().for_each(|placed| add(placed, &Pose::identity(), meshes, &mut found));
-    Value::Array(found)
-}
-
-fn add(placed: &Placed, X_LS: &Pose, meshes: &mut Meshes, found: &mut Vec<Value>) {
-    let X = X_LS * placed.pose;
-    let mut solid = |shape: usize, X: &Pose, size: Vec3| {
+    primitives(shapes, &mut |X, piece| {
+        let (shape, size) = match piece {
+            Primitive::Box { size } => (BOX, size),
+            Primitive::Tube { radius, length } => (CYLINDER, Vec3::new(2.0 * radius, 2.0 * radius, length)),
+            Primitive::Ball { radius } => (BALL, Vec3::repeat(2.0 * radius)),
+            Primitive::Surface { points, triangles } => (meshes.index(points, triangles), Vec3::repeat(1.0)),
+        };
         let p = vector(&X.translation.vector);
         found.push(json!({ "shape": shape, "p": p, "q": rotation(X), "s": vector(&size) }));
-    };
-    match &placed.shape {
-        Shape::Box { size } => solid(BOX, &X, *size),
-        Shape::Cylinder { radius, length, axis } => {
-            solid(CYLINDER, &(X * along(axis)), Vec3::new(2.0 * radius, 2.0 * radius, *length));
-        }
-        Shape::Sphere { radius } => solid(BALL, &X, Vec3::repeat(2.0 * radius)),
-        Shape::Capsule { radius, length, axis } => {
-            let turned = X * along(axis);
-            solid(CYLINDER, &turned, Vec3::new(2.0 * radius, 2.0 * radius, *length));
-            for end in [-0.5, 0.5] {
-                let cap = turned * shifted(Vec3::new(0.0, 0.0, end * length));
-                solid(BALL, &cap, Vec3::repeat(2.0 * radius));
-            }
-        }
-        Shape::Hull { points } => {
-            if let Some(faces) = hull::faces(points) {
-                solid(meshes.index(&faces.points, &faces.triangles), &X, Vec3::repeat(1.0));
-            }
-        }
-        Shape::Mesh { vertices, triangles, .. } => {
-            solid(meshes.index(vertices, triangles), &X, Vec3::repeat(1.0));
-        }
-        Shape::Union { parts } => parts.iter().for_each(|part| add(part, &X, meshes, found)),
-    }
+    });
+    Value::Array(found)
 }
 
 impl Meshes {

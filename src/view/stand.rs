@@ -1,8 +1,8 @@
 //! How the robot gets along and stands: from the judge's walk, thinned to what an eye can follow.
 
-use super::number::{list, number};
+use super::number::{list, number, place};
 use crate::geometry::Pose;
-use crate::plan::verify::Moment;
+use crate::plan::verify::{self, Moment};
 use serde_json::{Value, json};
 
 /// A base pose is left out where those beside it give it to within this, m and (of quaternions) 1.
@@ -13,6 +13,9 @@ const RUN_MAX: usize = 64;
 
 /// Numbers of all loads together.
 const LOADS_MAX: usize = 40_000;
+
+/// Points of contact with the ground in one page.
+const CONTACTS_MAX: usize = 20_000;
 
 /// Moments whose support is drawn.
 const STANDS_MAX: usize = 500;
@@ -74,15 +77,43 @@ pub fn stands(moments: &[Moment]) -> Vec<Value> {
     chosen
         .map(|(_, m)| {
             let margin = m.margin.map_or(Value::Null, number);
-            let corners = list(m.support.iter().flatten().copied());
+            let corners = list(m.support.iter().flatten().map(|x| place(*x)));
             let [x, y, z] = [m.centre.x, m.centre.y, m.centre.z].map(number);
             json!([number(m.time), x, y, z, margin, m.held, corners])
         })
         .collect()
 }
 
-/// A curve in millimetres: `[[time, value], ...]`.
-pub fn curve(points: &[(f64, f64)]) -> Vec<Value> {
+/// `[time, [x, y, ...]]` of the points that touch the ground, from each moment on at which they are
+/// others than before; and whether there were too many to tell them all.
+pub fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
+    let most = moments.iter().map(|m| m.contacts.len()).max().unwrap_or(0);
+    let afforded = CONTACTS_MAX / most.max(1);
+    let stride = moments.len().div_ceil(afforded.max(1)).max(1);
+    let mut told: Vec<Value> = Vec::new();
+    let mut last: Option<&[[f64; 2]]> = None;
+    for moment in moments.iter().step_by(stride) {
+        if last.is_some_and(|last| same(last, &moment.contacts)) {
+            continue;
+        }
+        last = Some(&moment.contacts);
+        told.push(json!([number(moment.time), list(moment.contacts.iter().flatten().map(|x| place(*x)))]));
+    }
+    (told, most >= verify::CONTACTS_MAX)
+}
+
+/// Whether points are where others were, as far as an eye can tell.
+fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let near = |(p, q): (&[f64; 2], &[f64; 2])| p.iter().zip(q).all(|(x, y)| (x - y).abs() <= TOL_BASE);
+    a.len() == b.len() && a.iter().zip(b).all(near)
+}
+
+/// A curve in millimetres: `[[time, value], ...]`, through the least value that the judge found.
+pub fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> Vec<Value> {
+    if let Some(least) = least.filter(|_| !points.is_empty()) {
+        let at = points.partition_point(|(time, _)| *time <= least.0);
+        points.insert(at, least);
+    }
     points.iter().map(|(time, value)| json!([number(*time), number(value * 1e3)])).collect()
 }
 

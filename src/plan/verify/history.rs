@@ -1,14 +1,13 @@
 //! What a plan's robot is like on its way: the walk that the judge takes, told to whoever draws or
 //! measures it. Nothing is judged here.
 
-use super::collision;
 use super::footprint::hull;
 use super::thinned::Thinned;
 use super::torque::Gauge;
 use super::walk::{Course, Sample, walk};
-use super::{Precision, Tolerances, contact};
+use super::{Tolerances, contact};
 use crate::geometry::{Pose, Vec3};
-use crate::plan::{Body, Plan, Tracks, sound};
+use crate::plan::{Body, Plan, sound};
 
 /// Moments of one history; of a longer walk every second, fourth, ... is kept.
 pub const MOMENTS_MAX: usize = 4096;
@@ -16,8 +15,8 @@ pub const MOMENTS_MAX: usize = 4096;
 /// Of so many moments one tells the loads of the joints, which take longer to find.
 const LOADS_EACH: usize = 8;
 
-/// Pairs of modules that are looked at for one curve of clearances, at most.
-const PAIRS_MAX: usize = 60_000;
+/// Points of contact that one moment tells; of more every second, third, ...
+pub const CONTACTS_MAX: usize = 128;
 
 /// The robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +30,8 @@ pub struct Moment {
     /// Corners of the hull of what touches the ground, counter-clockwise from above, world, m; fewer
     /// than three where the contacts span no area, none without a ground.
     pub support: Vec<[f64; 2]>,
+    /// Points that touch the ground, world, m: at most [`CONTACTS_MAX`] of them.
+    pub contacts: Vec<[f64; 2]>,
     /// Distance of the centre of mass inside that hull, negative outside, m; `None` where it spans no
     /// area.
     pub margin: Option<f64>,
@@ -110,34 +111,9 @@ fn moment(sample: &Sample) -> Moment {
         base: stance.base_pose(sample.model),
         centre: Vec3::new(place.x, place.y, stance.height),
         support: hull(&points).into_iter().map(|i| points[i]).collect(),
+        contacts: points.iter().step_by(points.len().div_ceil(CONTACTS_MAX).max(1)).copied().collect(),
         margin,
         held: stance.held,
         loads: vec![],
     }
-}
-
-/// Least signed distance of links that may not touch, m, at evenly spaced times: (time, distance).
-/// At most `count` of them, fewer for robots of many modules, none where that would take long or the
-/// robot has no two such links.
-pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
-    let Body::Tracks(tracks) = &plan.body else { return vec![] };
-    let modules = tracks.robot.modules.len();
-    let count = count.min(PAIRS_MAX / (modules * modules).max(1));
-    if count < 2 || until <= 0.0 || !sound::faults(plan).is_empty() {
-        return vec![];
-    }
-    let at = |i: usize| {
-        let time = until * i as f64 / count as f64;
-        // A plan of one instant: what the judge measures of it is its clearance there.
-        let instant = Tracks {
-            start: tracks.state(time),
-            tracks: vec![],
-            docks: vec![],
-            duration: 0.0,
-            ..tracks.clone()
-        };
-        let found = collision::judge(&instant, &plan.settings, &[], &Precision::default()).ok()?;
-        Some((time, found.clearance?.value))
-    };
-    (0..=count).filter_map(at).collect()
 }

@@ -46,6 +46,7 @@ mod docking;
 mod history;
 mod judge;
 mod meeting;
+mod nearness;
 mod thinned;
 
 pub mod lattice;
@@ -63,8 +64,9 @@ pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};
 pub use collision::{Collision, Findings, Precision};
 pub use contact::{Patch, Touch};
-pub use history::{MOMENTS_MAX, Moment, base_at, clearances, history};
+pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
 pub use model::Model;
+pub use nearness::{clearances, collision_point};
 pub use stance::Stance;
 pub use tolerances::Tolerances;
 pub use walk::{Course, Ended, Sample, Tip, Waypoint, walk};

@@ -88,6 +88,14 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The least distance at one instant, m; `None` where no two links may not touch.
+    pub fn clearance_at(&mut self, bonds: &[bool], time: f64) -> Option<f64> {
+        self.clearance = None;
+        self.collisions.clear();
+        self.window(bonds, (time, time), &[]);
+        self.clearance.as_ref().map(|nearest| nearest.distance)
+    }
+
     pub fn findings(self, exemptions: &[Exemption]) -> Findings {
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
         collisions.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.modules.cmp(&b.modules)));
@@ -350,7 +358,7 @@ impl<'a> Search<'a> {
 }
 
 /// Links that carry mated ports of bonds that hold, both ways round.
-fn mated(robot: &Assembly, bonds: &[bool], kinematics: &Kinematics) -> BTreeSet<(usize, usize)> {
+pub fn mated(robot: &Assembly, bonds: &[bool], kinematics: &Kinematics) -> BTreeSet<(usize, usize)> {
     let holding = robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds);
     holding
         .flat_map(|(bond, _)| {

@@ -5,7 +5,7 @@ const FOVY = (38 * Math.PI) / 180;
 function cameraOf(canvas, calm, changed) {
   const goal = { yaw: -0.9, pitch: 0.42, distance: 1, target: [0, 0, 0] };
   const now = { ...goal };
-  const camera = { matrix: null, eye: [0, 0, 0], goal, follow: true };
+  const camera = { matrix: null, eye: [0, 0, 0], target: [0, 0, 0], distance: 1, reach: 0, goal, follow: true, framed: "first" };
   const pointers = new Map();
   let moved = 0;
 
@@ -19,37 +19,55 @@ function cameraOf(canvas, calm, changed) {
     }
     far = Math.max(far, norm(sub(goal.target, now.target)) / now.distance);
     now.target = now.target.map((x, i) => mix(x, goal.target[i], u));
-    const aspect = canvas.width / Math.max(canvas.height, 1);
-    const away = [Math.cos(now.pitch) * Math.cos(now.yaw), Math.cos(now.pitch) * Math.sin(now.yaw), Math.sin(now.pitch)];
-    // In a narrow window the width has to hold what the height holds in a wide one.
-    const distance = now.distance * Math.max(1, 0.95 / aspect);
-    camera.eye = add(now.target, scaled(away, distance));
+    const { distance } = now;
+    camera.eye = add(now.target, scaled(axesOf(now.yaw, now.pitch).away, distance));
+    camera.target = now.target;
+    camera.distance = distance;
     const view = lookAt(camera.eye, now.target, [0, 0, 1]);
-    camera.matrix = times(perspective(FOVY, aspect, distance * 0.05, distance * 40), view);
+    camera.matrix = times(perspective(FOVY, camera.aspect(), distance * 0.05, distance * 40 + camera.reach), view);
     return far > 1e-4;
   };
 
   camera.jump = () => Object.assign(now, goal, { target: [...goal.target] });
 
-  /** So far away that a ball is in view. */
-  camera.fit = (middle, radius) => {
-    goal.target = [...middle];
-    goal.distance = (radius / Math.sin(FOVY / 2)) * 1.02;
+  camera.aspect = () => canvas.width / Math.max(canvas.height, 1);
+
+  /** Everything in the picture, now and later, from the side it is looked at. */
+  camera.fit = framing => {
+    goal.target = framing.now().middle;
+    goal.distance = framing.distance(goal.yaw, goal.pitch, camera.aspect());
+    camera.framed = "whole";
+  };
+
+  /** The first look: from a corner, or along a row from its end, so that the near modules are seen. */
+  camera.begin = framing => {
+    const { thread } = framing;
+    if (!thread) camera.fit(framing);
+    camera.framed = "first";
+    if (!thread) return;
+    const half = Math.atan(camera.aspect() * Math.tan(FOVY / 2));
+    const { end, angle, wide } = thread;
+    // What goes away from the eye vanishes within the picture, above its middle.
+    goal.yaw = angle - 0.55 * half;
+    goal.pitch = 0.3 * FOVY;
+    goal.target = add(end, [-2 * wide * Math.cos(angle), -2 * wide * Math.sin(angle), 0]);
+    goal.distance = framing.distance(goal.yaw, goal.pitch, camera.aspect(), { low: [-3 * wide, -3 * wide, -wide], high: [3 * wide, 3 * wide, wide], middle: [0, 0, 0] });
   };
 
   camera.orbit = (dx, dy) => {
+    camera.framed = null;
     goal.yaw -= dx;
     goal.pitch = clamp(goal.pitch + dy, -0.2, 1.55);
     changed();
   };
   camera.pan = (dx, dy) => {
-    const right = [-Math.sin(goal.yaw), Math.cos(goal.yaw), 0];
-    const up = [-Math.sin(goal.pitch) * Math.cos(goal.yaw), -Math.sin(goal.pitch) * Math.sin(goal.yaw), Math.cos(goal.pitch)];
+    const { right, up } = axesOf(goal.yaw, goal.pitch);
     goal.target = add(goal.target, add(scaled(right, -dx * goal.distance), scaled(up, dy * goal.distance)));
-    camera.follow = false;
+    camera.follow = camera.framed = null;
     changed();
   };
   camera.zoom = factor => {
+    camera.framed = null;
     goal.distance = clamp(goal.distance * factor, 1e-3, 1e4);
     changed();
   };

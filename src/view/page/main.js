@@ -10,7 +10,7 @@ const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
 function main() {
   const motion = motionOf(plan);
-  const options = { shadow: true, edges: true, start: false, goal: false, collides: false, mass: plan.verdict.stamp === "failed", trail: true, follow: true };
+  const options = { shadow: true, edges: true, start: false, goal: false, collides: false, contacts: false, mass: plan.verdict.stamp === "failed", trail: true, follow: true };
   const state = { t: 0, playing: false, speed: 1, loop: false, hovered: null, chosen: null, dirty: true, theme: null };
   const colourings = colouringsOf(plan, motion);
   let colouring = colourings[0];
@@ -20,7 +20,7 @@ function main() {
   const touch = () => (state.dirty = true);
 
   const toggles = [
-    ["mass", "Centre of mass and support", "m", plan.stand.length > 0], ["start", "Ghost of the start", "s", plan.duration > 0],
+    ["mass", "Centre of mass and support", "m", plan.stand.length > 0], ["contacts", "Contacts with the ground", "k", plan.contacts.some(c => c[1].length)], ["start", "Ghost of the start", "s", plan.duration > 0],
     ["goal", "Ghost of the end", "g", plan.duration > 0], ["collides", "Shapes that are judged", "j", Boolean(motion.collides)],
     ["trail", "Way of the base", "w", (plan.body.base || []).length > 1], ["follow", "Follow the robot", "o", true],
     ["edges", "Edges", "e", true], ["shadow", "Shadows", "", true],
@@ -48,68 +48,45 @@ function main() {
     },
   };
 
+  let renderer = null;
+  try {
+    renderer = rendererOf(canvas, shapesOf(plan, motion.solids), motion);
+  } catch (error) {
+    showStill(error);
+  }
   const camera = cameraOf(canvas, () => calmWish.matches, touch);
   const timeline = timelineOf(plan, motion, events, player.seek);
   const curves = curvesOf(plan, motion, player.seek);
   const panel = panelOf(plan, player);
   showHead();
+  const X = renderer ? renderer.texels : new Float32Array(TEXELS * motion.bodies);
+  const framing = framingOf(plan, motion, X);
+  camera.reach = 6 * framing.radius;
+  const ghosts = [false, false];
 
-  let renderer = null;
-  try {
-    renderer = rendererOf(canvas, shapesOf(plan, motion.solids), motion);
-  } catch (error) {
-    // Whoever can't draw it shows a still picture, and everything else on the page.
+  /** Whoever can't draw it shows a still picture, and everything else on the page. */
+  function showStill(error) {
+    renderer = null;
     canvas.hidden = true;
     $("still").hidden = false;
     if (!/missing/.test(error.message)) console.error(error);
   }
-  const X = renderer ? renderer.texels : new Float32Array(TEXELS * motion.bodies);
-  const whole = extent(motion, X);
-  motion.place(0, X);
-  const size = extentNow(motion, X);
-  if (renderer)
-    [0, plan.end].forEach((t, i) => {
-      const ghost = renderer.empty();
-      motion.place(t, ghost);
-      paint(plan, motion, { colour: () => rgb(i ? "#2f7fc1" : "#7d8791") }, ghost, t, null, null, false);
-      renderer.setGhost(i, ghost);
-    });
 
-  /** The middle and half the size of everything, over time. */
-  function extent(motion, X) {
-    let box = null;
-    for (let i = 0; i <= 12; i++) {
-      motion.place((plan.end * i) / 12, X);
-      const now = extentNow(motion, X);
-      box = box ? [0, 1].map(side => now.box[side].map((x, k) => (side ? Math.max(x, box[1][k]) : Math.min(x, box[0][k])))) : now.box;
-    }
-    return ballOf(box);
-  }
-  function extentNow(motion, X) {
-    const box = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-    for (const solid of motion.solids) {
-      const i = TEXELS * solid.body;
-      const q = [X[i + 4], X[i + 5], X[i + 6], X[i + 7]];
-      const own = solid.p.map((x, k) => x * X[i + 8 + k]);
-      const c = add([X[i], X[i + 1], X[i + 2]], turned(q, own));
-      const ofMesh = solid.shape > 2 ? plan.meshes[solid.shape - 3].radius * 2 : 0;
-      const reach = ofMesh / 2 || norm(solid.s.map((x, k) => x * X[i + 8 + k])) / 2;
-      c.forEach((x, k) => {
-        box[0][k] = Math.min(box[0][k], x - reach * 0.8);
-        box[1][k] = Math.max(box[1][k], x + reach * 0.8);
-      });
-    }
-    return ballOf(box);
-  }
-  function ballOf(box) {
-    return { box, middle: scaled(add(box[0], box[1]), 0.5), radius: Math.max(norm(sub(box[1], box[0])) / 2, 1e-3) };
+  /** The start (0) or the end (1) is placed when it is first wanted. */
+  function makeGhost(i) {
+    ghosts[i] = true;
+    const ghost = renderer.empty();
+    motion.place(i ? plan.end : 0, ghost);
+    paint(plan, motion, { colour: () => rgb(i ? "#2f7fc1" : "#7d8791") }, ghost, 0, null, null, false);
+    renderer.setGhost(i, ghost);
   }
 
-  function fit(jump) {
+  /** The whole robot, or what is seen of it at first. */
+  function fit(first, jump) {
     motion.place(state.t, X);
-    const now = extentNow(motion, X);
     camera.follow = options.follow;
-    camera.fit(now.middle, now.radius);
+    if (first) camera.begin(framing);
+    else camera.fit(framing);
     if (jump) camera.jump();
     touch();
   }
@@ -117,8 +94,8 @@ function main() {
   function theme(dark) {
     document.documentElement.dataset.theme = dark ? "dark" : "light";
     state.theme = dark
-      ? { dark, above: rgb("#1a2029"), below: rgb("#262e38"), ink: [0, 0, 0], good: rgb("#4fcfa6"), bad: rgb("#ff7a3c") }
-      : { dark, above: rgb("#e7eaec"), below: rgb("#f6f4ef"), ink: rgb("#20303c"), good: rgb("#00755a"), bad: rgb(FAILED) };
+      ? { dark, above: rgb("#1a2029"), below: rgb("#262e38"), ink: [0, 0, 0], good: rgb("#4fcfa6"), bad: rgb("#ff7a3c"), contact: rgb("#ffd24a"), paper: rgb("#14181e") }
+      : { dark, above: rgb("#e7eaec"), below: rgb("#f6f4ef"), ink: rgb("#20303c"), good: rgb("#00755a"), bad: rgb(FAILED), contact: rgb("#8a2be2"), paper: rgb("#fffefb") };
     state.lineInk = dark ? rgb("#e6e8ea") : rgb("#20303c");
     timeline.draw();
     touch();
@@ -166,7 +143,9 @@ function main() {
   function resize() {
     const ratio = Math.min(devicePixelRatio || 1, 2);
     const [w, h] = [canvas.clientWidth, canvas.clientHeight].map(x => Math.max(Math.round(x * ratio), 1));
-    if (canvas.width !== w || canvas.height !== h) (canvas.width = w), (canvas.height = h);
+    const other = canvas.width !== w || canvas.height !== h;
+    if (other) (canvas.width = w), (canvas.height = h);
+    if (other && camera.framed) fit(camera.framed === "first", true);
     timeline.draw();
     touch();
   }
@@ -178,7 +157,7 @@ function main() {
     const failure = failureAt(plan, state.t);
     paint(plan, motion, colouring, X, state.t, state.hovered, failure, state.theme.dark);
     const stand = standAt(plan, state.t);
-    const now = extentNow(motion, X);
+    const now = framing.now();
     if (camera.follow && follows) camera.goal.target = add(camera.goal.target, sub(now.middle, follows));
     follows = now.middle;
     const moving = camera.update(seconds_);
@@ -186,14 +165,19 @@ function main() {
     const lines = [];
     const marks = [];
     if (options.trail) lines.push(...trailLines(plan, plan.floor, lineTheme));
-    if (options.mass && stand) lines.push(...standLines(stand, plan.floor, size.radius, lineTheme));
+    if (options.mass && stand) lines.push(...standLines(stand, plan.floor, framing.radius, lineTheme));
+    if (options.contacts) marks.push(...contactDots(plan, state.t, plan.floor, lineTheme));
+    if (failure && failure.point) marks.push(...spotOf(failure.point, 11, [...lineTheme.bad, 1], lineTheme));
     if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, plan.floor, lineTheme));
     const scene = {
       camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
-      middle: now.middle, radius: now.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground,
+      middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground,
       edges: options.edges, ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
     };
-    if (renderer) stats.calls = renderer.render(scene);
+    if (renderer) {
+      scene.ghosts.forEach((shown, i) => shown && !ghosts[i] && makeGhost(i));
+      stats.calls = renderer.render(scene);
+    }
     scene_ = scene;
     placeCallout(failure);
     timeline.show(state.t);
@@ -219,7 +203,7 @@ function main() {
     if (!failure) return;
     const bodies = motion.moduleOf.flatMap((m, b) => (failure.modules.includes(m) ? [b] : []));
     const sum = bodies.reduce((s, b) => add(s, [X[TEXELS * b], X[TEXELS * b + 1], X[TEXELS * b + 2]]), [0, 0, 0]);
-    const place = failure.point || (bodies.length ? scaled(sum, 1 / bodies.length) : extentNow(motion, X).middle);
+    const place = failure.point || (bodies.length ? scaled(sum, 1 / bodies.length) : framing.now().middle);
     const at = onScreen(place);
     box.hidden = !at;
     if (!at) return;
@@ -359,7 +343,7 @@ function main() {
   player.colour(colouring.name);
   resize();
   const wished = fromAddress();
-  fit(true);
+  fit(true, true);
   const places = t => {
     const X = new Float32Array(TEXELS * motion.bodies);
     motion.place(t, X);
@@ -367,6 +351,11 @@ function main() {
   };
   // For scripts and tests.
   window.modl = { plan, stats, state, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y), places, onScreen };
+  try {
+    if (renderer) renderer.ready();
+  } catch (error) {
+    showStill(error);
+  }
   draw(0);
   if (!wished && !calmWish.matches) play(true);
   requestAnimationFrame(frame);

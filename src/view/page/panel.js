@@ -112,7 +112,8 @@ function findingsPage(plan, player) {
     .sort((a, b) => a[0] - b[0]).slice(0, 500).map(([time, text]) => row(time, text)));
   list("Notes", [...verdict.notes, ...plan.notes].map(note => el("p", {}, visible(note))));
   const checks = el("dl", {}, verdict.checks.flatMap(([name, status]) => [el("dt", {}, name), el("dd", {}, visible(status))]));
-  list("Checks", [el("div", { class: "data" }, checks)]);
+  if (verdict.checks.length) list("Checks", [el("div", { class: "data" }, checks)]);
+  else page.append(el("p", {}, "Nobody has judged this."));
   return page;
 }
 

@@ -7,16 +7,10 @@ const SHADOW_SIZE = 2048;
 function rendererOf(canvas, shapes, motion) {
   const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: false });
   if (!gl) throw new Error("WebGL 2 is missing");
-  const programs = {
-    solid: programOf(gl, SOLID_VERTEX, SOLID_FRAGMENT),
-    edge: programOf(gl, EDGE_VERTEX, EDGE_FRAGMENT),
-    depth: programOf(gl, DEPTH_VERTEX, DEPTH_FRAGMENT),
-    pick: programOf(gl, PICK_VERTEX, PICK_FRAGMENT),
-    ground: programOf(gl, GROUND_VERTEX, GROUND_FRAGMENT),
-    sky: programOf(gl, SKY_VERTEX, SKY_FRAGMENT),
-    line: programOf(gl, LINE_VERTEX, LINE_FRAGMENT),
-    flat: programOf(gl, FLAT_VERTEX, FLAT_FRAGMENT),
-  };
+  // All are begun before the first is asked for: a browser makes them while the page goes on.
+  const begun = Object.fromEntries(Object.entries(PROGRAMS).map(([name, texts]) => [name, beginProgram(gl, texts)]));
+  const programs = {};
+  const programOf = name => programs[name] || (programs[name] = finishProgram(gl, begun[name]));
   const quad = bufferOf(gl, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
   const square = arrayOf(gl, [[0, quad, 2, 8, 0, 0]]);
   const meshes = shapes.map(shape => ({ faces: bufferOf(gl, shape.faces), lines: bufferOf(gl, shape.lines), shape }));
@@ -49,7 +43,7 @@ function rendererOf(canvas, shapes, motion) {
   }
 
   function use(name, uniforms, poses) {
-    const program = programs[name];
+    const program = programOf(name);
     gl.useProgram(program.handle);
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, poses || texture);
@@ -63,11 +57,13 @@ function rendererOf(canvas, shapes, motion) {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 1024, rows, gl.RGBA, gl.FLOAT, data);
   }
 
-  /** The sun's eyes: a box around what is drawn. */
+  /** The sun's eyes: a box around what is drawn, or of something long around what is near. */
   function sunView(scene) {
-    const r = scene.radius * 1.1;
-    const eye = add(scene.middle, scaled(SUN, 3 * r));
-    return times(orthographic(r, 0.5 * r, 6 * r), lookAt(eye, scene.middle, [0, 1, 0]));
+    const near = 1.6 * scene.camera.distance;
+    const middle = near < scene.radius ? scene.camera.target : scene.middle;
+    const r = Math.min(near, scene.radius * 1.1);
+    const eye = add(middle, scaled(SUN, 3 * r));
+    return times(orthographic(r, 0.5 * r, 6 * r), lookAt(eye, middle, [0, 1, 0]));
   }
 
   function render(scene) {
@@ -122,9 +118,9 @@ function rendererOf(canvas, shapes, motion) {
 
   function drawGround(scene, sun) {
     gl.depthMask(false);
-    const { middle, radius, camera } = scene;
+    const { middle, radius, camera, grain } = scene;
     const width = Math.max(radius * 6, norm(sub(camera.eye, middle)) * 2.5);
-    const step = 10 ** Math.floor(Math.log10(radius * 0.9));
+    const step = 10 ** Math.floor(Math.log10(grain * 0.9));
     use("ground", {
       view: camera.matrix, sun, patch_: [middle[0], middle[1], scene.floor, width], ink: scene.theme.ink,
       step_: step / 1, strength: scene.theme.dark ? 1.5 : 1, shadowed: scene.shadow ? 1 : 0,
@@ -188,18 +184,22 @@ function rendererOf(canvas, shapes, motion) {
     return found[0] + 256 * found[1] + 65536 * found[2] - 1;
   }
 
-  return { gl, texels, render, pick, setGhost: (i, data) => upload(ghosts[i], data), empty: () => new Float32Array(texels.length) };
+  return { gl, texels, render, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), setGhost: (i, data) => upload(ghosts[i], data), empty: () => new Float32Array(texels.length) };
 }
 
-function programOf(gl, vertex, fragment) {
+function beginProgram(gl, texts) {
   const handle = gl.createProgram();
-  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+  [gl.VERTEX_SHADER, gl.FRAGMENT_SHADER].forEach((kind, i) => {
     const shader = gl.createShader(kind);
-    gl.shaderSource(shader, text);
+    gl.shaderSource(shader, texts[i]);
     gl.compileShader(shader);
     gl.attachShader(handle, shader);
-  }
+  });
   gl.linkProgram(handle);
+  return handle;
+}
+
+function finishProgram(gl, handle) {
   if (!gl.getProgramParameter(handle, gl.LINK_STATUS)) {
     const logs = gl.getAttachedShaders(handle).map(shader => gl.getShaderInfoLog(shader));
     throw new Error(["a shader failed", ...logs, gl.getProgramInfoLog(handle)].join("\n"));

@@ -106,6 +106,26 @@ function standLines(stand, floor, size, theme) {
   return lines;
 }
 
+/** Points that touch the ground at a time. */
+function contactDots(plan, t, floor, theme) {
+  const at = lastNotAbove(contactTimes(plan), t);
+  if (at < 0) return [];
+  const points = plan.contacts[at][1];
+  const dots = [];
+  for (let i = 0; i < points.length; i += 2) dots.push(...spotOf([points[i], points[i + 1], floor], 7, [...theme.contact, 1], theme));
+  return dots;
+}
+let contactTimesKnown = null;
+function contactTimes(plan) {
+  if (!contactTimesKnown) contactTimesKnown = plan.contacts.map(c => c[0]);
+  return contactTimesKnown;
+}
+
+/** A dot with a rim that tells it from what is behind it: as wide as asked for, in pixels. */
+function spotOf(p, width, colour, theme) {
+  return [{ a: p, b: p, width: width + 3, colour: [...theme.paper, 1] }, { a: p, b: p, width, colour }];
+}
+
 /** The edge of the support that the centre of mass is nearest to, or went over. */
 function nearestEdge(stand, floor, theme) {
   let best = null;

@@ -168,9 +168,11 @@ void main() {
   if (a.w < 0.001) a = mix(a, b, (0.001 - a.w) / (b.w - a.w));
   if (b.w < 0.001) b = mix(b, a, (0.001 - b.w) / (a.w - b.w));
   vec2 d = (b.xy / b.w - a.xy / a.w) * screen;
-  vec2 n = length(d) > 0.0001 ? normalize(vec2(-d.y, d.x)) : vec2(1.0, 0.0);
+  d = length(d) > 0.0001 ? normalize(d) : vec2(0.0, 1.0);
   gl_Position = corner.x < 0.5 ? a : b;
-  gl_Position.xy += n / screen * (corner.y * from.w) * gl_Position.w;
+  // With square ends, so that a line of no length is a dot.
+  vec2 off = vec2(-d.y, d.x) * corner.y + d * (corner.x < 0.5 ? -1.0 : 1.0);
+  gl_Position.xy += off / screen * from.w * gl_Position.w;
   gl_Position.z -= 0.0003 * gl_Position.w;
   colour = tint;
 }`;
@@ -187,3 +189,10 @@ const FLAT_FRAGMENT = HEAD + `
 uniform vec4 tint;
 out vec4 shown;
 void main() { shown = tint; }`;
+
+/** Vertex and fragment program of each. */
+const PROGRAMS = {
+  solid: [SOLID_VERTEX, SOLID_FRAGMENT], edge: [EDGE_VERTEX, EDGE_FRAGMENT], depth: [DEPTH_VERTEX, DEPTH_FRAGMENT],
+  pick: [PICK_VERTEX, PICK_FRAGMENT], ground: [GROUND_VERTEX, GROUND_FRAGMENT], sky: [SKY_VERTEX, SKY_FRAGMENT],
+  line: [LINE_VERTEX, LINE_FRAGMENT], flat: [FLAT_VERTEX, FLAT_FRAGMENT],
+};

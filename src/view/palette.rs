@@ -1,0 +1,76 @@
+//! A picture in few colours: by cutting the colours that occur into boxes at their medians (Heckbert
+//! 1982), in whole numbers.
+
+/// Colours of one picture.
+pub const COLOURS_MAX: usize = 48;
+
+/// Bits of each of red, green and blue that tell colours apart.
+const BITS: u32 = 5;
+
+/// A colour as far as it is told apart, with what of the picture has it.
+#[derive(Clone, Copy)]
+struct Tone {
+    /// Red, green and blue in [`BITS`] each.
+    parts: [u8; 3],
+    /// Pixels.
+    count: u64,
+    /// Of their red, green and blue.
+    sums: [u64; 3],
+}
+
+/// The colours, and the colour of each pixel by its place among them; pixels are red, green, blue.
+pub fn reduced(pixels: &[u8]) -> (Vec<[u8; 3]>, Vec<u8>) {
+    let mut tones: Vec<Option<Tone>> = vec![None; 1 << (3 * BITS)];
+    for pixel in pixels.chunks_exact(3) {
+        let parts = [0, 1, 2].map(|k| pixel[k] >> (8 - BITS));
+        let tone = tones[place(parts)].get_or_insert(Tone { parts, count: 0, sums: [0; 3] });
+        tone.count += 1;
+        (0..3).for_each(|k| tone.sums[k] += u64::from(pixel[k]));
+    }
+    let boxes = boxes(tones.into_iter().flatten().collect());
+    let mut index = vec![0_u8; 1 << (3 * BITS)];
+    for (number, tones) in boxes.iter().enumerate() {
+        tones.iter().for_each(|tone| index[place(tone.parts)] = number as u8);
+    }
+    let of = |pixel: &[u8]| index[place([0, 1, 2].map(|k| pixel[k] >> (8 - BITS)))];
+    (boxes.iter().map(|tones| mean(tones)).collect(), pixels.chunks_exact(3).map(of).collect())
+}
+
+fn place(parts: [u8; 3]) -> usize {
+    parts.iter().fold(0, |place, part| place << BITS | usize::from(*part))
+}
+
+fn mean(tones: &[Tone]) -> [u8; 3] {
+    let count = tones.iter().map(|tone| tone.count).sum::<u64>().max(1);
+    [0, 1, 2].map(|k| ((tones.iter().map(|tone| tone.sums[k]).sum::<u64>() + count / 2) / count) as u8)
+}
+
+/// The tones in as many boxes as there may be colours, the widest cut first.
+fn boxes(all: Vec<Tone>) -> Vec<Vec<Tone>> {
+    let mut boxes = vec![all];
+    while boxes.len() < COLOURS_MAX {
+        let widest = (0..boxes.len()).max_by_key(|i| (width(&boxes[*i]).0, std::cmp::Reverse(*i)));
+        let Some(widest) = widest.filter(|i| width(&boxes[*i]).0 > 0) else { break };
+        let (_, part) = width(&boxes[widest]);
+        let mut tones = boxes.swap_remove(widest);
+        tones.sort_by_key(|tone| (tone.parts[part], tone.parts));
+        let half = tones.iter().map(|tone| tone.count).sum::<u64>() / 2;
+        let mut before = 0;
+        let median = tones.iter().position(|tone| {
+            before += tone.count;
+            before > half
+        });
+        let rest = tones.split_off(median.unwrap_or(0).clamp(1, tones.len() - 1));
+        boxes.extend([tones, rest]);
+    }
+    boxes
+}
+
+/// The greatest difference of red, green or blue in a box, and of which of them.
+fn width(tones: &[Tone]) -> (u8, usize) {
+    let spread = |part: usize| {
+        let values = || tones.iter().map(|tone| tone.parts[part]);
+        values().max().unwrap_or(0) - values().min().unwrap_or(0)
+    };
+    [0, 1, 2].map(|part| (spread(part), part)).into_iter().max().expect("there are three")
+}

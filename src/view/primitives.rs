@@ -1,0 +1,69 @@
+//! Shapes taken apart into what can be drawn: boxes, tubes, balls and surfaces of triangles. Pages and
+//! still pictures draw the same pieces.
+#![allow(non_snake_case)]
+
+use crate::geometry::pose::shifted;
+use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
+
+/// A piece around the origin of its own frame; lengths in metres.
+pub enum Primitive<'a> {
+    Box {
+        size: Vec3,
+    },
+    /// A cylinder along z.
+    Tube {
+        radius: f64,
+        length: f64,
+    },
+    Ball {
+        radius: f64,
+    },
+    /// Triangles, counter-clockwise as seen from outside.
+    Surface {
+        points: &'a [Vec3],
+        triangles: &'a [[u32; 3]],
+    },
+}
+
+/// Hands every piece of shapes to `draw`, with its pose in the frame in which the shapes are placed.
+pub fn primitives(shapes: &[Placed], draw: &mut dyn FnMut(&Pose, Primitive)) {
+    shapes.iter().for_each(|placed| take_apart(placed, &Pose::identity(), draw));
+}
+
+fn take_apart(placed: &Placed, X_LS: &Pose, draw: &mut dyn FnMut(&Pose, Primitive)) {
+    let X = X_LS * placed.pose;
+    match &placed.shape {
+        Shape::Box { size } => draw(&X, Primitive::Box { size: *size }),
+        Shape::Cylinder { radius, length, axis } => {
+            draw(&(X * along(axis)), Primitive::Tube { radius: *radius, length: *length });
+        }
+        Shape::Sphere { radius } => draw(&X, Primitive::Ball { radius: *radius }),
+        Shape::Capsule { radius, length, axis } => {
+            let turned = X * along(axis);
+            draw(&turned, Primitive::Tube { radius: *radius, length: *length });
+            for end in [-0.5, 0.5] {
+                let cap = turned * shifted(Vec3::new(0.0, 0.0, end * length));
+                draw(&cap, Primitive::Ball { radius: *radius });
+            }
+        }
+        Shape::Hull { points } => {
+            if let Some(faces) = hull::faces(points) {
+                draw(&X, Primitive::Surface { points: &faces.points, triangles: &faces.triangles });
+            }
+        }
+        Shape::Mesh { vertices, triangles, .. } => {
+            draw(&X, Primitive::Surface { points: vertices, triangles });
+        }
+        Shape::Union { parts } => parts.iter().for_each(|part| take_apart(part, &X, draw)),
+    }
+}
+
+/// The rotation that takes +z to an axis.
+pub fn along(axis: &Vec3) -> Pose {
+    let turn = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), axis);
+    // The axis that points down: half a turn about x.
+    let turn = turn.unwrap_or_else(|| {
+        nalgebra::UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 1.0, 0.0, 0.0))
+    });
+    Pose::from_parts(Vec3::zeros().into(), turn)
+}
