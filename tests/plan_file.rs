@@ -2,13 +2,13 @@
 
 use crate::plan_operations::{plan_of, rolling, squeezing};
 use crate::programs::*;
-use crate::robots::{LEFT, TILT, chain, walk4};
+use crate::robots::{LEFT, TILT, chain, reel, walk4};
 use modl::plan::file::{FileError, read, schema, write};
 use modl::plan::{
     Action, Body, CauseId, Change, Check, CheckKind, Command, Compare, Condition, Exemption, ExemptionKind,
     Ground, Node, Otherwise, Plan, Segment, Status, Track, Verdict, World, WorldFrom, Worst,
 };
-use modl::robot::{Cell, JointId, Library, PortRef, Strut};
+use modl::robot::{Cell, JointId, Library, PortRef};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -69,15 +69,7 @@ fn lattice() -> Plan {
 
 fn truss() -> Plan {
     let mut plan = lattice();
-    let strut = Strut {
-        name: "Reel".into(),
-        length: (0.3, 3.0),
-        speed: 0.05,
-        force: 200.0,
-        mass: 1.0,
-        clearance: 0.1,
-    };
-    plan.library = Arc::new(Library { struts: vec![strut], ..Library::default() });
+    plan.library = Arc::new(Library { struts: vec![reel()], ..Library::default() });
     plan.body = Body::NodePaths(rolling());
     plan
 }

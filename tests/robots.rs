@@ -6,7 +6,7 @@ use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::robot::{
     Assembly, Bond, Capture, Connector, Joint, JointKind, Library, Limits, Link, ModuleInstance, ModuleType,
-    Motor, Port, PortRef, State,
+    Motor, Port, PortRef, State, Strut,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -268,4 +268,9 @@ pub fn at_rest(robot: &Assembly) -> State {
         bonds: vec![true; robot.bonds.len()],
         base: Pose::identity(),
     }
+}
+
+/// A strut that reels out to ten times its shortest length.
+pub fn reel() -> Strut {
+    Strut { name: "Reel".into(), length: (0.3, 3.0), speed: 0.05, force: 200.0, mass: 1.0, clearance: 0.1 }
 }

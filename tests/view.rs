@@ -1,10 +1,13 @@
 //! Pages: one file that loads nothing and can't be broken out of, the same bytes for the same plan.
+#![allow(non_snake_case)]
 
 use crate::cli::{Sandbox, json};
 use crate::plan_operations::{plan_of, rolling, squeezing};
 use crate::programs::*;
-use crate::robots::{LEFT, chain};
+use crate::robots::{H, LEFT, TILT, chain, walk4};
+use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
 use modl::plan::{Body, Plan};
+use modl::robot::Kinematics;
 use modl::view::{Showing, Side, Still, page, png, svg};
 use serde_json::Value;
 
@@ -27,10 +30,9 @@ fn data_text(page: &str) -> &str {
     from.split_once("</script>").expect("the data ends").0
 }
 
-/// The page without its plan: neither the data nor the still picture.
+/// The page without its plan's data, with its still picture.
 fn bare(page: &str) -> String {
-    let still = page.split_once("base64,").expect("a still picture").1.split_once('"').expect("it ends").0;
-    page.replace(data_text(page), "").replace(still, "")
+    page.replace(data_text(page), "")
 }
 
 fn data(page: &str) -> Value {
@@ -244,4 +246,148 @@ fn a_name_that_ends_otherwise_is_refused() {
     let sandbox = Sandbox::new(&[("rover.mod", text.as_bytes())]);
     let ran = sandbox.run(&["run", "rover.mod"]);
     assert!(ran.code == 1 && ran.err.contains("E0506") && ran.err.contains(".html"), "{}", ran.err);
+}
+
+/// The colours of a list in the page's scripts: red, green and blue in 0..1, in linear light.
+fn colours(page: &str, name: &str) -> Vec<[f64; 3]> {
+    let list = page.split_once(&format!("const {name} = [")).expect("a list").1;
+    let list = list.split_once(']').expect("it ends").0;
+    let part = |hex: &str| f64::from(u8::from_str_radix(hex, 16).expect("two digits")) / 255.0;
+    let linear = |c: f64| if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) };
+    let hex = list.split('#').skip(1);
+    hex.map(|hex| [0, 2, 4].map(|at| linear(part(&hex[at..at + 2])))).collect()
+}
+
+/// What people see: all colours, and without one kind of cones (Machado, Oliveira and Fernandes 2009).
+const EYES: [[[f64; 3]; 3]; 4] = [
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+    [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
+];
+
+/// CIELAB of a colour as an eye sees it, in daylight.
+fn lab(colour: [f64; 3], eye: &[[f64; 3]; 3]) -> [f64; 3] {
+    let weighed = |row: &[f64; 3]| row.iter().zip(&colour).map(|(w, c)| w * c).sum::<f64>().clamp(0.0, 1.0);
+    let [r, g, b] = eye.each_ref().map(weighed);
+    let f = |t: f64| if t > 216.0 / 24389.0 { libm::cbrt(t) } else { (24389.0 / 27.0 * t + 16.0) / 116.0 };
+    let x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
+    let y = f(0.2126729 * r + 0.7151522 * g + 0.072175 * b);
+    let z = f((0.0193339 * r + 0.119192 * g + 0.9503041 * b) / 1.08883);
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}
+
+#[test]
+fn colours_are_told_apart_by_every_eye() {
+    /// Four times what is just noticed between colours that lie beside each other.
+    const APART: f64 = 9.2;
+    let page = shown("rover", &rover());
+    let failed = page.split_once("const FAILED = ").expect("a colour").1[1..8].to_owned();
+    for list in ["PALETTE", "INKS", "INKS_DARK"] {
+        let mut all = colours(&page, list);
+        if list == "PALETTE" {
+            all.extend(colours(&format!("const FAILED = [\"{failed}\"]"), "FAILED"));
+        }
+        for (eye, (i, j)) in (0..EYES.len())
+            .flat_map(|eye| (0..all.len()).flat_map(move |j| (0..j).map(move |i| (eye, (i, j)))))
+        {
+            let (a, b) = (lab(all[i], &EYES[eye]), lab(all[j], &EYES[eye]));
+            let apart = (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt();
+            assert!(apart > APART, "{list}: colours {i} and {j} are {apart:.1} apart for eye {eye}");
+        }
+    }
+    // Amounts go by lightness: more is brighter.
+    let ramp = colours(&page, "RAMP");
+    for eye in &EYES {
+        assert!(ramp.windows(2).all(|pair| lab(pair[1], eye)[0] > lab(pair[0], eye)[0] + 5.0));
+    }
+}
+
+/// World poses of all links at a time, by the judge's walk.
+fn posed(plan: &Plan, time: f64) -> (Vec<Pose>, Kinematics) {
+    let Body::Tracks(tracks) = &plan.body else { unreachable!("a robot's plan") };
+    let state = tracks.state(time);
+    let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let base = modl::plan::verify::base_at(plan, time).expect("it stands");
+    kinematics.link_poses(&state.joints, &base, &mut poses);
+    (poses, kinematics)
+}
+
+#[test]
+fn contacts_are_where_the_feet_are() {
+    let plan = plan_of(plan(walk4(), wait(0.1)).expect("it can be scheduled"));
+    let data = data(&shown("walker", &plan));
+    let first = data["contacts"][0].as_array().expect("a moment");
+    assert_eq!(first[0], 0);
+    let numbers: Vec<f64> =
+        first[1].as_array().expect("places").iter().map(|x| x.as_f64().expect("a number")).collect();
+    let Body::Tracks(tracks) = &plan.body else { unreachable!("a robot's plan") };
+    let (poses, kinematics) = posed(&plan, 0.0);
+    // The lowest module of each leg, and nothing else, is within its own size of the ground.
+    let feet: Vec<usize> = (0..tracks.robot.modules.len())
+        .filter(|m| poses[kinematics.link(*m, 0)].translation.vector.z < 1.2 * H)
+        .collect();
+    let mut touched = std::collections::BTreeSet::new();
+    for place in numbers.chunks_exact(2) {
+        let away = |m: &usize| {
+            let p = poses[kinematics.link(*m, 0)].translation.vector;
+            libm::hypot(p.x - place[0], p.y - place[1])
+        };
+        let foot = feet.iter().min_by(|a, b| away(a).total_cmp(&away(b))).expect("it stands on something");
+        assert!(away(foot) < 1.6 * H, "{place:?} is under no foot");
+        touched.insert(*foot);
+    }
+    assert!(feet.len() >= 3 && touched.len() == feet.len(), "{touched:?} of {feet:?}");
+}
+
+#[test]
+fn a_collision_is_marked_where_the_modules_meet() {
+    let tilts = (0..6).map(|m| go(4 * m + TILT as u32, 1.57, 0)).collect();
+    let mut plan = plan_of(plan(chain(6), parallel(tilts)).expect("it can be scheduled"));
+    plan.verdict = Some(modl::plan::verify::verify(&plan));
+    let data = data(&shown("curl", &plan));
+    let failures = data["verdict"]["failures"].as_array().expect("a list");
+    let failure = failures.iter().find(|f| f["kind"] == "collision").expect("two modules meet");
+    let numbers = |list: &Value| -> Vec<f64> {
+        list.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
+    };
+    let point = Vec3::from_row_slice(&numbers(&failure["point"]));
+    let (poses, kinematics) = posed(&plan, failure["time"].as_f64().expect("a time"));
+    let Body::Tracks(tracks) = &plan.body else { unreachable!("a robot's plan") };
+    let sphere = Placed { pose: Pose::identity(), shape: Shape::Sphere { radius: 1e-4 } };
+    let spot = Solid::new(&[sphere]).expect("a ball is sound");
+    let modules = numbers(&failure["modules"]);
+    assert_eq!(modules.len(), 2);
+    for module in modules {
+        let module = module as usize;
+        let links = &tracks.robot.module_type(module).links;
+        let gap = |(link, kind): (usize, &modl::robot::Link)| {
+            let solid = Solid::new(&kind.collides).expect("the tests' shapes are sound");
+            let X = poses[kinematics.link(module, link)];
+            modl::geometry::distance::between(&spot, &modl::geometry::pose::shifted(point), &solid, &X)
+        };
+        let least = links.iter().enumerate().map(gap).fold(f64::INFINITY, f64::min);
+        assert!(least < 1e-3, "the mark is {least} m off module {module}");
+    }
+}
+
+#[test]
+fn clearances_are_told_of_robots_of_any_size() {
+    let joint = |m: u32| 4 * m + TILT as u32;
+    let wave = parallel((0..60).map(|i| go_in(joint(5 * i), 0.2, 2.0, 0)).collect());
+    let mut plan = plan_of(plan(chain(300), wave).expect("it can be scheduled"));
+    plan.settings.samples_max = 10;
+    let page = data(&shown("snake", &plan));
+    let curve = page["clearance"].as_array().expect("a list");
+    assert!(curve.len() > 20, "{} points", curve.len());
+    let said = page["notes"].to_string();
+    assert!(
+        said.contains(&format!("the curve of clearances goes through {} instants", curve.len())),
+        "{said}"
+    );
+    // At the start all is straight, and modules are as far apart as those of a shorter chain.
+    let short = plan_of(crate::programs::plan(chain(3), wait(1.0)).expect("it can be scheduled"));
+    let first = |page: &Value| page["clearance"][0][1].as_f64().expect("a number");
+    assert!((first(&page) - first(&data(&shown("short", &short)))).abs() < 0.05);
 }

@@ -1,5 +1,4 @@
-//! Colours that people who see no red or no green tell apart, too (after Okabe and Ito): those of the
-//! page.
+//! Colours that people who see no red, no green or no blue tell apart, too: those of the page.
 
 use crate::robot::Assembly;
 
@@ -8,14 +7,14 @@ use crate::robot::Assembly;
 pub struct Rgb(pub [f64; 3]);
 
 pub const PALETTE: [Rgb; 8] = [
-    hex(0x3f83c4),
-    hex(0xe5a128),
-    hex(0x2f9f86),
-    hex(0xc470a2),
-    hex(0x72b8e2),
-    hex(0xd3c43a),
-    hex(0x8b7fc7),
-    hex(0xa0a7ae),
+    hex(0x3865d4),
+    hex(0xf5b116),
+    hex(0x2aa264),
+    hex(0xb76086),
+    hex(0x7bd3f4),
+    hex(0xc4bb58),
+    hex(0x8b84bf),
+    hex(0xa0c7aa),
 ];
 
 /// Of what a failure names.
@@ -65,13 +64,15 @@ impl Rgb {
     }
 }
 
-/// The part of the whole that each module belongs to, numbered in order: the first step of its path.
+/// The part of the whole that each module belongs to, numbered in order: the first step of its path
+/// that is not the same for all.
 pub fn groups(robot: &Assembly) -> Vec<usize> {
+    let paths: Vec<Vec<&str>> = robot.modules.iter().map(|m| m.name.split('.').collect()).collect();
+    let same = |step: usize| paths.iter().all(|path| path.len() > step + 1 && path[step] == paths[0][step]);
+    let step = if paths.is_empty() { 0 } else { (0..).find(|step| !same(*step)).unwrap_or(0) };
     let mut known: Vec<&str> = Vec::new();
-    let part = |name: &'_ str| name.find('.').unwrap_or(name.len());
-    let mut numbers = Vec::with_capacity(robot.modules.len());
-    for module in &robot.modules {
-        let name = &module.name[..part(&module.name)];
+    let mut numbers = Vec::with_capacity(paths.len());
+    for name in paths.iter().map(|path| path[step]) {
         let at = known.iter().position(|k| *k == name).unwrap_or_else(|| {
             known.push(name);
             known.len() - 1

@@ -51,9 +51,16 @@ fn module_type(kind: &ModuleType, meshes: &mut Meshes) -> Value {
     json!({ "name": kind.name, "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>() })
 }
 
-fn hinges(robot: &Assembly) -> Vec<String> {
-    let bonds = robot.joints().filter(|owner| matches!(owner, JointOwner::Bond(_)));
-    bonds.map(|owner| robot.joint_name(owner)).collect()
+/// `[name, module, module]` of each bond that is a joint, in order of joint.
+fn hinges(robot: &Assembly) -> Vec<Value> {
+    let hinge = |owner| match owner {
+        JointOwner::Bond(bond) => {
+            let between = robot.bonds[bond];
+            Some(json!([robot.joint_name(owner), between.a.module, between.b.module]))
+        }
+        JointOwner::Module { .. } => None,
+    };
+    robot.joints().filter_map(hinge).collect()
 }
 
 /// Kinds of steps, each once: a robot has many modules of few types.

@@ -1,7 +1,7 @@
 // Curves over time under the same cursor: joints, clearance, margin, load.
 
-const INKS = ["#0b7bc1", "#d98a00", "#00906c", "#b85c93", "#6a5acd", "#8a7a00"];
-const INKS_DARK = ["#6cb6ee", "#f0b34a", "#4fcfa6", "#e39ac4", "#a79bf0", "#d6c75a"];
+const INKS = ["#1a6eb1", "#be8b15", "#168f58", "#a45093", "#4e4cbf", "#7d7f20"];
+const INKS_DARK = ["#75a0e0", "#f5b628", "#4fdb9e", "#ca94bd", "#997ef3", "#d2cd7c"];
 /** Points of one curve: as many as a screen can tell apart. */
 const CURVE_POINTS = 400;
 const JOINTS_SHOWN = 6;
@@ -14,7 +14,7 @@ function curvesOf(plan, motion, seek) {
 
   function jointRow() {
     let chosen = motion.driven;
-    if (module !== null) chosen = motion.joints.flatMap((joint, j) => (joint.module === module && !joint.still ? [j] : []));
+    if (module !== null) chosen = motion.jointsOf(module);
     chosen = chosen.slice(0, JOINTS_SHOWN);
     const times = Array.from({ length: CURVE_POINTS + 1 }, (_, i) => (plan.end * i) / CURVE_POINTS);
     const lines = chosen.map(j => {
@@ -33,6 +33,7 @@ function curvesOf(plan, motion, seek) {
     row("clearance", "", plan.clearance, " mm", 0);
     row("stability margin", "", plan.stand.map(s => [s[0], s[4]]).filter(p => p[1] !== null).map(([t, m]) => [t, m * 1000]), " mm", 0);
     row("greatest joint load, forces spread evenly", "", plan.loads && plan.loads.moments.map(([t, ratios]) => [t, 100 * Math.max(...ratios)]), " %", 100);
+    canvas.setAttribute("aria-label", "Curves over time: " + rows.map(row => visible(row.title)).join(", "));
     return rows.length > 0;
   }
 

@@ -2,8 +2,9 @@
 
 /** A row longer than so many times its width is looked at along itself: from the side it is a thread. */
 const THREAD = 9;
-/** Times at which everything has to be in the picture. */
-const LOOKS = 12;
+/** Times at which everything has to be in the picture: so many, fewer where there is much to look at. */
+const LOOKS_MAX = 12;
+const LOOKED_MAX = 20000;
 /** Part of the picture that is filled: words stand at its rim. */
 const FILLED = 0.84;
 
@@ -50,17 +51,26 @@ function framingOf(plan, motion, X) {
 
   const looks = [];
   const threads = [];
-  for (let i = 0; i <= LOOKS; i++) {
-    motion.place((plan.end * i) / LOOKS, X);
+  const times = clamp(Math.floor(LOOKED_MAX / motion.solids.length), 3, LOOKS_MAX);
+  for (let i = 0; i <= times; i++) {
+    motion.place((plan.end * i) / times, X);
     looks.push(now());
     threads.push(thread());
+  }
+
+  /** Whether it is still the same row, and its end where it was. */
+  function stays(thread, i) {
+    const first = threads[0];
+    if (!thread || !first) return false;
+    const moved = sub(sub(thread.end, looks[i].middle), sub(first.end, looks[0].middle));
+    return Math.abs(thread.angle - first.angle) < 0.1 && norm(moved) < 3 * first.wide;
   }
 
   return {
     now,
     /** The greatest size that there is over time. */
     radius: Math.max(...looks.map(look => look.radius)),
-    thread: threads.every(Boolean) ? threads[0] : null,
+    thread: threads.every(stays) ? threads[0] : null,
     /** How far away a camera of this direction has to be for all that it follows to be in the picture. */
     distance(yaw, pitch, aspect, only) {
       const { away, right, up } = axesOf(yaw, pitch);

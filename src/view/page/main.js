@@ -20,7 +20,7 @@ function main() {
   const touch = () => (state.dirty = true);
 
   const toggles = [
-    ["mass", "Centre of mass and support", "m", plan.stand.length > 0], ["contacts", "Contacts with the ground", "k", plan.contacts.some(c => c[1].length)], ["start", "Ghost of the start", "s", plan.duration > 0],
+    ["mass", plan.ground ? "Centre of mass and support" : "Centre of mass", "m", plan.stand.length > 0], ["contacts", "Contacts with the ground", "k", plan.contacts.some(c => c[1].length)], ["start", "Ghost of the start", "s", plan.duration > 0],
     ["goal", "Ghost of the end", "g", plan.duration > 0], ["collides", "Shapes that are judged", "j", Boolean(motion.collides)],
     ["trail", "Way of the base", "w", (plan.body.base || []).length > 1], ["follow", "Follow the robot", "o", true],
     ["edges", "Edges", "e", true], ["shadow", "Shadows", "", true],
@@ -165,7 +165,10 @@ function main() {
     const lines = [];
     const marks = [];
     if (options.trail) lines.push(...trailLines(plan, plan.floor, lineTheme));
-    if (options.mass && stand) lines.push(...standLines(stand, plan.floor, framing.radius, lineTheme));
+    if (options.mass && stand) {
+      if (plan.ground) lines.push(...supportLines(stand, plan.floor, lineTheme));
+      marks.push(...centreMarks(stand, plan.floor, framing.thread ? framing.thread.wide : framing.radius, plan.ground, lineTheme));
+    }
     if (options.contacts) marks.push(...contactDots(plan, state.t, plan.floor, lineTheme));
     if (failure && failure.point) marks.push(...spotOf(failure.point, 11, [...lineTheme.bad, 1], lineTheme));
     if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, plan.floor, lineTheme));
@@ -350,7 +353,7 @@ function main() {
     return Array.from(X);
   };
   // For scripts and tests.
-  window.modl = { plan, stats, state, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y), places, onScreen };
+  window.modl = { plan, stats, state, stops: events.stops, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y), places, onScreen };
   try {
     if (renderer) renderer.ready();
   } catch (error) {

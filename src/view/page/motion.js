@@ -4,6 +4,7 @@
 //   moduleOf     the module (cell, node, strut) of each body, an index of `modules`
 //   modules      {name, type, group}: group is the part that gives the colour
 //   place(t, X)  writes position, rotation and size of each body into X, 16 numbers a body
+//   joints       {module, name, turns}; `driven` those that plans move; jointsOf(module), jointAt(joint, t)
 //   causes(t)    indices of what commands the motion at t
 //   facts(b, t)  lines about a body for the tooltip
 
@@ -16,10 +17,12 @@ function motionOf(plan) {
   return trussMotion(plan, body);
 }
 
-/** The part of the robot that a path name belongs to: `leg[2]` of `leg[2].m[0]`. */
-function groupOf(name) {
-  const dot = name.indexOf(".");
-  return dot < 0 ? name : name.slice(0, dot);
+/** The part that each path name belongs to: its first step that is not the same for all, as `leg[2]` of `leg[2].m[0]`. */
+function groupsOf(names) {
+  const paths = names.map(name => name.split("."));
+  let step = 0;
+  while (paths.every(path => path.length > step + 1 && path[step] === paths[0][step])) step++;
+  return paths.map(path => path[step]);
 }
 
 /** The value of a polynomial in Bernstein form, by de Casteljau's rule. */
@@ -41,10 +44,11 @@ function robotMotion(plan, body) {
   const joints = [];
   const solids = [];
   const collides = [];
+  const groups = groupsOf(body.modules.map(([name]) => name));
   body.modules.forEach(([name, kind], module) => {
     const type = body.kinds[kind];
     firstLink.push(links.length);
-    modules.push({ name, type: type.name, group: groupOf(name) });
+    modules.push({ name, type: type.name, group: groups[module] });
     type.links.forEach((link, index) => {
       for (const solid of link.solids) solids.push({ ...solid, body: links.length, shade: index });
       for (const solid of link.collides || link.solids) collides.push({ ...solid, body: links.length, shade: index });
@@ -52,7 +56,8 @@ function robotMotion(plan, body) {
     });
     type.joints.forEach(joint => joints.push({ module, name: joint.name, turns: joint.turns, still: joint.still }));
   });
-  body.hinges.forEach(name => joints.push({ module: -1, name, turns: true }));
+  body.hinges.forEach(([name, ...between]) => joints.push({ module: -1, between, name, turns: true }));
+  const belongs = (j, module) => !joints[j].still && (joints[j].module === module || Boolean(joints[j].between && joints[j].between.includes(module)));
   const starts = body.tracks.map(([, segments]) => segments.map(s => s[0]));
   const n = links.length;
   const state = { q: new Float64Array(body.start), P: new Float64Array(3 * n), Q: new Float64Array(4 * n) };
@@ -124,6 +129,7 @@ function robotMotion(plan, body) {
     modules,
     joints,
     driven,
+    jointsOf: module => joints.flatMap((_, j) => (belongs(j, module) ? [j] : [])),
     jointAt: (joint, t) => jointsAt(t)[joint],
     jointName: j => (joints[j].module < 0 ? joints[j].name : modules[joints[j].module].name + "." + joints[j].name),
     place(t, X) {
@@ -155,13 +161,16 @@ function robotMotion(plan, body) {
       const q = jointsAt(t);
       const lines = [["type", modules[link.module].type], ["link", link.name]];
       joints.forEach((joint, j) => {
-        if (joint.module !== link.module || joint.still) return;
+        if (!belongs(j, link.module)) return;
         lines.push([joint.name, joint.turns ? ((q[j] * 180) / Math.PI).toFixed(1) + "°" : (q[j] * 1000).toFixed(1) + " mm"]);
       });
       return lines;
     },
   };
 }
+
+/** What motions have in common in which every body is a module of its own, without joints. */
+const eachItsOwn = modules => ({ collides: null, moduleOf: modules.map((_, i) => i), modules, joints: [], driven: [] });
 
 /** How far between its ends a stage is, with ramps at its start and its end. */
 function progress([first, last], u) {
@@ -172,58 +181,84 @@ function progress([first, last], u) {
   return 1 - (speed * (1 - u) * (1 - u)) / (2 * last);
 }
 
+const commonDivisor = (a, b) => (b ? commonDivisor(b, a % b) : a);
+
 /** More cells than this are drawn only in part. */
 const CELLS_MAX = 30000;
+/** Boxes of all kept configurations together. */
+const KEPT_MAX = 2e6;
 
 function latticeMotion(plan, body) {
   const every = Math.ceil(body.count / CELLS_MAX);
   const n = Math.ceil(body.count / every);
   if (every > 1) plan.notes.push(`of ${body.count} cells one in ${every} is drawn`);
-  // Configurations are differences: each stage names the cells that it moves.
+  // Configurations are differences: each stage names the cells that it moves, in runs that count along
+  // axes. Of the innermost axis only the cells that are drawn are gone through.
   const fill = (boxes, runs) => {
-    for (const [first, counters, center, size] of runs) {
-      const total = counters.reduce((product, c) => product * c[0], 1);
-      for (let i = 0; i < total; i++) {
-        let rest = i;
-        let cell = first;
-        const p = center.slice();
-        for (let c = counters.length - 1; c >= 0; c--) {
-          const [count, stride, dx, dy, dz] = counters[c];
-          const k = rest % count;
-          rest = (rest - k) / count;
-          cell += stride * k;
-          p[0] += dx * k;
-          p[1] += dy * k;
-          p[2] += dz * k;
+    for (const [first, counters, [x, y, z], size] of runs) {
+      const along = (c, cell, x, y, z) => {
+        const [count, stride, dx, dy, dz] = counters[c] || [1, 0, 0, 0, 0];
+        const last = c + 1 >= counters.length;
+        const period = last ? every / commonDivisor(Math.abs(stride), every) : 1;
+        let k = 0;
+        if (last) while (k < period && (cell + stride * k) % every) k++;
+        if (k === period && last) return;
+        for (; k < count; k += period) {
+          const here = cell + stride * k;
+          if (!last) along(c + 1, here, x + dx * k, y + dy * k, z + dz * k);
+          else {
+            const i = (6 * here) / every;
+            boxes[i] = x + dx * k;
+            boxes[i + 1] = y + dy * k;
+            boxes[i + 2] = z + dz * k;
+            boxes[i + 3] = size[0];
+            boxes[i + 4] = size[1];
+            boxes[i + 5] = size[2];
+          }
         }
-        if (cell % every === 0) boxes.set([...p, ...size], (6 * cell) / every);
-      }
+      };
+      along(0, first, x, y, z);
     }
     return boxes;
   };
-  const ends = [fill(new Float32Array(6 * n), body.start)];
   const times = [0];
-  for (const stage of body.stages) {
-    ends.push(fill(ends[ends.length - 1].slice(), stage.end));
-    times.push(times[times.length - 1] + stage.duration);
-  }
+  for (const stage of body.stages) times.push(times[times.length - 1] + stage.duration);
+  // Configurations at the stages' ends: every so many are kept, those between are found again from the
+  // one before, and the last two are at hand.
+  const apart = Math.ceil(((body.stages.length + 1) * n) / KEPT_MAX);
+  const kept = [fill(new Float32Array(6 * n), body.start)];
+  const hand = new Map();
   let low = Infinity;
-  for (const boxes of ends) for (let i = 0; i < n; i++) low = Math.min(low, boxes[6 * i + 2] - boxes[6 * i + 5] / 2);
+  const lower = boxes => {
+    for (let i = 0; i < n; i++) low = Math.min(low, boxes[6 * i + 2] - boxes[6 * i + 5] / 2);
+  };
+  lower(kept[0]);
+  body.stages.reduce((boxes, stage, i) => {
+    const next = fill(boxes.slice(), stage.end);
+    lower(next);
+    if ((i + 1) % apart === 0) kept.push(next);
+    return next;
+  }, kept[0]);
+  const endAt = index => {
+    if (index % apart === 0) return kept[index / apart];
+    if (!hand.has(index)) {
+      const boxes = fill(endAt(index - 1).slice(), body.stages[index - 1].end);
+      if (hand.size > 1) hand.delete(hand.keys().next().value);
+      hand.set(index, boxes);
+    }
+    return hand.get(index);
+  };
   const stageAt = t => clamp(lastNotAbove(times, t), 0, Math.max(body.stages.length - 1, 0));
   const modules = Array.from({ length: n }, (_, i) => ({ name: "cell " + i * every, type: body.cell, group: "" }));
   return {
     bodies: n,
     solids: modules.map((_, i) => ({ body: i, shape: 0, p: [0, 0, 0], q: [0, 0, 0, 1], s: [0.97, 0.97, 0.97], shade: 0 })),
-    collides: null,
-    moduleOf: modules.map((_, i) => i),
-    modules,
-    joints: [],
-    driven: [],
+    ...eachItsOwn(modules),
     place(t, X) {
       const at = stageAt(t);
       const stage = body.stages[at];
-      const a = ends[at];
-      const b = stage ? ends[at + 1] : a;
+      const a = endAt(at);
+      const b = stage ? endAt(at + 1) : a;
       const u = stage ? progress(stage.law, stage.duration > 0 ? (t - times[at]) / stage.duration : 1) : 0;
       for (let i = 0; i < n; i++) {
         const box = k => mix(a[6 * i + k], b[6 * i + k], u) * body.size;
@@ -275,11 +310,7 @@ function trussMotion(plan, body) {
   return {
     bodies: modules.length,
     solids,
-    collides: null,
-    moduleOf: modules.map((_, i) => i),
-    modules,
-    joints: [],
-    driven: [],
+    ...eachItsOwn(modules),
     place(t, X) {
       const at = nodesAt(t);
       for (let i = 0; i < nodes; i++) X.set([...at(i), 0, 0, 0, 0, 1, 1, 1, 1], TEXELS * i);

@@ -92,12 +92,12 @@ function rendererOf(canvas, shapes, motion) {
     calls++;
     gl.enable(gl.DEPTH_TEST);
     const dark = theme.dark ? 1 : 0;
-    const common = { view: camera.matrix, sun, eye: camera.eye, sunDirection: SUN, dark, shadowed: scene.shadow ? 1 : 0 };
+    const pixels = canvas.height / (2 * Math.tan(FOVY / 2));
+    const common = { view: camera.matrix, sun, eye: camera.eye, sunDirection: SUN, dark, pixels, shadowed: scene.shadow ? 1 : 0 };
     use("solid", { ...common, opacity: 1 });
     draw("solid", scene.solids, "faces");
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    const pixels = canvas.height / (2 * Math.tan(FOVY / 2));
     if (scene.edges) {
       use("edge", { view: camera.matrix, opacity: 1, dark, pixels });
       draw("edge", scene.solids, "lines");

@@ -1,7 +1,7 @@
 // What is drawn at a time: colours, lines, marks.
 
-/** Told apart by people who see no red or no green, too (after Okabe and Ito). */
-const PALETTE = ["#3f83c4", "#e5a128", "#2f9f86", "#c470a2", "#72b8e2", "#d3c43a", "#8b7fc7", "#a0a7ae"];
+/** Told apart by people who see no red, no green or no blue, too: a test measures it. */
+const PALETTE = ["#3865d4", "#f5b116", "#2aa264", "#b76086", "#7bd3f4", "#c4bb58", "#8b84bf", "#a0c7aa"];
 const FAILED = "#d9480f";
 
 const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
@@ -87,23 +87,30 @@ function standTimes(plan) {
   return standTimesKnown;
 }
 
-/** Centre of mass, its foot on the ground, and the support around it. */
-function standLines(stand, floor, size, theme) {
-  const lines = [];
+/** The support around the foot of the centre of mass, on the ground. */
+function supportLines(stand, floor, theme) {
   const [x, y, z] = stand.centre;
-  const ok = stand.margin !== null && stand.margin >= 0 && !stand.held;
-  const tint = [...(ok ? theme.good : theme.bad), 0.95];
-  const line = (a, b, width, colour) => lines.push({ a, b, width, colour });
   const lift = floor + 0.0008;
-  stand.area.forEach((p, i) => {
+  const lines = stand.area.map((p, i) => {
     const q = stand.area[(i + 1) % stand.area.length];
-    line([...p, lift], [...q, lift], 2, tint);
+    return { a: [...p, lift], b: [...q, lift], width: 2, colour: tintOf(stand, theme) };
   });
-  line([x, y, z], [x, y, lift], 1.5, [...theme.ink, 0.7]);
-  const r = size * 0.02;
-  for (const [c, h] of [[[x, y, z], 1], [[x, y, lift], 0]])
-    for (const d of [[r, 0, 0], [0, r, 0], [0, 0, h * r]]) line(sub(c, d), add(c, d), 2.5, tint);
+  lines.push({ a: [x, y, z], b: [x, y, lift], width: 1.5, colour: [...theme.ink, 0.7] });
   return lines;
+}
+
+/** The centre of mass, and its foot where there is ground: seen through everything. */
+function centreMarks(stand, floor, size, ground, theme) {
+  const [x, y, z] = stand.centre;
+  const r = size * 0.02;
+  const cross = ([c, h]) => [[r, 0, 0], [0, r, 0], [0, 0, h * r]].map(d => ({ a: sub(c, d), b: add(c, d), width: 2.5, colour: tintOf(stand, theme) }));
+  return [[[x, y, z], 1], ...(ground ? [[[x, y, floor + 0.0008], 0]] : [])].flatMap(cross);
+}
+
+/** Good or bad, by how it stands; without a support neither. */
+function tintOf(stand, theme) {
+  const ok = stand.margin === null ? !stand.held && !stand.area.length : stand.margin >= 0 && !stand.held;
+  return [...(ok ? theme.good : theme.bad), 0.95];
 }
 
 /** Points that touch the ground at a time. */

@@ -15,10 +15,11 @@ vec4 texel(int k) {
   return texelFetch(bodies, ivec2(i & 1023, i >> 10), 0);
 }
 vec3 rotate(vec4 q, vec3 v) { vec3 t = 2.0 * cross(q.xyz, v); return v + q.w * t + cross(q.xyz, t); }
-vec3 world() {
-  vec3 p = place.xyz + rotate(turn, corner * size.xyz);
+vec3 grown(float by) {
+  vec3 p = place.xyz + rotate(turn, corner * size.xyz * by);
   return texel(0).xyz + rotate(texel(1), texel(2).xyz * p);
 }
+vec3 world() { return grown(1.0); }
 vec3 worldNormal() {
   vec3 n = rotate(turn, normal / size.xyz);
   return normalize(rotate(texel(1), n / texel(2).xyz));
@@ -27,12 +28,15 @@ vec3 worldNormal() {
 
 const SOLID_VERTEX = HEAD + BODY + `
 uniform mat4 view, sun;
+uniform float pixels;               // of a metre at a distance of one
 out vec3 at, facing, colour;
 out vec4 lit;
 out float glow;
 void main() {
   vec4 c = texel(3);
-  at = world();
+  // What is smaller than a pixel would not be seen at all.
+  float away = (view * vec4(texel(0).xyz, 1.0)).w;
+  at = grown(max(1.0, 1.4 * away / (pixels * length(size.xyz * texel(2).xyz))));
   facing = worldNormal();
   // Parts of one module are told apart by brightness, not by hue.
   colour = mix(c.rgb, mix(c.rgb, vec3(dot(c.rgb, vec3(0.3, 0.6, 0.1))), 0.45) * (1.0 + 0.55 * size.w), step(0.0001, abs(size.w)));
