@@ -54,10 +54,11 @@ fn places(plan: &Plan, times: &[f64]) -> Value {
     times.iter().map(|t| at(*t)).collect()
 }
 
-/// 300 modules in a row that lift and lower every tenth of them.
+/// 300 modules in a row that bend at every tenth of them, by turns up and down.
 fn snake() -> Plan {
     let joint = |module: u32| 4 * module + TILT as u32;
-    let wave = |to: f64| parallel((0..30).map(|i| go_in(joint(10 * i), to, 2.0, 0)).collect());
+    let bent = |i: u32, to: f64| go_in(joint(10 * i), if i.is_multiple_of(2) { to } else { -to }, 2.0, 0);
+    let wave = |to: f64| parallel((0..30).map(|i| bent(i, to)).collect());
     plan_of(plan(chain(300), series(vec![wave(0.2), wave(-0.2), wave(0.0)])).expect("it can be scheduled"))
 }
 

@@ -7,7 +7,7 @@ const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
 
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("page/math.js"),
     include_str!("page/motion.js"),
     include_str!("page/shapes.js"),
@@ -15,6 +15,7 @@ const SCRIPTS: [&str; 12] = [
     include_str!("page/render.js"),
     include_str!("page/framing.js"),
     include_str!("page/camera.js"),
+    include_str!("page/pace.js"),
     include_str!("page/timeline.js"),
     include_str!("page/curves.js"),
     include_str!("page/panel.js"),

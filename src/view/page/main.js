@@ -50,7 +50,7 @@ function main() {
 
   let renderer = null;
   try {
-    renderer = rendererOf(canvas, shapesOf(plan, motion.solids), motion);
+    renderer = rendererOf(canvas, plan, motion);
   } catch (error) {
     showStill(error);
   }
@@ -103,7 +103,9 @@ function main() {
 
   function play(on) {
     if (on && state.t >= plan.end - 1e-9) state.t = 0;
+    const before = coarseness();
     state.playing = on && plan.end > 0;
+    if (coarseness() !== before) resize();
     $("play").firstElementChild.firstElementChild.setAttribute("d", state.playing ? "M3 2h4v12H3zM9 2h4v12H9z" : "M4 2l10 6-10 6z");
     $("play").setAttribute("aria-pressed", state.playing);
     touch();
@@ -140,11 +142,17 @@ function main() {
     box.hidden = legend.length < 2 && legend[0][0] !== "ramp";
   }
 
+  const pace = paceOf();
+  /** How coarsely it is drawn: only what moves by itself. */
+  const coarseness = () => (state.playing ? pace.level() : 0);
+  let shaped = 0;
   function resize() {
-    const ratio = Math.min(devicePixelRatio || 1, 2);
+    const ratio = Math.min(devicePixelRatio || 1, 2) * PIXELS[coarseness()];
     const [w, h] = [canvas.clientWidth, canvas.clientHeight].map(x => Math.max(Math.round(x * ratio), 1));
-    const other = canvas.width !== w || canvas.height !== h;
-    if (other) (canvas.width = w), (canvas.height = h);
+    const shape = w / h;
+    const other = Math.abs(shape - shaped) > 0.01;
+    shaped = shape;
+    if (canvas.width !== w || canvas.height !== h) (canvas.width = w), (canvas.height = h);
     if (other && camera.framed) fit(camera.framed === "first", true);
     timeline.draw();
     touch();
@@ -174,8 +182,8 @@ function main() {
     if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, plan.floor, lineTheme));
     const scene = {
       camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
-      middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground,
-      edges: options.edges, ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
+      middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground && coarseness() < 1,
+      edges: options.edges && coarseness() < 2, coarse: coarseness() > 0, ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
     };
     if (renderer) {
       scene.ghosts.forEach((shown, i) => shown && !ghosts[i] && makeGhost(i));
@@ -314,7 +322,9 @@ function main() {
   let last = performance.now();
   let saved = "";
   function frame(now) {
-    const passed = Math.min((now - last) / 1000, 0.1);
+    // The first frame may have begun before the clock was read.
+    const passed = clamp((now - last) / 1000, 0, 0.1);
+    if (state.playing && pace.saw(now - last)) resize();
     last = now;
     if (state.playing) {
       state.t += passed * state.speed;

@@ -4,7 +4,7 @@ const SUN = unit([0.42, -0.55, 1.05]);
 const SHADOW_SIZE = 2048;
 
 /** Throws where WebGL 2 is missing. */
-function rendererOf(canvas, shapes, motion) {
+function rendererOf(canvas, plan, motion) {
   const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: false });
   if (!gl) throw new Error("WebGL 2 is missing");
   // All are begun before the first is asked for: a browser makes them while the page goes on.
@@ -13,7 +13,7 @@ function rendererOf(canvas, shapes, motion) {
   const programOf = name => programs[name] || (programs[name] = finishProgram(gl, begun[name]));
   const quad = bufferOf(gl, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
   const square = arrayOf(gl, [[0, quad, 2, 8, 0, 0]]);
-  const meshes = shapes.map(shape => ({ faces: bufferOf(gl, shape.faces), lines: bufferOf(gl, shape.lines), shape }));
+  const meshesOf = round => shapesOf(plan, round).map(shape => ({ faces: bufferOf(gl, shape.faces), lines: bufferOf(gl, shape.lines), shape }));
   const rows = Math.max(Math.ceil((motion.bodies * 4) / 1024), 1);
   const texels = new Float32Array(rows * 1024 * 4);
   const texture = poseTexture(gl, rows);
@@ -23,12 +23,16 @@ function rendererOf(canvas, shapes, motion) {
   const lines = lineBatch(gl);
   const flats = { buffer: gl.createBuffer() };
   flats.array = arrayOf(gl, [[0, flats.buffer, 3, 12, 0, 0]]);
-  const sets = new Map();
+  /** Meshes, and batches by list of solids: fine, and coarse where frames are slow. */
+  const finenesses = [roundness(motion.solids.length), ROUND_COARSE].map(round => ({ round, meshes: null, sets: new Map() }));
+  let fineness = finenesses[0];
   let calls = 0;
 
   /** The instances of a list of solids, one batch a shape. */
   function batches(solids) {
-    if (!sets.has(solids)) sets.set(solids, batchesOf(gl, meshes, solids));
+    const { sets } = fineness;
+    if (!fineness.meshes) fineness.meshes = meshesOf(fineness.round);
+    if (!sets.has(solids)) sets.set(solids, batchesOf(gl, fineness.meshes, solids));
     return sets.get(solids);
   }
 
@@ -68,6 +72,7 @@ function rendererOf(canvas, shapes, motion) {
 
   function render(scene) {
     calls = 0;
+    fineness = finenesses[scene.coarse ? 1 : 0];
     const { camera, theme } = scene;
     const sun = sunView(scene);
     upload(texture, texels);

@@ -15,11 +15,11 @@ vec4 texel(int k) {
   return texelFetch(bodies, ivec2(i & 1023, i >> 10), 0);
 }
 vec3 rotate(vec4 q, vec3 v) { vec3 t = 2.0 * cross(q.xyz, v); return v + q.w * t + cross(q.xyz, t); }
-vec3 grown(float by) {
+vec3 grown(vec3 by) {
   vec3 p = place.xyz + rotate(turn, corner * size.xyz * by);
   return texel(0).xyz + rotate(texel(1), texel(2).xyz * p);
 }
-vec3 world() { return grown(1.0); }
+vec3 world() { return grown(vec3(1.0)); }
 vec3 worldNormal() {
   vec3 n = rotate(turn, normal / size.xyz);
   return normalize(rotate(texel(1), n / texel(2).xyz));
@@ -34,9 +34,9 @@ out vec4 lit;
 out float glow;
 void main() {
   vec4 c = texel(3);
-  // What is smaller than a pixel would not be seen at all.
+  // What is thinner than a pixel would be seen in dots, or not at all.
   float away = (view * vec4(texel(0).xyz, 1.0)).w;
-  at = grown(max(1.0, 1.4 * away / (pixels * length(size.xyz * texel(2).xyz))));
+  at = grown(max(vec3(1.0), 1.1 * away / (pixels * size.xyz * texel(2).xyz)));
   facing = worldNormal();
   // Parts of one module are told apart by brightness, not by hue.
   colour = mix(c.rgb, mix(c.rgb, vec3(dot(c.rgb, vec3(0.3, 0.6, 0.1))), 0.45) * (1.0 + 0.55 * size.w), step(0.0001, abs(size.w)));
@@ -52,9 +52,9 @@ float sunlight(vec4 lit) {
   vec3 p = lit.xyz / lit.w * 0.5 + 0.5;
   if (shadowed < 0.5 || any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
   float sum = 0.0, texel = 1.0 / float(textureSize(shadows, 0).x);
-  for (int x = -1; x <= 1; x++)
-    for (int y = -1; y <= 1; y++) sum += texture(shadows, vec3(p.xy + vec2(x, y) * texel * 1.3, p.z - 0.0015));
-  return sum / 9.0;
+  for (float x = -0.9; x < 1.0; x += 1.8)
+    for (float y = -0.9; y < 1.0; y += 1.8) sum += texture(shadows, vec3(p.xy + vec2(x, y) * texel, p.z - 0.0015));
+  return sum / 4.0;
 }
 `;
 

@@ -4,9 +4,11 @@
 /** Faces that meet at less than this are drawn as one smooth surface. */
 const CREASE = Math.cos((32 * Math.PI) / 180);
 
-function shapesOf(plan, solids) {
-  // What is many is small on the screen.
-  const round = solids.length > 1200 ? 20 : 40;
+/** In how many pieces a full turn is drawn: what is many is small on the screen. */
+const roundness = count => (count > 1200 ? 20 : 40);
+const ROUND_COARSE = 8;
+
+function shapesOf(plan, round) {
   return [boxShape(), cylinderShape(round), ballShape(round), ...(plan.meshes || []).map(meshShape)];
 }
 
@@ -51,7 +53,7 @@ function cylinderShape(round) {
 }
 
 function ballShape(round) {
-  const [around, down] = [round * 0.6, round * 0.35];
+  const [around, down] = [Math.round(round * 0.6), Math.round(round * 0.35)];
   const faces = [];
   const at = (i, j) => {
     const [a, b] = [(2 * Math.PI * i) / around, (Math.PI * j) / down];
