@@ -300,7 +300,7 @@ fn pages_play_in_a_browser() {
         let ran = sandbox.run(&["show", &file]);
         assert!(ran.err.contains(".html"), "{name}: {}", ran.err);
     }
-    let bound = |looks: Looks| Looks { data: [looks.data, vec!["proved bound".into()]].concat(), ..looks };
+    let bound = |looks: Looks| Looks { data: [looks.data, vec!["lower bound".into()]].concat(), ..looks };
     let free = &["start", "goal", "edges"];
     let octahedron = of_program(&sandbox, "octahedron");
     let slab = of_program(&sandbox, "slab");

@@ -126,8 +126,6 @@ pub struct Provenance {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Bound {
-    /// Seconds.
-    Duration(f64),
     /// Of the hinges that fold, J.
     FoldingEnergy(f64),
 }

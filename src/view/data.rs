@@ -85,16 +85,14 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts.extend(made.seed.map(|seed| ("seed", seed.to_string())));
     facts.extend(made.budget.map(|budget| ("budget", budget.to_string())));
     facts.push(("duration", time(plan.body.duration())));
-    facts.extend(made.bound.map(|bound| match bound {
-        Bound::Duration(least) => ("proved bound", format!("no such plan is shorter than {}", time(least))),
-        Bound::FoldingEnergy(least) => {
-            ("proved bound", format!("no such pattern folds with less than {}J", display::number(least)))
-        }
+    facts.extend(made.bound.map(|Bound::FoldingEnergy(least)| {
+        ("lower bound", format!("no such pattern folds with less than {}J", display::number(least)))
     }));
     if let Some(verdict) = &plan.verdict {
         facts.push(("verdict", if verdict.ok() { "verified".into() } else { "not verified".into() }));
         facts.push(("energy", format!("{}J", display::number(libm::round(verdict.energy * 1e3) / 1e3))));
         facts.push(("samples", verdict.samples.to_string()));
+        facts.extend(verdict.dynamics.iter().flat_map(|d| d.in_words(plan.body.duration())));
     }
     for from in &plan.worlds {
         let world = from.world;
