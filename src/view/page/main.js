@@ -311,16 +311,18 @@ function main() {
   $("speed").addEventListener("change", () => speed(Number($("speed").value)));
   speed(1);
 
+  /** The address as it was last read or written: another one is a wish that is still to be read. */
+  let known = location.hash;
   /** `#t=12.3` opens the page at a time. */
   function fromAddress() {
-    const wish = /[#&]t=([0-9.]+)/.exec(location.hash);
+    known = location.hash;
+    const wish = /[#&]t=([0-9.]+)/.exec(known);
     if (wish) player.seek(Number(wish[1]) || 0, true);
     return Boolean(wish);
   }
   addEventListener("hashchange", fromAddress);
 
   let last = performance.now();
-  let saved = "";
   function frame(now) {
     // The first frame may have begun before the clock was read.
     const passed = clamp((now - last) / 1000, 0, 0.1);
@@ -338,10 +340,10 @@ function main() {
       state.dirty = false;
       state.dirty = draw(passed) || state.dirty;
       const address = "#t=" + state.t.toFixed(2);
-      if (!state.playing && address !== saved && !(state.t === 0 && !location.hash)) {
-        saved = address;
+      if (!state.playing && address !== known && location.hash === known && !(state.t === 0 && !known)) {
         // Some viewers of mail don't let a page touch its address.
         try { history.replaceState(null, "", address); } catch { /* nothing is lost */ }
+        known = location.hash;
       }
     }
     requestAnimationFrame(frame);
