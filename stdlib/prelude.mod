@@ -397,14 +397,21 @@ extern fn show(
   side: corner | front | back | left | right | top = corner,
 )
 
-/// Writes a robot of RoFI modules as a `.rofi` file into the output folder.
+/// Writes something in a format of other programs into the output folder, by the end of the file's name.
+///
+/// A robot of RoFI modules is a `.rofi` file. A folding is a `.fold` file (FOLD 1.2): the flat net in
+/// millimetres with its mountains, valleys and fold angles, the step in which each hinge folds, the
+/// edges that meet in the end, and the folded form after every step as further frames.
 ///
 /// Example:
-/// ```modl check
+/// ```modl
+/// use std.mori.Mori
 /// use std.rofi.Snake
+/// use std.shapes.octahedron
 /// save(Snake(n: 4), "snake.rofi")
+/// save(fold(octahedron(edge: 80mm), module: Mori), "octahedron.fold")
 /// ```
-extern fn save(what: Config, file: Text)
+extern fn save(what: Config | Folding | Layout, file: Text)
 
 /// Reads a robot from a `.rofi` file of this project; its modules are `modules(c, Rofi)`.
 ///
@@ -681,7 +688,7 @@ extern fn hull(
   friction: Number = 0.5,
 ) -> Shape
 
-/// A closed triangle mesh from an STL file of this project. Options as for `box`.
+/// A closed mesh from a file of this project: STL, OBJ, OFF or PLY. Options as for `box`.
 ///
 /// `scale` is the length of one unit of the file.
 ///
@@ -921,13 +928,48 @@ extern fn polyhedron(vertices: List<Vec3<Length>>, faces: List<List<Int>>) -> Me
 /// ```
 extern fn faces(of: Mesh) -> Int
 
-/// A mesh from an STL or OBJ file of this project; `scale` is the length of one unit. Not yet available.
+/// A mesh from a file of this project, by the end of its name: STL, OBJ, OFF or PLY. `scale` is the
+/// length of one of the file's units. The path is relative to the program's.
+///
+/// Faces keep the file's order, and may be any polygons; the surface may be open. A file that can't be
+/// read is refused with the line where the format has lines.
 ///
 /// Example:
-/// ```modl check
-/// print(faces(load_mesh("bunny.stl", scale: 1mm)))
+/// ```modl
+/// print(faces(load_mesh("wedge.off", scale: 80mm)))
+/// ```
+/// ```modl wedge.off
+/// OFF
+/// 4 4 6
+/// 0 0 0
+/// 1 0 0
+/// 0 1 0
+/// 0 0 1
+/// 3 0 2 1
+/// 3 0 1 3
+/// 3 1 2 3
+/// 3 2 0 3
 /// ```
 extern fn load_mesh(file: Text, scale: Length = 1mm) -> Mesh
+
+/// Every triangle of a mesh as `parts` times `parts` triangles of the same shape, which follow each other
+/// in the place of the one.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.icosahedron
+/// print(faces(subdivided(icosahedron(edge: 160mm), parts: 2)))
+/// ```
+extern fn subdivided(mesh: Mesh, parts: Int) -> Mesh
+
+/// A mesh with every vertex moved straight from or to the origin onto a sphere about it.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.{geodesic, octahedron}
+/// print(faces(on_sphere(octahedron(edge: 1m), radius: 1m)), faces(geodesic(radius: 1m, parts: 2)))
+/// ```
+extern fn on_sphere(mesh: Mesh, radius: Length) -> Mesh
 
 /// A cloud of points, a target for `morph`.
 ///
@@ -1386,6 +1428,9 @@ extern type Folding is Plan {
   /// With the leaves folded first no layout has a lower peak torque, where that was minimised; else,
   /// none spends less energy.
   bound: Energy
+  /// What the proof leaves open: by how much of what was minimised the bound is below it; 0 where it
+  /// is optimal.
+  gap: Number
   /// No layout folds in fewer steps.
   fewest_steps: Int
   /// Whether it is proved that with the leaves folded first no better layout lies flat and passes the
@@ -1419,7 +1464,8 @@ extern type Folding is Plan {
 /// fold it without collisions, and the motion.
 ///
 /// The target is a mesh of triangles whose sides are those of the panels, each edge of which joins two
-/// faces at most; panel `i` becomes face `i`. The module is a triangular panel with a hinge at each of
+/// faces at most; panel `i` becomes face `i`. It may come from a file: `load_mesh`, or `mesh` where it
+/// is closed. The module is a triangular panel with a hinge at each of
 /// its three edges. `root` is the face that stays where it is; without it, the best is found.
 ///
 /// `exact` proves its answer without looking at every layout, where it can; `enumerate` looks at every
@@ -1439,8 +1485,9 @@ extern type Folding is Plan {
 /// motors and are made of `passive_module`; two of them share no hinge. With the radius of the hinges
 /// it is said which can't close as far as they should. `hinges` gives the layout, as pairs of faces;
 /// then it is folded so or not at all. `step` is how long each step takes; by default
-/// as long as the fastest hinge needs. `budget` bounds the layouts and branchings that are looked at;
-/// `seed` makes another choice among equals. Without gravity there is no ground either.
+/// as long as the fastest hinge needs. `budget` bounds the search: layouts that are looked at, faces that
+/// paths pass; where it ends the search, `gap` tells how far the proof came. `seed` makes another choice
+/// among equals. Without gravity there is no ground either.
 ///
 /// Example:
 /// ```modl
@@ -1451,7 +1498,7 @@ extern type Folding is Plan {
 /// print(verify(octa).ok)
 /// ```
 extern fn fold(
-  target: Mesh,
+  target: Mesh | Shape,
   module: Module,
   root: auto | Int = auto,
   method: exact | heuristic | enumerate = exact,
@@ -1494,6 +1541,43 @@ extern type OrderSample {
 /// print(random_orders(fold(octahedron(edge: 80mm), module: Mori), orders: 100).worse > 0.5)
 /// ```
 extern fn random_orders(of: Folding, orders: Int = 1000, seed: Int = 0) -> OrderSample
+
+/// What `refold` found: the motion from shape to shape, and what it takes.
+extern type Refolding is Plan {
+  /// How many connections are undone in the plane, and as many made.
+  changes: Int
+  /// No sheet on which no panel moves in the plane needs fewer changes.
+  bound: Int
+  /// By panel, which is a face of the first shape: the face of the second shape that it becomes.
+  becomes: List<Int>
+  /// What unfolding and folding spend with the leaves folded first and unfolded last, in the measure
+  /// of the origami-folding paper: the sum of mean torques.
+  energy: Energy
+}
+
+/// Unfolds one shape into a flat sheet, changes connections there, and folds the sheet into another.
+///
+/// Both are meshes of as many triangles, with the panels' sides. A sheet is looked for that both
+/// unfold into, so that no panel moves while connections change, with as few changes as are found in
+/// the `budget`: cells of sheets that are weighed. A new connection is made at the instant at which an
+/// old one goes, so the robot stays in one piece. Sheets with equally many changes are tried by the
+/// energy that they take, until the judge lets one through. `seed` leads to other sheets.
+///
+/// Example:
+/// ```modl
+/// use std.mori.Mori
+/// use std.shapes.{octahedron, boat}
+/// let there = refold(octahedron(edge: 80mm), boat(edge: 80mm), module: Mori)
+/// print(there.changes, there.bound, verify(there).ok)
+/// ```
+extern fn refold(
+  from: Mesh | Shape,
+  to: Mesh | Shape,
+  module: Module,
+  step: auto | Time = auto,
+  seed: Int = 0,
+  budget: Int = 20_000_000,
+) -> Refolding
 
 /// What `squeeze` found. What cells go through is what the verifier finds.
 extern type Squeezing is Plan {

@@ -1,4 +1,5 @@
-//! Meshes to fold, morph to and learn from: the convex deltahedra, and a few shapes with a purpose.
+//! Meshes to fold, morph to and learn from: the convex deltahedra, tubes, spheres, and a few shapes
+//! with a purpose.
 //!
 //! All are centred, except where their documentation says otherwise; faces are listed
 //! counterclockwise from outside.
@@ -55,6 +56,21 @@ fn octahedron(edge: Length) -> Mesh = polyhedron(
   _scaled([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], edge / sqrt(2)),
   [
     [0, 2, 4], [0, 5, 2], [0, 4, 3], [0, 3, 5], [1, 4, 2], [1, 2, 5], [1, 3, 4], [1, 5, 3],
+  ],
+)
+
+/// Eight triangles: three tetrahedra about a common edge. As many as an octahedron has, but re-entrant.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.boat
+/// print(faces(boat(edge: 80mm)))
+/// ```
+fn boat(edge: Length) -> Mesh = polyhedron(
+  [[0m, 0m, edge / 2], [0m, 0m, -edge / 2]]
+    ++ [[edge * sqrt(0.75) * cos(i * acos(1 / 3)), edge * sqrt(0.75) * sin(i * acos(1 / 3)), 0m] for i in 0..4],
+  [
+    [2, 0, 1], [0, 2, 3], [0, 3, 4], [0, 4, 5], [1, 3, 2], [1, 4, 3], [1, 5, 4], [5, 1, 0],
   ],
 )
 
@@ -149,6 +165,80 @@ fn icosahedron(edge: Length) -> Mesh = polyhedron(
     [4, 8, 10], [5, 10, 8], [6, 11, 9], [7, 9, 11],
   ],
 )
+
+/// Twenty-four triangles: an octahedron with a tetrahedron on each face; two large tetrahedra that
+/// pass through each other. Its edges along the octahedron's are re-entrant.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.stella_octangula
+/// print(faces(stella_octangula(edge: 80mm)))
+/// ```
+fn stella_octangula(edge: Length) -> Mesh = {
+  let octahedron = [
+    [0, 2, 4], [0, 5, 2], [0, 4, 3], [0, 3, 5], [1, 4, 2], [1, 2, 5], [1, 3, 4], [1, 5, 3],
+  ]
+  polyhedron(
+    _scaled(
+      [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1],
+        [1, 1, 1], [1, 1, -1], [1, -1, 1], [1, -1, -1], [-1, 1, 1], [-1, 1, -1], [-1, -1, 1], [-1, -1, -1]],
+      edge / sqrt(2),
+    ),
+    [[octahedron[i][k], octahedron[i][(k + 1) % 3], 6 + i] for i in 0..8 for k in 0..3],
+  )
+}
+
+/// An open tube of equal triangles: `rings` bands of twice as many triangles as it has sides, one
+/// above the other from z = 0 up.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.tube
+/// print(faces(tube(sides: 6, rings: 3, edge: 80mm)))
+/// ```
+fn tube(sides: Int, rings: Int, edge: Length) -> Mesh = {
+  let radius = edge / (2 * sin(180deg / sides))
+  // Each ring of vertices is turned by half a side against the one below.
+  let height = sqrt(edge^2 - (2 * radius * sin(90deg / sides))^2)
+  let n = sides
+  polyhedron(
+    [[radius * cos(360deg * i / n + (k % 2) * 180deg / n), radius * sin(360deg * i / n + (k % 2) * 180deg / n), k * height]
+      for k in 0..rings + 1 for i in 0..n],
+    [if s == 0 { [k * n + i, k * n + (i + 1) % n, (k + 1) * n + (i + k % 2) % n] } else { [k * n + i, (k + 1) * n + (i + k % 2) % n, (k + 1) * n + (i + k % 2 + n - 1) % n] }
+      for k in 0..rings for i in 0..n for s in 0..2],
+  )
+}
+
+/// A geodesic sphere: an icosahedron with its faces subdivided, blown up to a sphere.
+///
+/// Its triangles are not quite equal; `subdivided` alone keeps them so.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.geodesic
+/// print(faces(geodesic(radius: 200mm, parts: 3)))
+/// ```
+fn geodesic(radius: Length, parts: Int) -> Mesh =
+  on_sphere(subdivided(icosahedron(edge: radius), parts), radius)
+
+/// A torus about the z axis: `around` times `across` quadrangles, each cut into two triangles.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.torus
+/// print(faces(torus(radius: 300mm, tube: 100mm, around: 12, across: 6)))
+/// ```
+fn torus(radius: Length, tube: Length, around: Int, across: Int) -> Mesh = {
+  let n = across
+  polyhedron(
+    [[(radius + tube * cos(360deg * j / n)) * cos(360deg * i / around),
+      (radius + tube * cos(360deg * j / n)) * sin(360deg * i / around),
+      tube * sin(360deg * j / n)]
+      for i in 0..around for j in 0..n],
+    [if s == 0 { [i * n + j, (i + 1) % around * n + j, (i + 1) % around * n + (j + 1) % n] } else { [i * n + j, (i + 1) % around * n + (j + 1) % n, i * n + (j + 1) % n] }
+      for i in 0..around for j in 0..n for s in 0..2],
+  )
+}
 
 /// A cube, of six squares.
 ///

@@ -30,6 +30,26 @@ fn programs(folder: &str) -> BTreeMap<String, String> {
     named.collect()
 }
 
+/// The other files of a folder, such as meshes that its programs load.
+fn others(folder: &str) -> Vec<(String, Vec<u8>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let paths = fs::read_dir(folder).expect("the folder is there").map(|e| e.expect("readable").path());
+    let others = paths.filter(|path| path.is_file() && path.extension().is_none_or(|e| e != "mod"));
+    let named = others.map(|path| {
+        let name = path.file_name().expect("a file").to_string_lossy().into_owned();
+        (name, fs::read(&path).expect("the file can be read"))
+    });
+    named.collect()
+}
+
+/// An example with the files that it may load.
+fn sandbox_of_example(name: &str, text: &str) -> Sandbox {
+    let others = others("examples");
+    let mut files: Vec<(&str, &[u8])> = others.iter().map(|(n, b)| (n.as_str(), b.as_slice())).collect();
+    files.push((name, text.as_bytes()));
+    Sandbox::new(&files)
+}
+
 /// The marked places; marks belong to the last line above them that holds none.
 fn marked(text: &str) -> BTreeSet<Place> {
     let mut places = BTreeSet::new();
@@ -111,7 +131,7 @@ fn each_wrong_program_fails_where_its_marks_say() {
 fn each_example_runs_and_what_it_writes_is_verified_again() {
     for (name, text) in programs("examples").into_iter().filter(|(name, _)| !WAITING.contains(&name.as_str()))
     {
-        let sandbox = Sandbox::new(&[(&name, text.as_bytes())]);
+        let sandbox = sandbox_of_example(&name, &text);
         let ran = sandbox.run(&["run", "--json", &name]);
         let report = json(&ran);
         let codes: Vec<&str> = report["diagnostics"]
@@ -137,7 +157,7 @@ fn each_example_runs_and_what_it_writes_is_verified_again() {
 #[test]
 fn a_program_run_twice_writes_the_same_bytes() {
     for (name, text) in programs("examples") {
-        let sandbox = Sandbox::new(&[(&name, text.as_bytes())]);
+        let sandbox = sandbox_of_example(&name, &text);
         for out in ["one", "two"] {
             sandbox.run(&["run", &name, "--out", out]);
         }

@@ -23,7 +23,7 @@ pub const SIDE: f64 = 0.08;
 /// What the truth was computed with, m/s².
 pub const GRAVITY: f64 = 9.8;
 
-fn shapes() -> impl Iterator<Item = (&'static String, &'static Value)> {
+pub fn shapes() -> impl Iterator<Item = (&'static String, &'static Value)> {
     TRUTH["shapes"].as_object().expect("an object").iter()
 }
 

@@ -39,6 +39,8 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("glamx", &["geometry"]),
     ("clarabel", &["optimize"]),
     ("robust", &["planners"]),
+    ("ply_rs_bw", &["interpret"]),
+    ("tobj", &["interpret"]),
     ("pest", &["syntax"]),
     ("pest_derive", &["syntax"]),
     ("miette", &["source"]),

@@ -7,6 +7,7 @@ pub mod pose;
 pub mod shape;
 
 pub mod soundness;
+pub mod subdivide;
 pub mod volume;
 
 pub mod part;

@@ -140,7 +140,7 @@ impl Options {
 }
 
 /// What every hinge can do, s: the same for all layouts, or they could not be compared.
-fn shortest_step(target: &Target, panel: &Panel) -> f64 {
+pub fn shortest_step(target: &Target, panel: &Panel) -> f64 {
     let greatest = target.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max);
     match law::least(Profile::Smooth, greatest, panel.able) {
         Some(least) if least > 0.0 => (least / STEP_GRAIN).ceil() * STEP_GRAIN,

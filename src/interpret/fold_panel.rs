@@ -6,7 +6,7 @@ use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop};
 use super::value::Value;
 use crate::behavior::law;
-use crate::geometry::Vec3;
+use crate::geometry::{Placed, Shape, Vec3};
 use crate::planners::fold::{Target, Unfoldable};
 use crate::robot::{Link, Port};
 use crate::source::{Diagnostic, code};
@@ -69,8 +69,8 @@ fn thickness(link: &Link, normal: Vec3) -> f64 {
 
 /// The shape in argument `index`; `module` is where the panel was given.
 pub fn target(call: &Call, index: usize, module: usize, panel: &Panel) -> Eval<Target> {
-    let Value::Mesh(mesh) = call.arg(index) else { return Err(call.refuse(index, "a mesh is wanted")) };
-    let target = Target::new(mesh.vertices.clone(), &mesh.faces).and_then(|target| {
+    let (vertices, faces) = surface(call, index)?;
+    let target = Target::new(vertices, &faces).and_then(|target| {
         target.check_sides(panel.side, TOL_SIDE * panel.side)?;
         Ok(target)
     });
@@ -134,4 +134,20 @@ pub fn panels(
         unfoldable(call, listed, &why).hint("one of two panels on a hinge has to be active").into()
     })?;
     Ok((panels, target))
+}
+
+/// The surface in an argument: a mesh, or a shape that was read from a file as it is.
+fn surface(call: &Call, index: usize) -> Eval<(Vec<Vec3>, Vec<Vec<usize>>)> {
+    match call.arg(index) {
+        Value::Mesh(mesh) => return Ok((mesh.vertices.clone(), mesh.faces.clone())),
+        Value::Shape(solid) => {
+            if let [Placed { pose, shape: Shape::Mesh { vertices, triangles, .. } }] = &solid.parts[..] {
+                let place = |p: &Vec3| pose.transform_point(&(*p).into()).coords;
+                let corners = |t: &[u32; 3]| t.iter().map(|corner| *corner as usize).collect();
+                return Ok((vertices.iter().map(place).collect(), triangles.iter().map(corners).collect()));
+            }
+        }
+        _ => {}
+    }
+    Err(call.refuse(index, "a surface of triangles is wanted: a mesh, or a shape from a mesh file"))
 }

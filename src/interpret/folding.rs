@@ -43,6 +43,18 @@ pub struct Folded {
     pub minimise: Minimise,
 }
 
+impl Folded {
+    /// What the proof leaves open, as a part of what was to be small.
+    fn gap(&self) -> f64 {
+        let found = match self.minimise {
+            Minimise::PeakTorque => self.effort.peak,
+            _ => self.effort.energy,
+        };
+        // Another order may undercut the bound, which is for the leaves first.
+        if self.optimal || found <= 0.0 { 0.0 } else { (1.0 - self.bound / found).max(0.0) }
+    }
+}
+
 /// A layout with its target.
 #[derive(Debug)]
 pub struct FlatPattern {
@@ -58,6 +70,7 @@ pub const FOLDING: &[&str] = &[
     "energy",
     "peak_torque",
     "bound",
+    "gap",
     "fewest_steps",
     "optimal",
     "price",
@@ -82,6 +95,7 @@ pub fn folding_field(planned: &Rc<Planned>, folded: &Folded, field: &str) -> Val
         "peak_torque" => Value::Quantity(folded.effort.peak, ENERGY),
         "bound" => Value::Quantity(folded.bound, ENERGY),
         "fewest_steps" => Value::count(folded.fewest_steps),
+        "gap" => Value::number(folded.gap()),
         "optimal" => Value::Bool(folded.optimal),
         "price" => Value::number(folded.price),
         "ties" => numbers(&folded.ties),

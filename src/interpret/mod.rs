@@ -29,9 +29,14 @@ mod facts;
 mod hinge;
 mod lattice;
 mod module;
-mod stl;
 mod sweep;
 mod truss;
+
+mod mesh_file;
+mod obj;
+mod off;
+mod ply;
+mod stl;
 
 mod config;
 mod connect;
@@ -58,8 +63,10 @@ mod natives_fold;
 mod natives_list;
 mod natives_math;
 mod natives_plan;
+mod natives_refold;
 mod natives_robot;
 mod natives_rofi;
+mod natives_save;
 mod natives_shape;
 mod natives_show;
 mod natives_squeeze;

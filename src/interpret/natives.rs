@@ -8,8 +8,8 @@ use super::interpreter::Interpreter;
 use super::stop::Eval;
 use super::value::Value;
 use super::{
-    natives_action, natives_family, natives_fold, natives_list, natives_math, natives_plan, natives_robot,
-    natives_rofi, natives_shape, natives_show, natives_squeeze,
+    natives_action, natives_family, natives_fold, natives_list, natives_math, natives_plan, natives_refold,
+    natives_robot, natives_rofi, natives_save, natives_shape, natives_show, natives_squeeze,
 };
 use crate::source::Symbol;
 use std::collections::HashMap;
@@ -54,10 +54,12 @@ pub const fn on_run(
 
 /// All built-ins, one table a subject.
 pub fn all() -> impl Iterator<Item = &'static Native> {
-    let tables: [&'static [Native]; 11] = [
+    let tables: [&'static [Native]; 13] = [
         natives_math::TABLE,
         natives_list::TABLE,
+        natives_refold::TABLE,
         natives_rofi::TABLE,
+        natives_save::TABLE,
         natives_shape::TABLE,
         natives_family::TABLE,
         natives_robot::TABLE,

@@ -3,12 +3,13 @@
 use super::call::Call;
 use super::cells::{self, BadCell, Cells};
 use super::interpreter::Interpreter;
+use super::mesh_file;
 use super::natives::{Native, pure};
 use super::natives_shape::points;
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Mesh, Value};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, subdivide};
 use crate::source::{Span, code};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -27,6 +28,9 @@ pub const TABLE: &[Native] = &[
     pure("from_mesh", 1, from_mesh),
     pure("polyhedron", 2, polyhedron),
     pure("faces", 1, faces),
+    pure("load_mesh", 2, load_mesh),
+    pure("subdivided", 2, subdivided),
+    pure("on_sphere", 2, on_sphere),
     pure("cloud", 1, |_, call| Ok(Value::Cloud(Rc::new(points(call, 0)?)))),
 ];
 
@@ -203,4 +207,34 @@ fn polyhedron(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 fn faces(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::count(mesh_of(call)?.faces.len()))
+}
+
+fn load_mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let scale = call.positive(1, "the scale of a mesh")?;
+    let (_, mesh) = mesh_file::read(interpreter, call, 0, scale)?;
+    Ok(Value::Mesh(Rc::new(mesh)))
+}
+
+fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mesh = mesh_of(call)?;
+    let parts = call.count(1, "a number of parts")?;
+    let triangle = |face: &Vec<usize>| <[usize; 3]>::try_from(face.as_slice()).ok();
+    let triangles: Option<Vec<[usize; 3]>> = mesh.faces.iter().map(triangle).collect();
+    let triangles = triangles.ok_or_else(|| call.refuse(0, "only triangles can be subdivided"))?;
+    if parts == 0 {
+        return Err(call.refuse(1, "an edge has at least one part"));
+    }
+    let faces = parts.checked_mul(parts).and_then(|squared| squared.checked_mul(triangles.len()));
+    interpreter.check_list(faces.unwrap_or(usize::MAX), call.span)?;
+    let (vertices, faces) = subdivide::subdivided(&mesh.vertices, &triangles, parts);
+    Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: faces.into_iter().map(Vec::from).collect() })))
+}
+
+fn on_sphere(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mesh = mesh_of(call)?;
+    let radius = call.positive(1, "the radius")?;
+    let out = |p: &Vec3| p.try_normalize(0.0).map(|direction| direction * radius);
+    let vertices: Option<Vec<Vec3>> = mesh.vertices.iter().map(out).collect();
+    let vertices = vertices.ok_or_else(|| call.refuse(0, "a vertex at the origin has no direction"))?;
+    Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: mesh.faces.clone() })))
 }

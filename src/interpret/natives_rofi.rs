@@ -1,10 +1,9 @@
-//! `load` and `save`: robots of RoFI modules from and to RoFI's files.
+//! Robots of RoFI modules from and to RoFI's files.
 
 use super::call::Call;
 use super::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
 use super::interpreter::Interpreter;
-use super::natives::{Native, on_run, pure};
-use super::natives_plan::{output_path, write_output};
+use super::natives::{Native, pure};
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
 use crate::check::typed::DefId;
@@ -14,7 +13,7 @@ use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-pub const TABLE: &[Native] = &[pure("load", 1, load), on_run("save", 2, save)];
+pub const TABLE: &[Native] = &[pure("load", 1, load)];
 
 /// Where the library declares the module.
 const LIBRARY: &str = "std/rofi.mod";
@@ -176,10 +175,10 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     });
 }
 
-fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+/// The text of a file for the robot in argument 0; `None` where it is not sound.
+pub fn written(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<String>> {
     let design = call.instance(0)?.design.clone();
-    let (path, _) = output_path(call, 1)?;
-    let Some(robot) = interpreter.robot_at(&design, call.at(0))? else { return Ok(Value::Unknown) };
+    let Some(robot) = interpreter.robot_at(&design, call.at(0))? else { return Ok(None) };
     let mut world = World::default();
     for (index, module) in robot.assembly.modules.iter().enumerate() {
         let kind = robot.assembly.module_type(index);
@@ -204,8 +203,7 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             world.edges.push(Edge { a, b, turn: bond.turn, line: 0 });
         }
     }
-    write_output(interpreter, call, &path, rofi::write(&world).into_bytes())?;
-    Ok(Value::Nothing)
+    Ok(Some(rofi::write(&world)))
 }
 
 /// Without the rounding of radians.

@@ -2,6 +2,7 @@
 
 use super::call::Call;
 use super::interpreter::Interpreter;
+use super::mesh_file;
 use super::natives::{Native, pure};
 use super::stop::{Eval, fault};
 use super::value::{JointSpec, Solid, Value};
@@ -95,10 +96,8 @@ fn union(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 fn mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let scale = call.positive(1, "the scale of a mesh")?;
-    let (path, bytes) = interpreter.project_file(call, 0)?;
-    let (vertices, triangles) = super::stl::read(&bytes, scale).map_err(|why| {
-        fault(code::CANNOT_READ, call.at(0), format!("`{path}` is no STL file: {why}"), why)
-    })?;
+    let (path, read) = mesh_file::read(interpreter, call, 0, scale)?;
+    let (vertices, triangles) = (read.vertices, mesh_file::triangles(&read.faces));
     solid(call, 2, Shape::Mesh { name: path, vertices, triangles })
 }
 

@@ -4,6 +4,7 @@ use super::causes::PlanCauses;
 use super::design::Design;
 use super::folding::Folded;
 use super::interpreter::Interpreter;
+use super::natives_refold::Refolded;
 use super::natives_squeeze::Squeezed;
 use super::record::{Record, StateValue, first_world};
 use super::robot_of::Robot;
@@ -36,6 +37,8 @@ pub struct Planned {
     pub squeezed: Option<Squeezed>,
     /// What `fold` says of it.
     pub folded: Option<Folded>,
+    /// What `refold` says of it.
+    pub refolded: Option<Refolded>,
     /// Verdicts so far.
     judged: RefCell<Vec<Judged>>,
 }
@@ -76,6 +79,7 @@ impl Planned {
             actions,
             squeezed: None,
             folded: None,
+            refolded: None,
             judged: RefCell::default(),
         }
     }
@@ -86,6 +90,10 @@ impl Planned {
 
     pub fn with_folded(self, folded: Folded) -> Planned {
         Planned { folded: Some(folded), ..self }
+    }
+
+    pub fn with_refolded(self, refolded: Refolded) -> Planned {
+        Planned { refolded: Some(refolded), ..self }
     }
 
     pub fn actions(&self) -> usize {

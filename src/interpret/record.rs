@@ -3,6 +3,7 @@
 use super::design::Design;
 use super::folding::{FOLDING, ORDER_SAMPLE, folding_field, layout_field, sample_field};
 use super::interpreter::Interpreter;
+use super::natives_refold::{REFOLDING, refolding_field};
 use super::natives_squeeze::Squeezed;
 use super::planning::Planned;
 use super::robot_of::Robot;
@@ -67,7 +68,12 @@ impl Interpreter<'_> {
                         Some(folded) if FOLDING.contains(&field.as_str()) => {
                             folding_field(planned, folded, field.as_str())
                         }
-                        _ => self.plan_field(planned, field.as_str(), span)?,
+                        _ => match &planned.refolded {
+                            Some(refolded) if REFOLDING.contains(&field.as_str()) => {
+                                refolding_field(refolded, field.as_str())
+                            }
+                            _ => self.plan_field(planned, field.as_str(), span)?,
+                        },
                     },
                 },
                 Record::Layout(planned) => match &planned.folded {
@@ -171,6 +177,7 @@ pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
         "Squeezing" => SQUEEZING,
         "Folding" => FOLDING,
         "OrderSample" => ORDER_SAMPLE,
+        "Refolding" => REFOLDING,
         "Layout" => &["panels", "hinges", "overlaps"],
         "Report" => &[
             "ok",

@@ -1,16 +1,17 @@
 //! Triangle meshes from STL files, binary and text.
+//!
+//! A reader of our own: the kept crate takes every file that begins with `solid` for text, which many
+//! binary files do, reads the first solid only, and doesn't say in which line it stopped.
 
-use crate::geometry::Vec3;
+use super::mesh_file::{Fault, Read};
 use std::collections::HashMap;
 
 /// Bytes of the header of a binary file, and of one triangle.
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
-type Triangles = (Vec<Vec3>, Vec<[u32; 3]>);
-
-/// Vertices (m) and triangles; corners at one place are one vertex. `scale` is the length of a unit.
-pub fn read(bytes: &[u8], scale: f64) -> Result<Triangles, String> {
+/// Corners at one place are one vertex.
+pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
     let count = bytes.get(80..HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let corners = match count {
         Some(count) if bytes.len() == HEADER + TRIANGLE * count => binary(&bytes[HEADER..]),
@@ -19,10 +20,7 @@ pub fn read(bytes: &[u8], scale: f64) -> Result<Triangles, String> {
     if corners.is_empty() {
         return Err("it holds no triangles".into());
     }
-    if corners.iter().flatten().flatten().any(|x| !x.is_finite()) {
-        return Err("a coordinate is no finite number".into());
-    }
-    Ok(shared(&corners, scale))
+    Ok(shared(&corners))
 }
 
 fn binary(body: &[u8]) -> Vec<[[f32; 3]; 3]> {
@@ -31,7 +29,7 @@ fn binary(body: &[u8]) -> Vec<[[f32; 3]; 3]> {
     body.chunks_exact(TRIANGLE).map(|b| [0, 1, 2].map(|k| corner(b, k))).collect()
 }
 
-fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, String> {
+fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|_| "its length does not fit its triangles".to_string())?;
     let mut corners = Vec::new();
     for (index, line) in text.lines().enumerate() {
@@ -49,17 +47,17 @@ fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, String> {
     Ok(corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
 }
 
-fn shared(corners: &[[[f32; 3]; 3]], scale: f64) -> Triangles {
+fn shared(corners: &[[[f32; 3]; 3]]) -> Read {
     let mut vertices = Vec::new();
-    let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+    let mut known: HashMap<[u32; 3], usize> = HashMap::new();
     let mut vertex = |corner: &[f32; 3]| {
         // Adding zero makes one of the two zeros, which are one place.
         let key = corner.map(|x| (x + 0.0).to_bits());
         *known.entry(key).or_insert_with(|| {
-            vertices.push(Vec3::new(corner[0].into(), corner[1].into(), corner[2].into()) * scale);
-            u32::try_from(vertices.len() - 1).expect("a file has fewer than 2^32 vertices")
+            vertices.push(corner.map(f64::from));
+            vertices.len() - 1
         })
     };
-    let triangles = corners.iter().map(|t| [vertex(&t[0]), vertex(&t[1]), vertex(&t[2])]).collect();
-    (vertices, triangles)
+    let faces = corners.iter().map(|t| t.iter().map(&mut vertex).collect()).collect();
+    Read { vertices, faces }
 }

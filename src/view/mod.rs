@@ -29,6 +29,8 @@ mod mesh;
 mod palette;
 mod raster;
 
+pub mod fold_format;
+
 pub mod svg;
 
 mod graph;
@@ -38,6 +40,7 @@ mod program;
 
 use crate::plan::Plan;
 
+pub use fold_format::{Crease, CreasePattern, fold_file};
 pub use page::{page, page_name};
 pub use picture::{Side, Still, png};
 pub use svg::svg;

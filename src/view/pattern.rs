@@ -1,9 +1,13 @@
-//! Flat panels joined by hinges as the pattern they are cut and folded from, true to scale: cut lines,
-//! fold lines with their angles and their order, panels with their numbers.
+//! Flat panels joined by hinges as the pattern they are cut and folded from, true to scale, in layers:
+//! panels, cuts, mountains, valleys, hinges that stay level, numbers.
+//!
+//! The sheet is seen from the panels' front, the outside of what it becomes. Panels are numbered from 0
+//! as in the design; hinges from 1 in the order in which they fold, with their angles; two edges that
+//! are cut apart and meet in the end bear the same letter.
 #![allow(non_snake_case)]
 
 use super::Showing;
-use super::svg::{Drawing, INK, PAPER, SOFT, around};
+use super::svg::{Drawing, INK, SOFT, around, short};
 use crate::geometry::{Pose, Shape, Vec3};
 use crate::plan::Tracks;
 use crate::robot::{JointOwner, Kinematics, ModuleType, PortRef};
@@ -11,23 +15,42 @@ use crate::robot::{JointOwner, Kinematics, ModuleType, PortRef};
 /// A panel's corner may be this far above or below the sheet, m: rounding of poses.
 const TOL_FLAT: f64 = 1e-6;
 
+/// Middles of edges that are nearer than this in the end meet, m.
+const TOL_MEET: f64 = 1e-5;
+
 /// Angles smaller than this are no fold, rad.
 const ANGLE_MIN: f64 = 1e-6;
 
 const MILLIMETRES: f64 = 1e3;
 
-/// A panel in the plane, mm.
+const MOUNTAIN: &str = "#c0392b";
+const VALLEY: &str = "#0b63a5";
+
+/// Places in the plane, mm, y down.
+type Point = [f64; 2];
+type Side = [Point; 2];
+
+/// A panel in the plane.
 struct Panel {
-    corners: Vec<[f64; 2]>,
+    corners: Vec<Point>,
 }
 
 /// A fold line between two panels.
 struct Fold {
-    ends: [[f64; 2]; 2],
+    ends: Side,
     /// At the end of the plan, rad.
     angle: f64,
     /// From 1, in order of time; 0 where it never moves.
     order: usize,
+}
+
+/// A side along which the sheet is cut.
+struct Cut {
+    ends: Side,
+    /// The middle of its panel.
+    inside: Point,
+    /// Shared with the side that it meets in the end.
+    meets: Option<usize>,
 }
 
 /// The pattern; `None` where the modules are no flat panels on hinges.
@@ -39,9 +62,12 @@ pub fn pattern(showing: &Showing, tracks: &Tracks) -> Option<String> {
         return None;
     }
     let kinematics = Kinematics::new(robot, &tracks.start.bonds, robot.base);
-    let mut poses = vec![Pose::identity(); kinematics.link_count()];
-    let flat = vec![0.0; tracks.start.joints.len()];
-    kinematics.link_poses(&flat, &Pose::identity(), &mut poses);
+    let poses_at = |joints: &[f64]| {
+        let mut poses = vec![Pose::identity(); kinematics.link_count()];
+        kinematics.link_poses(joints, &Pose::identity(), &mut poses);
+        poses
+    };
+    let poses = poses_at(&vec![0.0; tracks.start.joints.len()]);
     let panels: Vec<Panel> = (0..robot.modules.len())
         .map(|module| panel(robot.module_type(module), &poses[kinematics.link(module, 0)]))
         .collect::<Option<_>>()?;
@@ -55,18 +81,59 @@ pub fn pattern(showing: &Showing, tracks: &Tracks) -> Option<String> {
             JointOwner::Module { .. } => None,
         })
         .collect();
+    let middle = |port: PortRef| on_paper(&kinematics.port_pose(robot, port, &poses).translation.vector);
     let fold = |&(joint, bond): &(usize, usize)| {
         let bond = robot.bonds[bond];
-        let at = |port: PortRef| kinematics.port_pose(robot, port, &poses).translation.vector;
-        let middle = at(bond.a);
-        let ends = side(&panels[bond.a.module], [middle.x * MILLIMETRES, -middle.y * MILLIMETRES]);
+        let ends = side(&panels[bond.a.module], middle(bond.a));
         let place = order.iter().position(|j| *j == joint).map_or(0, |i| i + 1);
         Fold { ends, angle: end.joints[joint], order: place }
     };
-    Some(drawn(showing, &panels, &joints.iter().map(fold).collect::<Vec<Fold>>()))
+    let folds: Vec<Fold> = joints.iter().map(fold).collect();
+    let folded = poses_at(&end.joints);
+    let bonded: Vec<PortRef> = robot.bonds.iter().flat_map(|bond| [bond.a, bond.b]).collect();
+    let ports = (0..robot.modules.len()).flat_map(|module| {
+        (0..robot.module_type(module).ports.len()).map(move |port| PortRef { module, port })
+    });
+    let free: Vec<(PortRef, Vec3)> = ports
+        .filter(|port| !bonded.contains(port))
+        .map(|port| (port, kinematics.port_pose(robot, port, &folded).translation.vector))
+        .collect();
+    let pairs = meeting(&free);
+    let mut cuts = Vec::new();
+    for (module, panel) in panels.iter().enumerate() {
+        let own = |port: &PortRef| port.module == module;
+        let hinged: Vec<Side> = bonded.iter().filter(|p| own(p)).map(|p| side(panel, middle(*p))).collect();
+        for ends in sides(panel).filter(|ends| !hinged.contains(ends)) {
+            let port = free.iter().position(|(port, _)| own(port) && side(panel, middle(*port)) == ends);
+            let meets = port.and_then(|port| pairs[port]);
+            cuts.push(Cut { ends, inside: centre(&panel.corners), meets });
+        }
+    }
+    Some(drawn(showing, &panels, &folds, &cuts))
 }
 
-/// The outline of a module's top face, if the module lies in the sheet.
+/// By free port: the number of the pair of sides that meet, if it belongs to one.
+fn meeting(free: &[(PortRef, Vec3)]) -> Vec<Option<usize>> {
+    let mut pairs = vec![None; free.len()];
+    let mut count = 0;
+    for i in 0..free.len() {
+        let near = |j: &usize| pairs[*j].is_none() && (free[*j].1 - free[i].1).norm() < TOL_MEET;
+        if pairs[i].is_none()
+            && let Some(j) = (i + 1..free.len()).find(near)
+        {
+            (pairs[i], pairs[j]) = (Some(count), Some(count));
+            count += 1;
+        }
+    }
+    pairs
+}
+
+fn on_paper(place: &Vec3) -> Point {
+    [place.x * MILLIMETRES, -place.y * MILLIMETRES]
+}
+
+/// The outline of a module, if it lies in the sheet. A triangle with a port in the middle of each of
+/// its edges goes from edge to edge, though the body may stay a little inside.
 fn panel(kind: &ModuleType, X: &Pose) -> Option<Panel> {
     let [link] = &kind.links[..] else { return None };
     let [placed] = &link.shape[..] else { return None };
@@ -77,35 +144,39 @@ fn panel(kind: &ModuleType, X: &Pose) -> Option<Panel> {
     };
     let upright =
         (X.rotation * Vec3::z()).z.abs() > 1.0 - TOL_FLAT && X.translation.vector.z.abs() < TOL_FLAT;
-    let X = X * placed.pose;
-    let world: Vec<Vec3> = points.iter().map(|p| X.transform_point(&(*p).into()).coords).collect();
+    let X_body = X * placed.pose;
+    let world: Vec<Vec3> = points.iter().map(|p| X_body.transform_point(&(*p).into()).coords).collect();
     let top = world.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
-    // y goes down on paper.
-    let mut corners: Vec<[f64; 2]> = world
-        .iter()
-        .filter(|p| top - p.z < TOL_FLAT)
-        .map(|p| [p.x * MILLIMETRES, -p.y * MILLIMETRES])
-        .collect();
+    let mut corners: Vec<Point> = world.iter().filter(|p| top - p.z < TOL_FLAT).map(on_paper).collect();
+    if let ([a, b, c], 3) = (&kind.ports[..], corners.len()) {
+        let [a, b, c] = [a, b, c].map(|port| (X * port.pose).translation.vector);
+        corners = [a + b - c, b + c - a, c + a - b].iter().map(on_paper).collect();
+    }
     let middle = centre(&corners);
     corners.sort_by(|a, b| {
-        let around = |p: &[f64; 2]| libm::atan2(p[1] - middle[1], p[0] - middle[0]);
+        let around = |p: &Point| libm::atan2(p[1] - middle[1], p[0] - middle[0]);
         around(a).total_cmp(&around(b))
     });
     (upright && corners.len() >= 3).then_some(Panel { corners })
 }
 
-fn centre(points: &[[f64; 2]]) -> [f64; 2] {
+fn centre(points: &[Point]) -> Point {
     let count = points.len().max(1) as f64;
     [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / count)
 }
 
-/// The side of a panel whose middle is nearest to a place.
-fn side(panel: &Panel, at: [f64; 2]) -> [[f64; 2]; 2] {
+fn sides(panel: &Panel) -> impl Iterator<Item = Side> + '_ {
     let count = panel.corners.len();
-    let sides = (0..count).map(|i| [panel.corners[i], panel.corners[(i + 1) % count]]);
-    let away =
-        |s: &[[f64; 2]; 2]| libm::hypot((s[0][0] + s[1][0]) / 2.0 - at[0], (s[0][1] + s[1][1]) / 2.0 - at[1]);
-    sides.min_by(|a, b| away(a).total_cmp(&away(b))).expect("a panel has three sides")
+    (0..count).map(move |i| [panel.corners[i], panel.corners[(i + 1) % count]])
+}
+
+/// The side of a panel whose middle is nearest to a place.
+fn side(panel: &Panel, at: Point) -> Side {
+    let away = |s: &Side| {
+        let [x, y] = centre(s);
+        libm::hypot(x - at[0], y - at[1])
+    };
+    sides(panel).min_by(|a, b| away(a).total_cmp(&away(b))).expect("a panel has three sides")
 }
 
 /// Joints in the order in which they first move.
@@ -119,40 +190,72 @@ fn order(tracks: &Tracks) -> Vec<usize> {
     found.into_iter().map(|(_, joint)| joint).collect()
 }
 
-fn drawn(showing: &Showing, panels: &[Panel], folds: &[Fold]) -> String {
+fn drawn(showing: &Showing, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) -> String {
     let mut drawing = Drawing::default();
     let size = panels
         .first()
         .map_or(10.0, |p| libm::hypot(p.corners[1][0] - p.corners[0][0], p.corners[1][1] - p.corners[0][1]));
-    let (text, pen) = (size * 0.085, size * 0.008);
-    for (number, panel) in panels.iter().enumerate() {
-        let look = format!("fill=\"#f3efe4\" stroke=\"{INK}\" stroke-width=\"{}\"", super::svg::short(pen));
-        drawing.polygon(&panel.corners, &look);
-        drawing.words(centre(&panel.corners), text * 1.4, SOFT, &number.to_string());
+    let (text, pen) = (size * 0.075, size * 0.008);
+    drawing.layer("panels", |layer| {
+        for panel in panels {
+            layer.polygon(&panel.corners, "fill=\"#f3efe4\"");
+        }
+    });
+    let stroke = |colour: &str, width: f64| format!("stroke=\"{colour}\" stroke-width=\"{}\"", short(width));
+    drawing.layer("cut", |layer| {
+        cuts.iter().for_each(|cut| layer.line(cut.ends[0], cut.ends[1], &stroke(INK, pen)));
+    });
+    for Style { name, colour, dashes, belongs } in STYLES {
+        let [dash, gap] = dashes.map(|x| short(x * pen));
+        let look = format!("{} stroke-dasharray=\"{dash} {gap}\"", stroke(colour, pen * 1.5));
+        drawing.layer(name, |layer| {
+            let own = folds.iter().filter(|fold| belongs(fold.angle));
+            own.for_each(|fold| layer.line(fold.ends[0], fold.ends[1], &look));
+        });
     }
-    for fold in folds {
-        let [a, b] = fold.ends;
-        // The solid outline below is no cut here.
-        drawing.line(a, b, &format!("stroke=\"{PAPER}\" stroke-width=\"{}\"", super::svg::short(pen * 3.0)));
-        let [dash, gap] =
-            if fold.angle >= 0.0 { [6.0, 3.0] } else { [1.0, 3.0] }.map(|x| super::svg::short(x * pen));
-        let colour = if fold.angle >= 0.0 { "#0b63a5" } else { "#c44b00" };
-        drawing.line(
-            a,
-            b,
-            &format!(
-                "stroke=\"{colour}\" stroke-width=\"{}\" stroke-dasharray=\"{dash} {gap}\"",
-                super::svg::short(pen * 1.5)
-            ),
-        );
-        let degrees = libm::round(fold.angle.to_degrees() * 10.0) / 10.0;
-        let words = match (fold.angle.abs() > ANGLE_MIN, fold.order) {
-            (true, 0) => format!("{degrees}°"),
-            (true, order) => format!("{order}: {degrees}°"),
-            (false, _) => continue,
-        };
-        drawing.words([(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0], text, colour, &words);
-    }
+    drawing.layer("numbers", |layer| {
+        for (number, panel) in panels.iter().enumerate() {
+            layer.words(centre(&panel.corners), text * 1.5, SOFT, &number.to_string());
+        }
+        for fold in folds.iter().filter(|fold| fold.angle.abs() >= ANGLE_MIN) {
+            let degrees = libm::round(fold.angle.to_degrees() * 10.0) / 10.0;
+            let words =
+                if fold.order == 0 { format!("{degrees}°") } else { format!("{}: {degrees}°", fold.order) };
+            let colour = if fold.angle > 0.0 { MOUNTAIN } else { VALLEY };
+            layer.words(centre(&fold.ends), text, colour, &words);
+        }
+        for cut in cuts {
+            let Some(pair) = cut.meets else { continue };
+            let middle = centre(&cut.ends);
+            let inwards = [0, 1].map(|k| middle[k] + INWARDS * (cut.inside[k] - middle[k]));
+            layer.words(inwards, text, INK, &letters(pair));
+        }
+    });
     let (from, room) = around(panels.iter().flat_map(|p| p.corners.iter().copied()), size * 0.12);
     drawing.finish(showing.title, from, room, "mm")
+}
+
+/// How the fold lines of a layer look.
+struct Style {
+    name: &'static str,
+    colour: &'static str,
+    /// Dash and gap, in widths of the pen.
+    dashes: [f64; 2],
+    /// Whether a hinge that folds by an angle (rad) is on the layer.
+    belongs: fn(f64) -> bool,
+}
+
+const STYLES: [Style; 3] = [
+    Style { name: "mountain", colour: MOUNTAIN, dashes: [6.0, 3.0], belongs: |angle| angle >= ANGLE_MIN },
+    Style { name: "valley", colour: VALLEY, dashes: [1.0, 3.0], belongs: |angle| angle <= -ANGLE_MIN },
+    Style { name: "level", colour: SOFT, dashes: [2.0, 6.0], belongs: |angle| angle.abs() < ANGLE_MIN },
+];
+
+/// How far from its edge towards the panel's middle a letter stands.
+const INWARDS: f64 = 0.25;
+
+/// A, B, ..., Z, AA, AB, ...
+fn letters(number: usize) -> String {
+    let last = char::from(b'A' + (number % 26) as u8);
+    if number < 26 { last.to_string() } else { letters(number / 26 - 1) + &last.to_string() }
 }

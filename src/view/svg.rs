@@ -13,6 +13,10 @@ pub const PAPER: &str = "#fffefb";
 /// Words stay legible where lines pass behind them.
 const HALO: &str = "paint-order=\"stroke\" stroke=\"#fffefb\" stroke-opacity=\"0.8\" stroke-width=\"0.22em\"";
 
+/// What makes a group a layer in Inkscape.
+const LAYER: &str =
+    "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" inkscape:groupmode=\"layer\"";
+
 /// Width of a letter of the font, in parts of its size.
 pub const LETTER: f64 = 0.602;
 
@@ -67,6 +71,13 @@ impl Drawing {
         let points: Vec<String> =
             points.iter().map(|[x, y]| format!("{},{}", short(*x), short(*y))).collect();
         writeln!(self.text, r#"<polygon points="{}" {look}/>"#, points.join(" ")).expect("text grows");
+    }
+
+    /// A layer that drawing programs and cutters switch on and off by its name.
+    pub fn layer(&mut self, name: &str, draw: impl FnOnce(&mut Drawing)) {
+        writeln!(self.text, r#"<g id="{name}" {LAYER} inkscape:label="{name}">"#).expect("text grows");
+        draw(self);
+        self.text.push_str("</g>\n");
     }
 
     /// Text whose middle is at a place; any text is safe.

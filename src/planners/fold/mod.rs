@@ -46,8 +46,12 @@ pub mod closing;
 pub mod meeting;
 pub mod sampling;
 
+pub mod net;
+pub mod refold;
+
 pub use exact::{Optimum, Proof};
 pub use layout::Layout;
+pub use net::Net;
 pub use target::{Hinge, Target};
 pub use unfoldable::Unfoldable;
 pub use weights::Weights;

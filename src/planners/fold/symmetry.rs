@@ -14,11 +14,16 @@ pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     let lengths: Vec<[f64; 3]> = (0..n).map(|face| lengths(target, face)).collect();
     let mut first: Vec<usize> = (0..n).collect();
     let scale = weights.greatest();
-    for face in 1..n {
+    // The isometries that leave face 0 in its place, and one for each face to which another carries it,
+    // generate all.
+    for face in 0..n {
         for (turn, mirrored) in (0..6).map(|i| (i % 3, i >= 3)) {
+            if face > 0 && find(&mut first, face) == find(&mut first, 0) {
+                break;
+            }
             let image = (face, turn, mirrored);
             let Some((faces, hinges)) = isometry(target, &lengths, image) else { continue };
-            if first[face] != find(&mut first, 0) && keeps(weights, &faces, &hinges, scale) {
+            if keeps(weights, &faces, &hinges, scale) {
                 for (from, &to) in faces.iter().enumerate() {
                     let (a, b) = (find(&mut first, from), find(&mut first, to));
                     let least = a.min(b);

@@ -164,3 +164,30 @@ use std.shapes.icosahedron
 let peak = fold(icosahedron(edge: 80mm), module: Mori, minimise: peak_torque)
 print(peak.optimal, peak.bound > 0N*m, peak.bound <= peak.peak_torque, verify(peak).ok)
 //> false true true true
+
+--- refolding what has another number of panels, or is no panel
+use std.mori.Mori
+use std.smores.Smores
+use std.shapes.{octahedron, tetrahedron, boat}
+print(refold(octahedron(80mm), tetrahedron(80mm), module: Mori).changes)
+//                             ^^^^^^^^^^^^^^^^^ E0506 a shape of 8 panels can't become one of 4
+print(refold(octahedron(80mm), boat(70mm), module: Mori).changes)
+//                             ^^^^^^^^^^ E0803 70.0000 | 80.0000
+print(refold(octahedron(80mm), boat(80mm), module: Smores).changes)
+//                                                 ^^^^^^ E0506 no triangular panel
+print(refold(octahedron(80mm), boat(80mm), module: Mori, budget: 0).changes)
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0802 no flat sheet
+print(refold(octahedron(80mm), boat(80mm), module: Mori, step: 1ms).changes)
+//                                                             ^^^ E0506 as fast as that
+
+--- the gap of a folding is what its proof leaves open
+use std.mori.Mori
+use std.shapes.{octahedron, tube}
+let e = 80mm
+print(fold(octahedron(e), module: Mori).gap, fold(octahedron(e), module: Mori, method: enumerate).gap)
+//> 0 0
+print(fold(octahedron(e), module: Mori, method: heuristic).gap < 1e-9)
+//> true
+let short = fold(tube(sides: 4, rings: 2, edge: e), module: Mori, budget: 1)
+print(short.optimal, short.gap >= 0, short.gap < 1, short.bound <= short.energy)
+//> false true true true

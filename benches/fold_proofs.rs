@@ -1,0 +1,228 @@
+//! Folding: what proofs and enumeration take, shape by shape, and how proofs grow with the
+//! number of faces.
+//!
+//! `cargo bench --bench fold_proofs` prints tables; with `-- growth FILE.svg` it draws the growth.
+
+use modl::geometry::{Vec3, subdivide};
+use modl::planners::fold::enumerate::{self, census};
+use modl::planners::fold::exact::{self, Optimum, Proof, optimum};
+use modl::planners::fold::{Target, Weights, order};
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+const MASS: f64 = 0.026;
+const SIDE: f64 = 0.08;
+const REPEATS: u32 = 20;
+
+/// Steps that take about ten seconds on one of the cores that the tables were made on.
+const BUDGET: u64 = 100_000_000;
+
+type Mesh = (Vec<Vec3>, Vec<Vec<usize>>);
+
+fn of_truth(shape: &serde_json::Value) -> Mesh {
+    let rows = |key: &str| shape[key].as_array().expect("a list").clone();
+    let point = |row: &serde_json::Value| Vec3::from_fn(|k, _| row[k].as_f64().expect("a number") * SIDE);
+    let corners =
+        |row: &serde_json::Value| (0..3).map(|k| row[k].as_u64().expect("a place") as usize).collect();
+    (rows("vertices_unit_edge").iter().map(point).collect(), rows("faces_ccw").iter().map(corners).collect())
+}
+
+fn split((points, faces): &Mesh, parts: usize, round: bool) -> Mesh {
+    let faces: Vec<[usize; 3]> = faces.iter().map(|f| [f[0], f[1], f[2]]).collect();
+    let (points, faces) = subdivide::subdivided(points, &faces, parts);
+    let place = |p: Vec3| if round { p.normalize() * SIDE * parts as f64 } else { p };
+    (points.into_iter().map(place).collect(), faces.iter().map(|f| f.to_vec()).collect())
+}
+
+/// Every vertex off its place by up to a part of the side.
+fn shaken((mut points, faces): Mesh, part: f64) -> Mesh {
+    for (i, point) in points.iter_mut().enumerate() {
+        let shake = |k: usize| part * SIDE * libm::sin(12.9898 * (3 * i + k) as f64 * 78.233);
+        *point += Vec3::new(shake(0), shake(1), shake(2));
+    }
+    (points, faces)
+}
+
+/// `tube`: radius of the tube, as a part of the ring's.
+fn torus(around: usize, across: usize, tube: f64) -> Mesh {
+    let turn = |i: usize, of: usize| libm::sincos(std::f64::consts::TAU * i as f64 / of as f64);
+    let (mut points, mut faces) = (Vec::new(), Vec::new());
+    for i in 0..around {
+        for j in 0..across {
+            let ((s, c), (t, d)) = (turn(i, around), turn(j, across));
+            points.push(Vec3::new((1.0 + tube * d) * c, (1.0 + tube * d) * s, tube * t) * 0.15);
+            let at = |i: usize, j: usize| i % around * across + j % across;
+            faces.push(vec![at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            faces.push(vec![at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    (points, faces)
+}
+
+fn tube(sides: usize, rings: usize) -> Mesh {
+    let half = std::f64::consts::PI / sides as f64;
+    let radius = SIDE / (2.0 * libm::sin(half));
+    let shift = 2.0 * radius * libm::sin(half / 2.0);
+    let height = libm::sqrt(SIDE * SIDE - shift * shift);
+    let (mut points, mut faces) = (Vec::new(), Vec::new());
+    for k in 0..=rings {
+        for i in 0..sides {
+            let (s, c) = libm::sincos(half * (2 * i + k % 2) as f64);
+            points.push(Vec3::new(radius * c, radius * s, height * k as f64));
+        }
+    }
+    for k in 0..rings {
+        for i in 0..sides {
+            let above = |i: usize| (k + 1) * sides + (i + k % 2) % sides;
+            faces.push(vec![k * sides + i, k * sides + (i + 1) % sides, above(i)]);
+            faces.push(vec![k * sides + i, above(i), above(i + sides - 1)]);
+        }
+    }
+    (points, faces)
+}
+
+fn target((points, faces): Mesh) -> Target {
+    Target::new(points, &faces).expect("it folds")
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let made = work();
+    (made, start.elapsed())
+}
+
+fn proved(target: &Target, flat: bool) -> (Optimum, Duration) {
+    let weights = Weights::uniform(target, MASS);
+    let settings = exact::Settings { flat, budget: BUDGET, ..exact::Settings::default() };
+    timed(|| optimum(target, &weights, &settings).expect("it has layouts"))
+}
+
+fn main() {
+    let truth: serde_json::Value =
+        serde_json::from_str(include_str!("../tests/truth/fold.json")).expect("the truth is JSON");
+    let shapes = truth["shapes"].as_object().expect("an object");
+    let icosahedron = of_truth(&shapes["icosahedron"]);
+    let asked: Vec<String> = std::env::args().skip_while(|a| a != "growth").collect();
+    if let [_, file, ..] = &asked[..] {
+        return growth(&icosahedron, file);
+    }
+    println!("| shape | faces | all roots | branchings | gap | order (Eq. 17) |");
+    println!("|---|---|---|---|---|---|");
+    let mut meshes: Vec<(String, Mesh)> = shapes.iter().map(|(n, s)| (n.clone(), of_truth(s))).collect();
+    meshes.extend([
+        ("tube 4x6".into(), tube(4, 6)),
+        ("icosahedron split into 80".into(), split(&icosahedron, 2, false)),
+        ("geodesic 80, shaken".into(), shaken(split(&icosahedron, 2, true), 0.1)),
+        ("geodesic 180".into(), split(&icosahedron, 3, true)),
+        ("geodesic 180, shaken".into(), shaken(split(&icosahedron, 3, true), 0.1)),
+        ("torus 12x6, tube 0.3 of the radius".into(), torus(12, 6, 0.3)),
+        ("torus 12x6, tube 0.4 of the radius".into(), torus(12, 6, 0.4)),
+        ("torus 12x6, tube 0.5 of the radius".into(), torus(12, 6, 0.5)),
+    ]);
+    for (name, mesh) in meshes {
+        let target = target(mesh);
+        let (found, mut exact) = proved(&target, false);
+        if exact < Duration::from_millis(10) {
+            exact = timed(|| (0..REPEATS).for_each(|_| drop(proved(&target, false)))).1 / REPEATS;
+        }
+        let loads = vec![MASS * 9.8; target.faces.len()];
+        let ((), ordered) = timed(|| drop(order::least_lifting(&target, &found.layout, &loads)));
+        let gap = match found.proof {
+            Proof::Optimal => "proved".to_owned(),
+            Proof::Open => format!("{:.4} %", 100.0 * (1.0 - found.bound / found.energy)),
+        };
+        println!(
+            "| {name} | {} | {exact:.3?} | {} | {gap} | {ordered:.3?} |",
+            target.faces.len(),
+            found.nodes
+        );
+    }
+    let stella = target(of_truth(&shapes["stella_octangula"]));
+    let (flat, time) = proved(&stella, true);
+    let price = flat.energy / proved(&stella, false).0.energy;
+    println!("\nstella octangula without overlap: {price:.9} times the energy, proved in {time:.3?}");
+    let target = target(icosahedron);
+    let all = enumerate::Settings { root: None, spectrum: false, budget: u64::MAX };
+    let weights = Weights::uniform(&target, MASS);
+    let (found, time) = timed(|| census(&target, &weights, &all).expect("few faces"));
+    println!("icosahedron: {} layouts with 20 roots enumerated in {time:.3?}", found.layouts);
+}
+
+/// Draws how long proofs take against the number of faces: spheres, whole and shaken, and tubes.
+fn growth(icosahedron: &Mesh, file: &str) {
+    let spheres: Vec<Mesh> = (1..=4).map(|parts| split(icosahedron, parts, true)).collect();
+    let rough = spheres.iter().map(|mesh| shaken(mesh.clone(), 0.1)).collect();
+    let tubes = (1..=12).map(|rings| tube(6, rings)).collect();
+    let series: [(&str, &str, Vec<Mesh>); 3] = [
+        ("geodesic spheres", "#0b63a5", spheres),
+        ("shaken, without symmetry", "#c0392b", rough),
+        ("tubes of six sides", "#2e7d32", tubes),
+    ];
+    let mut drawn = String::new();
+    for (line, (name, colour, meshes)) in series.into_iter().enumerate() {
+        let mut points = Vec::new();
+        for mesh in meshes {
+            let target = target(mesh);
+            let (found, time) = proved(&target, false);
+            let gap = 1.0 - found.bound / found.energy;
+            println!("{name}: {} faces, {time:.3?}, {:?}, gap {gap:.1e}", target.faces.len(), found.proof);
+            points.push((target.faces.len() as f64, time.as_secs_f64(), found.proof == Proof::Optimal));
+        }
+        series_drawn(&mut drawn, name, colour, line, &points);
+    }
+    std::fs::write(file, framed(&drawn)).expect("the file can be written");
+}
+
+const WIDTH: f64 = 640.0;
+const HEIGHT: f64 = 400.0;
+/// Decades: faces from 10 to 1000, seconds from 1e-4 to 1e2.
+const FACES: [i32; 2] = [1, 3];
+const SECONDS: [i32; 2] = [-4, 2];
+
+fn place(faces: f64, seconds: f64) -> [f64; 2] {
+    let along = |x: f64, [low, high]: [i32; 2]| (libm::log10(x) - f64::from(low)) / f64::from(high - low);
+    [70.0 + along(faces, FACES) * (WIDTH - 90.0), HEIGHT - 50.0 - along(seconds, SECONDS) * (HEIGHT - 70.0)]
+}
+
+fn series_drawn(out: &mut String, name: &str, colour: &str, line: usize, points: &[(f64, f64, bool)]) {
+    let at: Vec<[f64; 2]> = points.iter().map(|p| place(p.0, p.1)).collect();
+    let way: Vec<String> = at.iter().map(|p| format!("{:.1},{:.1}", p[0], p[1])).collect();
+    writeln!(out, r#"<polyline points="{}" fill="none" stroke="{colour}"/>"#, way.join(" "))
+        .expect("text grows");
+    for (p, (.., proved)) in at.iter().zip(points) {
+        let fill = if *proved { colour } else { "#fffefb" };
+        let [x, y] = p;
+        writeln!(out, r#"<circle cx="{x:.1}" cy="{y:.1}" r="4" fill="{fill}" stroke="{colour}"/>"#)
+            .expect("text grows");
+    }
+    let y = 30 + 18 * line;
+    writeln!(out, r#"<text x="85" y="{y}" fill="{colour}">{name}</text>"#).expect("text grows");
+}
+
+fn framed(inside: &str) -> String {
+    let mut grid = String::new();
+    for decade in FACES[0]..=FACES[1] {
+        let [x, y] = place(libm::pow(10.0, f64::from(decade)), libm::pow(10.0, f64::from(SECONDS[0])));
+        let label = libm::pow(10.0, f64::from(decade));
+        writeln!(grid, r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{label}</text>"#, y + 18.0)
+            .expect("text grows");
+    }
+    for decade in SECONDS[0]..=SECONDS[1] {
+        let [x, y] = place(libm::pow(10.0, f64::from(FACES[0])), libm::pow(10.0, f64::from(decade)));
+        let end = WIDTH - 20.0;
+        writeln!(
+            grid,
+            r##"<line x1="{x:.1}" y1="{y:.1}" x2="{end}" y2="{y:.1}" stroke="#ddd"/><text x="{:.1}" y="{:.1}" text-anchor="end">1e{decade} s</text>"##,
+            x - 8.0,
+            y + 4.0
+        )
+        .expect("text grows");
+    }
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"sans-serif\" \
+         font-size=\"13\">\n<rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fffefb\"/>\n{grid}{inside}\
+         <text x=\"{}\" y=\"{}\" text-anchor=\"middle\">faces</text>\n</svg>\n",
+        WIDTH / 2.0,
+        HEIGHT - 12.0
+    )
+}

@@ -1,0 +1,58 @@
+//! Triangles cut into smaller ones.
+
+use super::Vec3;
+use std::collections::BTreeMap;
+
+/// Vertices, and faces as places among them.
+pub type Surface = (Vec<Vec3>, Vec<[usize; 3]>);
+
+/// Where a new vertex lies: a corner, a place along an edge from its lower corner, or a place within a
+/// face. Faces that share an edge so share the vertices on it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    Corner(usize),
+    Edge([usize; 2], usize),
+    Face(usize, [usize; 2]),
+}
+
+/// Every triangle as `parts`² triangles of the same shape; the triangles of a face follow each other, and
+/// keep its sense. `parts` is at least 1.
+pub fn subdivided(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surface {
+    let mut found: BTreeMap<Place, usize> = BTreeMap::new();
+    let mut points: Vec<Vec3> = Vec::new();
+    let mut triangles = Vec::with_capacity(faces.len() * parts * parts);
+    for (face, &corners) in faces.iter().enumerate() {
+        let mut at = |i: usize, j: usize| {
+            let weights = [parts - i - j, i, j];
+            let place = place(face, corners, weights, parts);
+            *found.entry(place).or_insert_with(|| {
+                let parted = corners.iter().zip(weights).map(|(c, w)| vertices[*c] * w as f64);
+                points.push(parted.sum::<Vec3>() / parts as f64);
+                points.len() - 1
+            })
+        };
+        for i in 0..parts {
+            for j in 0..parts - i {
+                triangles.push([at(i, j), at(i + 1, j), at(i, j + 1)]);
+                if i + j + 1 < parts {
+                    triangles.push([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+                }
+            }
+        }
+    }
+    (points, triangles)
+}
+
+fn place(face: usize, corners: [usize; 3], weights: [usize; 3], parts: usize) -> Place {
+    if let Some(k) = weights.iter().position(|w| *w == parts) {
+        return Place::Corner(corners[k]);
+    }
+    match weights.iter().position(|w| *w == 0) {
+        Some(k) => {
+            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+            let (low, high) = if corners[a] < corners[b] { (a, b) } else { (b, a) };
+            Place::Edge([corners[low], corners[high]], weights[high])
+        }
+        None => Place::Face(face, [weights[1], weights[2]]),
+    }
+}

@@ -1,0 +1,275 @@
+//! `refold`: from shape to shape through a flat sheet, as it is called, and what it gives back.
+
+use super::call::Call;
+use super::fold_options::shortest_step;
+use super::fold_panel::{self, Panel};
+use super::fold_sheet::{NoSheet, Pieces, Sheet};
+use super::interpreter::Interpreter;
+use super::natives::{Native, on_run};
+use super::planning::Planned;
+use super::record::Record;
+use super::robot_of::Robot;
+use super::stop::Eval;
+use super::value::Value;
+use crate::behavior::{self, Problem};
+use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as MoveTarget, World};
+use crate::planners::fold::inertia::Inertia;
+use crate::planners::fold::refold::{self, NoRefolding, Refolding};
+use crate::planners::fold::{Layout, Target, Weights, order_energy, steps};
+use crate::robot::{JointId, PortRef};
+use crate::source::{Diagnostic, code};
+use crate::units::Dimension;
+use std::rc::Rc;
+use std::sync::Arc;
+
+pub const TABLE: &[Native] = &[on_run("refold", 6, refold)];
+
+/// Sheets that are tried until one unfolds and folds without collision.
+const SHEETS_TRIED: usize = 8;
+
+/// What the planner says of its plan.
+pub struct Refolded {
+    pub changes: usize,
+    pub bound: usize,
+    /// By panel.
+    pub becomes: Vec<usize>,
+    /// N·m
+    pub energy: f64,
+}
+
+/// The fields of a `Refolding` beside those of a plan.
+pub const REFOLDING: &[&str] = &["changes", "bound", "becomes", "energy"];
+
+pub fn refolding_field(refolded: &Refolded, field: &str) -> Value {
+    match field {
+        "changes" => Value::count(refolded.changes),
+        "bound" => Value::count(refolded.bound),
+        "becomes" => Value::list(refolded.becomes.iter().map(|face| Value::count(*face)).collect()),
+        "energy" => Value::Quantity(refolded.energy, Dimension::TORQUE),
+        _ => Value::Unknown,
+    }
+}
+
+fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let panel = Panel::of(interpreter, call, 2)?;
+    let from = fold_panel::target(call, 0, 2, &panel)?;
+    let to = fold_panel::target(call, 1, 2, &panel)?;
+    let step = match call.arg(3) {
+        Value::Word(_) => shortest_step(&from, &panel).max(shortest_step(&to, &panel)),
+        _ => call.positive(3, "the time of a step")?,
+    };
+    let seed = call.count(4, "a seed")? as u64;
+    let budget = call.count(5, "a budget")? as u64;
+    interpreter.stage.progress(format!("refolding {} panels", from.faces.len()));
+    let weights = [Weights::uniform(&from, panel.mass), Weights::uniform(&to, panel.mass)];
+    let task = Task { call, panel, from, to, weights, step, seed };
+    let settings = refold::Settings { budget, seed, kept: SHEETS_TRIED };
+    let found = refold::sheets(&task.from, &task.to, &settings, |sheet| task.at_best_root(sheet).1);
+    let found = found.map_err(|why| task.refusal(why))?;
+    for sheet in &found.best {
+        let (sheet, energy) = task.at_best_root(sheet);
+        for order in task.orders(&task.to, &sheet.to) {
+            for back in task.orders(&task.from, &sheet.from) {
+                let Some(planned) = task.judged(interpreter, &sheet, &back, &order)? else {
+                    continue;
+                };
+                // Of the order that was taken only the leaves-first energy has a closed form.
+                let energy = energy / (task.step * task.step);
+                let (changes, becomes) = (sheet.changes, sheet.becomes.clone());
+                let refolded = Refolded { changes, bound: found.bound, becomes, energy };
+                let planned = planned.with_refolded(refolded);
+                return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
+            }
+        }
+    }
+    let message =
+        "no sheet was found that unfolds from the one and folds into the other without panels meeting";
+    Err(Diagnostic::error(code::NOT_COVERED, message)
+        .label(call.span, "panels meet on the way")
+        .hint("another `seed` or a greater `budget` leads to other sheets")
+        .into())
+}
+
+/// Faces that fold at the same time, one set after the other; they unfold the other way round.
+type Order = Vec<Vec<usize>>;
+
+struct Task<'c> {
+    call: &'c Call<'c>,
+    panel: Panel,
+    from: Target,
+    to: Target,
+    weights: [Weights; 2],
+    /// s
+    step: f64,
+    seed: u64,
+}
+
+impl Task<'_> {
+    fn refusal(&self, why: NoRefolding) -> Diagnostic {
+        let call = self.call;
+        match why {
+            NoRefolding::Counts => {
+                let (a, b) = (self.from.faces.len(), self.to.faces.len());
+                let message = format!("a shape of {a} panels can't become one of {b}");
+                Diagnostic::error(code::BAD_VALUE, message)
+                    .label(call.at(1), format!("{b} faces"))
+                    .label(call.at(0), format!("{a} faces"))
+                    .hint("panels are neither added nor taken away")
+            }
+            NoRefolding::Budget => {
+                Diagnostic::error(code::NOT_COVERED, "no flat sheet was found that both shapes unfold into")
+                    .label(call.span, "every sheet that was tried got stuck")
+                    .hint("a greater `budget` or another `seed` may find one")
+                    .hint("only sheets on which no panel has to move in the plane are looked for")
+            }
+        }
+    }
+
+    /// Orders that are tried: the leaves first, the one of least energy, the root's neighbours first.
+    fn orders(&self, target: &Target, layout: &Layout) -> Vec<Order> {
+        let masses = vec![self.panel.mass; target.faces.len()];
+        let cheapest = order_energy::least_energy(target, layout, &masses, Inertia::Lamina);
+        let cheapest = cheapest.map(|(order, _)| steps::of_order(layout, &order));
+        let mut orders = vec![steps::leaves_first(layout)];
+        orders.extend(cheapest);
+        orders.push(steps::root_first(layout));
+        orders.dedup();
+        orders
+    }
+
+    /// A sheet hung up at the panel with which unfolding and folding cost least together, and that
+    /// energy: N·m for steps of one second.
+    fn at_best_root(&self, sheet: &Refolding) -> (Refolding, f64) {
+        let at = |panel: usize| {
+            let sheet = sheet.rerooted(&self.from, &self.to, panel);
+            let energy = sheet.from.energy(&self.weights[0]) + sheet.to.energy(&self.weights[1]);
+            (sheet, energy)
+        };
+        let panels = (0..sheet.becomes.len()).map(at);
+        panels.min_by(|a, b| a.1.total_cmp(&b.1)).expect("a shape has panels")
+    }
+
+    /// The plan, if the judge lets it through.
+    fn judged(
+        &self,
+        interpreter: &mut Interpreter,
+        sheet: &Refolding,
+        back: &Order,
+        order: &Order,
+    ) -> Eval<Option<Planned>> {
+        let panels = vec![self.panel.design.clone(); sheet.becomes.len()];
+        let span = self.call.span;
+        let first = Pieces { target: &self.from, layout: &sheet.from, panels: &panels, span };
+        let Sheet { design, robot, .. } = first.sheet(interpreter)?.map_err(|why| match why {
+            NoSheet::Unsound => self.call.refuse(2, "no triangular panel: its module is not sound"),
+            NoSheet::NoHinge => self.call.refuse(2, "no triangular panel: its edges have no hinge"),
+        })?;
+        let causes = interpreter.planner_causes(span);
+        let problem = Problem {
+            robot: robot.assembly.as_ref().clone(),
+            start: robot.start.clone(),
+            program: Program { task: self, sheet, robot: &robot }.whole(back, order),
+            start_causes: Vec::new(),
+            bond_causes: (0..robot.assembly.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),
+            settings: behavior::Settings::default(),
+        };
+        let scheduled = behavior::schedule(problem)
+            .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, span))?;
+        let (mut planned, issues) = interpreter.assemble_plan(design, robot, scheduled, &causes, World::FREE);
+        if !issues.is_empty() {
+            return Err(self.call.refuse(3, "the hinges can't fold as fast as that"));
+        }
+        planned.plan.provenance.planner = "refold".into();
+        planned.plan.provenance.seed = Some(self.seed);
+        let settings = interpreter.judge_settings();
+        Ok(interpreter.judge(&planned, settings, None).ok().then_some(planned))
+    }
+}
+
+/// Makes the program of a sheet.
+struct Program<'p> {
+    task: &'p Task<'p>,
+    sheet: &'p Refolding,
+    /// Joined as the first shape's layout says.
+    robot: &'p Robot,
+}
+
+impl Program<'_> {
+    /// Unfolds, changes connections in the plane, folds. A new connection is made before an old one
+    /// goes, at the same instant: the robot stays in one piece.
+    fn whole(&self, back: &Order, order: &Order) -> Arc<Node> {
+        let (mut series, mut joints) = (Vec::new(), Vec::new());
+        let (from, to) = (&self.sheet.from, &self.sheet.to);
+        for faces in back.iter().rev() {
+            let moves = faces.iter().map(|&face| {
+                let hinge = from.hinge[face].expect("only the root has none");
+                let moves = self.task.from.hinges[hinge].angle != 0.0;
+                moves.then(|| self.turned(self.joint_of_bond(bond_of(from, face)), 0.0))
+            });
+            series.push(Node::Parallel(moves.flatten().collect()));
+        }
+        let bonds = &self.robot.assembly.bonds;
+        let mut kept = vec![false; bonds.len()];
+        for &face in &to.order[1..] {
+            let [a, b] = self.ports(face);
+            let known =
+                bonds.iter().position(|bond| [bond.a, bond.b] == [a, b] || [bond.a, bond.b] == [b, a]);
+            joints.push(match known {
+                Some(bond) => {
+                    kept[bond] = true;
+                    self.joint_of_bond(bond)
+                }
+                None => {
+                    let made = series.iter().filter(|node| matches!(node, Node::Action(_))).count();
+                    series.push(action(Command::Dock { a, b }));
+                    // A hinge that is made comes behind all that there are.
+                    self.robot.start.joints.len() + made
+                }
+            });
+        }
+        for (bond, _) in bonds.iter().zip(kept).filter(|(_, kept)| !kept) {
+            series.push(action(Command::Undock { port: bond.b }));
+        }
+        for faces in order {
+            let moves = faces.iter().map(|&face| {
+                let angle = self.task.to.hinges[to.hinge[face].expect("only the root has none")].angle;
+                (angle != 0.0).then(|| self.turned(joints[bond_of(to, face)], angle))
+            });
+            series.push(Node::Parallel(moves.flatten().collect()));
+        }
+        let idle = |node: &Node| matches!(node, Node::Parallel(moves) if moves.is_empty());
+        Arc::new(Node::Series(series.into_iter().filter(|node| !idle(node)).map(Arc::new).collect()))
+    }
+
+    /// The ports that a face of the second shape and its parent join by their hinge.
+    fn ports(&self, face: usize) -> [PortRef; 2] {
+        let across = self.sheet.to.across(&self.task.to, face);
+        [(across.parent, across.parent_side), (face, across.side)].map(|(face, side)| {
+            let module = self.sheet.becomes.iter().position(|f| *f == face).expect("every face is a panel");
+            PortRef { module, port: self.sheet.side(module, side) }
+        })
+    }
+
+    fn joint_of_bond(&self, bond: usize) -> usize {
+        self.robot.kinematics.hinge(bond).expect("every bond has a hinge")
+    }
+
+    fn turned(&self, joint: usize, to: f64) -> Arc<Node> {
+        Arc::new(action(Command::Move {
+            joint: JointId(joint as u32),
+            target: MoveTarget::To(to),
+            duration: Some(self.task.step),
+            profile: Profile::Smooth,
+        }))
+    }
+}
+
+fn action(command: Command) -> Node {
+    let otherwise = Otherwise::Proceed;
+    Node::Action(Action { command, until: None, timeout: None, otherwise, cause: CauseId(0) })
+}
+
+/// Bonds are made in the layout's order, one for each face but the root.
+fn bond_of(layout: &Layout, face: usize) -> usize {
+    layout.order.iter().position(|f| *f == face).expect("the order names every face") - 1
+}

@@ -1,0 +1,69 @@
+//! Meshes from OFF files (Geomview's object file format), in text.
+//!
+//! A reader of our own, for no crate reads the format and says where it fails. Colours and normals
+//! that follow on a line are left out.
+
+use super::mesh_file::{Fault, Read};
+
+/// First words of the variants that are read: plain, and with colours or normals behind the vertices.
+const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
+
+pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_string())?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.split('#').next().unwrap_or("")));
+    let mut lines = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
+    let Some(&(number, first)) = lines.peek() else { return Err("it is empty".into()) };
+    let mut words = first.split_whitespace();
+    let kind = words.next().unwrap_or("");
+    let counts = if kind.starts_with(|c: char| c.is_ascii_digit()) {
+        // The first word may be left out.
+        lines.next().expect("it was seen")
+    } else if !KINDS.contains(&kind) {
+        return Err(format!("line {number}: `OFF` is wanted, not `{}`", shown(kind)));
+    } else {
+        lines.next();
+        match words.next() {
+            Some("BINARY") => return Err(format!("line {number}: binary OFF is not read")),
+            Some(_) => (number, first.trim_start().strip_prefix(kind).unwrap_or(first)),
+            None => lines.next().ok_or("the counts are missing")?,
+        }
+    };
+    let (number, counts) = counts;
+    let mut counts = counts.split_whitespace();
+    let mut count = |what: &str| -> Result<usize, Fault> {
+        let word = counts.next().ok_or_else(|| format!("line {number}: the number of {what} is missing"))?;
+        word.parse().map_err(|_| format!("line {number}: `{}` is no number of {what}", shown(word)))
+    };
+    let (vertices, faces) = (count("vertices")?, count("faces")?);
+    let mut read = Read::default();
+    for _ in 0..vertices {
+        let (number, line) =
+            lines.next().ok_or_else(|| missing("vertices", read.vertices.len(), vertices))?;
+        let numbers: Vec<f64> = line.split_whitespace().take(3).filter_map(|w| w.parse().ok()).collect();
+        let vertex = <[f64; 3]>::try_from(numbers);
+        read.vertices.push(vertex.map_err(|_| format!("line {number} is no vertex"))?);
+    }
+    for _ in 0..faces {
+        let (number, line) = lines.next().ok_or_else(|| missing("faces", read.faces.len(), faces))?;
+        read.faces.push(face(line).ok_or_else(|| format!("line {number} is no face"))?);
+    }
+    Ok(read)
+}
+
+/// The number of corners, then the corners.
+fn face(line: &str) -> Option<Vec<usize>> {
+    let mut words = line.split_whitespace();
+    let size: usize = words.next()?.parse().ok()?;
+    let corners: Option<Vec<usize>> = words.take(size).map(|word| word.parse().ok()).collect();
+    corners.filter(|corners| corners.len() == size)
+}
+
+fn missing(what: &str, found: usize, wanted: usize) -> Fault {
+    format!("it ends after {found} of {wanted} {what}")
+}
+
+/// A word short enough for a message.
+fn shown(word: &str) -> String {
+    word.chars().take(20).collect()
+}

@@ -1,0 +1,95 @@
+//! Meshes from PLY files, in text and binary.
+
+use super::mesh_file::{Fault, Read};
+use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
+
+/// A message of the crate may quote the file; so much of it is shown.
+const SHOWN: usize = 120;
+
+pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+    let mut reader = Reader::new(bytes);
+    let parser = Parser::<Row>::new();
+    let header = parser.read_header(&mut reader).map_err(|error| said(&error))?;
+    let mut read = Read::default();
+    for element in header.elements.values() {
+        // A row takes a byte at least, or a short file could ask for any number of them.
+        let left = reader.get_ref().len();
+        if element.count > left || element.properties.is_empty() && element.count > 0 {
+            let (name, count) = (shown(&element.name), element.count);
+            return Err(format!("its header announces {count} of `{name}`, which it does not hold"));
+        }
+        let rows = parser.read_payload_for_element(&mut reader, element, &header);
+        let rows = rows.map_err(|error| said(&error))?;
+        match element.name.as_str() {
+            "vertex" => {
+                let place = |(index, row): (usize, &Row)| match row.place {
+                    [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
+                    _ => Err(format!("vertex {index} has no numbers `x`, `y` and `z`")),
+                };
+                read.vertices = rows.iter().enumerate().map(place).collect::<Result<_, Fault>>()?;
+            }
+            "face" => {
+                let corners = |(index, row): (usize, Row)| {
+                    row.corners.ok_or_else(|| format!("face {index} has no list `vertex_indices`"))
+                };
+                read.faces = rows.into_iter().enumerate().map(corners).collect::<Result<_, Fault>>()?;
+            }
+            _ => {}
+        }
+    }
+    Ok(read)
+}
+
+fn said(error: &ParseError) -> Fault {
+    let whole = error.to_string();
+    let words: Vec<&str> = whole.split_whitespace().collect();
+    // The crate counts lines in the same way, but begins a sentence with them.
+    let text = words.join(" ");
+    let text = text.strip_prefix("Line ").map_or_else(|| text.clone(), |rest| format!("line {rest}"));
+    shown(&text)
+}
+
+fn shown(text: &str) -> String {
+    text.chars().take(SHOWN).collect()
+}
+
+/// What is kept of a row: a vertex's place, a face's corners.
+struct Row {
+    place: [Option<f64>; 3],
+    corners: Option<Vec<usize>>,
+}
+
+impl PropertyAccess for Row {
+    fn new() -> Row {
+        Row { place: [None; 3], corners: None }
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        match name {
+            "x" => self.place[0] = number(&property),
+            "y" => self.place[1] = number(&property),
+            "z" => self.place[2] = number(&property),
+            "vertex_indices" | "vertex_index" => {
+                let corners = property.to_u32_list();
+                self.corners = corners.map(|list| list.into_iter().map(|corner| corner as usize).collect());
+            }
+            _ => return PropertyAccessResult::Ignored,
+        }
+        PropertyAccessResult::Set
+    }
+}
+
+fn number(property: &Property) -> Option<f64> {
+    match *property {
+        Property::Float(x) => Some(x.into()),
+        Property::Double(x) => Some(x),
+        Property::Char(x) => Some(x.into()),
+        Property::UChar(x) => Some(x.into()),
+        Property::Short(x) => Some(x.into()),
+        Property::UShort(x) => Some(x.into()),
+        Property::Int(x) => Some(x.into()),
+        Property::UInt(x) => Some(x.into()),
+        _ => None,
+    }
+}

@@ -1,0 +1,102 @@
+//! The cut net of a layout: one sheet in the plane whose edges are hinges or outline.
+//!
+//! Along a cut the corners of both faces are kept apart, so the net is a disk even where faces of it
+//! touch: two vertices more than faces.
+
+use super::folded::poses_at;
+use super::layout::{Across, Layout};
+use super::pattern::{Pattern, Point};
+use super::target::Target;
+use crate::geometry::{Pose, Vec3};
+
+#[derive(Clone, Debug)]
+pub struct Net {
+    /// m; the root's first corner is the origin, its first side goes along x.
+    pub vertices: Vec<Point>,
+    /// By vertex: a face with which it moves, and the face's corner that it is.
+    owners: Vec<(usize, usize)>,
+    /// By face: its corners among the vertices, in the target's order.
+    pub faces: Vec<[usize; 3]>,
+    /// First the hinges that fold, in the order of the layout's faces, then the outline, face by face.
+    pub edges: Vec<Edge>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Edge {
+    /// In the direction in which its first face runs along it.
+    pub vertices: [usize; 2],
+    /// The face on its left, and for a hinge that on its right.
+    pub faces: Vec<usize>,
+    /// Fold angle of a hinge that folds, rad; `None` for outline.
+    pub angle: Option<f64>,
+    /// The edge of the outline that meets this one in the target.
+    pub glued: Option<usize>,
+}
+
+impl Net {
+    pub fn of(target: &Target, layout: &Layout) -> Net {
+        let pattern = Pattern::of(target, layout);
+        let n = target.faces.len();
+        let mut net = Net {
+            vertices: pattern.corners[layout.root].to_vec(),
+            owners: (0..3).map(|corner| (layout.root, corner)).collect(),
+            faces: vec![[0; 3]; n],
+            edges: Vec::new(),
+        };
+        net.faces[layout.root] = [0, 1, 2];
+        for &face in &layout.order[1..] {
+            let Across { parent, parent_side: k, side: m } = layout.across(target, face);
+            let (from, to) = (net.faces[parent][k], net.faces[parent][(k + 1) % 3]);
+            let free = (m + 2) % 3;
+            net.faces[face][m] = to;
+            net.faces[face][(m + 1) % 3] = from;
+            net.faces[face][free] = net.vertices.len();
+            net.vertices.push(pattern.corners[face][free]);
+            net.owners.push((face, free));
+            let hinge = layout.hinge[face].expect("only the root has none");
+            let angle = Some(target.hinges[hinge].angle);
+            net.edges.push(Edge { vertices: [from, to], faces: vec![parent, face], angle, glued: None });
+        }
+        net.outline(target, layout);
+        net
+    }
+
+    fn outline(&mut self, target: &Target, layout: &Layout) {
+        let mut first: Vec<Option<usize>> = vec![None; target.hinges.len()];
+        for face in 0..target.faces.len() {
+            for side in 0..3 {
+                let hinge = target.sides[face][side];
+                let folds =
+                    |hinge: usize| target.hinges[hinge].faces.iter().any(|f| layout.hinge[*f] == Some(hinge));
+                if hinge.is_some_and(folds) {
+                    continue;
+                }
+                let number = self.edges.len();
+                let corners = self.faces[face];
+                let glued = hinge.and_then(|hinge| first[hinge].replace(number));
+                if let Some(other) = glued {
+                    self.edges[other].glued = Some(number);
+                }
+                let vertices = [corners[side], corners[(side + 1) % 3]];
+                self.edges.push(Edge { vertices, faces: vec![face], angle: None, glued });
+            }
+        }
+    }
+
+    /// Where the vertices are with every hinge at an angle (rad, by the face that it carries), in the
+    /// frame of the flat net: the root stays as it lies there.
+    pub fn vertices_at(&self, target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Vec3> {
+        let X_TF = poses_at(target, layout, angle);
+        let [a, b, _] = target.corners(layout.root);
+        let z = target.normal(layout.root);
+        let x = (b - a).normalize();
+        let axes = nalgebra::Matrix3::from_columns(&[x, z.cross(&x), z]);
+        let turn = nalgebra::Rotation3::from_matrix_unchecked(axes).into();
+        let X_TN = Pose::from_parts(a.into(), turn);
+        let place = |&(face, corner): &(usize, usize)| {
+            let in_target = X_TF[face].transform_point(&target.corners(face)[corner].into());
+            X_TN.inverse_transform_point(&in_target).coords
+        };
+        self.owners.iter().map(place).collect()
+    }
+}
