@@ -267,7 +267,7 @@ fn of_program(sandbox: &Sandbox, name: &'static str) -> Looks {
     let plan = modl::plan::file::read(&text).expect("a plan");
     let bare = Plan { verdict: None, ..plan.clone() };
     let hash = modl::plan::file::digest(&modl::plan::file::write(&bare).expect("it is a plan"));
-    let command = format!("modl run {name}.mod");
+    let command = format!("modl show {name}.mod");
     let data = ["planner", "seed", "energy", "verified", &command, &hash].map(str::to_owned).to_vec();
     let (joints, failure) = (true, Value::Null);
     Looks { name, plan, joints, colours: OF_ROBOT, toggles: ON_GROUND, curves: OF_JOINTS, data, failure }

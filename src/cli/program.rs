@@ -171,5 +171,6 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
     let name = if project.name == STDIN_NAME { "-" } else { &project.name };
     let pages = matches!(task, Task::Show);
-    Options { filter, seed: globals.seed, pages, command: format!("modl run {name}{seed}"), limits }
+    let verb = if pages { "show" } else { "run" };
+    Options { filter, seed: globals.seed, pages, command: format!("modl {verb} {name}{seed}"), limits }
 }
