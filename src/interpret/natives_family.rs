@@ -78,9 +78,13 @@ fn bad_cell(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> 
     fault(code::BAD_LATTICE, at, message, "neither cell nor gap")
 }
 
-/// Where a character of a text stands in its `"""..."""`; the whole text where it isn't one.
+/// Where a character of a text stands in its `"""..."""` or `"..."`; all that was given where it is not
+/// written there.
 fn character_span(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> Span {
     let source = interpreter.sources.text(span);
+    if source.starts_with('"') && !source.starts_with("\"\"\"") {
+        return quoted_span(source, span, bad);
+    }
     let (Some(line), true) = (text.lines().nth(bad.line), source.starts_with("\"\"\"")) else { return span };
     // The text begins behind the first line break; its lines have lost their indentation.
     let mut start = span.start as usize;
@@ -91,6 +95,23 @@ fn character_span(interpreter: &Interpreter, span: Span, text: &str, bad: BadCel
             return Span::new(span.file, offset, offset + bad.character.len_utf8());
         }
         start += raw.len();
+    }
+    span
+}
+
+/// The first character in `"..."`, or in several with commas between them, that is neither cell nor gap.
+fn quoted_span(source: &str, span: Span, bad: BadCell) -> Span {
+    let mut characters = source.char_indices();
+    while let Some((at, character)) = characters.next() {
+        match character {
+            '#' | '.' | ' ' | '"' | ',' | '\n' => {}
+            '\\' => drop(characters.next()),
+            found if found == bad.character => {
+                let start = span.start as usize + at;
+                return Span::new(span.file, start, start + found.len_utf8());
+            }
+            _ => return span,
+        }
     }
     span
 }

@@ -74,3 +74,8 @@ config Stiff { part m[2]: Smores
   behavior a() = move(m[0].top.joint, to: 10deg)
 //                    ^^^^^^^^^^^^^^ E0315 connections of MagnetFace do not turn
 }
+
+--- the character of a lattice that is no cell
+use std.crystal.ExpandingCube
+lattice A of ExpandingCube = cells("##\n#x#")
+//                                       ^ E0313 `x` is no cell
