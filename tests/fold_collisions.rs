@@ -3,11 +3,12 @@
 
 use crate::fold::{SIDE, TRUTH, index, mesh, pairs, target};
 use crate::interpret::run_text;
-use modl::geometry::Vec3;
+use modl::geometry::{Part, Vec3};
 use modl::interpret::Mode;
 use modl::planners::fold::folded::poses_at;
 use modl::planners::fold::inertia::Inertia;
-use modl::planners::fold::meeting::{Meeting, meeting};
+use modl::planners::fold::meeting::{Meeting, Solids, meeting};
+use modl::planners::fold::passage::Passages;
 use modl::planners::fold::simulation::quintic;
 use modl::planners::fold::{Layout, Target, Weights, enumerate, steps};
 use modl::source::Diagnostic;
@@ -190,4 +191,100 @@ fn samples_and_judge_agree_on_the_quadruped() {
         }
     }
     assert_eq!(meeting, 1);
+}
+
+/// Panels of the octahedron that are almost triangles.
+fn plates(target: &Target) -> Solids {
+    let radius = SIDE / libm::sqrt(3.0) * (1.0 - SHRUNK);
+    let corner = |degrees: f64| {
+        let (sine, cosine) = libm::sincos(degrees.to_radians());
+        Vec3::new(cosine, sine, 0.0) * radius
+    };
+    // The middle of side 0 is on the x axis.
+    let plate = Part::points(&[corner(-60.0), corner(60.0), corner(180.0), Vec3::new(0.0, 0.0, 1e-5)]);
+    Solids { parts: vec![vec![plate]; target.faces.len()], touch: 1e-5 }
+}
+
+/// Where leaves first collides, an order is found in which nothing meets: by samples of another kind,
+/// and of every one of the 384 layouts, for root first is one.
+#[test]
+fn a_passage_is_found_wherever_there_is_one() {
+    let target = target("octahedron");
+    let solids = plates(&target);
+    let mut colliding = 0;
+    enumerate::each(&target, u64::MAX, |hinges| {
+        let layout = Layout::of_hinges(&target, hinges, 0).expect("a tree");
+        let wished = steps::leaves_first(&layout);
+        if meets(&target, &layout, &wished).is_none() {
+            return;
+        }
+        colliding += 1;
+        let mut passages = Passages::new(&target, &layout, &solids, None, 10_000);
+        let order = passages.order(&wished.concat()).expect("root first is such an order");
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (1..8).collect::<Vec<_>>(), "every face but the root folds once");
+        let found = passages.steps(&order);
+        assert_eq!(found.concat(), order);
+        assert_eq!(meets(&target, &layout, &found), None);
+    })
+    .expect("few faces");
+    assert_eq!(colliding, index(&TRUTH["collisions"]["octahedron_root0_leaf_first"]));
+}
+
+/// What is refused is not proposed again, and where nothing is left there is no order.
+#[test]
+fn refused_steps_are_avoided() {
+    let target = target("tetrahedron");
+    let layout = Layout::of_pairs(&target, &[[0, 1], [0, 2], [0, 3]], 0).expect("a tree");
+    let solids = plates(&target);
+    let mut passages = Passages::new(&target, &layout, &solids, None, 100);
+    let mut seen = Vec::new();
+    while let Some(order) = passages.order(&[1, 2, 3]) {
+        passages.refuse(&order, 0);
+        seen.push(order[0]);
+    }
+    seen.sort_unstable();
+    assert_eq!(seen, [1, 2, 3], "each can be the first, once");
+}
+
+/// Every layout of the stella octangula that lies flat meets itself with the leaves first; in another
+/// order the best of them folds, and costs no less than the truth's price of not overlapping.
+#[test]
+fn the_stella_octangula_folds() {
+    let text = "use std.mori.Mori
+use std.shapes.stella_octangula
+let star = fold(stella_octangula(edge: 80mm), module: Mori)
+print(star.price)
+print(star.optimal)
+emit(star, \"star.plan.json\")
+";
+    let ran = run_text(text, Mode::Run);
+    assert!(ran.outcome.diagnostics.is_empty(), "{:?}", ran.outcome.diagnostics);
+    let price: f64 = ran.host.printed[0].parse().expect("a number");
+    assert!(price > 1.0483966 && price < 1.3, "{price}");
+    assert_eq!(ran.host.printed[1], "false");
+    let plan = modl::plan::file::read(&String::from_utf8_lossy(&ran.host.written["star.plan.json"]));
+    assert!(modl::plan::verify::verify(&plan.expect("it reads back")).ok());
+}
+
+/// Panels of 26 g are a little too heavy for hinges of 0.1 N·m: the call says which hinge binds, and
+/// by how much. A gram less, and it folds.
+#[test]
+fn gravity_says_what_binds() {
+    let fold = |module: &str| {
+        let text = format!(
+            "use std.mori.Mori
+use std.shapes.quadruped18
+let robot = fold(quadruped18(edge: 80mm), module: {module}, gravity: on, root: 0)
+print(robot.steps)
+"
+        );
+        run_text(&text, Mode::Run).outcome.diagnostics
+    };
+    let said = fold("Mori");
+    let [said] = &said[..] else { panic!("{said:?}") };
+    let hints = said.hints.join(" ");
+    assert!(hints.contains("the hinge between panels") && hints.contains("0.1N*m"), "{hints}");
+    assert!(fold("Mori(weight: 25g)").is_empty());
 }

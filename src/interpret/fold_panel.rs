@@ -6,11 +6,12 @@ use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop};
 use super::value::Value;
 use crate::behavior::law;
-use crate::geometry::{Placed, Shape, Vec3};
+use crate::geometry::{Part, Placed, Pose, Shape, Solid, Vec3};
+use crate::planners::fold::meeting::Solids;
 use crate::planners::fold::{Target, Unfoldable};
-use crate::robot::{Link, Port};
+use crate::robot::{Link, ModuleType, Port};
 use crate::source::{Diagnostic, code};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::rc::Rc;
 
 /// How far sides may be off those of the panels, as a part of them.
@@ -27,6 +28,14 @@ pub struct Panel {
     pub thickness: f64,
     /// What the hinges of its edges can do.
     pub able: law::Ability,
+    /// What they hold, N·m, where a limit is stated.
+    pub torque: Option<f64>,
+    /// How deep a panel may be in another or in the ground, m, and what is nearer to the ground than
+    /// the second touches it.
+    pub touch: f64,
+    pub contact: f64,
+    /// Its convex parts in the frame of [`Solids`](crate::planners::fold::meeting::Solids).
+    pub parts: Vec<Part>,
 }
 
 impl Panel {
@@ -54,9 +63,24 @@ impl Panel {
             return Err(no_panel("its edges have no hinge"));
         };
         let able = law::Ability { speed: hinge.limits.speed, acceleration: hinge.limits.acceleration };
+        let torque = hinge.limits.effort;
         let thickness = thickness(link, a.pose.rotation * Vec3::z());
-        Ok(Panel { mass: link.mass, side, thickness, able, design: design.clone() })
+        let solid = Solid::new(&link.collides).map_err(|_| no_panel("its shape is not sound"))?;
+        let panel_of_link = frame(a, b, c).inverse();
+        let parts = solid.parts.iter().map(|part| part.moved(&panel_of_link)).collect();
+        let ModuleType { touch, contact, .. } = library.modules[0];
+        let (mass, design) = (link.mass, design.clone());
+        Ok(Panel { mass, side, thickness, able, torque, touch, contact, parts, design })
     }
+}
+
+/// The middle of a panel, with x towards its first edge and z along its normal, in the frame of its link.
+fn frame(a: &Port, b: &Port, c: &Port) -> Pose {
+    let [p, q, r] = [a, b, c].map(|port| port.pose.translation.vector);
+    let middle = (p + q + r) / 3.0;
+    let (x, z) = ((p - middle).normalize(), a.pose.rotation * Vec3::z());
+    let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
+    Pose::from_parts(middle.into(), UnitQuaternion::from_rotation_matrix(&turn))
 }
 
 /// From how far the mass is spread along the normal: d²/12 of it.
@@ -96,6 +120,7 @@ pub struct Panels {
     pub designs: Vec<Rc<Design>>,
     /// By face, kg.
     pub masses: Vec<f64>,
+    pub solids: Solids,
 }
 
 /// The faces listed in argument `listed` are made of the module in argument `passive`, which has no
@@ -108,7 +133,9 @@ pub fn panels(
     target: Target,
 ) -> Eval<(Panels, Target)> {
     let faces = target.faces.len();
-    let mut panels = Panels { designs: vec![panel.design.clone(); faces], masses: vec![panel.mass; faces] };
+    let solids = Solids { parts: vec![panel.parts.clone(); faces], touch: panel.touch };
+    let (designs, masses) = (vec![panel.design.clone(); faces], vec![panel.mass; faces]);
+    let mut panels = Panels { designs, masses, solids };
     let list = call.list(listed)?.clone();
     if list.is_empty() {
         return Ok((panels, target));
@@ -129,6 +156,8 @@ pub fn panels(
         driven[face] = false;
         panels.designs[face] = other.design.clone();
         panels.masses[face] = other.mass;
+        panels.solids.parts[face].clone_from(&other.parts);
+        panels.solids.touch = panel.touch.max(other.touch);
     }
     let target = target.driven(&driven).map_err(|why| -> Stop {
         unfoldable(call, listed, &why).hint("one of two panels on a hinge has to be active").into()

@@ -2,6 +2,7 @@
 
 use super::fold_method::{Found, Question};
 use super::fold_options::{HINGES, MODULE, SEQUENCE, STEP, Sequence, TARGET};
+use super::fold_orders::{Need, Reordering};
 use super::fold_panel::Panels;
 use super::fold_sheet::{NoSheet, Pieces, Sheet};
 use super::folding::{FlatPattern, Folded};
@@ -12,13 +13,15 @@ use super::stop::Eval;
 use super::value::Value;
 use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
-use crate::plan::{Bound, CauseId, World};
+use crate::plan::{Bound, CauseId, Failure, World};
 use crate::planners::fold::exact::{self, Word};
 use crate::planners::fold::meeting::{Meeting, meeting};
 use crate::planners::fold::objective::Minimise;
 use crate::planners::fold::{Layout, Proof, closing, count, order, order_energy, steps};
 use crate::robot::State;
 use crate::source::{Diagnostic, code};
+use crate::units::display::number;
+use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
 /// Panels that are put before the judge, in all layouts, and pairs of panels at which a quick look is
@@ -32,10 +35,10 @@ const LAYOUTS_MIN: usize = 8;
 const SHRUNK: f64 = 0.02;
 
 /// A layout with an order that the judge lets through.
-struct Outcome {
-    planned: Planned,
-    layout: Layout,
-    steps: Vec<Vec<usize>>,
+pub struct Outcome {
+    pub planned: Planned,
+    pub layout: Layout,
+    pub steps: Vec<Vec<usize>>,
 }
 
 /// Layouts before the judge, one after the other.
@@ -78,18 +81,32 @@ impl Task<'_> {
                 .hint("another `sequence` or `root` may let it fold")
                 .into());
         }
-        let layout = &found.layouts[0];
-        for steps in self.other_orders(layout) {
-            if let Ok(planned) = self.judged(interpreter, layout, &steps)? {
-                let outcome = Outcome { planned, layout: layout.clone(), steps };
-                return Ok(self.answer(outcome, found, false));
-            }
+        let mut reordering = Reordering::new(&self);
+        if let Some(outcome) = reordering.first(interpreter, found)? {
+            return Ok(self.answer(outcome, found, false));
         }
         let message = format!("no order of folding was found that the judge lets through: {why}");
-        Err(Diagnostic::error(code::NOT_COVERED, message)
+        let said = Diagnostic::error(code::NOT_COVERED, message)
             .label(call.at(TARGET), "was not folded")
-            .hint("another `root` or `seed` leads to other patterns")
-            .into())
+            .hint("another `root` or `seed` leads to other patterns");
+        let torque = |torque: f64| quantity(torque, Dimension::TORQUE);
+        let (need, holds) = (reordering.need(found)?, self.question.panel.torque);
+        Err(match (need, holds) {
+            (Some(Need { torque: needed, faces: [a, b] }), Some(holds)) => {
+                let lighter = number(100.0 * (1.0 - holds / needed));
+                let (needed, holds) = (torque(needed), torque(holds));
+                said.hint(format!(
+                    "the hinge between panels {a} and {b} binds: an order was found if it holds {needed}, \
+                     and the module states {holds}"
+                ))
+                .hint(format!("panels lighter by {lighter}% would do, too, or `gravity: off`"))
+            }
+            (None, _) if self.question.options.conventions.gravity != 0.0 => {
+                said.hint("`gravity: off` folds where nothing weighs, and where there is no ground")
+            }
+            _ => said,
+        }
+        .into())
     }
 
     /// Layouts in order of their energy until one is let through; with whether none before it can be.
@@ -145,19 +162,19 @@ impl Task<'_> {
                 Word::Accept
             }
             Err(failure) => {
-                hearing.why.get_or_insert(failure);
+                hearing.why.get_or_insert_with(|| failure_line(&failure));
                 Word::Refuse
             }
         })
     }
 
     /// By face: its weight under the standard gravity, N.
-    fn loads(&self) -> Vec<f64> {
+    pub fn loads(&self) -> Vec<f64> {
         self.panels.masses.iter().map(|mass| mass * World::default().gravity).collect()
     }
 
     /// The order that is asked for, in steps.
-    fn steps(&self, layout: &Layout) -> Eval<Vec<Vec<usize>>> {
+    pub fn steps(&self, layout: &Layout) -> Eval<Vec<Vec<usize>>> {
         let Question { target, options, call, .. } = self.question;
         Ok(match options.sequence {
             Sequence::LeavesFirst => steps::leaves_first(layout),
@@ -178,14 +195,6 @@ impl Task<'_> {
                 steps::of_order(layout, &order)
             }
         })
-    }
-
-    fn other_orders(&self, layout: &Layout) -> Vec<Vec<Vec<usize>>> {
-        let (target, masses) = (self.question.target, &self.panels.masses);
-        let inertia = self.question.options.conventions.inertia;
-        let cheap = order_energy::least_energy(target, layout, masses, inertia);
-        let cheap = cheap.map(|(order, _)| steps::of_order(layout, &order));
-        cheap.into_iter().chain([steps::root_first(layout), steps::leaves_first(layout)]).collect()
     }
 
     fn answer(&self, outcome: Outcome, found: &Found, optimal: bool) -> Value {
@@ -222,13 +231,13 @@ impl Task<'_> {
         Value::Record(Rc::new(Record::Plan(Rc::new(planned.with_folded(folded)))))
     }
 
-    /// The plan of an order, if the judge lets it through; else what it says first.
-    fn judged(
+    /// The plan of an order, if the judge lets it through; else what it finds first.
+    pub fn judged(
         &self,
         interpreter: &mut Interpreter,
         layout: &Layout,
         order: &[Vec<usize>],
-    ) -> Eval<Result<Planned, String>> {
+    ) -> Eval<Result<Planned, Failure>> {
         let Question { target, options, call, panel, .. } = self.question;
         let pieces = Pieces { target, layout, panels: &self.panels.designs, span: call.span };
         let Sheet { design, robot, flat } = pieces.sheet(interpreter)?.map_err(|why| {
@@ -261,7 +270,7 @@ impl Task<'_> {
         if verdict.ok() {
             return Ok(Ok(planned));
         }
-        let first = verdict.failures.iter().min_by(|a, b| a.time.total_cmp(&b.time));
-        Ok(Err(first.map_or_else(String::new, failure_line)))
+        let first = verdict.failures.iter().min_by(|a, b| a.time.total_cmp(&b.time)).cloned();
+        Ok(Err(first.unwrap_or_else(|| Failure::form("the plan can't be judged".to_owned()))))
     }
 }

@@ -51,6 +51,7 @@ mod verdicts;
 
 mod fold_method;
 mod fold_options;
+mod fold_orders;
 mod fold_panel;
 mod fold_plan;
 mod fold_sheet;

@@ -1,11 +1,14 @@
-//! Whether panels meet on the way, as triangles without thickness, in samples: a quick look that
-//! keeps the judge from plans that it would reject. What it lets through is not proved.
+//! Whether panels meet on the way, in samples: a quick look that keeps the judge from plans that it
+//! would reject. Panels are triangles without thickness, or solids. What it lets through is not proved.
 
 use super::folded::poses_at;
 use super::layout::Layout;
 use super::simulation::quintic;
 use super::target::Target;
-use crate::geometry::Vec3;
+use crate::geometry::distance::near;
+use crate::geometry::pose::shifted;
+use crate::geometry::{Part, Pose, Vec3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
 /// States of each step that are looked at.
 const SAMPLES: usize = 24;
@@ -25,44 +28,127 @@ pub struct Meeting {
 /// The first meeting while a layout is folded in steps. `shrunk`: by which part triangles are made
 /// smaller, so that those do not meet which share an edge.
 pub fn meeting(target: &Target, layout: &Layout, steps: &[Vec<usize>], shrunk: f64) -> Option<Meeting> {
-    let small: Vec<Triangle> = (0..target.faces.len())
-        .map(|face| {
+    let look = Look::thin(target, layout, shrunk);
+    let mut folded = vec![false; target.faces.len()];
+    steps.iter().enumerate().find_map(|(step, moving)| {
+        let found = look.during(&folded, moving).map(|faces| Meeting { step, faces });
+        moving.iter().for_each(|face| folded[*face] = true);
+        found
+    })
+}
+
+/// Panels with thickness, by face: convex parts in the frame of the panel, whose origin is its middle,
+/// with x towards the middle of its side 0 and z along its outward normal.
+#[derive(Clone, Debug)]
+pub struct Solids {
+    pub parts: Vec<Vec<Part>>,
+    /// How deep two of them may be in each other, m.
+    pub touch: f64,
+}
+
+/// A look at the panels of one layout.
+pub struct Look<'t> {
+    target: &'t Target,
+    layout: &'t Layout,
+    form: Form,
+    /// How far the points of a face are from its middle, m.
+    reach: Vec<f64>,
+}
+
+/// In their places in the target.
+enum Form {
+    Triangles(Vec<Triangle>),
+    Solids(Solids),
+}
+
+impl<'t> Look<'t> {
+    /// Triangles that are made smaller by a part.
+    pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> Look<'t> {
+        let smaller = |face: usize| {
             let middle = target.centroid(face);
             target.corners(face).map(|corner| middle + (corner - middle) * (1.0 - shrunk))
-        })
-        .collect();
-    let reach: Vec<f64> = (0..small.len())
-        .map(|face| small[face].iter().map(|p| (p - target.centroid(face)).norm()).fold(0.0, f64::max))
-        .collect();
-    let full = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
-    let mut angles = vec![0.0; small.len()];
-    for (number, step) in steps.iter().enumerate() {
-        let moving = moving_against(layout, step);
-        for sample in 1..=SAMPLES {
-            let part = quintic(sample as f64 / SAMPLES as f64, 1.0).angle;
-            step.iter().for_each(|face| angles[*face] = full(*face) * part);
-            let poses = poses_at(target, layout, |face| angles[face]);
-            let placed = |face: usize| small[face].map(|p| poses[face].transform_point(&p.into()).coords);
-            let placed: Vec<Triangle> = (0..small.len()).map(placed).collect();
-            let centres: Vec<Vec3> = placed.iter().map(|t| (t[0] + t[1] + t[2]) / 3.0).collect();
-            let near = |a: usize, b: usize| (centres[a] - centres[b]).norm() < reach[a] + reach[b];
-            let meets = |&&[a, b]: &&[usize; 2]| near(a, b) && !parted(&placed[a], &placed[b]);
-            if let Some(&faces) = moving.iter().find(meets) {
-                return Some(Meeting { step: number, faces });
-            }
-        }
+        };
+        let small: Vec<Triangle> = (0..target.faces.len()).map(smaller).collect();
+        let reach = |(face, corners): (usize, &Triangle)| {
+            corners.iter().map(|p| (p - target.centroid(face)).norm()).fold(0.0, f64::max)
+        };
+        let reach = small.iter().enumerate().map(reach).collect();
+        Look { target, layout, form: Form::Triangles(small), reach }
     }
-    None
+
+    /// Panels as they are.
+    pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> Look<'t> {
+        let placed = |(face, parts): (usize, &Vec<Part>)| -> Vec<Part> {
+            let place = place(target, face);
+            parts.iter().map(|part| part.moved(&place)).collect()
+        };
+        let parts: Vec<Vec<Part>> = solids.parts.iter().enumerate().map(placed).collect();
+        let reach = |(face, parts): (usize, &Vec<Part>)| {
+            let middle = target.centroid(face);
+            parts.iter().map(|part| (part.centre - middle).norm() + part.radius).fold(0.0, f64::max)
+        };
+        let reach = parts.iter().enumerate().map(reach).collect();
+        Look { target, layout, form: Form::Solids(Solids { parts, touch: solids.touch }), reach }
+    }
+
+    /// Two faces that meet while some hinges fold at the same time, none above another; `folded`: the
+    /// hinges that have folded before.
+    pub fn during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
+        let Look { target, layout, form, reach } = self;
+        let full = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
+        let against = moving_against(layout, moving);
+        let middles: Vec<Vec3> = (0..reach.len()).map(|face| target.centroid(face)).collect();
+        (1..=SAMPLES).find_map(|sample| {
+            let part = quintic(sample as f64 / SAMPLES as f64, 1.0).angle;
+            let poses = poses_at(target, layout, |face| match folded[face] {
+                true => full(face),
+                false if moving.contains(&face) => full(face) * part,
+                false => 0.0,
+            });
+            let placed = |face: usize, p: &Vec3| poses[face].transform_point(&(*p).into()).coords;
+            let centres: Vec<Vec3> = middles.iter().enumerate().map(|(face, p)| placed(face, p)).collect();
+            let near = |a: usize, b: usize| (centres[a] - centres[b]).norm() < reach[a] + reach[b];
+            let meet = |a: usize, b: usize| match form {
+                Form::Triangles(small) => {
+                    !parted(&small[a].map(|p| placed(a, &p)), &small[b].map(|p| placed(b, &p)))
+                }
+                // Those on a common hinge are built to touch.
+                Form::Solids(solids) => {
+                    let on_hinge = layout.parent[a] == b || layout.parent[b] == a;
+                    !on_hinge && solids.meet([a, b], &(poses[a].inverse() * poses[b]))
+                }
+            };
+            against.iter().find(|&&[a, b]| near(a, b) && meet(a, b)).copied()
+        })
+    }
+}
+
+impl Solids {
+    fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
+        let meet = |p: &Part, q: &Part| near(p, q, X_AB, None, -self.touch).distance < -self.touch;
+        self.parts[a].iter().any(|p| self.parts[b].iter().any(|q| meet(p, q)))
+    }
+}
+
+/// The frame of a panel at a face of the target.
+fn place(target: &Target, face: usize) -> Pose {
+    let corners = target.corners(face);
+    let middle = target.centroid(face);
+    let z = target.normal(face);
+    let x = ((corners[0] + corners[1]) / 2.0 - middle).normalize();
+    let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
+    let turn = Pose::from_parts(Vec3::zeros().into(), UnitQuaternion::from_rotation_matrix(&turn));
+    shifted(middle) * turn
 }
 
 /// Pairs of faces with a moving hinge between them.
-fn moving_against(layout: &Layout, step: &[usize]) -> Vec<[usize; 2]> {
+fn moving_against(layout: &Layout, moving: &[usize]) -> Vec<[usize; 2]> {
     let faces = layout.parent.len();
     let mut carried = vec![0usize; faces];
     // By face: a number for the set of moving hinges above it.
     for &face in &layout.order[1..] {
         let above = carried[layout.parent[face]];
-        carried[face] = if step.contains(&face) { face + 1 } else { above };
+        carried[face] = if moving.contains(&face) { face + 1 } else { above };
     }
     // No two hinges of one path move in the same step, so one hinge tells the set.
     let pairs = (0..faces).flat_map(|b| (0..b).map(move |a| [a, b]));

@@ -42,8 +42,10 @@ pub mod simulation;
 pub mod objective;
 pub mod survey;
 
+pub mod burden;
 pub mod closing;
 pub mod meeting;
+pub mod passage;
 pub mod sampling;
 
 pub mod net;
