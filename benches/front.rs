@@ -57,10 +57,6 @@ impl Host for Silent {
     }
 
     fn progress(&mut self, _: &str) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
 }
 
 fn report(what: &str, text: &str, run: impl Fn()) {

@@ -1,9 +1,10 @@
 //! modl: a language for robots that change shape.
 //!
 //! The journey of the data, and the rooms in reading order; each knows only those above it:
-//! text ([`source`], [`units`]) → tree ([`syntax`], and back to text: [`format`]) → types ([`check`]) → values ([`interpret`]) →
+//! text ([`source`], [`units`], [`interrupt`]) → tree ([`syntax`], and back to text: [`format`]) → types ([`check`]) → values ([`interpret`]) →
 //! plan ([`behavior`], [`planners`]) → verdict ([`plan`]) → file or picture ([`view`]). See `docs/architecture.md`.
 
+pub mod interrupt;
 pub mod source;
 pub mod units;
 
@@ -22,5 +23,7 @@ pub mod robot;
 pub mod view;
 
 pub mod interpret;
+
+pub mod session;
 
 pub mod cli;

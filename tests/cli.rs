@@ -30,18 +30,33 @@ impl Sandbox {
         self.0.path().join(name)
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_modl"));
-        command.args(arguments).current_dir(self.0.path()).stdin(Stdio::null());
+        command.args(arguments).current_dir(self.0.path());
         command.env_remove("NO_COLOR").env_remove("COLUMNS");
         command
     }
 
     pub fn run(&self, arguments: &[&str]) -> Ran {
-        ran(self.command(arguments).output().expect("the command runs"))
+        ran(self.command(arguments).stdin(Stdio::null()).output().expect("the command runs"))
     }
 
-    fn run_with_input(&self, arguments: &[&str], input: &[u8]) -> Ran {
+    /// What is printed to standard output and standard error, as a terminal would show it.
+    pub fn run_together(&self, arguments: &[&str], input: &[u8]) -> String {
+        let (mut printed, output) = std::io::pipe().expect("a pipe");
+        let mut command = self.command(arguments);
+        command.stdin(Stdio::piped()).stdout(output.try_clone().expect("a pipe")).stderr(output);
+        let mut child = command.spawn().expect("the command runs");
+        // What is left of the pipe's writing end is in the command.
+        drop(command);
+        child.stdin.take().expect("piped").write_all(input).expect("the command reads all of it");
+        let mut text = String::new();
+        std::io::Read::read_to_string(&mut printed, &mut text).expect("the command prints UTF-8");
+        child.wait().expect("the command ends");
+        text
+    }
+
+    pub fn run_with_input(&self, arguments: &[&str], input: &[u8]) -> Ran {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the command runs");

@@ -26,10 +26,6 @@ impl Host for Desk {
     }
 
     fn progress(&mut self, _: &str) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
 }
 
 impl Desk {

@@ -76,7 +76,8 @@ fn examples_of_the_library_run() {
 #[test]
 fn programs_in_the_documentation_run() {
     let mut wrong = String::new();
-    for (name, text) in files("docs", "md") {
+    // The listings of the tour build on each other: `tour` follows it.
+    for (name, text) in files("docs", "md").into_iter().filter(|(name, _)| !name.ends_with("/tour.md")) {
         judge_page(&name, &text, &mut wrong);
     }
     assert!(wrong.is_empty(), "\n{wrong}");

@@ -27,10 +27,6 @@ impl Host for Buffer {
     fn progress(&mut self, line: &str) {
         self.progress.push(line.to_string());
     }
-
-    fn cancelled(&self) -> bool {
-        false
-    }
 }
 
 /// What came of a program: what `check` says, and what running it says where that was no error.

@@ -1,6 +1,7 @@
 //! The README: what it says that the tool prints, the tool prints.
 
 use super::cli::Sandbox;
+use crate::transcripts::Transcript;
 
 const README: &str = include_str!("../README.md");
 const WALKBOT: &str = include_str!("../examples/walkbot.mod");
@@ -30,6 +31,11 @@ fn the_transcripts_are_what_the_tool_prints() {
             continue;
         };
         runs += 1;
+        if command.starts_with("repl ") {
+            let arguments: Vec<&str> = command.split(' ').collect();
+            Transcript::of(wanted).judge(&sandbox, &arguments, command);
+            continue;
+        }
         let ran = sandbox.run(&command.split(' ').collect::<Vec<_>>());
         let printed = format!("{}{}", ran.out, ran.err);
         assert_eq!(printed.trim(), wanted.trim(), "modl {command}");

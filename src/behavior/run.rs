@@ -162,6 +162,7 @@ impl<'a> Run<'a> {
         self.tasks.push(Task::Begin(program, None));
         loop {
             while let Some(task) = self.tasks.pop() {
+                crate::interrupt::checkpoint();
                 match task {
                     Task::Begin(node, parent) => self.begin(node, parent)?,
                     Task::Complete(frame) => self.complete(frame),

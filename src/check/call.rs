@@ -93,7 +93,7 @@ impl<'a> Checker<'a> {
                 return Callee::Value(found);
             }
         }
-        match self.entity(scope.file, name) {
+        match self.named_entity(scope.file, name, span) {
             Some(Entity::Def(id)) => self.def_callee(id, span),
             Some(Entity::Error) => Callee::Error,
             Some(Entity::File(_)) | None => {
@@ -172,7 +172,7 @@ impl<'a> Checker<'a> {
         let path = [ast::Name { text: *name, span: object.span }, field];
         let found = self.path_entity(scope.file, &path);
         if found.is_none() {
-            let names: Vec<&str> = self.scopes[file].keys().map(|s| s.as_str()).collect();
+            let names: Vec<&str> = self.top(file).keys().map(|s| s.as_str()).collect();
             let mut d = Diagnostic::error(code::UNKNOWN_NAME, format!("`{name}` has no `{}`", field.text))
                 .label(field.span, "no such item in this file");
             if let Some(near) = suggest(field.text.as_str(), names) {

@@ -10,6 +10,7 @@ use super::types::{Family, Type};
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, FileId, Sources, Span, Symbol, code};
 use crate::syntax::ast;
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -162,7 +163,12 @@ pub struct Checker<'a> {
     pub loaded: &'a Loaded,
     pub sources: &'a Sources,
     pub defs: Vec<DefInfo<'a>>,
-    pub scopes: Vec<HashMap<Symbol, Entity>>,
+    /// By file; entries of a session have that of the first one.
+    scopes: Vec<HashMap<Symbol, Entity>>,
+    /// The index of the file whose scope the entries of a session have.
+    shared: Option<usize>,
+    /// Where declarations are named.
+    pub uses: RefCell<Vec<(Span, DefId)>>,
     /// Values of members' `let`s, checked when first needed; `None` while that is going on.
     pub member_lets: HashMap<(DefId, MemberId), Option<typed::Expr>>,
     /// Slots that the expressions of a declaration's members need.
@@ -303,6 +309,8 @@ impl<'a> Checker<'a> {
             sources,
             defs: Vec::new(),
             scopes: Vec::new(),
+            shared: loaded.files.iter().position(|file| file.entry),
+            uses: RefCell::default(),
             member_lets: HashMap::new(),
             member_frames: HashMap::new(),
             diagnostics,
@@ -324,13 +332,36 @@ impl<'a> Checker<'a> {
 
     /// What a name means at the top of a file, the prelude included.
     pub fn entity(&self, file: usize, name: Symbol) -> Option<Entity> {
-        let own = self.scopes[file].get(&name).copied();
-        own.or_else(|| self.loaded.prelude.and_then(|p| self.scopes[p].get(&name).copied()))
+        let own = self.top(file).get(&name).copied();
+        own.or_else(|| self.loaded.prelude.and_then(|p| self.top(p).get(&name).copied()))
+    }
+
+    /// The same, of a name as it stands in the text.
+    pub fn named_entity(&self, file: usize, name: Symbol, span: Span) -> Option<Entity> {
+        let found = self.entity(file, name);
+        if let Some(Entity::Def(id)) = found {
+            self.uses.borrow_mut().push((span, id));
+        }
+        found
+    }
+
+    /// What the names at the top of a file mean, without the prelude.
+    pub fn top(&self, file: usize) -> &HashMap<Symbol, Entity> {
+        &self.scopes[self.scope_index(file)]
+    }
+
+    fn scope_index(&self, file: usize) -> usize {
+        if self.loaded.files[file].entry { self.shared.unwrap_or(file) } else { file }
+    }
+
+    fn set(&mut self, file: usize, name: Symbol, entity: Entity) {
+        let index = self.scope_index(file);
+        self.scopes[index].insert(name, entity);
     }
 
     /// A built-in by its name in the prelude.
     pub fn prelude_def(&self, name: &str) -> Option<DefId> {
-        match self.scopes[self.loaded.prelude?].get(&Symbol::new(name)) {
+        match self.top(self.loaded.prelude?).get(&Symbol::new(name)) {
             Some(Entity::Def(id)) => Some(*id),
             _ => None,
         }
@@ -338,26 +369,38 @@ impl<'a> Checker<'a> {
 
     /// The names that can be seen from the top of a file.
     pub fn visible_names(&self, file: usize) -> Vec<&'static str> {
-        let mut names: Vec<&str> = self.scopes[file].keys().map(|s| s.as_str()).collect();
+        let mut names: Vec<&str> = self.top(file).keys().map(|s| s.as_str()).collect();
         if let Some(prelude) = self.loaded.prelude {
-            names.extend(self.scopes[prelude].keys().map(|s| s.as_str()));
+            names.extend(self.top(prelude).keys().map(|s| s.as_str()));
         }
         names
     }
 
     /// Fills the scopes: the items of every file, then what each imports.
     pub fn declare(&mut self) {
+        let mut of_entries = Vec::new();
         for (index, file) in self.loaded.files.iter().enumerate() {
             self.scopes.push(HashMap::new());
             for item in &file.ast.items {
-                self.declare_item(index, item);
+                let declared = self.declare_item(index, item);
+                match declared {
+                    Some(declared) if file.entry => of_entries.push((index, declared)),
+                    Some((name, id)) => self.enter(index, name, id),
+                    None => {}
+                }
             }
         }
+        let mut of_entries = of_entries.into_iter().peekable();
         for (index, file) in self.loaded.files.iter().enumerate() {
+            // One entry after the other: the later one counts.
+            while let Some((_, (name, id))) = of_entries.next_if(|(of, _)| *of == index) {
+                self.enter(index, name, id);
+            }
             for import in &file.imports {
                 self.declare_import(index, import);
             }
             for name in &file.ast.unread {
+                let index = self.scope_index(index);
                 self.scopes[index].entry(*name).or_insert(Entity::Error);
             }
         }
@@ -368,7 +411,7 @@ impl<'a> Checker<'a> {
         self.loaded.files.iter().any(|file| file.ast.unread.contains(&name))
     }
 
-    fn declare_item(&mut self, file: usize, item: &'a ast::Item) {
+    fn declare_item(&mut self, file: usize, item: &'a ast::Item) -> Option<(ast::Name, DefId)> {
         use ast::ItemKind as K;
         let (name, def) = match &item.kind {
             K::Let(x) => (x.name, DefItem::Let(x)),
@@ -382,7 +425,7 @@ impl<'a> Checker<'a> {
             K::Config(x) => (x.name, DefItem::Config(x)),
             K::Lattice(x) => (x.name, DefItem::Lattice(x)),
             K::Truss(x) => (x.name, DefItem::Truss(x)),
-            K::Use(_) | K::Test(_) | K::Statement(_) | K::Error => return,
+            K::Use(_) | K::Test(_) | K::Statement(_) | K::Error => return None,
         };
         let id = self.add_def(file, name, item, def);
         if let DefItem::Record(record) = def {
@@ -391,11 +434,18 @@ impl<'a> Checker<'a> {
                 self.defs[id.0 as usize].doc = doc.as_deref().map(Arc::from);
             }
         }
-        if let Some(Entity::Def(first)) = self.scopes[file].get(&name.text).copied() {
+        Some((name, id))
+    }
+
+    /// Enters a declaration into its file's scope.
+    fn enter(&mut self, file: usize, name: ast::Name, id: DefId) {
+        if let Some(Entity::Def(first)) = self.top(file).get(&name.text).copied()
+            && self.def(first).file == file
+        {
             let first = self.def(first).span;
             return self.declared_twice(name.text, first, name.span);
         }
-        self.scopes[file].insert(name.text, Entity::Def(id));
+        self.set(file, name.text, Entity::Def(id));
     }
 
     fn add_def(&mut self, file: usize, name: ast::Name, whole: &ast::Item, item: DefItem<'a>) -> DefId {
@@ -430,8 +480,11 @@ impl<'a> Checker<'a> {
             ImportTarget::File(target) => Entity::File(target),
             ImportTarget::Item { file: target, item, span } => self.imported(target, item, span),
         };
-        if let Some(Entity::Def(first)) = self.scopes[file].get(&import.name).copied()
+        // In a session a later import counts.
+        let older = |first| self.loaded.files[file].entry && self.def(first).file != file;
+        if let Some(Entity::Def(first)) = self.top(file).get(&import.name).copied()
             && entity != Entity::Error
+            && !older(first)
         {
             if entity != Entity::Def(first) {
                 let first = self.def(first).span;
@@ -450,14 +503,14 @@ impl<'a> Checker<'a> {
             }
             return;
         }
-        self.scopes[file].insert(import.name, entity);
+        self.set(file, import.name, entity);
     }
 
     fn imported(&mut self, target: usize, item: Symbol, span: Span) -> Entity {
         let id = self.loaded.files[target].ast.id;
         let shown = self.sources.file(id).name.clone();
         // Only what a file declares itself can be imported from it.
-        let own = self.scopes[target].get(&item).copied();
+        let own = self.top(target).get(&item).copied();
         let declared = own.filter(|e| matches!(e, Entity::Def(id) if self.def(*id).file == target));
         match declared {
             Some(entity) if item.as_str().starts_with('_') => {
@@ -471,7 +524,7 @@ impl<'a> Checker<'a> {
             Some(entity) => entity,
             None if self.is_unread(item) => Entity::Error,
             None => {
-                let names = self.scopes[target].keys().map(|s| s.as_str());
+                let names = self.top(target).keys().map(|s| s.as_str());
                 let near = suggest(item.as_str(), names);
                 let mut diagnostic =
                     Diagnostic::error(code::UNKNOWN_IMPORT, format!("`{shown}` has no `{item}`"))

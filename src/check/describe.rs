@@ -1,7 +1,9 @@
 //! Types in the user's words.
 
 use super::checker::Checker;
+use super::typed::{DefId, Program};
 use super::types::{Family, Type};
+use crate::source::Symbol;
 use crate::units::{Dimension, display};
 
 /// What a quantity of this dimension is called in a sentence: `an angular speed`.
@@ -56,46 +58,58 @@ impl Checker<'_> {
 
     /// A type as it is written.
     pub fn name(&self, ty: &Type) -> String {
-        let args = |name: &str, t: &Type| format!("{name}<{}>", self.name(t));
-        match ty {
-            Type::Error => "?".into(),
-            Type::Nothing => "nothing".into(),
-            Type::Any => "Any".into(),
-            Type::Quantity(d) => match d.name() {
-                Some(name) => name.into(),
-                None => format!("Quantity<{}>", display::base_units(*d)),
-            },
-            Type::Int => "Int".into(),
-            Type::Bool => "Bool".into(),
-            Type::Text => "Text".into(),
-            Type::List(t) => args("List", t),
-            Type::Vec3(t) => args("Vec3", t),
-            Type::Pose => "Pose".into(),
-            Type::Range(t) => args("Range", t),
-            Type::Optional(t) => format!("{}?", self.name(t)),
-            Type::Fn(f) => {
-                let params: Vec<String> = f.params.iter().map(|p| self.name(p)).collect();
-                format!("fn({}) -> {}", params.join(", "), self.name(&f.result))
-            }
-            Type::Choice(choice) => {
-                let words = choice.words.iter().map(|w| w.to_string());
-                words.chain(choice.types.iter().map(|t| self.name(t))).collect::<Vec<_>>().join(" | ")
-            }
-            Type::Joint(t) => args("Joint", t),
-            Type::Port => "Port".into(),
-            Type::Behavior => "Behavior".into(),
-            Type::Signal(t) => args("Signal", t),
-            Type::Condition => "Condition".into(),
-            Type::Shape => "Shape".into(),
-            Type::JointKind => "JointKind".into(),
-            Type::Cells => "Cells".into(),
-            Type::Mesh => "Mesh".into(),
-            Type::Cloud => "Cloud".into(),
-            Type::Instance(id) | Type::Record(id) => self.def(*id).name.to_string(),
-            Type::AnyOf(family) => family_name(*family).into(),
-            Type::Param(_) => "any type".into(),
-            Type::QuantityParam { .. } => "Quantity".into(),
+        type_name(ty, &|id| self.def(id).name)
+    }
+}
+
+impl Program {
+    /// A type as it is written.
+    pub fn type_name(&self, ty: &Type) -> String {
+        type_name(ty, &|id| self.def(id).name)
+    }
+}
+
+fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
+    let name = |ty: &Type| type_name(ty, def_name);
+    let args = |outer: &str, t: &Type| format!("{outer}<{}>", name(t));
+    match ty {
+        Type::Error => "?".into(),
+        Type::Nothing => "nothing".into(),
+        Type::Any => "Any".into(),
+        Type::Quantity(d) => match d.name() {
+            Some(name) => name.into(),
+            None => format!("Quantity<{}>", display::base_units(*d)),
+        },
+        Type::Int => "Int".into(),
+        Type::Bool => "Bool".into(),
+        Type::Text => "Text".into(),
+        Type::List(t) => args("List", t),
+        Type::Vec3(t) => args("Vec3", t),
+        Type::Pose => "Pose".into(),
+        Type::Range(t) => args("Range", t),
+        Type::Optional(t) => format!("{}?", name(t)),
+        Type::Fn(f) => {
+            let params: Vec<String> = f.params.iter().map(&name).collect();
+            format!("fn({}) -> {}", params.join(", "), name(&f.result))
         }
+        Type::Choice(choice) => {
+            let words = choice.words.iter().map(|w| w.to_string());
+            words.chain(choice.types.iter().map(name)).collect::<Vec<_>>().join(" | ")
+        }
+        Type::Joint(t) => args("Joint", t),
+        Type::Port => "Port".into(),
+        Type::Behavior => "Behavior".into(),
+        Type::Signal(t) => args("Signal", t),
+        Type::Condition => "Condition".into(),
+        Type::Shape => "Shape".into(),
+        Type::JointKind => "JointKind".into(),
+        Type::Cells => "Cells".into(),
+        Type::Mesh => "Mesh".into(),
+        Type::Cloud => "Cloud".into(),
+        Type::Instance(id) | Type::Record(id) => def_name(*id).to_string(),
+        Type::AnyOf(family) => family_name(*family).into(),
+        Type::Param(_) => "any type".into(),
+        Type::QuantityParam { .. } => "Quantity".into(),
     }
 }
 

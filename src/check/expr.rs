@@ -118,7 +118,10 @@ impl<'a> Checker<'a> {
             K::Text(parts) => self.text(scope, span, parts),
             K::Name(name) => self.name_expr(scope, span, *name, want),
             K::Axis(axis) => direction(span, *axis),
-            K::Hole => expr_of(span, Type::optional(hole_type(want)), ExprKind::Missing),
+            K::Hole => match self.last_value(scope, want) {
+                Some(name) => self.name_expr(scope, span, name, want),
+                None => expr_of(span, Type::optional(hole_type(want)), ExprKind::Missing),
+            },
             K::List(items) => self.list(scope, span, items, want),
             K::Comprehension { body, clauses } => self.comprehension(scope, span, body, clauses, want),
             K::Unary { op, operand, .. } => self.unary(scope, span, *op, operand, want),

@@ -58,7 +58,7 @@ impl<'a> Checker<'a> {
                 return matches!(kind, MemberInfoKind::Param(_) | MemberInfoKind::Let(_));
             }
         }
-        match self.scopes[scope.file].get(&name) {
+        match self.top(scope.file).get(&name) {
             Some(Entity::Def(id)) => matches!(self.def(*id).item, DefItem::Let(_)),
             _ => false,
         }

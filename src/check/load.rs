@@ -11,6 +11,10 @@ use std::collections::HashMap;
 pub struct LoadedFile {
     pub ast: ast::File,
     pub imports: Vec<Import>,
+    /// Whether it is an entry of a session: all entries have one scope.
+    pub entry: bool,
+    /// The name of the last value before that entry, which `_` means there.
+    pub last: Option<Symbol>,
 }
 
 /// A name that a `use` brings into a file.
@@ -31,12 +35,27 @@ pub enum ImportTarget {
     Error,
 }
 
-/// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read.
+/// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read. In a
+/// session the file to run is the newest entry, and no entry changes the places of those before it.
 #[derive(Default)]
 pub struct Loaded {
     pub files: Vec<LoadedFile>,
     pub root: Option<usize>,
     pub prelude: Option<usize>,
+}
+
+/// What was entered into a session at one time.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// As diagnostics show it.
+    pub name: String,
+    pub text: String,
+    /// The line of a longer input at which it begins; else 1.
+    pub first_line: usize,
+    /// The name of the value of the expression that ends it.
+    pub value: Option<Symbol>,
+    /// The name of the value that `_` means in it.
+    pub last: Option<Symbol>,
 }
 
 pub struct Loader<'a> {
@@ -74,25 +93,29 @@ impl Place {
 
 /// Loads `root` with all that it imports, and the prelude.
 pub fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>) {
-    let mut loader = Loader {
-        files,
-        sources: Sources::default(),
-        diagnostics: Vec::new(),
-        loaded: Vec::new(),
-        by_name: HashMap::new(),
-        open: Vec::new(),
-    };
+    let mut loader = Loader::new(files);
     let prelude = loader.load(Place::Library("prelude.mod".into())).ok();
     let root = match loader.load(Place::Project(root.into())) {
         Ok(index) => Some(index),
         Err(error) => {
-            let text = format!("can't read `{root}`: {}", describe(&error));
-            loader.diagnostics.push(Diagnostic::error(code::CANNOT_READ, text));
+            loader.diagnostics.push(Diagnostic::error(code::CANNOT_READ, why_unreadable(root, &error)));
             None
         }
     };
-    let files = loader.loaded.into_iter().map(|f| f.expect("every opened file is closed")).collect();
-    (Loaded { files, root, prelude }, loader.sources, loader.diagnostics)
+    loader.finish(root, prelude)
+}
+
+/// Loads the entries of a session with all that they import, and the prelude.
+pub fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sources, Vec<Diagnostic>) {
+    let mut loader = Loader::new(files);
+    let prelude = loader.load(Place::Library("prelude.mod".into())).ok();
+    let root = entries.iter().map(|entry| loader.entry(entry)).last();
+    loader.finish(root, prelude)
+}
+
+/// Why a file can't be had, in a sentence.
+pub fn why_unreadable(path: &str, error: &ReadError) -> String {
+    format!("can't read `{path}`: {}", describe(error))
 }
 
 fn describe(error: &ReadError) -> String {
@@ -104,7 +127,36 @@ fn describe(error: &ReadError) -> String {
     }
 }
 
-impl Loader<'_> {
+impl<'a> Loader<'a> {
+    fn new(files: &'a dyn Files) -> Loader<'a> {
+        Loader {
+            files,
+            sources: Sources::default(),
+            diagnostics: Vec::new(),
+            loaded: Vec::new(),
+            by_name: HashMap::new(),
+            open: Vec::new(),
+        }
+    }
+
+    fn finish(self, root: Option<usize>, prelude: Option<usize>) -> (Loaded, Sources, Vec<Diagnostic>) {
+        let files = self.loaded.into_iter().map(|f| f.expect("every opened file is closed")).collect();
+        (Loaded { files, root, prelude }, self.sources, self.diagnostics)
+    }
+
+    fn entry(&mut self, entry: &Entry) -> usize {
+        let id = self.sources.add_piece(&entry.name, &entry.text, false, entry.first_line);
+        // Paths in it are relative to the project.
+        let place = Place::Project(String::new());
+        let index = self.take(&place, id, &entry.text);
+        let file = self.loaded[index].as_mut().expect("just closed");
+        (file.entry, file.last) = (true, entry.last);
+        if let (Some(name), Some(item)) = (entry.value, file.ast.items.last_mut()) {
+            name_value(item, name);
+        }
+        index
+    }
+
     fn load(&mut self, place: Place) -> Result<usize, ReadError> {
         let shown = place.shown();
         if let Some(known) = self.by_name.get(&shown) {
@@ -112,21 +164,26 @@ impl Loader<'_> {
         }
         self.by_name.insert(shown.clone(), None);
         let (id, text) = self.read(&place, &shown)?;
-        let parsed = syntax::parse(id, &text);
+        self.by_name.insert(shown, Some(self.loaded.len()));
+        Ok(self.take(&place, id, &text))
+    }
+
+    /// Takes a text in with all that it imports.
+    fn take(&mut self, place: &Place, id: FileId, text: &str) -> usize {
+        let parsed = syntax::parse(id, text);
         self.diagnostics.extend(parsed.diagnostics);
         let index = self.loaded.len();
         self.loaded.push(None);
-        self.by_name.insert(shown.clone(), Some(index));
-        self.open.push(Open { name: shown, via: None });
+        self.open.push(Open { name: place.shown(), via: None });
         let mut imports = Vec::new();
         for item in &parsed.file.items {
             if let ast::ItemKind::Use(u) = &item.kind {
-                self.import(&place, u, &mut imports);
+                self.import(place, u, &mut imports);
             }
         }
         self.open.pop();
-        self.loaded[index] = Some(LoadedFile { ast: parsed.file, imports });
-        Ok(index)
+        self.loaded[index] = Some(LoadedFile { ast: parsed.file, imports, entry: false, last: None });
+        index
     }
 
     fn read(&mut self, place: &Place, shown: &str) -> Result<(FileId, String), ReadError> {
@@ -267,7 +324,7 @@ impl Loader<'_> {
             Err(error) => {
                 let code =
                     if error == ReadError::NotFound { code::UNKNOWN_IMPORT } else { code::CANNOT_READ };
-                let text = format!("can't read `{written}`: {}", describe(&error));
+                let text = why_unreadable(written, &error);
                 self.diagnostics.push(Diagnostic::error(code, text).label(span, "imported here"));
                 None
             }
@@ -297,6 +354,14 @@ fn import_names(names: &[ast::UseName], file: usize, imports: &mut Vec<Import>) 
             span: shown.span,
             target: ImportTarget::Item { file, item: n.name.text, span: n.name.span },
         });
+    }
+}
+
+/// Makes of an expression that ends an entry the declaration of a value.
+fn name_value(item: &mut ast::Item, name: Symbol) {
+    if let ast::ItemKind::Statement(ast::Stmt { kind: ast::StmtKind::Expr(value), .. }) = &item.kind {
+        let name = ast::Name { text: name, span: value.span };
+        item.kind = ast::ItemKind::Let(ast::Let { name, ty: None, value: value.clone() });
     }
 }
 

@@ -22,7 +22,7 @@ impl<'a> Checker<'a> {
         {
             return found;
         }
-        match self.entity(scope.file, name) {
+        match self.named_entity(scope.file, name, span) {
             Some(Entity::Def(id)) => self.def_value(id, span),
             Some(Entity::Error) => error_expr(span),
             Some(Entity::File(_)) => {
@@ -38,6 +38,12 @@ impl<'a> Checker<'a> {
             }
             None => self.unknown_name(scope, span, name, want),
         }
+    }
+
+    /// In a session `_` is the last value, where it is not what may be missing.
+    pub fn last_value(&self, scope: &Scope, want: Option<&Type>) -> Option<Symbol> {
+        let may_miss = matches!(want, Some(Type::Optional(_)));
+        self.loaded.files[scope.file].last.filter(|_| !may_miss)
     }
 
     pub fn unknown_name(&mut self, scope: &Scope, span: Span, name: Symbol, want: Option<&Type>) -> Expr {

@@ -169,11 +169,11 @@ impl<'a> Checker<'a> {
 
     /// What a dotted path means at the top of a file; `None`: no such thing (not reported).
     pub fn path_entity(&self, file: usize, path: &[ast::Name]) -> Option<Entity> {
-        let mut entity = self.entity(file, path[0].text)?;
+        let mut entity = self.named_entity(file, path[0].text, path[0].span)?;
         for name in &path[1..] {
             entity = match entity {
                 Entity::File(target) => {
-                    let inner = self.scopes[target].get(&name.text).copied()?;
+                    let inner = self.top(target).get(&name.text).copied()?;
                     match inner {
                         Entity::Def(id) if self.def(id).file != target => return None,
                         Entity::Def(_) if name.text.as_str().starts_with('_') => return None,

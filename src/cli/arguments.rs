@@ -8,10 +8,14 @@ use std::path::PathBuf;
 /// Describe modules, compose robots and behaviours, and get plans that were verified before they
 /// were written.
 #[derive(Debug, Parser)]
-#[command(name = "modl", version, subcommand_required = true, arg_required_else_help = true, after_help = EXAMPLES)]
+#[command(name = "modl", version, arg_required_else_help = true, after_help = EXAMPLES)]
+#[command(args_conflicts_with_subcommands = true)]
 pub struct Arguments {
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
+    /// Evaluate and print; several are entered one after the other
+    #[arg(short = 'e', value_name = "EXPR")]
+    pub expressions: Vec<String>,
     #[command(flatten)]
     pub globals: Globals,
 }
@@ -24,6 +28,8 @@ Examples:
   modl check --json *.mod          diagnostics for an editor
   modl verify out/drive.plan.json  judge a plan again, from nothing but its file
   modl explain E0301               what a code means and how to mend it
+  modl repl rover/main.mod         ask and try things out
+  modl -e '4 * 90deg'              a question at once
 
 Exit codes: 0 fine, 1 the program is wrong, 2 the call is wrong, 130 interrupted.";
 
@@ -93,6 +99,16 @@ pub enum Command {
         /// Open the page (of several the last) in the browser
         #[arg(long)]
         open: bool,
+    },
+    /// Type declarations, statements and expressions, and see what they are
+    #[command(
+        after_help = "Examples:\n  modl repl\n  modl repl walkbot.mod\n  modl repl < session.txt\n\n`:help` lists the commands \
+        of a session. What is piped in is entered entry by entry; the exit\ncode is 1 if something in it was wrong."
+    )]
+    Repl {
+        /// A program whose declarations are taken in first; none of its statements is run
+        #[arg(value_name = "FILE")]
+        file: Option<PathBuf>,
     },
     /// Lay programs out in the one style
     #[command(

@@ -2,6 +2,7 @@
 
 use super::CallError;
 use super::watch::Watched;
+use crate::source::files::join;
 use crate::source::{Files, ReadError, library};
 use std::borrow::Cow;
 use std::fs::{self, File};
@@ -11,6 +12,9 @@ use std::sync::Arc;
 
 /// No file of a project larger than this is read, bytes.
 pub const FILE_BYTES_MAX: usize = 64 << 20;
+
+/// Files of a folder that are offered to who looks for a name.
+const LISTED_MAX: usize = 10_000;
 
 /// The name of a program that comes from standard input.
 pub const STDIN_NAME: &str = "<stdin>";
@@ -32,6 +36,24 @@ pub struct Project {
 }
 
 impl Project {
+    /// A folder as a project without a program.
+    pub fn of_folder(root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
+        let root = root.unwrap_or(Path::new("."));
+        Ok(Project {
+            root: folder(root)?,
+            stdlib: stdlib.map(folder).transpose()?,
+            name: String::new(),
+            bytes: Vec::new(),
+            folder: shown_folder(root),
+            watched: None,
+        })
+    }
+
+    /// The same project, with its program to be read when it is asked for.
+    pub fn unread(self) -> Project {
+        Project { name: String::new(), bytes: Vec::new(), ..self }
+    }
+
     /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the
     /// folder of the file (after links), or what the user says.
     pub fn open(file: &Path, root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
@@ -88,6 +110,20 @@ impl Files for Project {
         }
         let bytes = read_below(folder, path).ok()?;
         String::from_utf8(bytes).ok().map(Cow::Owned)
+    }
+
+    fn list(&self, path: &str) -> Vec<String> {
+        let Some(folder) = join("", path).map(|path| self.root.join(path)) else { return Vec::new() };
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        let named = entries.flatten().filter_map(|entry| {
+            let name = entry.file_name().into_string().ok()?;
+            let is_folder = entry.file_type().ok()?.is_dir();
+            let shown = if is_folder { format!("{name}/") } else { name };
+            (!shown.starts_with('.') && (is_folder || shown.contains('.'))).then_some(shown)
+        });
+        let mut names: Vec<String> = named.take(LISTED_MAX).collect();
+        names.sort();
+        names
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod arguments;
 mod disk;
+mod editor;
 mod explain;
 mod fmt;
 mod judge;
@@ -13,6 +14,7 @@ mod new;
 mod output;
 mod pages;
 mod program;
+mod repl;
 mod report;
 mod show;
 mod terminal;
@@ -54,7 +56,13 @@ pub fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<Ending, CallError> {
     let globals = &arguments.globals;
-    match &arguments.command {
+    let Some(command) = &arguments.command else {
+        if arguments.expressions.is_empty() {
+            return Err(CallError("what is to be done? `modl --help` lists the commands".to_owned()));
+        }
+        return repl::expressions(&arguments.expressions, globals);
+    };
+    match command {
         Command::Run { file } => program::run(std::slice::from_ref(file), program::Task::Run, globals),
         Command::Check { files } => program::run(files, program::Task::Check, globals),
         Command::Test { files, filter } => program::run(files, program::Task::Test(filter.clone()), globals),
@@ -68,6 +76,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         }
         Command::Verify { files } => judge::run(files, globals),
         Command::Show { file, open } => show::run(file, *open, globals),
+        Command::Repl { file } => repl::run(file.as_deref(), globals),
         Command::Fmt { files, check } => fmt::run(files, *check, globals),
         Command::New { name } => new::run(name, globals),
         Command::Explain { code } => explain::run(code.as_deref(), globals),

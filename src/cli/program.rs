@@ -157,20 +157,25 @@ fn mode(task: &Task) -> Mode {
 }
 
 fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
-    let defaults = Limits::default();
-    let or = |wish: Option<u64>, default: usize| {
-        wish.map_or(default, |n| usize::try_from(n).unwrap_or(usize::MAX))
-    };
-    let limits = Limits {
-        steps: globals.max_steps.unwrap_or(defaults.steps),
-        modules: or(globals.max_modules, defaults.modules),
-        samples: or(globals.max_samples, defaults.samples),
-        ..defaults
-    };
     let filter = if let Task::Test(filter) = task { filter.clone() } else { None };
     let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
     let name = if project.name == STDIN_NAME { "-" } else { &project.name };
     let pages = matches!(task, Task::Show);
     let verb = if pages { "show" } else { "run" };
-    Options { filter, seed: globals.seed, pages, command: format!("modl {verb} {name}{seed}"), limits }
+    let command = format!("modl {verb} {name}{seed}");
+    Options { filter, seed: globals.seed, pages, command, limits: limits(globals) }
+}
+
+/// The limits that the user wants.
+pub fn limits(globals: &Globals) -> Limits {
+    let defaults = Limits::default();
+    let or = |wish: Option<u64>, default: usize| {
+        wish.map_or(default, |n| usize::try_from(n).unwrap_or(usize::MAX))
+    };
+    Limits {
+        steps: globals.max_steps.unwrap_or(defaults.steps),
+        modules: or(globals.max_modules, defaults.modules),
+        samples: or(globals.max_samples, defaults.samples),
+        ..defaults
+    }
 }

@@ -129,7 +129,7 @@ fn width() -> usize {
     }
 }
 
-fn color(wish: Color) -> bool {
+pub fn color(wish: Color) -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     match wish {
         Color::Always => true,

@@ -66,7 +66,7 @@ fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
 }
 
 /// Hands a page to whatever opens pages here.
-fn open_page(page: &str) -> Result<(), CallError> {
+pub fn open_page(page: &str) -> Result<(), CallError> {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])
     } else if cfg!(windows) {

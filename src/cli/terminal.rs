@@ -4,13 +4,18 @@ use super::arguments::Globals;
 use super::output;
 use super::watch::Watched;
 use crate::interpret::{Host, WriteError};
+use crate::interrupt::Interrupt;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
+/// Whether the user wants the command to end.
 static CANCELLED: AtomicBool = AtomicBool::new(false);
+
+/// The wish that the run at hand ends; the user's, or that of a newer text.
+static INTERRUPT: LazyLock<Interrupt> = LazyLock::new(Interrupt::default);
 
 /// A run that is asked to end gets this long to do so by itself.
 const PATIENCE: Duration = Duration::from_millis(400);
@@ -20,11 +25,41 @@ const PATIENCE: Duration = Duration::from_millis(400);
 pub fn listen_for_cancel() {
     let on_signal = || {
         CANCELLED.store(true, Ordering::Relaxed);
+        INTERRUPT.raise();
         std::thread::park_timeout(PATIENCE);
         std::process::exit(130);
     };
     // Where signals can't be had, Ctrl-C ends the process, which is as good.
     drop(ctrlc::set_handler(on_signal));
+}
+
+/// What ends the run at hand.
+pub fn interrupt() -> Interrupt {
+    INTERRUPT.clone()
+}
+
+/// Whether work is going on that Ctrl-C is to end, in a session.
+static BUSY: AtomicBool = AtomicBool::new(false);
+
+/// From here on Ctrl-C ends what a session works on; whatever else wants the process to end has its way
+/// while it waits for somebody to type.
+pub fn listen_for_interrupt() {
+    let on_signal = || {
+        if !BUSY.load(Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+        INTERRUPT.raise();
+    };
+    drop(ctrlc::set_handler(on_signal));
+}
+
+/// Does work that Ctrl-C ends.
+pub fn interruptible<T>(work: impl FnOnce() -> T) -> T {
+    INTERRUPT.lower();
+    BUSY.store(true, Ordering::Relaxed);
+    let result = work();
+    BUSY.store(false, Ordering::Relaxed);
+    result
 }
 
 pub fn cancelled() -> bool {
@@ -93,7 +128,7 @@ impl Host for Terminal {
         }
     }
 
-    fn cancelled(&self) -> bool {
-        cancelled() || self.watched.as_ref().is_some_and(|watched| watched.stale())
+    fn interrupt(&self) -> Interrupt {
+        interrupt()
     }
 }

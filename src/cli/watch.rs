@@ -2,7 +2,7 @@
 
 use super::arguments::Globals;
 use super::program::{self, Task};
-use super::terminal::{cancelled, print_error};
+use super::terminal::{cancelled, interrupt, print_error};
 use super::{CallError, Ending, report};
 use std::collections::BTreeMap;
 use std::fs;
@@ -46,6 +46,7 @@ impl Watched {
         let changed = stamps.iter().any(|(file, before)| stamp(file) != *before);
         if changed {
             self.stale.store(true, Ordering::Relaxed);
+            interrupt().raise();
         }
         changed
     }
@@ -64,6 +65,10 @@ pub fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, 
     let mut first = true;
     loop {
         let watched = Arc::new(Watched::default());
+        // The wish to end the last run was that of this text.
+        if !cancelled() {
+            interrupt().lower();
+        }
         files.iter().for_each(|file| watched.note(file));
         if !first {
             clear(globals);

@@ -34,7 +34,7 @@ impl CauseRecord {
 
 /// All causes of a run, each once: the same call gives the same behaviour. A plan gets a table of its
 /// own, of those that it names.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Causes {
     records: Vec<CauseRecord>,
     /// By what tells causes apart; the arguments stand within the span.

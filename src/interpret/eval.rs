@@ -408,6 +408,7 @@ impl Interpreter<'_> {
             Lazy::Waiting => {}
         }
         instance.lazy.borrow_mut().insert(key, Lazy::Running);
+        self.computed.push((instance.clone(), key));
         let result = compute(self);
         let value = result.as_ref().map_or(Value::Unknown, Value::clone);
         instance.lazy.borrow_mut().insert(key, Lazy::Done(value));

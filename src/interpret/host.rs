@@ -1,5 +1,6 @@
 //! What a running program needs of the outside, and what comes back from a run.
 
+use crate::interrupt::Interrupt;
 use crate::source::Diagnostic;
 
 /// Why an output can't be written.
@@ -22,8 +23,10 @@ pub trait Host {
     /// A line about how far long work has come; shown on terminals only.
     fn progress(&mut self, line: &str);
 
-    /// Whether the user wants the run to end; asked at least every few milliseconds.
-    fn cancelled(&self) -> bool;
+    /// The user's wish that the run ends; looked at every few milliseconds.
+    fn interrupt(&self) -> Interrupt {
+        Interrupt::default()
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -20,8 +20,6 @@ const REPORTS_MAX: usize = 200;
 const CALLS_SHOWN: usize = 4;
 /// Evaluations within evaluations. The stack of [`super::stage`] is made for this many.
 const NESTING_MAX: usize = 40_000;
-/// Steps between two looks at whether the user wants the run to end.
-const STEPS_PER_LOOK: u64 = 4096;
 
 pub struct Interpreter<'a> {
     pub program: &'a Program,
@@ -53,6 +51,8 @@ pub struct Interpreter<'a> {
     pub faulty: Vec<bool>,
     /// Whether something could not be judged because of an error reported before.
     pub unjudged: bool,
+    /// Members that were computed in this run, for a session that has to forget those that failed.
+    pub computed: Vec<(Rc<Instance>, usize)>,
     steps: u64,
     nesting: usize,
 }
@@ -106,6 +106,7 @@ impl<'a> Interpreter<'a> {
             tests: Vec::new(),
             faulty: faulty(checked),
             unjudged: false,
+            computed: Vec::new(),
             steps: 0,
             nesting: 0,
         }
@@ -130,7 +131,7 @@ impl<'a> Interpreter<'a> {
                     .hint("`--max-steps` raises the limit"),
             );
         }
-        if self.steps.is_multiple_of(STEPS_PER_LOOK) && self.stage.cancelled() {
+        if self.stage.cancelled() {
             return Err(Stop::Halt);
         }
         Ok(())

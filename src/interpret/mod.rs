@@ -75,6 +75,12 @@ mod show_value;
 
 mod run;
 
+mod portrait;
+mod portrait_motion;
+mod portrait_robot;
+mod portrait_shape;
+pub mod session;
+
 pub use host::{Host, Limits, Mode, Options, Outcome, TestResult, WriteError};
 pub use natives::{Native, all as all_natives};
 pub use record::fields_of;

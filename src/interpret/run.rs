@@ -7,6 +7,7 @@ use super::stop::{Eval, Stop};
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, MemberKind};
+use crate::interrupt;
 use crate::source::{Files, Severity};
 use std::rc::Rc;
 
@@ -21,8 +22,9 @@ pub fn run(
 ) -> Outcome {
     stage::run(files, host, |stage| {
         let mut interpreter = Interpreter::new(checked, mode, options, stage);
-        // What halts a run has been reported.
-        let _ = interpreter.drive();
+        // What halts a run has been reported, and nothing needs to be said of what the user halts.
+        let interrupt = interpreter.stage.interrupt.clone();
+        let _ = interrupt::catch(&interrupt, || interpreter.drive());
         interpreter.report_unneeded();
         Outcome {
             diagnostics: in_order(std::mem::take(&mut interpreter.reports)),
@@ -80,7 +82,7 @@ impl Interpreter<'_> {
     }
 
     /// Elaborates a declaration with its defaults, and looks at all that its body declares.
-    fn check_def(&mut self, def: DefId) -> Eval<()> {
+    pub fn check_def(&mut self, def: DefId) -> Eval<()> {
         let program = self.program;
         let declared = program.def(def);
         match &declared.kind {

@@ -4,9 +4,9 @@
 //! made. The outside (files and host) stays on the thread of the caller, which serves requests.
 
 use super::host::{Host, WriteError};
+use crate::interrupt::Interrupt;
 use crate::source::{Files, ReadError};
-use std::cell::Cell;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// Room for the evaluator's recursion; pages that are never touched cost nothing.
 const STACK_BYTES: usize = 1 << 30;
@@ -16,14 +16,15 @@ enum Request {
     Progress(String),
     Write(String, Vec<u8>, Sender<Result<String, WriteError>>),
     Read(String, Sender<Result<Vec<u8>, ReadError>>),
-    Cancelled(Sender<bool>),
+    /// The job at hand is done, and its result waits.
+    Done,
 }
 
 /// The evaluator's end of the way to the outside.
+#[derive(Clone)]
 pub struct Stage {
     requests: Sender<Request>,
-    /// Once cancelled, always cancelled.
-    cancelled: Cell<bool>,
+    pub interrupt: Interrupt,
 }
 
 impl Stage {
@@ -45,10 +46,7 @@ impl Stage {
 
     /// Whether the user wants the run to end.
     pub fn cancelled(&self) -> bool {
-        if !self.cancelled.get() {
-            self.cancelled.set(self.ask(Request::Cancelled));
-        }
-        self.cancelled.get()
+        self.interrupt.raised()
     }
 
     fn ask<T>(&self, request: impl FnOnce(Sender<T>) -> Request) -> T {
@@ -65,7 +63,7 @@ impl Stage {
 /// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
 pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnce(Stage) -> T + Send) -> T {
     let (sender, requests) = channel();
-    let stage = Stage { requests: sender, cancelled: Cell::new(false) };
+    let stage = Stage { requests: sender, interrupt: host.interrupt() };
     std::thread::scope(|scope| {
         let evaluator = std::thread::Builder::new()
             .name("evaluator".into())
@@ -77,13 +75,59 @@ pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnc
     })
 }
 
+/// An evaluator that stays, with what it keeps from job to job.
+pub struct Standing<J, R> {
+    jobs: Sender<J>,
+    requests: Receiver<Request>,
+    results: Receiver<R>,
+}
+
+impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
+    /// `begin` is called on the evaluator's thread; what it gives does the jobs, one by one.
+    pub fn new<W: FnMut(J) -> R>(
+        interrupt: Interrupt,
+        begin: impl FnOnce(Stage) -> W + Send + 'static,
+    ) -> Standing<J, R> {
+        let (jobs, to_do) = channel::<J>();
+        let (requests, asked) = channel();
+        let (done, results) = channel();
+        std::thread::Builder::new()
+            .name("evaluator".into())
+            .stack_size(STACK_BYTES)
+            .spawn(move || {
+                let mut work = begin(Stage { requests: requests.clone(), interrupt });
+                for job in to_do {
+                    let result = work(job);
+                    // Whoever does not wait for the result any more has dropped the other end.
+                    if done.send(result).is_err() || requests.send(Request::Done).is_err() {
+                        return;
+                    }
+                }
+            })
+            .expect("the system can start a thread");
+        Standing { jobs, requests: asked, results }
+    }
+
+    /// Has a job done, and serves its requests here until it is.
+    pub fn run(&self, job: J, files: &dyn Files, host: &mut dyn Host) -> R {
+        self.jobs.send(job).expect("the evaluator waits for jobs");
+        for request in &self.requests {
+            match request {
+                Request::Done => break,
+                request => answer(request, files, host),
+            }
+        }
+        self.results.recv().expect("a job that is done has a result")
+    }
+}
+
 /// An answer that nobody waits for any more is dropped.
 fn answer(request: Request, files: &dyn Files, host: &mut dyn Host) {
     match request {
+        Request::Done => {}
         Request::Print(line) => host.print(&line),
         Request::Progress(line) => host.progress(&line),
         Request::Write(path, bytes, reply) => drop(reply.send(host.write(&path, &bytes))),
         Request::Read(path, reply) => drop(reply.send(files.read(&path))),
-        Request::Cancelled(reply) => drop(reply.send(host.cancelled())),
     }
 }

@@ -37,6 +37,7 @@ pub enum Unsolved {
 }
 
 pub fn linear_program(problem: &Problem) -> Result<Solution, Unsolved> {
+    crate::interrupt::checkpoint();
     let n = problem.costs.len();
     let rows: Vec<_> = problem.equal.iter().chain(&problem.at_most).collect();
     let (mut at_row, mut at_column, mut values) = (Vec::new(), Vec::new(), Vec::new());

@@ -103,6 +103,7 @@ impl Kinematics {
     /// World poses of all links (`X_WL`), with the root module's body at `X_WR`. `joints` holds one
     /// position for each joint. Loose links' entries of `out` stay as they are.
     pub fn link_poses(&self, joints: &[f64], X_WR: &Pose, out: &mut [Pose]) {
+        crate::interrupt::checkpoint();
         out[self.first_link[self.root]] = *X_WR;
         for step in &self.steps {
             out[step.link] = step.place(&out[step.parent], joints);

@@ -177,9 +177,9 @@ fn blocks(sources: &Sources, places: &[Place]) -> Vec<(FileId, Range<usize>)> {
     for place in ordered {
         let file = sources.file(place.file);
         // After the last line end there is nothing to show.
-        let count =
-            file.line_count() - usize::from(file.line_count() > place.last && file.text.ends_with('\n'));
-        let lines = place.first.saturating_sub(CONTEXT).max(1)..(place.last + CONTEXT).min(count) + 1;
+        let last = file.last_line() - usize::from(file.last_line() > place.last && file.text.ends_with('\n'));
+        let lines =
+            place.first.saturating_sub(CONTEXT).max(file.first_line)..(place.last + CONTEXT).min(last) + 1;
         match blocks.last_mut() {
             Some((file, before)) if *file == place.file && lines.start <= before.end + 1 => {
                 before.end = before.end.max(lines.end);

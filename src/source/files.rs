@@ -23,6 +23,12 @@ pub trait Files {
 
     /// A file of the standard library, such as `smores.mod` for `std.smores`.
     fn library(&self, path: &str) -> Option<Cow<'static, str>>;
+
+    /// What lies in a folder of the project, for those who look for a name: files, and folders with a
+    /// slash at the end. In order.
+    fn list(&self, _folder: &str) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// `path` as written in the file `from`, relative to the project root; `None` when it leads out of

@@ -30,11 +30,11 @@ impl Default for Style {
 }
 
 impl Style {
-    /// The name of a file as the user would type it.
+    /// The name of a file as the user would type it; `<stdin>` and its like are no files.
     pub fn name(&self, name: &str, library: bool) -> String {
         match self.folder.as_str() {
             "" => name.to_owned(),
-            _ if library => name.to_owned(),
+            _ if library || name.starts_with('<') => name.to_owned(),
             folder => format!("{}/{name}", folder.trim_end_matches('/')),
         }
     }

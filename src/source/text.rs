@@ -19,6 +19,8 @@ pub struct SourceFile {
     pub text: Arc<str>,
     /// Whether the file belongs to the standard library.
     pub library: bool,
+    /// The number of its first line: not 1 for a piece of a longer input.
+    pub first_line: usize,
     line_starts: Vec<u32>,
 }
 
@@ -30,27 +32,27 @@ impl SourceFile {
         }
         let line = self.line_starts.partition_point(|&s| s as usize <= offset) - 1;
         let start = self.line_starts[line] as usize;
-        LineColumn { line: line + 1, column: self.text[start..offset].chars().count() + 1 }
+        LineColumn { line: line + self.first_line, column: self.text[start..offset].chars().count() + 1 }
     }
 
-    /// The text of a line (from 1) without its line end; empty when there is no such line.
+    /// The text of a line without its line end; empty when there is no such line.
     pub fn line(&self, line: usize) -> &str {
-        let Some(&start) = line.checked_sub(1).and_then(|i| self.line_starts.get(i)) else {
+        let Some(&start) = line.checked_sub(self.first_line).and_then(|i| self.line_starts.get(i)) else {
             return "";
         };
-        let end = self.line_starts.get(line).map_or(self.text.len(), |&e| e as usize);
+        let end = self.line_starts.get(line + 1 - self.first_line).map_or(self.text.len(), |&e| e as usize);
         self.text[start as usize..end].trim_end_matches(['\n', '\r'])
     }
 
-    /// The byte at which a line (from 1) begins; the end of the text when there is no such line.
+    /// The byte at which a line begins; the end of the text when there is no such line.
     pub fn line_start(&self, line: usize) -> usize {
-        line.checked_sub(1)
+        line.checked_sub(self.first_line)
             .and_then(|i| self.line_starts.get(i))
             .map_or(self.text.len(), |&start| start as usize)
     }
 
-    pub fn line_count(&self) -> usize {
-        self.line_starts.len()
+    pub fn last_line(&self) -> usize {
+        self.line_starts.len() + self.first_line - 1
     }
 }
 
@@ -62,10 +64,16 @@ pub struct Sources {
 
 impl Sources {
     pub fn add(&mut self, name: &str, text: &str, library: bool) -> FileId {
+        self.add_piece(name, text, library, 1)
+    }
+
+    /// A piece of a longer input, which begins at this line of it.
+    pub fn add_piece(&mut self, name: &str, text: &str, library: bool, first_line: usize) -> FileId {
         let starts = std::iter::once(0)
             .chain(text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i as u32 + 1))
             .collect();
-        self.files.push(SourceFile { name: name.into(), text: text.into(), library, line_starts: starts });
+        let (name, text) = (name.into(), text.into());
+        self.files.push(SourceFile { name, text, library, first_line, line_starts: starts });
         FileId(self.files.len() as u32 - 1)
     }
 

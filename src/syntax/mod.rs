@@ -23,4 +23,5 @@ mod words;
 
 pub use lex::{Token, TokenKind};
 pub use outline::{Chunk, Outline, Role, Skeleton, skeleton};
-pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, parse};
+pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, breaks_off, parse};
+pub use words::{CONFIG, ITEMS, MODULE, RESERVED, STATEMENTS, TRUSS};

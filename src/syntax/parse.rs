@@ -69,6 +69,16 @@ pub(super) fn nodes(rule: Rule, text: &str) -> Option<Node<'_>> {
     Grammar::parse(rule, text).ok()?.next()
 }
 
+/// Whether a text breaks off: its last piece can't be read, but only because it ends where it does.
+pub fn breaks_off(text: &str) -> bool {
+    if text.len() > TEXT_MAX {
+        return false;
+    }
+    let scan = scan(FileId(0), text);
+    let last = scan.chunks.last().map_or("", |&start| scan.text[start..].trim_end());
+    failure(Rule::chunk, last).is_some_and(|failure| failure.at >= last.len())
+}
+
 /// Where parsing came to a halt, and what would have let it go on.
 #[derive(Clone, Debug)]
 pub(super) struct Failure {

@@ -198,6 +198,7 @@ impl Judgement<'_> {
         let mut earlier: Vec<Cube> = Vec::new();
         let mut after = before.clone();
         for (index, stage) in self.stages.stages.iter().enumerate() {
+            crate::interrupt::checkpoint();
             after.clone_from(&before);
             grid.place(&stage.end, &mut after)?;
             if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {

@@ -153,6 +153,7 @@ impl Lanes {
         let tiles = &self.tiles;
         let mut next_row = 0;
         for (i, &(row, column)) in tiles.iter().enumerate() {
+            crate::interrupt::checkpoint();
             let same = (i + 1..tiles.len()).take_while(|&k| tiles[k] <= (row, column + 1));
             same.into_iter().try_for_each(|k| call(i, k))?;
             while next_row < tiles.len() && tiles[next_row] < (row + 1, column - 1) {

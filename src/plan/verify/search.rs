@@ -201,6 +201,7 @@ impl<'a> Search<'a> {
 
     /// Tells apart what can be over `from..to`, and goes on with the rest in two parts.
     fn examine(&mut self, region: &Region, from: f64, to: f64, open: Open) {
+        crate::interrupt::checkpoint();
         if self.samples >= self.samples_max {
             return;
         }
@@ -258,6 +259,7 @@ impl<'a> Search<'a> {
 
     /// Whether two bodies are as far apart as needed over the whole stretch of this length.
     fn tells_apart(&mut self, region: &Region, pair: &mut BodyPair, length: f64) -> bool {
+        crate::interrupt::checkpoint();
         let (a, b) = (pair.a as usize, pair.b as usize);
         let need = self.need_of(region, pair);
         let mut bound =

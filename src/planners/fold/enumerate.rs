@@ -142,6 +142,7 @@ impl<V: FnMut(&[usize])> Walk<'_, V> {
     /// Goes on with the hinges from `next`; `groups` holds for every face those that hang together
     /// with it. As deep as there are hinges.
     fn from(&mut self, next: usize, mut groups: [u64; FACES_MAX]) {
+        crate::interrupt::checkpoint();
         let n = self.target.faces.len();
         if self.kept.len() + 1 == n {
             if self.layouts == self.left {

@@ -277,6 +277,7 @@ struct Bounds<'s> {
 impl<'s> Search<'s, '_> {
     fn run(&mut self, bounds: &mut Bounds<'s>) {
         while let Some(node) = self.waiting.pop() {
+            crate::interrupt::checkpoint();
             self.held -= node.size();
             if node.bound >= self.cutoff(node.root) {
                 continue;

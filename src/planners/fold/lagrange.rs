@@ -162,6 +162,7 @@ impl<'t> Lagrange<'t> {
         let mut stale = 0;
         let mut moved = vec![true; self.faces];
         for round in 0..rounds {
+            crate::interrupt::checkpoint();
             for goal in (0..self.faces).filter(|goal| *goal != root) {
                 if std::mem::replace(&mut moved[goal], false) {
                     self.reach(root, goal, allowed, steps);

@@ -43,6 +43,7 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
 pub fn improved(target: &Target, weights: &Weights, mut layout: Layout, steps: &mut u64) -> Layout {
     let gain = layout.energy(weights) * GAIN_MIN;
     while let Some(better) = exchange(target, weights, &layout, gain, steps) {
+        crate::interrupt::checkpoint();
         layout = better;
     }
     layout

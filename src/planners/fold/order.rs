@@ -158,6 +158,7 @@ impl Branch {
         let mut last = vec![0u8; 1 << bits];
         least[0] = 0.0;
         for set in 0..1usize << bits {
+            crate::interrupt::checkpoint();
             for bit in (0..bits).filter(|bit| set >> bit & 1 == 0) {
                 let next = set | 1 << bit;
                 let work = least[set] + (energies[next] - energies[set]).abs();

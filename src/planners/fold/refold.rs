@@ -88,6 +88,7 @@ pub fn sheets(
     let mut random = Random(settings.seed);
     let mut best: Vec<(usize, f64, Refolding)> = Vec::new();
     while left > 0 {
+        crate::interrupt::checkpoint();
         let mut sheet = Sheet::new(from, to);
         sheet.begin(random.below(n), random.below(n), random.below(3));
         let bias = random.below(3);
@@ -216,6 +217,7 @@ impl<'t> Sheet<'t> {
     fn grow(&mut self, random: &mut Random, bias: usize, left: &mut u64) -> bool {
         let mut retreats = RETREATS;
         while self.grown.len() + 1 < self.placed.len() {
+            crate::interrupt::checkpoint();
             let choices = self.choices(left);
             let key = |choice: &Choice| match bias {
                 0 => choice.after,

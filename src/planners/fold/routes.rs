@@ -87,6 +87,7 @@ impl<'t> Routes<'t> {
 
     /// Costs for `goal` from everywhere; paths cost the same in both directions.
     fn spread(&mut self, goal: usize) {
+        crate::interrupt::checkpoint();
         self.distance.fill(f64::INFINITY);
         self.distance[goal] = 0.0;
         self.queue.clear();

@@ -30,6 +30,7 @@ pub fn sample(
     order.sort_unstable();
     let mut found = Sample { orders, worse: 0, least: f64::INFINITY, mean: 0.0, greatest: f64::NEG_INFINITY };
     for _ in 0..orders {
+        crate::interrupt::checkpoint();
         // Fisher and Yates.
         for last in (1..order.len()).rev() {
             order.swap(last, dice.below(last + 1));

@@ -55,6 +55,7 @@ pub fn simulate(
     let angle = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
     let mut all = Vec::with_capacity(steps.len());
     for step in steps {
+        crate::interrupt::checkpoint();
         let mut sizes = vec![Size::default(); faces];
         for middle in HALVES {
             for (i, point) in rule.points.iter().enumerate() {

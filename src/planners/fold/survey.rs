@@ -101,6 +101,7 @@ fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn 
     starts.sort_by(|a, b| order(&a.1, &b.1));
     for (mut layout, mut best) in starts {
         while let Some((better, value)) = exchanged(target, &layout, best, &mut left, kept, value) {
+            crate::interrupt::checkpoint();
             (layout, best) = (better, value);
         }
         if left == 0 {

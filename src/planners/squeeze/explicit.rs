@@ -23,6 +23,7 @@ impl Listed {
 
     /// A stage in which each cell goes where `change` puts it.
     pub fn stage(&mut self, name: &'static str, mut change: impl FnMut(usize, &mut Spot)) {
+        crate::interrupt::checkpoint();
         let mut spots = self.last().to_vec();
         spots.iter_mut().enumerate().for_each(|(i, spot)| change(i, spot));
         self.stages.push((name, spots));

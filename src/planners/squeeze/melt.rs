@@ -108,6 +108,7 @@ impl Tree {
 
     /// Swaps and passes along one axis; whether anything moved.
     fn round(&mut self, motion: &mut Listed, axis: usize) -> bool {
+        crate::interrupt::checkpoint();
         let swapped = self.swap(motion, axis);
         let passed = self.pass(motion, axis);
         swapped || passed

@@ -201,6 +201,7 @@ impl Affine {
 
 /// The configuration about its centre of mass.
 fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> Spot) -> Result<Vec<Run>, Refusal> {
+    crate::interrupt::checkpoint();
     let affine: Vec<Affine> = domains.iter().map(|domain| Affine::of(domain, place)).collect();
     let sum = |axis| domains.iter().zip(&affine).map(|(d, a)| a.sum(d, axis)).sum::<i128>();
     let total = [sum(0), sum(1), sum(2)];

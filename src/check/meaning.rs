@@ -1,0 +1,44 @@
+//! What the names at the top of a file mean, for those who look at a checked program.
+
+use super::checker::{Checker, Entity};
+use super::typed::DefId;
+use crate::source::Symbol;
+
+/// What a name at the top of a file means.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Meaning {
+    Def(DefId),
+    /// A file with what it declares.
+    File(Vec<(Symbol, DefId)>),
+}
+
+impl Checker<'_> {
+    /// What names at the top of a file mean, by name.
+    pub fn meanings(&self, file: usize) -> Vec<(Symbol, Meaning)> {
+        let own = self.top(file).iter();
+        let inherited = self.loaded.prelude.into_iter().flat_map(|prelude| self.top(prelude).iter());
+        let mut found: Vec<(Symbol, Meaning)> = own
+            .chain(inherited.filter(|(name, _)| !self.top(file).contains_key(name)))
+            .filter_map(|(name, entity)| Some((*name, self.meaning(*entity)?)))
+            .collect();
+        found.sort_by_key(|(name, _)| *name);
+        found
+    }
+
+    fn meaning(&self, entity: Entity) -> Option<Meaning> {
+        match entity {
+            Entity::Def(id) => Some(Meaning::Def(id)),
+            Entity::File(file) => {
+                let own = |(name, entity): (&Symbol, &Entity)| match entity {
+                    Entity::Def(id) if self.def(*id).file == file => Some((*name, *id)),
+                    _ => None,
+                };
+                let mut items: Vec<(Symbol, DefId)> = self.top(file).iter().filter_map(own).collect();
+                items.retain(|(name, _)| !name.as_str().starts_with('_'));
+                items.sort_by_key(|(name, _)| *name);
+                Some(Meaning::File(items))
+            }
+            Entity::Error => None,
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The line editor of a session: entries over several lines, completion, colours, hints, history.
+
+use super::CallError;
+use crate::session::complete::{self, Knowledge};
+use crate::session::entry::{is_given_up, is_incomplete};
+use crate::session::highlight::{Class, classes};
+use rustyline::completion::{Completer, Pair};
+use rustyline::error::ReadlineError;
+use rustyline::highlight::{CmdKind, Highlighter};
+use rustyline::hint::Hinter;
+use rustyline::history::FileHistory;
+use rustyline::validate::{ValidationContext, ValidationResult, Validator};
+use rustyline::{CompletionType, Config, Context, Editor, Helper};
+use std::borrow::Cow;
+use std::path::PathBuf;
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+/// Who presses Tab gets an answer within this time or none.
+const COMPLETION_PATIENCE: Duration = Duration::from_millis(50);
+
+/// Entries that are remembered.
+const HISTORY_MAX: usize = 10_000;
+
+const PROMPT: &str = "modl> ";
+
+/// What a person typed.
+pub enum Typed {
+    Entry(String),
+    /// Ctrl-C: what was typed so far is thrown away.
+    Nothing,
+    /// Ctrl-D, or there is no terminal any more.
+    End,
+}
+
+pub struct Lines {
+    editor: Editor<Assistant, FileHistory>,
+    history: Option<PathBuf>,
+}
+
+impl Lines {
+    pub fn new(color: bool) -> Result<Lines, CallError> {
+        let config = Config::builder()
+            .max_history_size(HISTORY_MAX)
+            .and_then(|config| config.history_ignore_dups(true))
+            .map_err(|e| CallError(format!("the terminal can't be used: {e}")))?
+            .completion_type(CompletionType::List)
+            .completion_show_all_if_ambiguous(true)
+            .auto_add_history(false)
+            .build();
+        let mut editor =
+            Editor::with_config(config).map_err(|e| CallError(format!("the terminal can't be used: {e}")))?;
+        editor.set_helper(Some(Assistant { knowledge: None, color }));
+        let history = history_file();
+        if let Some(file) = &history {
+            // A history that is not there, or can't be read, is an empty one.
+            drop(editor.load_history(file));
+        }
+        Ok(Lines { editor, history })
+    }
+
+    pub fn read(&mut self, knowledge: Knowledge) -> Result<Typed, CallError> {
+        if let Some(assistant) = self.editor.helper_mut() {
+            assistant.knowledge = Some(knowledge);
+        }
+        match self.editor.readline(PROMPT) {
+            Ok(entry) => {
+                self.remember(&entry);
+                Ok(Typed::Entry(entry))
+            }
+            Err(ReadlineError::Interrupted) => Ok(Typed::Nothing),
+            Err(ReadlineError::Eof) => Ok(Typed::End),
+            Err(e) => Err(CallError(format!("the terminal can't be read: {e}"))),
+        }
+    }
+
+    /// Kept at once: a session may end in many ways.
+    fn remember(&mut self, entry: &str) {
+        if entry.trim().is_empty() {
+            return;
+        }
+        drop(self.editor.add_history_entry(entry.trim_end()));
+        if let Some(file) = &self.history {
+            let folder = file.parent().map(std::fs::create_dir_all);
+            if folder.is_some_and(|made| made.is_ok()) {
+                drop(self.editor.append_history(file));
+            }
+        }
+    }
+}
+
+/// Where the history of sessions is kept: `MODL_HISTORY`, or in the user's state folder.
+fn history_file() -> Option<PathBuf> {
+    let folder = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    folder("MODL_HISTORY")
+        .or_else(|| Some(folder("XDG_STATE_HOME")?.join("modl/history")))
+        .or_else(|| Some(folder("HOME")?.join(".local/state/modl/history")))
+        .or_else(|| Some(folder("LOCALAPPDATA")?.join("modl/history")))
+}
+
+/// What helps who types.
+struct Assistant {
+    knowledge: Option<Knowledge>,
+    color: bool,
+}
+
+impl Helper for Assistant {}
+
+impl Completer for Assistant {
+    type Candidate = Pair;
+
+    fn complete(&self, line: &str, at: usize, _: &Context<'_>) -> rustyline::Result<(usize, Vec<Pair>)> {
+        let Some(knowledge) = self.knowledge.clone() else { return Ok((at, Vec::new())) };
+        let (sender, receiver) = channel();
+        let text = line.to_owned();
+        // Whoever stops waiting drops the receiver; the thread ends by itself.
+        std::thread::spawn(move || drop(sender.send(complete::complete(&knowledge, &text, at))));
+        let Ok(found) = receiver.recv_timeout(COMPLETION_PATIENCE) else { return Ok((at, Vec::new())) };
+        let pair = |named: crate::session::complete::Named| Pair {
+            display: if named.about.is_empty() {
+                named.name.clone()
+            } else {
+                format!("{}  {}", named.name.trim_end(), named.about)
+            },
+            replacement: named.name,
+        };
+        Ok((found.start, found.candidates.into_iter().map(pair).collect()))
+    }
+}
+
+impl Hinter for Assistant {
+    type Hint = String;
+
+    fn hint(&self, line: &str, at: usize, _: &Context<'_>) -> Option<String> {
+        let knowledge = self.knowledge.as_ref().filter(|_| at == line.len())?;
+        complete::hint(knowledge, line)
+    }
+}
+
+impl Highlighter for Assistant {
+    fn highlight<'l>(&self, line: &'l str, _: usize) -> Cow<'l, str> {
+        if !self.color {
+            return Cow::Borrowed(line);
+        }
+        let mut out = String::new();
+        let mut at = 0;
+        for (range, class) in classes(line) {
+            out.push_str(&line[at..range.start]);
+            out.push_str(&format!("\x1b[{}m{}\x1b[0m", colour(class), &line[range.clone()]));
+            at = range.end;
+        }
+        out.push_str(&line[at..]);
+        Cow::Owned(out)
+    }
+
+    fn highlight_hint<'h>(&self, hint: &'h str) -> Cow<'h, str> {
+        if self.color { Cow::Owned(format!("\x1b[2m{hint}\x1b[0m")) } else { Cow::Borrowed(hint) }
+    }
+
+    fn highlight_prompt<'b, 's: 'b, 'p: 'b>(&'s self, prompt: &'p str, _: bool) -> Cow<'b, str> {
+        if self.color { Cow::Owned(format!("\x1b[1m{prompt}\x1b[0m")) } else { Cow::Borrowed(prompt) }
+    }
+
+    fn highlight_char(&self, _: &str, _: usize, kind: CmdKind) -> bool {
+        self.color && kind != CmdKind::MoveCursor
+    }
+}
+
+fn colour(class: Class) -> &'static str {
+    match class {
+        Class::Keyword => "35",
+        Class::Type => "36",
+        Class::Number => "33",
+        Class::Text => "32",
+        Class::Comment => "2",
+        Class::Command => "34",
+    }
+}
+
+impl Validator for Assistant {
+    fn validate(&self, context: &mut ValidationContext) -> rustyline::Result<ValidationResult> {
+        let text = context.input();
+        let command = text.trim_start().starts_with([':', '?']);
+        let incomplete = !command && is_incomplete(text) && !is_given_up(text);
+        Ok(if incomplete { ValidationResult::Incomplete } else { ValidationResult::Valid(None) })
+    }
+}

@@ -1,0 +1,300 @@
+//! `modl repl` and `modl -e`: a session with a person, a pipe, or the command line.
+
+use super::arguments::Globals;
+use super::disk::{FILE_BYTES_MAX, Project, read_at_most};
+use super::editor::{Lines, Typed};
+use super::terminal::{Terminal, interruptible, listen_for_cancel, listen_for_interrupt, print, print_error};
+use super::{CallError, Ending, output, program, report, show};
+use crate::check::Checked;
+use crate::interpret::session::Tell;
+use crate::interpret::{Options, WriteError};
+use crate::session::command::{self, Command};
+use crate::session::entry::{goes_on, is_incomplete};
+use crate::session::{ChangeKind, Input, Reloaded, Reply, Session};
+use crate::source::Diagnostic;
+use crate::source::render::{Style, render_one, sorted};
+use std::io::{self, IsTerminal};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The page that `:view` writes.
+const VIEW_PAGE: &str = "view.html";
+
+/// Whether a session goes on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Next {
+    GoOn,
+    Quit,
+}
+
+/// A session with its terminal.
+struct Talk<'g> {
+    session: Session,
+    terminal: Terminal,
+    style: Style,
+    globals: &'g Globals,
+    /// Whether anything was wrong so far.
+    wrong: bool,
+    interrupted: bool,
+}
+
+/// `modl repl`
+pub fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> {
+    let stdlib = globals.stdlib.as_deref();
+    let (project, load) = match file {
+        Some(file) => {
+            let project = Project::open(file, globals.root.as_deref(), stdlib)?;
+            let name = project.name.clone();
+            // It may change while the session lasts.
+            (project.unread(), Some(name))
+        }
+        None => (Project::of_folder(globals.root.as_deref(), stdlib)?, None),
+    };
+    let mut talk = Talk::new(project, globals);
+    if io::stdin().is_terminal() {
+        listen_for_interrupt();
+        print(&format!("modl {}; `:help` tells what there is\n", env!("CARGO_PKG_VERSION")));
+        if let Some(name) = &load {
+            talk.load(name);
+        }
+        talk.converse()
+    } else {
+        listen_for_cancel();
+        if let Some(name) = &load {
+            talk.load(name);
+        }
+        let bytes = read_at_most(io::stdin().lock(), FILE_BYTES_MAX)
+            .map_err(|e| CallError(format!("standard input {e}")))?;
+        let text =
+            String::from_utf8(bytes).map_err(|_| CallError("standard input is not UTF-8 text".into()))?;
+        talk.read_through(&text);
+        Ok(talk.ending())
+    }
+}
+
+/// `modl -e`
+pub fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallError> {
+    let project = Project::of_folder(globals.root.as_deref(), globals.stdlib.as_deref())?;
+    listen_for_cancel();
+    let mut talk = Talk::new(project, globals);
+    for text in texts {
+        let input = Input { text, name: Some("<-e>"), first_line: 1, tell: Tell::Values, keep: true };
+        talk.enter(&input);
+        if talk.wrong {
+            break;
+        }
+    }
+    Ok(talk.ending())
+}
+
+impl<'g> Talk<'g> {
+    fn new(project: Project, globals: &'g Globals) -> Talk<'g> {
+        let terminal = Terminal::new(globals);
+        let style = report::style(globals, &project.folder);
+        let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
+        let options = Options {
+            seed: globals.seed,
+            command: format!("modl repl{seed}"),
+            limits: program::limits(globals),
+            ..Options::default()
+        };
+        let session = Session::new(Arc::new(project), options, &terminal);
+        Talk { session, terminal, style, globals, wrong: false, interrupted: false }
+    }
+
+    fn ending(&self) -> Ending {
+        match (self.interrupted, self.wrong) {
+            (true, _) => Ending::Cancelled,
+            (_, true) => Ending::Wrong,
+            _ => Ending::Fine,
+        }
+    }
+
+    /// Until the person leaves.
+    fn converse(&mut self) -> Result<Ending, CallError> {
+        let mut lines = Lines::new(self.style.color)?;
+        loop {
+            match lines.read(self.session.knowledge())? {
+                Typed::End => return Ok(Ending::Fine),
+                Typed::Nothing => {}
+                Typed::Entry(text) => {
+                    self.style.width = report::style(self.globals, "").width;
+                    if self.act(&text, None, 1) == Next::Quit {
+                        return Ok(Ending::Fine);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Entry by entry through a text that is there as a whole.
+    fn read_through(&mut self, text: &str) {
+        let mut lines = text.lines().enumerate().peekable();
+        while let Some((number, line)) = lines.next() {
+            let mut entry = line.to_owned();
+            let command = entry.trim_start().starts_with([':', '?']);
+            while let Some((_, next)) = lines.peek().filter(|_| !command) {
+                let blank = next.trim().is_empty();
+                if !is_incomplete(&entry) && (blank || !goes_on(next)) {
+                    break;
+                }
+                entry.push('\n');
+                entry.push_str(next);
+                lines.next();
+            }
+            if self.act(&entry, Some("<stdin>"), number + 1) == Next::Quit || self.interrupted {
+                return;
+            }
+        }
+    }
+
+    fn act(&mut self, text: &str, name: Option<&str>, first_line: usize) -> Next {
+        match command::parse(text) {
+            Some(Ok(command)) => return self.obey(command),
+            Some(Err(why)) => self.complain(&why),
+            None if text.trim().is_empty() => {}
+            None => {
+                let text = text.trim_end();
+                self.enter(&Input { text, name, first_line, tell: Tell::All, keep: true });
+            }
+        }
+        Next::GoOn
+    }
+
+    fn complain(&mut self, why: &str) {
+        self.wrong = true;
+        print_error(&format!("{why}\n"));
+    }
+
+    fn enter(&mut self, input: &Input) -> bool {
+        let reply = interruptible(|| self.session.enter(input, &mut self.terminal));
+        self.tell(&reply)
+    }
+
+    /// Evaluates what a command makes of its expression, and keeps nothing of it.
+    fn ask(&mut self, text: &str, tell: Tell) -> bool {
+        self.enter(&Input { text, name: Some("<command>"), first_line: 1, tell, keep: false })
+    }
+
+    fn load(&mut self, path: &str) {
+        let reply = interruptible(|| self.session.load(path, &mut self.terminal));
+        self.tell(&reply);
+    }
+
+    /// Says what came of something; gives whether all went well.
+    fn tell(&mut self, reply: &Reply) -> bool {
+        self.terminal.clear_progress();
+        self.show(&reply.checked, &reply.diagnostics);
+        reply.notes.iter().for_each(|note| print(&format!("{note}\n")));
+        if !reply.broken.is_empty() {
+            print("what was declared before does not fit any more:\n");
+            self.show(&reply.checked, &reply.broken);
+        }
+        reply.written.iter().for_each(|path| print_error(&format!("wrote {path}\n")));
+        if reply.interrupted {
+            print_error("interrupted\n");
+            self.interrupted |= !io::stdin().is_terminal();
+        }
+        self.wrong |= !reply.ok;
+        reply.ok
+    }
+
+    fn show(&self, checked: &Checked, diagnostics: &[Diagnostic]) {
+        for diagnostic in sorted(diagnostics).into_iter().take(self.style.shown_max) {
+            print_error(&format!("{}\n", render_one(&checked.sources, diagnostic, &self.style)));
+        }
+    }
+
+    fn obey(&mut self, command: Command) -> Next {
+        match command {
+            Command::Quit => return Next::Quit,
+            Command::Help => print(&command::help()),
+            Command::Type(text) => match self.session.type_of(&text) {
+                Ok(ty) => print(&format!("{ty}\n")),
+                Err((checked, wrong)) => {
+                    self.show(&checked, &wrong);
+                    self.wrong = true;
+                }
+            },
+            Command::Doc(name) => self.answer(self.session.doc(&name)),
+            Command::Source(name) => self.answer(self.session.source(&name)),
+            Command::Ports(text) => {
+                self.ask(&format!("for p in ports({text}) {{ print(p) }}"), Tell::Nothing);
+            }
+            Command::Verify(text) => {
+                self.ask(&format!("print(verify({text}))"), Tell::Nothing);
+            }
+            Command::View(text) => self.view(&text),
+            Command::Time(text) => {
+                let begin = Instant::now();
+                self.enter(&Input { text: &text, name: None, first_line: 1, tell: Tell::All, keep: true });
+                print(&format!("{:.1} ms\n", begin.elapsed().as_secs_f64() * 1e3));
+            }
+            Command::Vars => {
+                let vars = self.session.vars();
+                let wide = vars.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+                vars.iter().for_each(|(name, about)| print(&format!("{name:<wide$}  {about}\n")));
+            }
+            Command::Load(path) => self.load(&path),
+            Command::Reload => self.reload(),
+            Command::Save(path) => self.save(&path),
+            Command::Undo => match self.session.undo(&mut self.terminal) {
+                Some(text) => print(&format!("took back: {}\n", text.lines().next().unwrap_or(""))),
+                None => self.complain("there is nothing to take back"),
+            },
+            Command::Reset => self.session.reset(&mut self.terminal),
+        }
+        Next::GoOn
+    }
+
+    fn answer(&mut self, found: Result<String, String>) {
+        match found {
+            Ok(text) => print(&text),
+            Err(why) => self.complain(&why),
+        }
+    }
+
+    fn view(&mut self, text: &str) {
+        if self.ask(&format!("show({text}, \"{VIEW_PAGE}\")"), Tell::Nothing) {
+            let page = self.globals.out.join(VIEW_PAGE);
+            if let Err(CallError(why)) = show::open_page(&page.to_string_lossy()) {
+                print_error(&format!("{why}\n"));
+            }
+        }
+    }
+
+    fn reload(&mut self) {
+        let Reloaded { reply, changes } = interruptible(|| self.session.reload(&mut self.terminal));
+        if !self.tell(&reply) {
+            return;
+        }
+        if changes.is_empty() {
+            print("nothing changed\n");
+        }
+        for change in &changes {
+            let what = match change.kind {
+                ChangeKind::Added => "new",
+                ChangeKind::Changed => "changed",
+                ChangeKind::Removed => "gone",
+            };
+            let users = if change.users.is_empty() {
+                String::new()
+            } else {
+                format!("; needed by {}", change.users.join(", "))
+            };
+            print(&format!("{}: {} is {what}{users}\n", change.file, change.name));
+        }
+    }
+
+    fn save(&mut self, path: &str) {
+        let text = self.session.program();
+        // What was entered reads its files from here, and so will the program.
+        let written = output::write(Path::new("."), path, text.as_bytes());
+        match written {
+            Ok(_) => print(&format!("wrote {path}\n")),
+            Err(WriteError::Outside) => self.complain(&format!("`{path}` leads out of this folder")),
+            Err(WriteError::Failed(why)) => self.complain(&format!("`{path}` can't be written: {why}")),
+        }
+    }
+}

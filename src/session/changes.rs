@@ -1,0 +1,65 @@
+//! What changed in the files of a session when they were read again.
+
+use super::dependencies::{Dependencies, meant};
+use super::state::is_given;
+use crate::check::Checked;
+use crate::check::typed::DefId;
+use std::collections::BTreeMap;
+
+/// A declaration of a file that is another now.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Change {
+    pub file: String,
+    pub name: String,
+    pub kind: ChangeKind,
+    /// Names of the session that depend on it.
+    pub users: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChangeKind {
+    Added,
+    Changed,
+    Removed,
+}
+
+/// Differences between the declarations of files, by file and name.
+pub fn changes(before: &Checked, after: &Checked) -> Vec<Change> {
+    let (old, new) = (declarations(before), declarations(after));
+    let dependencies = Dependencies::of(after);
+    let meant = meant(after);
+    let users = |id: DefId| {
+        let users = dependencies.users_of(&[id]);
+        let named = meant.iter().filter(|(name, user)| users.contains(user) && is_given(**name));
+        named.map(|(name, _)| name.to_string()).collect()
+    };
+    let mut found = Vec::new();
+    for ((file, name), (id, text)) in &new {
+        let kind = match old.get(&(file.clone(), name.clone())) {
+            Some((_, before)) if before == text => continue,
+            Some(_) => ChangeKind::Changed,
+            None => ChangeKind::Added,
+        };
+        found.push(Change { file: file.clone(), name: name.clone(), kind, users: users(*id) });
+    }
+    for key in old.keys().filter(|key| !new.contains_key(*key)) {
+        let (file, name) = key.clone();
+        found.push(Change { file, name, kind: ChangeKind::Removed, users: Vec::new() });
+    }
+    found
+}
+
+type Declarations = BTreeMap<(String, String), (DefId, String)>;
+
+/// Texts of the declarations of the project's files, entries left out.
+fn declarations(checked: &Checked) -> Declarations {
+    let entries = checked.entries.iter();
+    let entries: Vec<_> = entries.copied().collect();
+    let own = checked.program.own.iter().map(|id| (*id, checked.program.def(*id)));
+    own.filter(|(_, def)| !entries.contains(&def.file))
+        .map(|(id, def)| {
+            let file = checked.sources.file(def.file).name.to_string();
+            ((file, def.name.to_string()), (id, checked.sources.text(def.whole).to_owned()))
+        })
+        .collect()
+}

@@ -1,0 +1,111 @@
+//! The commands of a session, as they are typed.
+
+use crate::source::suggest::suggest;
+
+/// What a person wants besides evaluating.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Command {
+    Help,
+    Type(String),
+    Doc(String),
+    Source(String),
+    Ports(String),
+    Verify(String),
+    Load(String),
+    Reload,
+    Save(String),
+    Vars,
+    Undo,
+    Reset,
+    Time(String),
+    View(String),
+    Quit,
+}
+
+/// Name, what follows it, and what it does; in the order of `:help`.
+pub const COMMANDS: &[(&str, &str, &str)] = &[
+    ("help", "", "this list"),
+    ("type", "EXPR", "the type of an expression, which is not evaluated"),
+    ("doc", "NAME", "what a name means: signature and documentation; also `?NAME`"),
+    ("source", "NAME", "how a name is declared"),
+    ("ports", "EXPR", "the free ports of a robot"),
+    ("verify", "EXPR", "the judge's report on a behaviour, a plan or a robot"),
+    ("view", "EXPR", "draw it on a page, and open that"),
+    ("time", "EXPR", "evaluate, and say how long it took"),
+    ("vars", "", "what has been declared"),
+    ("load", "FILE", "take in what a file of the project declares"),
+    ("reload", "", "read all files again, and say what changed"),
+    ("save", "FILE", "write what was entered as a program, formatted"),
+    ("undo", "", "take back the last entry"),
+    ("reset", "", "forget everything"),
+    ("quit", "", "leave; Ctrl-D does, too"),
+];
+
+/// The command that a line is; `None` where it is none; else what is wrong with it.
+pub fn parse(line: &str) -> Option<Result<Command, String>> {
+    let line = line.trim();
+    if let Some(name) = line.strip_prefix('?') {
+        let name = name.trim().to_owned();
+        return Some(Ok(if name.is_empty() { Command::Help } else { Command::Doc(name) }));
+    }
+    let rest = line.strip_prefix(':')?;
+    let (word, rest) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    Some(command(word, rest.trim()))
+}
+
+fn command(word: &str, rest: &str) -> Result<Command, String> {
+    // A beginning will do where it says which command is meant.
+    let of_word = |name: &str| !word.is_empty() && name.starts_with(word);
+    let mut meant = COMMANDS.iter().filter(|(name, ..)| *name == word);
+    let found = meant.next().or_else(|| {
+        let mut beginning = COMMANDS.iter().filter(|(name, ..)| of_word(name));
+        beginning.next().filter(|_| beginning.next().is_none())
+    });
+    let Some((name, wants, _)) = found else {
+        let near = suggest(word, COMMANDS.iter().map(|(name, ..)| *name));
+        let near = near.map_or_else(|| "`:help` lists them".to_owned(), |near| format!("`:{near}`?"));
+        return Err(format!("there is no command `:{word}`; {near}"));
+    };
+    if wants.is_empty() != rest.is_empty() {
+        let wants = if wants.is_empty() { String::new() } else { format!(" {wants}") };
+        return Err(format!("`:{name}` is written `:{name}{wants}`"));
+    }
+    let rest = rest.to_owned();
+    Ok(match *name {
+        "help" => Command::Help,
+        "type" => Command::Type(rest),
+        "doc" => Command::Doc(rest),
+        "source" => Command::Source(rest),
+        "ports" => Command::Ports(rest),
+        "verify" => Command::Verify(rest),
+        "view" => Command::View(rest),
+        "time" => Command::Time(rest),
+        "vars" => Command::Vars,
+        "load" => Command::Load(unquoted(&rest)),
+        "reload" => Command::Reload,
+        "save" => Command::Save(unquoted(&rest)),
+        "undo" => Command::Undo,
+        "reset" => Command::Reset,
+        _ => Command::Quit,
+    })
+}
+
+/// A path may stand in quotes, as in a program.
+fn unquoted(path: &str) -> String {
+    path.strip_prefix('"').and_then(|p| p.strip_suffix('"')).unwrap_or(path).to_owned()
+}
+
+/// The text of `:help`.
+pub fn help() -> String {
+    let mut out =
+        String::from("Type an expression, a declaration or a statement of the language; or one of\n\n");
+    for (name, wants, does) in COMMANDS {
+        let typed = format!(":{name} {wants}");
+        out.push_str(&format!("  {:<14} {does}\n", typed.trim_end()));
+    }
+    out.push_str(
+        "\n`_` is the last value. Tab completes, Ctrl-R searches what was typed before, Ctrl-C ends what\n\
+         takes too long. An entry goes on over several lines as long as something is open.\n",
+    );
+    out
+}

@@ -1,0 +1,428 @@
+//! Completion: what may stand at a place of a text that is being typed.
+//!
+//! Works on a copy of what the session knows, so that somebody who waits only so long can have it
+//! worked out elsewhere.
+
+use super::command::COMMANDS;
+use super::dependencies::meant;
+use super::kept::Kept;
+pub use super::members::Named;
+use super::members::{about, members, param_text, params_of, params_of_member};
+use super::state::{Session, is_given, value_type};
+use crate::check::typed::Param;
+use crate::check::{self, Checked, Entry, Meaning, Type};
+use crate::source::{FileId, Files, Symbol, library};
+use crate::syntax::{self, CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, TRUSS, TokenKind, ast};
+use crate::units::table::UNITS;
+use std::sync::Arc;
+
+/// What completion needs to know of a session.
+#[derive(Clone)]
+pub struct Knowledge {
+    files: Arc<Kept>,
+    entries: Vec<Entry>,
+    checked: Arc<Checked>,
+    last: Option<Symbol>,
+}
+
+/// What may stand at a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completion {
+    /// Where what it takes the place of begins, in bytes.
+    pub start: usize,
+    pub candidates: Vec<Named>,
+}
+
+impl Session {
+    pub fn knowledge(&self) -> Knowledge {
+        Knowledge {
+            files: self.files.clone(),
+            entries: self.entries.clone(),
+            checked: self.checked.clone(),
+            last: self.last,
+        }
+    }
+}
+
+/// Characters of a hint: it stands on the line that is being typed.
+const HINT_MAX: usize = 60;
+
+/// What may stand at `at`, a place in bytes.
+pub fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completion {
+    let before = &text[..at];
+    let mut completion = candidates(knowledge, before);
+    let typed = before[completion.start..].to_owned();
+    completion.candidates.retain(|c| c.name.starts_with(&typed));
+    completion.candidates.sort_by(|a, b| a.name.cmp(&b.name));
+    completion.candidates.dedup_by(|a, b| a.name == b.name);
+    completion
+}
+
+/// The parameters that are still to come in the call in which a text ends, as a person reads them.
+pub fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
+    let open = open_call(text)?;
+    let callee = receiver(&text[..open])?;
+    let inside = &text[open + 1..];
+    // Behind a dot the types would have to be worked out, which is not for every key.
+    if callee.contains('.') || !(inside.trim().is_empty() || inside.trim_end().ends_with(',')) {
+        return None;
+    }
+    let id = *meant(&knowledge.checked).get(&Symbol::new(callee))?;
+    let params = params_of(&knowledge.checked.program, id);
+    let given = arguments(inside).len().saturating_sub(1);
+    let rest: Vec<String> =
+        params.iter().skip(given).map(|p| param_text(&knowledge.checked.program, p)).collect();
+    let whole = format!("{})", rest.join(", "));
+    let short = match whole.char_indices().nth(HINT_MAX) {
+        Some((end, _)) => format!("{}...", &whole[..whole[..end].rfind(", ").map_or(end, |at| at + 2)]),
+        None => whole,
+    };
+    (!rest.is_empty()).then_some(short)
+}
+
+fn candidates(knowledge: &Knowledge, before: &str) -> Completion {
+    let word = word_start(before);
+    let done = |start, candidates| Completion { start, candidates };
+    if let Some(completion) = command(knowledge, before) {
+        return completion;
+    }
+    if let Some(start) = open_text(before) {
+        return done(start, paths(knowledge, &before[start..]));
+    }
+    if let Some(rest) = before[line_start(before)..].trim_start().strip_prefix("use ") {
+        return done(word, imports(knowledge, rest));
+    }
+    if let Some(start) = unit_start(before) {
+        return done(start, UNITS.iter().map(|unit| Named::new(unit.name, "unit")).collect());
+    }
+    if before[..word].ends_with('.') && !before[..word].ends_with("..") {
+        return done(word, behind_dot(knowledge, &before[..word - 1]));
+    }
+    if let Some(words) = words_of_argument(knowledge, &before[..word]) {
+        return done(word, words);
+    }
+    let mut found = named_arguments(knowledge, &before[..word]);
+    found.extend(names(knowledge, before, word));
+    done(word, found)
+}
+
+/// The beginning of the word that ends a text.
+fn word_start(text: &str) -> usize {
+    text.rfind(|c: char| !c.is_alphanumeric() && c != '_').map_or(0, |at| at + last_char(text, at))
+}
+
+fn last_char(text: &str, at: usize) -> usize {
+    text[at..].chars().next().map_or(0, char::len_utf8)
+}
+
+fn line_start(text: &str) -> usize {
+    text.rfind('\n').map_or(0, |at| at + 1)
+}
+
+fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
+    let line = before.trim_start();
+    let indent = before.len() - line.len();
+    if let Some(name) = line.strip_prefix('?') {
+        return Some(Completion { start: before.len() - name.len(), candidates: global_names(knowledge) });
+    }
+    let rest = line.strip_prefix(':')?;
+    match rest.split_once(' ') {
+        None => {
+            let commands = COMMANDS.iter().map(|(name, _, does)| Named::new(*name, *does));
+            Some(Completion { start: indent + 1, candidates: commands.collect() })
+        }
+        Some(("load" | "save", path)) => {
+            Some(Completion { start: before.len() - path.len(), candidates: paths(knowledge, path) })
+        }
+        // What follows is an expression.
+        Some((_, rest)) => {
+            let start = before.len() - rest.len();
+            let inner = candidates(knowledge, rest);
+            Some(Completion { start: start + inner.start, candidates: inner.candidates })
+        }
+    }
+}
+
+/// Where the content of a text begins that is still open.
+fn open_text(before: &str) -> Option<usize> {
+    let outline = Outline::of(before)?;
+    let last = outline.tokens.last()?;
+    (last.kind == TokenKind::UnclosedText).then_some(last.start + 1)
+}
+
+fn paths(knowledge: &Knowledge, typed: &str) -> Vec<Named> {
+    let folder = typed.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let inside = |name: String| if folder.is_empty() { name } else { format!("{folder}/{name}") };
+    let found = knowledge.files.list(folder).into_iter();
+    found.map(|name| Named::new(inside(name), "file")).collect()
+}
+
+/// What follows `use`: libraries, their items, and those of files.
+fn imports(knowledge: &Knowledge, rest: &str) -> Vec<Named> {
+    let source = rest.split_once(['{', ',']).map_or(rest, |(source, _)| source).trim_end_matches('.');
+    if let Some(path) = source.trim().strip_prefix('"') {
+        let bytes = knowledge.files.read(path.trim_end_matches('"')).unwrap_or_default();
+        return declared(&String::from_utf8_lossy(&bytes));
+    }
+    let path = rest.split('{').next().unwrap_or(rest);
+    let words: Vec<&str> = path.split('.').map(str::trim).collect();
+    match words[..] {
+        ["std", file, _] => {
+            let text = knowledge.files.library(&format!("{file}.mod"));
+            text.map_or_else(Vec::new, |text| declared(&text))
+        }
+        ["std", _] => {
+            let files = library::FILES.iter().filter_map(|(name, _)| name.strip_suffix(".mod"));
+            files.filter(|name| *name != "prelude").map(|name| Named::new(name, "library")).collect()
+        }
+        _ => vec![Named::new("std", "the standard library")],
+    }
+}
+
+/// Names that the text of a file declares for others.
+fn declared(text: &str) -> Vec<Named> {
+    use ast::ItemKind as K;
+    let file = syntax::parse(FileId(0), text).file;
+    let named = file.items.iter().filter_map(|item| {
+        let (name, what) = match &item.kind {
+            K::Let(x) => (x.name, "value"),
+            K::Fn(x) => (x.name, "function"),
+            K::Connector(x) => (x.name, "connector"),
+            K::Module(x) => (x.name, "module"),
+            K::Cell(x) => (x.name, "cell"),
+            K::Strut(x) => (x.name, "strut"),
+            K::Config(x) => (x.name, "config"),
+            K::Lattice(x) => (x.name, "lattice"),
+            K::Truss(x) => (x.name, "truss"),
+            _ => return None,
+        };
+        (!name.text.as_str().starts_with('_')).then(|| Named::new(name.text.as_str(), what))
+    });
+    named.collect()
+}
+
+/// Where the unit begins that sticks to a number at the end of a text: `90d`, `6rad/`.
+fn unit_start(before: &str) -> Option<usize> {
+    let glued = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '/' | '*' | '^' | '_');
+    let start = before.rfind(|c| !glued(c)).map_or(0, |at| at + last_char(before, at));
+    let number = &before[start..];
+    if !number.starts_with(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let suffix = number.find(|c: char| c.is_ascii_alphabetic())?;
+    if number[..suffix].contains(['/', '*', '^']) || number[..suffix].contains("..") {
+        return None;
+    }
+    let last = number.rfind(['/', '*']).map_or(suffix, |at| at + 1).max(suffix);
+    Some(start + last)
+}
+
+/// The expression that ends a text, as far as it is one of names, calls and indices.
+fn receiver(text: &str) -> Option<&str> {
+    let bytes = text.as_bytes();
+    let mut at = text.len();
+    let mut closed = Vec::new();
+    while at > 0 {
+        let c = bytes[at - 1];
+        match c {
+            b')' | b']' => closed.push(c),
+            b'(' if closed.last() == Some(&b')') => drop(closed.pop()),
+            b'[' if closed.last() == Some(&b']') => drop(closed.pop()),
+            b'(' | b'[' | b'{' | b'}' if closed.is_empty() => break,
+            _ if !closed.is_empty() => {}
+            b'.' | b'_' => {}
+            c if c.is_ascii_alphanumeric() => {}
+            _ => break,
+        }
+        at -= 1;
+    }
+    let found = text[at..].trim();
+    (!found.is_empty() && closed.is_empty()).then_some(found)
+}
+
+fn behind_dot(knowledge: &Knowledge, before: &str) -> Vec<Named> {
+    let Some(receiver) = receiver(before) else { return Vec::new() };
+    if let Some((_, Meaning::File(items))) =
+        knowledge.checked.names.iter().find(|(name, _)| name.as_str() == receiver)
+    {
+        let program = &knowledge.checked.program;
+        return items.iter().map(|(name, id)| Named::new(name.as_str(), about(program, *id))).collect();
+    }
+    let (checked, ty) = type_of(knowledge, &in_place_of_part(receiver, before));
+    ty.map_or_else(Vec::new, |ty| members(&checked, &ty))
+}
+
+fn type_of(knowledge: &Knowledge, text: &str) -> (Checked, Option<Type>) {
+    let mut entries = knowledge.entries.clone();
+    entries.push(Entry {
+        name: "<completion>".into(),
+        text: text.into(),
+        first_line: 1,
+        value: None,
+        last: knowledge.last,
+    });
+    let checked = check::check_session(&*knowledge.files, &entries);
+    let ty = checked.entries.last().and_then(|file| value_type(&checked, *file));
+    (checked, ty)
+}
+
+/// A part that the text declares further up, by an instance of its type: `leg[0].m` where `leg` is a
+/// part of a body that is being typed.
+fn in_place_of_part(receiver: &str, before: &str) -> String {
+    let end = receiver.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(receiver.len());
+    let (head, rest) = receiver.split_at(end);
+    let Some(ty) = declared_part(head, before) else { return receiver.to_owned() };
+    let rest = match rest.strip_prefix('[').and_then(|r| r.split_once(']')) {
+        Some((_, after)) => after,
+        None => rest,
+    };
+    format!("{ty}(){rest}")
+}
+
+/// The type in `part NAME: Type` or `part NAME[4]: Type`.
+fn declared_part(name: &str, before: &str) -> Option<String> {
+    let mut found = None;
+    for clause in before.split("part ").skip(1) {
+        let Some(rest) = clause.trim_start().strip_prefix(name) else { continue };
+        let rest = rest.trim_start();
+        let rest = if rest.starts_with('[') { rest.split_once(']')?.1.trim_start() } else { rest };
+        if let Some(ty) = rest.strip_prefix(':') {
+            let ty = ty.trim_start();
+            let end = ty.find(|c: char| !c.is_alphanumeric() && c != '_' && c != '.').unwrap_or(ty.len());
+            found = Some(ty[..end].to_owned());
+        }
+    }
+    found
+}
+
+/// Where the innermost bracket of a call stands that is open at the end of a text.
+fn open_call(text: &str) -> Option<usize> {
+    let outline = Outline::of(text)?;
+    let mut open = Vec::new();
+    for token in &outline.tokens {
+        match token.kind {
+            TokenKind::Open => open.push(token.start),
+            TokenKind::Close => drop(open.pop()),
+            _ => {}
+        }
+    }
+    open.pop().filter(|at| text[*at..].starts_with('('))
+}
+
+/// What stands between the commas of a call; the last is what is being typed.
+fn arguments(inside: &str) -> Vec<&str> {
+    let mut depth = 0usize;
+    let mut start = 0;
+    let mut found = Vec::new();
+    for (at, c) in inside.char_indices() {
+        match c {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth = depth.saturating_sub(1),
+            ',' if depth == 0 => {
+                found.push(&inside[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    found.push(&inside[start..]);
+    found
+}
+
+/// The parameters of the call in which a text ends, and the text of its arguments.
+fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<Param>, &'t str)> {
+    let open = open_call(before)?;
+    let callee = receiver(&before[..open])?;
+    let inside = &before[open + 1..];
+    let Some((object, name)) = callee.rsplit_once('.') else {
+        let id = *meant(&knowledge.checked).get(&Symbol::new(callee))?;
+        let params = params_of(&knowledge.checked.program, id).to_vec();
+        return Some(((*knowledge.checked).clone(), params, inside));
+    };
+    let (checked, ty) = type_of(knowledge, &in_place_of_part(object, before));
+    let params = params_of_member(&checked, &ty?, Symbol::new(name));
+    Some((checked, params, inside))
+}
+
+/// `name: ` of the parameters that are not given yet, where an argument begins.
+fn named_arguments(knowledge: &Knowledge, before: &str) -> Vec<Named> {
+    if !before.trim_end().ends_with(['(', ',']) {
+        return Vec::new();
+    }
+    let Some((checked, params, inside)) = call_at(knowledge, before) else { return Vec::new() };
+    let given = arguments(inside);
+    let is_given = |(i, param): (usize, &Param)| {
+        let by_name = |argument: &&str| {
+            argument
+                .trim_start()
+                .strip_prefix(param.name.as_str())
+                .is_some_and(|rest| rest.trim_start().starts_with(':'))
+        };
+        given.iter().any(by_name) || (i + 1 < given.len() && !given[i].contains(':'))
+    };
+    let open = params.iter().enumerate().filter(|(i, param)| !is_given((*i, param)));
+    open.map(|(_, p)| Named::new(format!("{}: ", p.name), checked.program.type_name(&p.ty))).collect()
+}
+
+/// The words of a choice behind the name of its parameter: `profile: `.
+fn words_of_argument(knowledge: &Knowledge, before: &str) -> Option<Vec<Named>> {
+    let name = before.trim_end().strip_suffix(':')?;
+    let name = &name[word_start(name)..];
+    let (_, params, _) = call_at(knowledge, before)?;
+    let param = params.into_iter().find(|param| param.name.as_str() == name)?;
+    let mut ty = &param.ty;
+    while let Type::Optional(inner) = ty {
+        ty = inner;
+    }
+    let Type::Choice(choice) = ty else { return None };
+    Some(choice.words.iter().map(|word| Named::new(word.as_str(), "choice")).collect())
+}
+
+fn global_names(knowledge: &Knowledge) -> Vec<Named> {
+    let program = &knowledge.checked.program;
+    let named = knowledge.checked.names.iter().filter(|(name, _)| is_given(*name));
+    named
+        .map(|(name, meaning)| match meaning {
+            Meaning::Def(id) => Named::new(name.as_str(), about(program, *id)),
+            Meaning::File(_) => Named::new(name.as_str(), "library"),
+        })
+        .collect()
+}
+
+/// Names that can be seen, those that the text itself declares, and words of the language.
+fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
+    let mut found = global_names(knowledge);
+    found.extend(own_names(&before[..word]).into_iter().map(|name| Named::new(name, "declared above")));
+    let begins = before[line_start(before)..word].trim().is_empty();
+    let clauses = if begins { &[ITEMS, STATEMENTS, MODULE, CONFIG, TRUSS][..] } else { &[] };
+    let words = clauses.iter().copied().flatten().chain(RESERVED);
+    found.extend(words.filter(|word| word.len() > 1).map(|word| Named::new(*word, "")));
+    found
+}
+
+/// Names that the text declares further up.
+fn own_names(text: &str) -> Vec<String> {
+    const DECLARING: &[&str] = &[
+        "let",
+        "part",
+        "port",
+        "link",
+        "joint",
+        "behavior",
+        "node",
+        "for",
+        "fn",
+        "config",
+        "module",
+        "lattice",
+        "truss",
+        "cell",
+        "strut",
+        "connector",
+    ];
+    let words: Vec<&str> =
+        text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty()).collect();
+    let declared =
+        words.windows(2).filter(|pair| DECLARING.contains(&pair[0]) && !DECLARING.contains(&pair[1]));
+    declared.map(|pair| pair[1].to_owned()).collect()
+}

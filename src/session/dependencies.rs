@@ -1,0 +1,78 @@
+//! Which declarations of a session name which others.
+
+use crate::check::typed::DefId;
+use crate::check::{Checked, Meaning};
+use crate::source::{FileId, Span, Symbol};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Who names whom, among the declarations of the project and the session.
+pub struct Dependencies<'c> {
+    checked: &'c Checked,
+    /// By file: begin and end of every declaration, in order.
+    places: BTreeMap<FileId, Vec<(u32, u32, DefId)>>,
+    /// By the declaration that is named: those that name it.
+    users: BTreeMap<DefId, BTreeSet<DefId>>,
+}
+
+impl<'c> Dependencies<'c> {
+    pub fn of(checked: &'c Checked) -> Dependencies<'c> {
+        let mut places: BTreeMap<FileId, Vec<(u32, u32, DefId)>> = BTreeMap::new();
+        for &id in &checked.program.own {
+            let def = checked.program.def(id);
+            places.entry(def.file).or_default().push((def.whole.start, def.whole.end, id));
+        }
+        places.values_mut().for_each(|defs| defs.sort_unstable());
+        let mut found = Dependencies { checked, places, users: BTreeMap::new() };
+        for &(span, named) in &checked.uses {
+            if let Some(user) = found.declaration_at(span).filter(|user| *user != named) {
+                found.users.entry(named).or_default().insert(user);
+            }
+        }
+        found
+    }
+
+    /// The declaration in which a place lies.
+    pub fn declaration_at(&self, span: Span) -> Option<DefId> {
+        let defs = self.places.get(&span.file)?;
+        let next = defs.partition_point(|(start, _, _)| *start <= span.start);
+        let (_, end, id) = *defs.get(next.checked_sub(1)?)?;
+        (span.end <= end).then_some(id)
+    }
+
+    /// All that name one of these, or name something that does; without these themselves.
+    pub fn users_of(&self, named: &[DefId]) -> BTreeSet<DefId> {
+        let mut found = BTreeSet::new();
+        let mut waiting = named.to_vec();
+        while let Some(id) = waiting.pop() {
+            let users = self.users.get(&id).into_iter().flatten();
+            waiting.extend(users.filter(|user| !named.contains(user) && found.insert(**user)));
+        }
+        found
+    }
+
+    /// All that the text of a file needs: what it names, and what that names in turn.
+    pub fn needed_by(&self, file: FileId) -> BTreeSet<DefId> {
+        let mut named: BTreeMap<DefId, Vec<DefId>> = BTreeMap::new();
+        for (of, users) in &self.users {
+            users.iter().for_each(|user| named.entry(*user).or_default().push(*of));
+        }
+        let mut found = BTreeSet::new();
+        let own = self.checked.uses.iter().filter(|(span, _)| span.file == file);
+        let mut waiting: Vec<DefId> = own.map(|(_, id)| *id).collect();
+        while let Some(id) = waiting.pop() {
+            if found.insert(id) {
+                waiting.extend(named.get(&id).into_iter().flatten());
+            }
+        }
+        found
+    }
+}
+
+/// The declarations that names at the top of the session mean, by name.
+pub fn meant(checked: &Checked) -> BTreeMap<Symbol, DefId> {
+    let meant = checked.names.iter().filter_map(|(name, meaning)| match meaning {
+        Meaning::Def(id) => Some((*name, *id)),
+        Meaning::File(_) => None,
+    });
+    meant.collect()
+}

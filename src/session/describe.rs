@@ -1,0 +1,247 @@
+//! What a name means, how it is declared, and what there is: `:doc`, `:source`, `:vars`, `:type`.
+
+use super::dependencies::meant;
+use super::members::{about, param_text, params_of};
+use super::state::{Session, is_given, value_type};
+use crate::check::typed::{Def, DefId, DefKind, Param};
+use crate::check::{self, Checked, Entry, Meaning, Type};
+use crate::source::suggest::suggest;
+use crate::source::{Diagnostic, Symbol, library};
+use crate::syntax::{self, ast};
+use std::sync::Arc;
+
+impl Session {
+    /// The type of an expression, or what is wrong with it.
+    pub fn type_of(&self, text: &str) -> Result<String, (Arc<Checked>, Vec<Diagnostic>)> {
+        let entry =
+            Entry { name: "<type>".into(), text: text.into(), first_line: 1, value: None, last: self.last };
+        let (checked, ty) = typed(self, entry);
+        match ty {
+            Some(ty) => Ok(checked.program.type_name(&ty)),
+            None => {
+                let known = self.checked.sources.files().count();
+                let own = |d: &&Diagnostic| {
+                    d.is_error() && d.span().is_none_or(|span| span.file.0 as usize >= known)
+                };
+                let wrong: Vec<Diagnostic> = checked.diagnostics.iter().filter(own).cloned().collect();
+                if wrong.is_empty() { Ok("nothing".to_owned()) } else { Err((Arc::new(checked), wrong)) }
+            }
+        }
+    }
+
+    /// What a name means: how it is written, and its documentation.
+    pub fn doc(&self, name: &str) -> Result<String, String> {
+        if let Some(&(_, command, does)) =
+            super::command::COMMANDS.iter().find(|(c, ..)| name == format!(":{c}"))
+        {
+            return Ok(format!("{name} {command}: {does}\n"));
+        }
+        let Some((id, member)) = self.find(name) else { return self.doc_of_library(name) };
+        let def = self.checked.program.def(id);
+        match member {
+            Some(member) => member_doc(&self.checked, def, &member)
+                .ok_or_else(|| format!("`{}` has no `{member}`", def.name)),
+            None => Ok(self.doc_of(id)),
+        }
+    }
+
+    /// How a name is declared, with its documentation.
+    pub fn source(&self, name: &str) -> Result<String, String> {
+        let Some((id, _)) = self.find(name) else { return Err(self.unknown(name)) };
+        let def = self.checked.program.def(id);
+        let file = self.checked.sources.file(def.file);
+        let line = self.checked.sources.line_column(def.whole).line;
+        Ok(format!("// {}:{line}\n{}\n", file.name, self.checked.sources.text(def.whole)))
+    }
+
+    /// Everything that was declared or imported, with its type; by name.
+    pub fn vars(&self) -> Vec<(String, String)> {
+        let program = &self.checked.program;
+        let own = meant(&self.checked).into_iter().filter(|(name, id)| {
+            let file = self.checked.sources.file(program.def(*id).file);
+            &*file.name != "std/prelude.mod" && is_given(*name)
+        });
+        own.map(|(name, id)| (name.to_string(), about(program, id))).collect()
+    }
+
+    /// A declaration by its name, or by that of a member behind a dot.
+    fn find(&self, name: &str) -> Option<(DefId, Option<String>)> {
+        let mut names = name.split('.').map(str::trim);
+        let first = names.next()?;
+        let first = if first == "_" { self.last?.as_str() } else { first };
+        let meaning = self.checked.names.iter().find(|(known, _)| known.as_str() == first);
+        match &meaning?.1 {
+            Meaning::Def(id) => Some((*id, names.next().map(str::to_owned))),
+            Meaning::File(items) => {
+                let item = names.next()?;
+                let id = items.iter().find(|(known, _)| known.as_str() == item)?.1;
+                Some((id, names.next().map(str::to_owned)))
+            }
+        }
+    }
+
+    fn unknown(&self, name: &str) -> String {
+        let known = self.checked.names.iter().map(|(known, _)| known.as_str());
+        match suggest(name, known) {
+            Some(near) => format!("`{name}` is not known here; `{near}`?"),
+            None => format!("`{name}` is not known here"),
+        }
+    }
+
+    /// What the library has under a name that nothing imported.
+    fn doc_of_library(&self, name: &str) -> Result<String, String> {
+        for (file, _) in library::FILES {
+            let Some(text) = crate::source::Files::library(&*self.files, file) else { continue };
+            let parsed = syntax::parse(crate::source::FileId(0), &text);
+            let found = parsed.file.items.iter().find(|item| is_named(item, name));
+            if let Some(item) = found {
+                let stem = file.trim_end_matches(".mod");
+                let doc = item.doc.as_deref().unwrap_or("").trim();
+                return Ok(format!("`{name}` is in std.{stem}: `use std.{stem}.{name}`\n\n{doc}\n"));
+            }
+        }
+        Err(self.unknown(name))
+    }
+
+    fn doc_of(&self, id: DefId) -> String {
+        let def = self.checked.program.def(id);
+        let mut out = format!("{}\n", signature(&self.checked, def, params_of(&self.checked.program, id)));
+        if let Some(doc) = &def.doc {
+            out.push_str(&format!("\n{}\n", doc.trim()));
+        }
+        let inner = inside(&self.checked, def);
+        if !inner.is_empty() {
+            out.push('\n');
+            out.push_str(&inner);
+        }
+        out
+    }
+}
+
+/// Checks a text as if it were the next entry: the program, and the type of the expression it ends with.
+pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) {
+    let mut entries = session.entries.clone();
+    entries.push(entry);
+    let checked = check::check_session(&*session.files, &entries);
+    let ty = checked.entries.last().and_then(|file| value_type(&checked, *file));
+    (checked, ty)
+}
+
+fn is_named(item: &ast::Item, name: &str) -> bool {
+    use ast::ItemKind as K;
+    let declared = match &item.kind {
+        K::Let(x) => x.name,
+        K::Fn(x) => x.name,
+        K::Connector(x) => x.name,
+        K::Module(x) => x.name,
+        K::Cell(x) | K::Strut(x) => x.name,
+        K::Config(x) => x.name,
+        K::Lattice(x) => x.name,
+        K::Truss(x) => x.name,
+        _ => return false,
+    };
+    declared.text == name
+}
+
+/// As it is declared, without a body: `fn ramp(i: Int, n: Int = 4) -> Number`.
+fn signature(checked: &Checked, def: &Def, params: &[Param]) -> String {
+    let program = &checked.program;
+    let written = params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+    let written = if params.is_empty() { String::new() } else { format!("({written})") };
+    match &def.kind {
+        DefKind::Let(binding) => format!("let {}: {}", def.name, program.type_name(&binding.ty)),
+        DefKind::Fn(f) => called(def.name, &written, &program.type_name(&f.result)),
+        DefKind::Native(f) => called(def.name, &written, &program.type_name(&f.result)),
+        DefKind::Record(_) => format!("type {}", def.name),
+        DefKind::Error => def.name.to_string(),
+        DefKind::Connector(_) => format!("connector {}", def.name),
+        DefKind::Module(_) => format!("module {}{written}", def.name),
+        DefKind::Cell(_) => format!("cell {}{written}", def.name),
+        DefKind::Strut(_) => format!("strut {}{written}", def.name),
+        DefKind::Config(_) => format!("config {}{written}", def.name),
+        DefKind::Lattice(_) => format!("lattice {}{written}", def.name),
+        DefKind::Truss(_) => format!("truss {}{written}", def.name),
+    }
+}
+
+fn called(name: Symbol, params: &str, result: &str) -> String {
+    let params = if params.is_empty() { "()" } else { params };
+    format!("fn {name}{params} -> {result}")
+}
+
+fn with_default(checked: &Checked, param: &Param) -> String {
+    let default = param.default.as_ref().map(|value| checked.sources.text(value.span));
+    let default = default.map(|text| format!(" = {text}")).unwrap_or_default();
+    format!("{}{default}", param_text(&checked.program, param))
+}
+
+/// Joints, ports, behaviours, fields and methods, a line each.
+fn inside(checked: &Checked, def: &Def) -> String {
+    let lines = lines_inside(checked, def);
+    let line = |(head, doc): &(String, Option<Arc<str>>)| match doc {
+        Some(doc) => format!("  {head}\n      {}\n", first_paragraph(doc)),
+        None => format!("  {head}\n"),
+    };
+    lines.iter().map(line).collect()
+}
+
+type Line = (String, Option<Arc<str>>);
+
+fn lines_inside(checked: &Checked, def: &Def) -> Vec<Line> {
+    let program = &checked.program;
+    match &def.kind {
+        DefKind::Module(module) => {
+            let joints = module.joints.iter().map(|j| {
+                let position = program.type_name(&Type::Quantity(j.dimension));
+                (format!("joint {}: Joint<{position}>", j.name), j.doc.clone())
+            });
+            let ports = module.ports.iter();
+            let ports =
+                ports.map(|p| (format!("port {}{}", p.name, if p.array { "[]" } else { "" }), p.doc.clone()));
+            joints.chain(ports).collect()
+        }
+        DefKind::Config(config) => {
+            let parts = config.parts.iter().map(|part| {
+                let many = if part.count.is_some() { "[]" } else { "" };
+                (format!("part {}{many}: {}", part.name, program.def(part.of).name), None)
+            });
+            let behaviors = config.behaviors.iter().map(|b| {
+                let params: Vec<String> = b.params.iter().map(|p| with_default(checked, p)).collect();
+                (format!("behavior {}({})", b.name, params.join(", ")), b.doc.clone())
+            });
+            parts.chain(behaviors).collect()
+        }
+        DefKind::Record(record) => {
+            let fields = record.fields.iter();
+            let fields = fields.map(|f| (format!("{}: {}", f.name, program.type_name(&f.ty)), f.doc.clone()));
+            let methods = record.methods.iter().map(|id| {
+                let method = program.def(*id);
+                let params = params_of(program, *id).get(1..).unwrap_or_default();
+                let params: Vec<String> = params.iter().map(|p| with_default(checked, p)).collect();
+                (format!("{}({})", method.name, params.join(", ")), method.doc.clone())
+            });
+            fields.chain(methods).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// What is said of a joint, port, behaviour, field or method.
+fn member_doc(checked: &Checked, def: &Def, name: &str) -> Option<String> {
+    let is_named = |head: &str| {
+        let words = head.trim_start_matches("joint ").trim_start_matches("port ");
+        let words = words.trim_start_matches("part ").trim_start_matches("behavior ");
+        words
+            .strip_prefix(name)
+            .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    let lines = lines_inside(checked, def);
+    let (head, doc) = lines.into_iter().find(|(head, _)| is_named(head))?;
+    let doc = doc.map(|doc| format!("\n{}\n", doc.trim())).unwrap_or_default();
+    Some(format!("{head}, of {}\n{doc}", def.name))
+}
+
+fn first_paragraph(doc: &str) -> String {
+    let paragraph = doc.trim().split("\n\n").next().unwrap_or("");
+    paragraph.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,60 @@
+//! What the pieces of a text are, for colours.
+
+use crate::syntax::{CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, TRUSS, TokenKind};
+use std::ops::Range;
+
+/// What a piece of a text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    Keyword,
+    /// The name of a type or of what has instances.
+    Type,
+    Number,
+    Text,
+    Comment,
+    /// A command of the session.
+    Command,
+}
+
+/// The pieces of a text that have a class, in order.
+pub fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
+    let command = text.trim_start();
+    if command.starts_with(':') || command.starts_with('?') {
+        let start = text.len() - command.len();
+        let end = command.find(char::is_whitespace).map_or(text.len(), |at| start + at);
+        return vec![(start..end, Class::Command)];
+    }
+    let Some(outline) = Outline::of(text) else { return Vec::new() };
+    let tokens = outline.tokens.iter().filter_map(|token| {
+        let class = match token.kind {
+            TokenKind::Number => Class::Number,
+            TokenKind::Text { .. } | TokenKind::UnclosedText | TokenKind::UnclosedRawText => Class::Text,
+            TokenKind::LineComment | TokenKind::BlockComment { .. } | TokenKind::UnclosedComment => {
+                Class::Comment
+            }
+            TokenKind::Word => {
+                let begins = outline.begins.contains(&token.start) || begins_a_line(text, token.start);
+                word(&text[token.start..token.end], begins)?
+            }
+            _ => return None,
+        };
+        Some((token.start..token.end, class))
+    });
+    tokens.collect()
+}
+
+/// Clauses of a body that is not complete begin where a line does.
+fn begins_a_line(text: &str, at: usize) -> bool {
+    text[..at].rsplit('\n').next().is_none_or(|before| before.trim().is_empty())
+}
+
+fn word(word: &str, begins: bool) -> Option<Class> {
+    let clauses = [ITEMS, STATEMENTS, MODULE, CONFIG, TRUSS];
+    if RESERVED.contains(&word) && word.len() > 1 || begins && clauses.iter().any(|c| c.contains(&word)) {
+        Some(Class::Keyword)
+    } else if word.starts_with(|c: char| c.is_ascii_uppercase()) && word.len() > 1 {
+        Some(Class::Type)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,42 @@
+//! Files as they were when a session first read them: until it reads them again, its texts stay as
+//! they are.
+
+use crate::source::{Files, ReadError};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The files that a session can read.
+pub type Project = Arc<dyn Files + Send + Sync>;
+
+/// A project, with what has been read of it.
+pub struct Kept {
+    project: Project,
+    read: Mutex<BTreeMap<String, Result<Vec<u8>, ReadError>>>,
+}
+
+impl Kept {
+    pub fn new(project: Project) -> Kept {
+        Kept { project, read: Mutex::default() }
+    }
+
+    /// The same project, to be read anew.
+    pub fn fresh(&self) -> Kept {
+        Kept::new(self.project.clone())
+    }
+}
+
+impl Files for Kept {
+    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.entry(path.to_owned()).or_insert_with(|| self.project.read(path)).clone()
+    }
+
+    fn library(&self, path: &str) -> Option<Cow<'static, str>> {
+        self.project.library(path)
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        self.project.list(folder)
+    }
+}

@@ -1,0 +1,174 @@
+//! What stands behind a dot: the members of a type with their own types.
+
+use crate::check::typed::{DefId, DefKind, Member, MemberKind, Param, RecordDef};
+use crate::check::{Checked, Program, Type};
+use crate::source::Symbol;
+
+/// A name that can be written, with a few words about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    pub name: String,
+    pub about: String,
+}
+
+impl Named {
+    pub fn new(name: impl Into<String>, about: impl Into<String>) -> Named {
+        Named { name: name.into(), about: about.into() }
+    }
+}
+
+/// What can follow `value.` for a value of this type.
+pub fn members(checked: &Checked, ty: &Type) -> Vec<Named> {
+    let program = &checked.program;
+    match ty {
+        Type::Instance(id) => of_instance(program, *id),
+        Type::Record(id) => of_record(program, *id),
+        // A behaviour is asked as the plan that it gives.
+        Type::Behavior => prelude(checked, "Plan").map_or_else(Vec::new, |plan| of_record(program, plan)),
+        Type::Vec3(of) => ["x", "y", "z"].map(|axis| Named::new(axis, program.type_name(of))).to_vec(),
+        Type::Range(of) => ["from", "to"].map(|end| Named::new(end, program.type_name(of))).to_vec(),
+        Type::Pose => vec![Named::new("position", "Vec3<Length>")],
+        Type::Port => vec![Named::new("joint", "the joint of its connection")],
+        _ => Vec::new(),
+    }
+}
+
+fn prelude(checked: &Checked, name: &str) -> Option<DefId> {
+    let record = |id: &usize| matches!(checked.program.defs[*id].kind, DefKind::Record(_));
+    let found = (0..checked.program.defs.len()).filter(record).find(|id| {
+        let def = &checked.program.defs[*id];
+        def.name == name && checked.sources.file(def.file).library
+    });
+    found.and_then(|index| u32::try_from(index).ok()).map(DefId)
+}
+
+fn of_instance(program: &Program, id: DefId) -> Vec<Named> {
+    let mut found: Vec<Named> = Vec::new();
+    let kind = &program.def(id).kind;
+    let listed: &[Member] = match kind {
+        DefKind::Module(module) => {
+            let joints = module.joints.iter().map(|j| {
+                let position = program.type_name(&Type::Quantity(j.dimension));
+                Named::new(j.name.as_str(), format!("Joint<{position}>"))
+            });
+            found.extend(joints);
+            let ports = module.ports.iter();
+            found.extend(ports.map(|p| Named::new(p.name.as_str(), if p.array { "ports" } else { "Port" })));
+            let aliases = module.joint_aliases.iter().map(|(name, _)| (*name, "a joint"));
+            let aliases = aliases.chain(module.port_aliases.iter().map(|(name, _)| (*name, "a port")));
+            found.extend(aliases.map(|(name, what)| Named::new(name.as_str(), what)));
+            &module.members
+        }
+        DefKind::Config(config) => {
+            let behaviors = config.behaviors.iter();
+            found.extend(
+                behaviors.map(|b| Named::new(b.name.as_str(), params_text(program, &b.params, "Behavior"))),
+            );
+            &config.members
+        }
+        DefKind::Cell(facts) | DefKind::Strut(facts) => &facts.members,
+        DefKind::Lattice(lattice) => &lattice.members,
+        DefKind::Truss(truss) => &truss.members,
+        _ => &[],
+    };
+    let plain = listed.iter().filter(|m| !matches!(m.kind, MemberKind::Behavior(_)));
+    found.extend(plain.map(|m| Named::new(m.name.as_str(), program.type_name(&m.ty))));
+    sorted(found)
+}
+
+fn of_record(program: &Program, id: DefId) -> Vec<Named> {
+    let mut found = Vec::new();
+    let mut line = Some(id);
+    // A record and those that it is, too.
+    while let Some(DefKind::Record(record)) = line.map(|id| &program.def(id).kind) {
+        found.extend(record.fields.iter().map(|f| Named::new(f.name.as_str(), program.type_name(&f.ty))));
+        found.extend(methods(program, record));
+        line = record.is;
+    }
+    sorted(found)
+}
+
+fn methods(program: &Program, record: &RecordDef) -> Vec<Named> {
+    let method = |id: &DefId| match &program.def(*id).kind {
+        DefKind::Native(native) => {
+            let own = native.params.get(1..).unwrap_or_default();
+            let about = params_text(program, own, &program.type_name(&native.result));
+            Some(Named::new(program.def(*id).name.as_str(), about))
+        }
+        _ => None,
+    };
+    record.methods.iter().filter_map(method).collect()
+}
+
+/// By name, a joint before the port of its name.
+fn sorted(mut found: Vec<Named>) -> Vec<Named> {
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    found.dedup_by(|b, a| a.name == b.name);
+    found
+}
+
+/// `(x: Length, n: Int) -> Angle`
+pub fn params_text(program: &Program, params: &[Param], result: &str) -> String {
+    let params: Vec<String> = params.iter().map(|p| param_text(program, p)).collect();
+    format!("({}) -> {result}", params.join(", "))
+}
+
+pub fn param_text(program: &Program, param: &Param) -> String {
+    let dots = if param.variadic { "..." } else { "" };
+    format!("{}: {}{dots}", param.name, program.type_name(&param.ty))
+}
+
+/// Parameters of what a call of this declaration takes.
+pub fn params_of(program: &Program, id: DefId) -> &[Param] {
+    match &program.def(id).kind {
+        DefKind::Fn(function) => &function.params,
+        DefKind::Native(native) => &native.params,
+        DefKind::Module(d) => &d.params,
+        DefKind::Cell(d) | DefKind::Strut(d) => &d.params,
+        DefKind::Config(d) => &d.params,
+        DefKind::Lattice(d) => &d.params,
+        DefKind::Truss(d) => &d.params,
+        _ => &[],
+    }
+}
+
+/// Parameters of what is called by a name behind a dot.
+pub fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
+    let program = &checked.program;
+    let mut line = match ty {
+        Type::Instance(id) => {
+            let DefKind::Config(config) = &program.def(*id).kind else { return Vec::new() };
+            let behavior = config.behaviors.iter().find(|b| b.name == name);
+            return behavior.map_or_else(Vec::new, |b| b.params.clone());
+        }
+        Type::Record(id) => Some(*id),
+        Type::Behavior => prelude(checked, "Plan"),
+        _ => None,
+    };
+    while let Some(DefKind::Record(record)) = line.map(|id| &program.def(id).kind) {
+        let method = record.methods.iter().find(|id| program.def(**id).name == name);
+        if let Some(method) = method {
+            return params_of(program, *method).get(1..).unwrap_or_default().to_vec();
+        }
+        line = record.is;
+    }
+    Vec::new()
+}
+
+/// A few words about a declaration.
+pub fn about(program: &Program, id: DefId) -> String {
+    match &program.def(id).kind {
+        DefKind::Let(binding) => program.type_name(&binding.ty),
+        DefKind::Fn(f) => params_text(program, &f.params, &program.type_name(&f.result)),
+        DefKind::Native(f) => params_text(program, &f.params, &program.type_name(&f.result)),
+        DefKind::Record(_) => "a record".into(),
+        DefKind::Connector(_) => "connector".into(),
+        DefKind::Module(_) => "module".into(),
+        DefKind::Cell(_) => "cell".into(),
+        DefKind::Strut(_) => "strut".into(),
+        DefKind::Config(_) => "config".into(),
+        DefKind::Lattice(_) => "lattice".into(),
+        DefKind::Truss(_) => "truss".into(),
+        DefKind::Error => String::new(),
+    }
+}

@@ -1,0 +1,24 @@
+//! A session: a program that grows entry by entry, and the values that it has so far.
+//!
+//! An entry goes through the same rooms as a file. All entries share one scope, in which a later
+//! declaration takes the place of an earlier one of its name, for the earlier entries too: the session
+//! is at any time the program that [`save`] writes. It is checked as a whole for every entry, which
+//! takes milliseconds; values are kept ([`crate::interpret::session`]), but for those that depend on
+//! what was declared anew ([`dependencies`]).
+
+mod changes;
+mod dependencies;
+mod kept;
+mod state;
+
+pub mod command;
+pub mod complete;
+mod describe;
+pub mod entry;
+pub mod highlight;
+mod members;
+mod save;
+
+pub use changes::{Change, ChangeKind};
+pub use kept::{Kept, Project};
+pub use state::{Input, Reloaded, Reply, Session};

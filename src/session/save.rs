@@ -1,0 +1,155 @@
+//! The session as a program: what was entered, without what a later entry replaced.
+
+use super::dependencies::meant;
+use super::state::{Session, loaded_path};
+use crate::check::typed::DefId;
+use crate::check::{Checked, Entry};
+use crate::format::format;
+use crate::source::{FileId, Symbol};
+use crate::syntax::{self, ast};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+impl Session {
+    /// The text of a program that does what was entered, formatted.
+    pub fn program(&self) -> String {
+        let checked = self.checked();
+        let saved = Saved::of(checked);
+        let mut imports = Vec::new();
+        let mut pieces: Vec<String> = Vec::new();
+        for (entry, file) in self.entries.iter().zip(&checked.entries) {
+            let text = saved.entry(entry, *file, &mut imports);
+            let text = text.trim();
+            if !text.is_empty() {
+                pieces.push(text.to_owned());
+            }
+        }
+        let mut text = imports.iter().map(|line| format!("{line}\n")).collect::<String>();
+        let mut before = imports.join("\n");
+        for (i, piece) in pieces.iter().enumerate() {
+            // Lines stand together; what is longer, by itself.
+            let apart = i == 0 || piece.contains('\n') || before.contains('\n');
+            text.push_str(if apart && !text.is_empty() { "\n" } else { "" });
+            text.push_str(&format!("{piece}\n"));
+            before.clone_from(piece);
+        }
+        match format(FileId(0), &text) {
+            Some(formatted) => formatted.text,
+            None => text,
+        }
+    }
+}
+
+struct Saved<'c> {
+    checked: &'c Checked,
+    meant: BTreeMap<Symbol, DefId>,
+    used: BTreeSet<DefId>,
+}
+
+/// A part of a text with what stands there instead.
+type Edit = (Range<usize>, String);
+
+impl<'c> Saved<'c> {
+    fn of(checked: &'c Checked) -> Saved<'c> {
+        let used = checked.uses.iter().map(|(_, id)| *id).collect();
+        Saved { checked, meant: meant(checked), used }
+    }
+
+    /// What is left of an entry; its imports are added to those before it.
+    fn entry(&self, entry: &Entry, file: FileId, imports: &mut Vec<String>) -> String {
+        let items = syntax::parse(file, &entry.text).file.items;
+        let mut edits: Vec<Edit> = self.last_values(file);
+        let count = items.len();
+        for (i, item) in items.iter().enumerate() {
+            let range = item.span.range();
+            match &item.kind {
+                ast::ItemKind::Use(u) => {
+                    self.import(u, loaded_path(entry).is_some(), imports);
+                    edits.push((range, String::new()));
+                }
+                ast::ItemKind::Statement(_) => {
+                    // A value that a later entry means by `_` needs a name.
+                    let value = entry.value.filter(|_| i + 1 == count);
+                    if let Some(name) = value.filter(|name| self.is_used(*name)) {
+                        edits.push((range.start..range.start, format!("let {name} = ")));
+                    }
+                }
+                _ if self.is_replaced(file, &range) => edits.push((range, String::new())),
+                _ => {}
+            }
+        }
+        edited(&entry.text, edits)
+    }
+
+    /// `_` by the name of the value that it meant.
+    fn last_values(&self, file: FileId) -> Vec<Edit> {
+        let here = self.checked.uses.iter().filter(|(span, _)| span.file == file);
+        let of_hole = here.filter(|(span, _)| self.checked.sources.text(*span) == "_");
+        let named = of_hole.map(|(span, id)| (span.range(), self.checked.program.def(*id).name.to_string()));
+        named.collect()
+    }
+
+    fn is_used(&self, name: Symbol) -> bool {
+        self.meant.get(&name).is_some_and(|id| self.used.contains(id))
+    }
+
+    /// Whether a later entry declares what the declaration at a place does.
+    fn is_replaced(&self, file: FileId, range: &Range<usize>) -> bool {
+        let program = &self.checked.program;
+        let own = program.own.iter().map(|id| (*id, program.def(*id)));
+        let mut here = own.filter(|(_, def)| def.file == file && def.whole.range() == *range);
+        here.any(|(id, def)| self.meant.get(&def.name) != Some(&id))
+    }
+
+    /// An import without the names that mean something else by now; of a file that was loaded as a
+    /// whole, only the names that are used.
+    fn import(&self, u: &ast::Use, loaded: bool, imports: &mut Vec<String>) {
+        let source = match &u.source {
+            ast::UseSource::File { path, .. } => format!("\"{path}\""),
+            ast::UseSource::Path(path) => {
+                path.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(".")
+            }
+        };
+        let line = match &u.names {
+            None => format!("use {source}"),
+            Some(names) => {
+                let kept =
+                    names.iter().filter(|name| self.is_imported(name, loaded)).map(|n| match n.rename {
+                        Some(rename) => format!("{} as {}", n.name.text, rename.text),
+                        None => n.name.text.to_string(),
+                    });
+                let kept: Vec<String> = kept.collect();
+                if kept.is_empty() {
+                    return;
+                }
+                format!("use {source}.{{{}}}", kept.join(", "))
+            }
+        };
+        if !imports.contains(&line) {
+            imports.push(line);
+        }
+    }
+
+    fn is_imported(&self, name: &ast::UseName, loaded: bool) -> bool {
+        let shown = name.rename.unwrap_or(name.name).text;
+        let Some(id) = self.meant.get(&shown) else { return false };
+        let entered = self.checked.entries.contains(&self.checked.program.def(*id).file);
+        !entered && (!loaded || self.used.contains(id))
+    }
+}
+
+/// A text with parts replaced. Edits within others are left out.
+fn edited(text: &str, mut edits: Vec<Edit>) -> String {
+    edits.sort_by_key(|(range, _)| (range.start, std::cmp::Reverse(range.end)));
+    let mut out = String::new();
+    let mut at = 0;
+    for (range, replacement) in edits {
+        if range.start >= at {
+            out.push_str(&text[at..range.start]);
+            out.push_str(&replacement);
+            at = range.end;
+        }
+    }
+    out.push_str(&text[at..]);
+    out
+}

@@ -1,0 +1,424 @@
+//! The state of a session, and the ways to change it.
+
+use super::changes::{Change, changes};
+use super::dependencies::{Dependencies, meant};
+use super::kept::{Kept, Project};
+use crate::check::typed::{DefId, DefKind, StmtKind};
+use crate::check::{self, Checked, Entry, Type};
+use crate::interpret::session::{Entered, Evaluator, Task, Tell, UNDO_MAX, Work};
+use crate::interpret::{Host, Options};
+use crate::source::{Diagnostic, FileId, Files, Symbol, code};
+use crate::syntax::{self, ast};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// What a person has entered so far, and what has come of it.
+pub struct Session {
+    pub(super) files: Arc<Kept>,
+    pub(super) entries: Vec<Entry>,
+    pub(super) checked: Arc<Checked>,
+    pub(super) last: Option<Symbol>,
+    /// Files that were loaded, or were to be.
+    pub(super) loaded: Vec<String>,
+    evaluator: Evaluator,
+    options: Options,
+    /// The session before each entry that can be taken back.
+    before: Vec<Before>,
+    /// Entries so far, failed ones included.
+    count: usize,
+}
+
+struct Before {
+    entries: usize,
+    last: Option<Symbol>,
+    loaded: Vec<String>,
+}
+
+/// A text to enter.
+#[derive(Clone, Debug)]
+pub struct Input<'t> {
+    pub text: &'t str,
+    /// As diagnostics name it; `None`: by its number.
+    pub name: Option<&'t str>,
+    /// The line of a longer input at which it begins; else 1.
+    pub first_line: usize,
+    pub tell: Tell,
+    /// Whether what it declares stays.
+    pub keep: bool,
+}
+
+/// What came of an entry.
+pub struct Reply {
+    /// With the texts that the diagnostics are about.
+    pub checked: Arc<Checked>,
+    pub diagnostics: Vec<Diagnostic>,
+    /// What else there is to say, a line each.
+    pub notes: Vec<String>,
+    /// What earlier entries say that no longer fit; the entry stands all the same.
+    pub broken: Vec<Diagnostic>,
+    pub written: Vec<String>,
+    /// Whether all went well. If not, the session is as it was.
+    pub ok: bool,
+    pub interrupted: bool,
+}
+
+/// What came of reading all files again.
+pub struct Reloaded {
+    pub reply: Reply,
+    pub changes: Vec<Change>,
+}
+
+impl Reply {
+    fn refused(checked: Checked, diagnostics: Vec<Diagnostic>) -> Reply {
+        Reply { ok: false, diagnostics, ..Reply::fine(Arc::new(checked)) }
+    }
+
+    fn fine(checked: Arc<Checked>) -> Reply {
+        Reply {
+            checked,
+            diagnostics: Vec::new(),
+            notes: Vec::new(),
+            broken: Vec::new(),
+            written: Vec::new(),
+            ok: true,
+            interrupted: false,
+        }
+    }
+}
+
+impl Session {
+    /// An empty session in a project. `host` is asked for nothing but its interrupt.
+    pub fn new(project: Project, options: Options, host: &dyn Host) -> Session {
+        let files = Arc::new(Kept::new(project));
+        let checked = Arc::new(check::check_session(&*files, &[]));
+        Session {
+            files,
+            entries: Vec::new(),
+            checked,
+            last: None,
+            loaded: Vec::new(),
+            evaluator: Evaluator::new(host.interrupt()),
+            options,
+            before: Vec::new(),
+            count: 0,
+        }
+    }
+
+    pub fn checked(&self) -> &Checked {
+        &self.checked
+    }
+
+    /// Checks and evaluates a text. What it declares anew takes the place of what had its name.
+    pub fn enter(&mut self, input: &Input, host: &mut dyn Host) -> Reply {
+        self.count += 1;
+        let name = input.name.map_or_else(|| format!("<entry {}>", self.count), str::to_owned);
+        let entry = Entry {
+            name,
+            text: input.text.to_owned(),
+            first_line: input.first_line,
+            value: None,
+            last: self.last,
+        };
+        self.take(entry, input, host)
+    }
+
+    fn take(&mut self, entry: Entry, input: &Input, host: &mut dyn Host) -> Reply {
+        let mut entries = self.entries.clone();
+        entries.push(entry);
+        let mut checked = check::check_session(&*self.files, &entries);
+        let file = self.newest(&checked);
+        let own = self.about(&checked, file);
+        if own.iter().any(Diagnostic::is_error) {
+            return Reply::refused(checked, own);
+        }
+        let value = if input.keep { value_type(&checked, file) } else { None };
+        if value.is_some() {
+            let name = Symbol::new(&format!("_{}", self.count));
+            entries.last_mut().expect("just pushed").value = Some(name);
+            checked = check::check_session(&*self.files, &entries);
+        }
+        let named = entries.last().and_then(|entry| entry.value);
+        let checked = Arc::new(checked);
+        let (stale, notes) = self.redefined(&checked);
+        let check = elaborated(&checked).filter(|def| checked.program.def(*def).file > file).collect();
+        let work = Work::Enter(Entered { file, check, stale, keep: input.keep, tell: input.tell });
+        let answer = self.run(&checked, work, host);
+        let broken = if answer.ok { self.newly_wrong(&checked, file) } else { Vec::new() };
+        let mut diagnostics = own;
+        diagnostics.extend(answer.diagnostics);
+        if answer.ok && input.keep {
+            self.remember();
+            (self.entries, self.checked) = (entries, checked.clone());
+            self.last = named.or(self.last);
+        }
+        let notes = match (answer.ok, answer.defect) {
+            (true, _) => notes,
+            (_, true) => vec!["that is a defect of modl; the session goes on without the entry".to_owned()],
+            _ => Vec::new(),
+        };
+        let (ok, interrupted, written) = (answer.ok, answer.interrupted, answer.written);
+        Reply { checked, diagnostics, notes, broken, written, ok, interrupted }
+    }
+
+    fn run(
+        &self,
+        checked: &Arc<Checked>,
+        work: Work,
+        host: &mut dyn Host,
+    ) -> crate::interpret::session::Answer {
+        let task = Task { checked: checked.clone(), options: self.options.clone(), work };
+        self.evaluator.run(task, &*self.files, host)
+    }
+
+    fn remember(&mut self) {
+        self.before.push(Before {
+            entries: self.entries.len(),
+            last: self.last,
+            loaded: self.loaded.clone(),
+        });
+        let too_many = self.before.len().saturating_sub(UNDO_MAX);
+        self.before.drain(..too_many);
+    }
+
+    /// The file of the newest entry: texts come in the order in which they are read.
+    fn newest(&self, checked: &Checked) -> FileId {
+        let known = self.checked.sources.files().count();
+        let (id, _) = checked.sources.files().nth(known).expect("an entry is a text of its own");
+        id
+    }
+
+    /// What there is to say of the newest entry: about its own text, about what it imports for the
+    /// first time, and what was wrong with what it needs.
+    fn about(&self, checked: &Checked, file: FileId) -> Vec<Diagnostic> {
+        let dependencies = Dependencies::of(checked);
+        let needed = dependencies.needed_by(file);
+        let concerns = |diagnostic: &&Diagnostic| match diagnostic.span() {
+            None => true,
+            Some(span) if span.file >= file => true,
+            Some(span) => {
+                diagnostic.is_error()
+                    && dependencies.declaration_at(span).is_some_and(|id| needed.contains(&id))
+            }
+        };
+        checked.diagnostics.iter().filter(concerns).cloned().collect()
+    }
+
+    /// Mistakes in earlier texts that were none before.
+    fn newly_wrong(&self, checked: &Checked, file: FileId) -> Vec<Diagnostic> {
+        let live: BTreeSet<DefId> = meant(checked).into_values().collect();
+        let dependencies = Dependencies::of(checked);
+        let concerns = |d: &&Diagnostic| {
+            d.is_error()
+                && d.span().is_some_and(|span| {
+                    span.file < file && dependencies.declaration_at(span).is_some_and(|id| live.contains(&id))
+                })
+                && !self.checked.diagnostics.contains(d)
+        };
+        checked.diagnostics.iter().filter(concerns).cloned().collect()
+    }
+
+    /// Declarations whose values do not hold any more because a name means something else now, and
+    /// what to say about it.
+    fn redefined(&self, checked: &Checked) -> (Vec<DefId>, Vec<String>) {
+        let now = meant(checked);
+        let changed = meant(&self.checked).into_iter().filter_map(|(name, old)| {
+            let new = *now.get(&name)?;
+            (new != old).then_some((name, old, new))
+        });
+        let changed: Vec<(Symbol, DefId, DefId)> = changed.collect();
+        if changed.is_empty() {
+            return (Vec::new(), Vec::new());
+        }
+        let dependencies = Dependencies::of(checked);
+        let mut stale = Vec::new();
+        let mut notes = Vec::new();
+        for (name, old, new) in changed {
+            let users = dependencies.users_of(&[new]);
+            let follow: Vec<String> = now
+                .iter()
+                .filter(|(user, id)| users.contains(id) && is_given(**user) && **id < new)
+                .map(|(user, _)| format!("`{user}`"))
+                .collect();
+            if !follow.is_empty() {
+                let (verb, them) =
+                    if follow.len() == 1 { ("depends", "it is") } else { ("depend", "they are") };
+                notes.push(format!(
+                    "{} {verb} on `{name}`: {them} worked out again when needed",
+                    follow.join(", ")
+                ));
+            }
+            stale.push(old);
+            stale.extend(users);
+        }
+        stale.sort_unstable();
+        stale.dedup();
+        (stale, notes)
+    }
+
+    /// Takes in the names that a file of the project declares.
+    pub fn load(&mut self, path: &str, host: &mut dyn Host) -> Reply {
+        if !self.loaded.iter().any(|known| known == path) {
+            self.loaded.push(path.to_owned());
+        }
+        self.count += 1;
+        let entry = load_entry(&*self.files, path);
+        let entry = match entry {
+            Ok(entry) => entry,
+            Err(message) => {
+                let diagnostic = Diagnostic::error(code::CANNOT_READ, message);
+                return Reply {
+                    ok: false,
+                    diagnostics: vec![diagnostic],
+                    ..Reply::fine(self.checked.clone())
+                };
+            }
+        };
+        let known = self.checked.sources.files().count();
+        let input = Input { text: "", name: None, first_line: 1, tell: Tell::Nothing, keep: true };
+        let mut reply = self.take(entry, &input, host);
+        if reply.ok {
+            let names = self.names_since(known);
+            reply.notes.insert(0, format!("loaded {path}: {}", names.join(", ")));
+        }
+        reply
+    }
+
+    /// Names of what the texts from one on declare, as far as they are meant.
+    fn names_since(&self, known: usize) -> Vec<String> {
+        let new = |id: DefId| self.checked.program.def(id).file.0 as usize >= known;
+        meant(&self.checked)
+            .into_iter()
+            .filter(|(_, id)| new(*id))
+            .map(|(name, _)| name.to_string())
+            .collect()
+    }
+
+    /// Reads all files again. If something is wrong with them, the session stays as it was.
+    pub fn reload(&mut self, host: &mut dyn Host) -> Reloaded {
+        let files = Arc::new(self.files.fresh());
+        let mut entries = self.entries.clone();
+        let mut missing = self.loaded.clone();
+        for entry in &mut entries {
+            if let Some(path) = loaded_path(entry) {
+                missing.retain(|other| other != path);
+                if let Ok(fresh) = load_entry(&*files, path) {
+                    *entry = fresh;
+                }
+            }
+        }
+        entries.extend(missing.iter().filter_map(|path| load_entry(&*files, path).ok()));
+        let checked = Arc::new(check::check_session(&*files, &entries));
+        let errors: Vec<Diagnostic> = checked.diagnostics.iter().filter(|d| d.is_error()).cloned().collect();
+        let nothing = Reloaded { reply: Reply::fine(checked.clone()), changes: Vec::new() };
+        if !errors.is_empty() {
+            return Reloaded { reply: Reply { ok: false, diagnostics: errors, ..nothing.reply }, ..nothing };
+        }
+        let changes = changes(&self.checked, &checked);
+        if changes.is_empty() && entries.len() == self.entries.len() {
+            return nothing;
+        }
+        // Another evaluator, so that nothing is lost if what is declared now makes no sense.
+        let evaluator = Evaluator::new(host.interrupt());
+        let task = Task {
+            checked: checked.clone(),
+            options: self.options.clone(),
+            work: Work::Check(elaborated(&checked).collect()),
+        };
+        let answer = evaluator.run(task, &*files, host);
+        if answer.ok {
+            (self.files, self.entries, self.checked) = (files, entries, checked.clone());
+            (self.evaluator, self.before) = (evaluator, Vec::new());
+        }
+        let reply = Reply {
+            diagnostics: answer.diagnostics,
+            ok: answer.ok,
+            interrupted: answer.interrupted,
+            ..nothing.reply
+        };
+        Reloaded { reply, changes }
+    }
+
+    /// Takes back the last entry; gives its text, or `None` where there is none to take back.
+    pub fn undo(&mut self, host: &mut dyn Host) -> Option<String> {
+        let before = self.before.pop()?;
+        let undone = self.entries.drain(before.entries..).next()?;
+        (self.last, self.loaded) = (before.last, before.loaded);
+        self.checked = Arc::new(check::check_session(&*self.files, &self.entries));
+        self.run(&self.checked, Work::Undo, host);
+        Some(undone.text)
+    }
+
+    /// Forgets everything.
+    pub fn reset(&mut self, host: &mut dyn Host) {
+        self.files = Arc::new(self.files.fresh());
+        (self.entries, self.before, self.loaded) = (Vec::new(), Vec::new(), Vec::new());
+        self.last = None;
+        self.checked = Arc::new(check::check_session(&*self.files, &[]));
+        self.run(&self.checked, Work::Forget, host);
+    }
+}
+
+/// Whether somebody gave this name: values of expressions are kept under others.
+pub(super) fn is_given(name: Symbol) -> bool {
+    let digits = name.as_str().strip_prefix('_').unwrap_or("x");
+    digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())
+}
+
+/// The type of the expression that ends the newest entry, if it has a value.
+pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
+    let program = &checked.program;
+    let StmtKind::Expr(value) = &program.statements.statements.last()?.kind else { return None };
+    let own = program.own.iter().map(|id| program.def(*id)).filter(|def| def.file == file);
+    let declared = own.map(|def| def.whole.start).chain(program.tests.iter().map(|test| test.span.start));
+    let is_last = declared.max().is_none_or(|start| start < value.span.start);
+    (is_last && !matches!(value.ty, Type::Nothing | Type::Error)).then(|| value.ty.clone())
+}
+
+/// The name of entries that stand for a loaded file.
+const LOAD: &str = "<load ";
+
+/// The file that an entry stands for.
+pub(super) fn loaded_path(entry: &Entry) -> Option<&str> {
+    entry.name.strip_prefix(LOAD)?.strip_suffix('>')
+}
+
+/// The entry that imports all that a file declares for others.
+fn load_entry(files: &dyn Files, path: &str) -> Result<Entry, String> {
+    let bytes = files.read(path).map_err(|error| check::why_unreadable(path, &error))?;
+    let text = String::from_utf8_lossy(&bytes);
+    let parsed = syntax::parse(FileId(0), &text);
+    let names =
+        parsed.file.items.iter().filter_map(declared_name).filter(|name| !name.as_str().starts_with('_'));
+    let names: Vec<&str> = names.map(|name| name.as_str()).collect();
+    let text = if names.is_empty() && parsed.diagnostics.iter().any(Diagnostic::is_error) {
+        // So that what is wrong with it is told.
+        format!("use \"{path}\".{{any}}")
+    } else if names.is_empty() {
+        return Err(format!("`{path}` declares nothing"));
+    } else {
+        format!("use \"{path}\".{{{}}}", names.join(", "))
+    };
+    Ok(Entry { name: format!("{LOAD}{path}>"), text, first_line: 1, value: None, last: None })
+}
+
+fn declared_name(item: &ast::Item) -> Option<Symbol> {
+    use ast::ItemKind as K;
+    Some(match &item.kind {
+        K::Let(x) => x.name.text,
+        K::Fn(x) => x.name.text,
+        K::Connector(x) => x.name.text,
+        K::Module(x) => x.name.text,
+        K::Cell(x) | K::Strut(x) => x.name.text,
+        K::Config(x) => x.name.text,
+        K::Lattice(x) => x.name.text,
+        K::Truss(x) => x.name.text,
+        _ => return None,
+    })
+}
+
+/// What has instances, of the project's own declarations that are meant.
+fn elaborated(checked: &Checked) -> impl Iterator<Item = DefId> {
+    let own: BTreeSet<DefId> = checked.program.own.iter().copied().collect();
+    let live = meant(checked).into_values().filter(move |id| own.contains(id));
+    live.filter(|id| !matches!(checked.program.def(*id).kind, DefKind::Let(_)))
+}

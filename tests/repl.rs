@@ -1,0 +1,209 @@
+//! A session at a real terminal: several lines, completion, history, mistakes, Ctrl-C, saving.
+#![cfg(unix)]
+
+use super::cli::Sandbox;
+use crate::transcripts::HINGE;
+use rexpect::session::{PtySession, spawn_command};
+use std::time::{Duration, Instant};
+
+/// How long a session may take to say what it is to say, ms: machines are loaded.
+const PATIENCE: u64 = 60_000;
+
+const PROMPT: &str = "modl> ";
+
+/// A session at a terminal.
+struct Talk(PtySession);
+
+impl Talk {
+    fn begin(sandbox: &Sandbox, arguments: &[&str]) -> Talk {
+        let mut command = sandbox.command(arguments);
+        command.env("TERM", "xterm").env("MODL_HISTORY", sandbox.path("history"));
+        // What is typed comes back as it was typed.
+        command.env("NO_COLOR", "1");
+        // Nothing is opened.
+        command.env("PATH", sandbox.path(""));
+        let mut talk = Talk(spawn_command(command, Some(PATIENCE)).expect("a terminal can be had"));
+        talk.sees("`:help`");
+        talk
+    }
+
+    fn sees(&mut self, words: &str) {
+        if let Err(why) = self.0.exp_string(words) {
+            panic!("waited for `{words}`: {why}");
+        }
+    }
+
+    fn types(&mut self, keys: &str) {
+        self.sees(PROMPT);
+        self.presses(keys);
+    }
+
+    /// Keys without waiting for the prompt.
+    fn presses(&mut self, keys: &str) {
+        self.0.send(keys).and_then(|_| self.0.flush()).expect("the session takes keys");
+    }
+
+    /// Types an entry and sees what comes of it.
+    fn asks(&mut self, entry: &str, answer: &str) {
+        self.types(&format!("{entry}\r"));
+        self.sees(answer);
+    }
+
+    fn ends(mut self) {
+        self.types(":quit\r");
+        self.0.exp_eof().expect("the session ends");
+    }
+}
+
+#[test]
+fn an_entry_goes_on_over_lines_as_long_as_it_is_open() {
+    let sandbox = Sandbox::new(&[]);
+    let mut talk = Talk::begin(&sandbox, &["repl"]);
+    talk.asks("use std.smores.Smores", "");
+    talk.types("config Pair {\r  part m[2]: Smores\r  connect m[0].top -- m[1].bottom\r}\r");
+    talk.sees("config Pair: order 1, 2 modules");
+    talk.types("let x =\r  3 +\r  4\r");
+    talk.sees("x: Int");
+    talk.asks("x", "7: Int");
+    // An empty line says that no more will follow.
+    talk.types("let y =\r\r");
+    talk.sees("E0001");
+    talk.ends();
+}
+
+#[test]
+fn tab_completes_with_types() {
+    let sandbox = Sandbox::new(&[("hinge.mod", HINGE.as_bytes())]);
+    let mut talk = Talk::begin(&sandbox, &["repl", "hinge.mod"]);
+    talk.sees("loaded hinge.mod: Face, Hinge");
+    talk.types("let h = Hin\t(leng\t50mm)\r");
+    // The terminal writes anew only what changes.
+    talk.sees("Hinge(length: ");
+    talk.sees("h: Hinge");
+    talk.types("h.be\t\r");
+    talk.sees("h.bend");
+    talk.sees("Joint<Angle>");
+    talk.types("h.\t");
+    for word in ["back  Port", "bend  Joint<Angle>", "front  Port", "length  Length"] {
+        talk.sees(word);
+    }
+    // Below the list stands again what was typed so far.
+    talk.types("\x03");
+    talk.types("90d\t\r");
+    talk.sees("90deg: Angle");
+    talk.types(":doc Hin\t\r");
+    talk.sees("A single hinge.");
+    talk.ends();
+}
+
+#[test]
+fn what_was_typed_is_remembered_in_the_next_session() {
+    let sandbox = Sandbox::new(&[]);
+    let mut talk = Talk::begin(&sandbox, &["repl"]);
+    talk.asks("1 + 2", "3: Int");
+    talk.asks("20 * 2", "40: Int");
+    // Up twice.
+    talk.types("\x1b[A\x1b[A\r");
+    talk.sees("3: Int");
+    talk.ends();
+    let mut talk = Talk::begin(&sandbox, &["repl"]);
+    // Ctrl-R searches backwards.
+    talk.types("\x12* 2");
+    talk.sees("20 * 2");
+    talk.presses("\r");
+    talk.sees("40: Int");
+    talk.ends();
+}
+
+#[test]
+fn a_mistake_leaves_the_session_as_it_was() {
+    let sandbox = Sandbox::new(&[]);
+    let mut talk = Talk::begin(&sandbox, &["repl"]);
+    talk.asks("let a = 2", "a: Int");
+    talk.asks("let a = 3 + b", "`b` is not known here");
+    talk.asks("a", "2: Int");
+    talk.asks("[1, 2][a]", "index 2 is outside");
+    talk.asks("_", "2: Int");
+    talk.ends();
+}
+
+#[test]
+fn ctrl_c_ends_a_planner_and_the_session_goes_on() {
+    let sandbox = Sandbox::new(&[]);
+    let mut talk = Talk::begin(&sandbox, &["repl"]);
+    talk.asks("use std.mori.Mori", "");
+    talk.asks("use std.shapes.icosahedron", "");
+    talk.asks("let a = 2", "a: Int");
+    let mut quickest = Duration::MAX;
+    // Thrice: on a machine that does much else, one time may be unlucky.
+    for _ in 0..3 {
+        talk.types(&format!("{LONG}\r"));
+        std::thread::park_timeout(Duration::from_millis(700));
+        let begin = Instant::now();
+        talk.presses("\x03");
+        talk.sees("interrupted");
+        quickest = quickest.min(begin.elapsed());
+    }
+    // What waits for the words looks every 100 ms; `benches/session.rs` measures more finely.
+    assert!(quickest < Duration::from_millis(250), "{quickest:?}");
+    talk.asks("a", "2: Int");
+    talk.ends();
+}
+
+/// What would take minutes.
+const LONG: &str = "fold(icosahedron(edge: 80mm), Mori, method: enumerate, budget: 1000000000)";
+
+#[test]
+fn what_was_entered_is_saved_and_runs() {
+    let sandbox = Sandbox::new(&[]);
+    let mut talk = Talk::begin(&sandbox, &["repl"]);
+    talk.asks("use std.smores.{Smores, Chain3}", "");
+    talk.asks("let n = 3", "n: Int");
+    talk.asks("config   Pair{part m:Smores}", "config Pair: order 1, 1 module");
+    talk.asks("Pair().m", "m, a Smores");
+    talk.asks("print(\"mass\", mass(_))", "mass ");
+    talk.asks("let n = 4", "n: Int");
+    talk.asks(":save pair.mod", "wrote pair.mod");
+    talk.ends();
+    let saved = std::fs::read_to_string(sandbox.path("pair.mod")).expect("it was saved");
+    assert!(saved.contains("config Pair {") && saved.contains("let n = 4"), "{saved}");
+    assert!(!saved.contains("let n = 3"), "{saved}");
+    let ran = sandbox.run(&["run", "pair.mod"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.starts_with("mass "), "{}", ran.out);
+    assert_eq!(sandbox.run(&["fmt", "--check", "pair.mod"]).code, 0, "it is in style");
+}
+
+#[test]
+fn reload_says_what_changed_and_who_needs_it() {
+    let sandbox = Sandbox::new(&[
+        ("part.mod", b"let a = 1\nlet b = 2\n"),
+        ("main.mod", b"use \"part.mod\".{a}\nlet c = a + 1\nlet gone = 0\n"),
+    ]);
+    let mut talk = Talk::begin(&sandbox, &["repl", "main.mod"]);
+    talk.sees("loaded main.mod: c, gone");
+    talk.asks("let d = c", "d: Int");
+    talk.asks(":reload", "nothing changed");
+    std::fs::write(sandbox.path("part.mod"), "let a = 10\nlet b = 2\n").expect("a file can be written");
+    std::fs::write(sandbox.path("main.mod"), "use \"part.mod\".{a}\nlet c = a + 1\n")
+        .expect("a file can be written");
+    talk.types(":reload\r");
+    talk.sees("part.mod: a is changed; needed by c, d");
+    talk.sees("main.mod: gone is gone");
+    talk.asks("d", "11: Int");
+    // What is wrong now leaves all as it was.
+    std::fs::write(sandbox.path("part.mod"), "let a = \n").expect("a file can be written");
+    talk.asks(":reload", "E0001");
+    talk.asks("c + d", "22: Int");
+    talk.ends();
+}
+
+#[test]
+fn a_page_of_anything_can_be_looked_at() {
+    let sandbox = Sandbox::new(&[("hinge.mod", HINGE.as_bytes())]);
+    let mut talk = Talk::begin(&sandbox, &["repl", "hinge.mod"]);
+    talk.types(":view Hinge()\r");
+    talk.sees("wrote out/view.html");
+    talk.ends();
+    assert!(sandbox.path("out/view.html").exists());
+}
