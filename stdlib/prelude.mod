@@ -1546,7 +1546,7 @@ extern fn random_orders(of: Folding, orders: Int = 1000, seed: Int = 0) -> Order
 extern type Refolding is Plan {
   /// How many connections are undone in the plane, and as many made.
   changes: Int
-  /// No sheet on which no panel moves in the plane needs fewer changes.
+  /// No way between the two needs fewer changes.
   bound: Int
   /// By panel, which is a face of the first shape: the face of the second shape that it becomes.
   becomes: List<Int>
@@ -1557,11 +1557,14 @@ extern type Refolding is Plan {
 
 /// Unfolds one shape into a flat sheet, changes connections there, and folds the sheet into another.
 ///
-/// Both are meshes of as many triangles, with the panels' sides. A sheet is looked for that both
-/// unfold into, so that no panel moves while connections change, with as few changes as are found in
-/// the `budget`: cells of sheets that are weighed. A new connection is made at the instant at which an
-/// old one goes, so the robot stays in one piece. Sheets with equally many changes are tried by the
-/// energy that they take, until the judge lets one through. `seed` leads to other sheets.
+/// Both are meshes of as many triangles, with the panels' sides. Sheets of the two are looked for that
+/// have much in common, and a way from the one to the other with few changes. A connection is made at the
+/// instant at which an old one goes, so the robot stays in one piece. Either both are between panels that
+/// lie side by side; or three to five panels about a point close like a corner of the tetrahedron, the
+/// octahedron or the icosahedron, two of them let go, and the others open again: so panels walk in the
+/// plane. Of ways with equally many changes those are tried first whose shapes take the least energy to
+/// fold, until the judge lets one through. `budget` bounds the search: cells of sheets that are weighed.
+/// `seed` leads to other sheets.
 ///
 /// Example:
 /// ```modl

@@ -8,8 +8,11 @@ use modl::planners::fold::{Layout, Proof, Target, Weights, count, exact, local};
 use num_traits::ToPrimitive;
 use proptest::prelude::*;
 
-/// Layouts up to which every one is looked at; a million in an optimised build takes as long.
-const ENUMERATED: u64 = 60_000;
+/// Layouts up to which every one is looked at: a million where the whole is asked for, which is for an
+/// optimised build.
+fn enumerated() -> u64 {
+    if std::env::var_os("MODL_WHOLE").is_some() { 1_000_000 } else { 60_000 }
+}
 
 /// Work of one search.
 const BUDGET: u64 = 300_000;
@@ -101,7 +104,7 @@ fn gcd(a: usize, b: usize) -> usize {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: if std::env::var_os("MODL_WHOLE").is_some() { 400 } else { 32 }, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn no_proof_is_wrong(target in meshes(), root in 0..80usize, seed in 0..1000usize) {
@@ -122,7 +125,7 @@ proptest! {
         }
         prop_assert!(found.bound <= least && (found.proof == Proof::Open || found.energy <= least * (1.0 + 2.0 * exact::SLACK)));
         let layouts = count::layouts(&target).to_u64();
-        if layouts.is_some_and(|layouts| layouts <= ENUMERATED) {
+        if layouts.is_some_and(|layouts| layouts <= enumerated()) {
             let all = enumerate::Settings { root: Some(root), spectrum: false, budget: u64::MAX };
             let all = census(&target, &weights, &all).expect("few faces");
             prop_assert_eq!(Some(all.layouts), layouts);

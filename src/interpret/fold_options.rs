@@ -141,8 +141,12 @@ impl Options {
 
 /// What every hinge can do, s: the same for all layouts, or they could not be compared.
 pub fn shortest_step(target: &Target, panel: &Panel) -> f64 {
-    let greatest = target.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max);
-    match law::least(Profile::Smooth, greatest, panel.able) {
+    step_of(target.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max), panel)
+}
+
+/// How long a hinge takes to turn by an angle, s.
+pub fn step_of(angle: f64, panel: &Panel) -> f64 {
+    match law::least(Profile::Smooth, angle, panel.able) {
         Some(least) if least > 0.0 => (least / STEP_GRAIN).ceil() * STEP_GRAIN,
         _ => STEP_FREE,
     }

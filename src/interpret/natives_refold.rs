@@ -1,7 +1,7 @@
 //! `refold`: from shape to shape through a flat sheet, as it is called, and what it gives back.
 
 use super::call::Call;
-use super::fold_options::shortest_step;
+use super::fold_options::{shortest_step, step_of};
 use super::fold_panel::{self, Panel};
 use super::fold_sheet::{NoSheet, Pieces, Sheet};
 use super::interpreter::Interpreter;
@@ -14,11 +14,15 @@ use super::value::Value;
 use crate::behavior::{self, Problem};
 use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as MoveTarget, World};
 use crate::planners::fold::inertia::Inertia;
+use crate::planners::fold::meeting::Solids;
+use crate::planners::fold::passage::Passages;
+use crate::planners::fold::plane::{Side, bond};
 use crate::planners::fold::refold::{self, NoRefolding, Refolding};
 use crate::planners::fold::{Layout, Target, Weights, order_energy, steps};
 use crate::robot::{JointId, PortRef};
 use crate::source::{Diagnostic, code};
 use crate::units::Dimension;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -26,6 +30,12 @@ pub const TABLE: &[Native] = &[on_run("refold", 6, refold)];
 
 /// Sheets that are tried until one unfolds and folds without collision.
 const SHEETS_TRIED: usize = 8;
+
+/// How often each panel of a layout may be opened in the search for an order.
+const TURNS: usize = 32;
+
+/// Orders that are put before the judge for either shape.
+const ORDERS_TRIED: usize = 2;
 
 /// What the planner says of its plan.
 pub struct Refolded {
@@ -62,9 +72,11 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let budget = call.count(5, "a budget")? as u64;
     interpreter.stage.progress(format!("refolding {} panels", from.faces.len()));
     let weights = [Weights::uniform(&from, panel.mass), Weights::uniform(&to, panel.mass)];
-    let task = Task { call, panel, from, to, weights, step, seed };
+    let solids = Solids { parts: vec![panel.parts.clone(); from.faces.len()], touch: panel.touch };
+    let task = Task { call, panel, solids, from, to, weights, step, seed };
     let settings = refold::Settings { budget, seed, kept: SHEETS_TRIED };
-    let found = refold::sheets(&task.from, &task.to, &settings, |sheet| task.at_best_root(sheet).1);
+    let cost = |sheet: &Refolding| task.at_best_root(sheet).1;
+    let found = refold::sheets(&task.from, &task.to, &task.solids, &settings, cost);
     let found = found.map_err(|why| task.refusal(why))?;
     for sheet in &found.best {
         let (sheet, energy) = task.at_best_root(sheet);
@@ -75,7 +87,7 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
                 };
                 // Of the order that was taken only the leaves-first energy has a closed form.
                 let energy = energy / (task.step * task.step);
-                let (changes, becomes) = (sheet.changes, sheet.becomes.clone());
+                let (changes, becomes) = (sheet.strokes.len(), sheet.becomes.clone());
                 let refolded = Refolded { changes, bound: found.bound, becomes, energy };
                 let planned = planned.with_refolded(refolded);
                 return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
@@ -96,6 +108,8 @@ type Order = Vec<Vec<usize>>;
 struct Task<'c> {
     call: &'c Call<'c>,
     panel: Panel,
+    /// By panel.
+    solids: Solids,
     from: Target,
     to: Target,
     weights: [Weights; 2],
@@ -116,16 +130,17 @@ impl Task<'_> {
                     .label(call.at(0), format!("{a} faces"))
                     .hint("panels are neither added nor taken away")
             }
-            NoRefolding::Budget => {
-                Diagnostic::error(code::NOT_COVERED, "no flat sheet was found that both shapes unfold into")
-                    .label(call.span, "every sheet that was tried got stuck")
-                    .hint("a greater `budget` or another `seed` may find one")
-                    .hint("only sheets on which no panel has to move in the plane are looked for")
-            }
+            NoRefolding::Budget => Diagnostic::error(
+                code::NOT_COVERED,
+                "no way was found from a sheet of the one to one of the other",
+            )
+            .label(call.span, "every pair of sheets that was tried got stuck")
+            .hint("a greater `budget` or another `seed` may find one"),
         }
     }
 
-    /// Orders that are tried: the leaves first, the one of least energy, the root's neighbours first.
+    /// Orders that are tried, where nothing is seen to meet: the leaves first, the one of least energy,
+    /// the root's neighbours first; else one that is searched for.
     fn orders(&self, target: &Target, layout: &Layout) -> Vec<Order> {
         let masses = vec![self.panel.mass; target.faces.len()];
         let cheapest = order_energy::least_energy(target, layout, &masses, Inertia::Lamina);
@@ -134,6 +149,15 @@ impl Task<'_> {
         orders.extend(cheapest);
         orders.push(steps::root_first(layout));
         orders.dedup();
+        let wished = orders[0].concat();
+        let mut passages = Passages::new(target, layout, &self.solids, None, TURNS * target.faces.len());
+        orders.retain(|order| passages.lets_pass(order));
+        orders.truncate(ORDERS_TRIED);
+        if orders.len() < ORDERS_TRIED
+            && let Some(order) = passages.order(&wished)
+        {
+            orders.push(passages.steps(&order));
+        }
         orders
     }
 
@@ -198,42 +222,44 @@ impl Program<'_> {
     /// Unfolds, changes connections in the plane, folds. A new connection is made before an old one
     /// goes, at the same instant: the robot stays in one piece.
     fn whole(&self, back: &Order, order: &Order) -> Arc<Node> {
-        let (mut series, mut joints) = (Vec::new(), Vec::new());
+        let mut series = Vec::new();
         let (from, to) = (&self.sheet.from, &self.sheet.to);
+        let step = self.task.step;
         for faces in back.iter().rev() {
             let moves = faces.iter().map(|&face| {
                 let hinge = from.hinge[face].expect("only the root has none");
                 let moves = self.task.from.hinges[hinge].angle != 0.0;
-                moves.then(|| self.turned(self.joint_of_bond(bond_of(from, face)), 0.0))
+                moves.then(|| turned(self.joint_of_bond(bond_of(from, face)), 0.0, step))
             });
             series.push(Node::Parallel(moves.flatten().collect()));
         }
         let bonds = &self.robot.assembly.bonds;
-        let mut kept = vec![false; bonds.len()];
-        for &face in &to.order[1..] {
-            let [a, b] = self.ports(face);
-            let known =
-                bonds.iter().position(|bond| [bond.a, bond.b] == [a, b] || [bond.a, bond.b] == [b, a]);
-            joints.push(match known {
-                Some(bond) => {
-                    kept[bond] = true;
-                    self.joint_of_bond(bond)
-                }
-                None => {
-                    let made = series.iter().filter(|node| matches!(node, Node::Action(_))).count();
-                    series.push(action(Command::Dock { a, b }));
-                    // A hinge that is made comes behind all that there are.
-                    self.robot.start.joints.len() + made
-                }
-            });
-        }
-        for (bond, _) in bonds.iter().zip(kept).filter(|(_, kept)| !kept) {
-            series.push(action(Command::Undock { port: bond.b }));
+        let side = |port: PortRef| (port.module, port.port);
+        let known = |i: usize| (bond(side(bonds[i].a), side(bonds[i].b)), self.joint_of_bond(i));
+        let mut joints: BTreeMap<[Side; 2], usize> = (0..bonds.len()).map(known).collect();
+        let port = |(module, port): Side| PortRef { module, port };
+        for (made, stroke) in self.sheet.strokes.iter().enumerate() {
+            let time = step.max(step_of(stroke.angle.abs(), &self.task.panel));
+            let all = |joints: &BTreeMap<[Side; 2], usize>,
+                       sides: &mut dyn Iterator<Item = &[Side; 2]>,
+                       to: f64| {
+                Node::Parallel(sides.map(|sides| turned(joints[sides], to, time)).collect())
+            };
+            series.push(all(&joints, &mut stroke.fold.iter(), stroke.angle));
+            let [a, b] = stroke.make.map(port);
+            series.push(action(Command::Dock { a, b }));
+            series.push(action(Command::Undock { port: port(stroke.cut[0]) }));
+            // A hinge that is made comes behind all that there are.
+            joints.insert(stroke.make, self.robot.start.joints.len() + made);
+            joints.remove(&stroke.cut);
+            let ends = stroke.fold.iter().filter(|sides| **sides != stroke.cut);
+            let opens = if stroke.fold.is_empty() { None } else { Some(&stroke.make) };
+            series.push(all(&joints, &mut ends.chain(opens), 0.0));
         }
         for faces in order {
             let moves = faces.iter().map(|&face| {
                 let angle = self.task.to.hinges[to.hinge[face].expect("only the root has none")].angle;
-                (angle != 0.0).then(|| self.turned(joints[bond_of(to, face)], angle))
+                (angle != 0.0).then(|| turned(joints[&self.sides(face)], angle, step))
             });
             series.push(Node::Parallel(moves.flatten().collect()));
         }
@@ -241,27 +267,28 @@ impl Program<'_> {
         Arc::new(Node::Series(series.into_iter().filter(|node| !idle(node)).map(Arc::new).collect()))
     }
 
-    /// The ports that a face of the second shape and its parent join by their hinge.
-    fn ports(&self, face: usize) -> [PortRef; 2] {
+    /// The sides of panels that a face of the second shape and its parent join by their hinge.
+    fn sides(&self, face: usize) -> [Side; 2] {
         let across = self.sheet.to.across(&self.task.to, face);
-        [(across.parent, across.parent_side), (face, across.side)].map(|(face, side)| {
-            let module = self.sheet.becomes.iter().position(|f| *f == face).expect("every face is a panel");
-            PortRef { module, port: self.sheet.side(module, side) }
-        })
+        let [a, b] = [(across.parent, across.parent_side), (face, across.side)].map(|(face, side)| {
+            let panel = self.sheet.becomes.iter().position(|f| *f == face).expect("every face is a panel");
+            (panel, self.sheet.side(panel, side))
+        });
+        bond(a, b)
     }
 
     fn joint_of_bond(&self, bond: usize) -> usize {
         self.robot.kinematics.hinge(bond).expect("every bond has a hinge")
     }
+}
 
-    fn turned(&self, joint: usize, to: f64) -> Arc<Node> {
-        Arc::new(action(Command::Move {
-            joint: JointId(joint as u32),
-            target: MoveTarget::To(to),
-            duration: Some(self.task.step),
-            profile: Profile::Smooth,
-        }))
-    }
+fn turned(joint: usize, to: f64, time: f64) -> Arc<Node> {
+    Arc::new(action(Command::Move {
+        joint: JointId(joint as u32),
+        target: MoveTarget::To(to),
+        duration: Some(time),
+        profile: Profile::Smooth,
+    }))
 }
 
 fn action(command: Command) -> Node {

@@ -124,7 +124,8 @@ impl<'t> Look<'t> {
 }
 
 impl Solids {
-    fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
+    /// Whether two panels meet; `X_AB`: from the frame in which the second's parts are to the first's.
+    pub fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
         let meet = |p: &Part, q: &Part| near(p, q, X_AB, None, -self.touch).distance < -self.touch;
         self.parts[a].iter().any(|p| self.parts[b].iter().any(|q| meet(p, q)))
     }
@@ -132,11 +133,14 @@ impl Solids {
 
 /// The frame of a panel at a face of the target.
 fn place(target: &Target, face: usize) -> Pose {
-    let corners = target.corners(face);
-    let middle = target.centroid(face);
-    let z = target.normal(face);
+    place_of(&target.corners(face), &target.normal(face))
+}
+
+/// The frame of a panel with these corners and this outward normal.
+pub fn place_of(corners: &Triangle, z: &Vec3) -> Pose {
+    let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     let x = ((corners[0] + corners[1]) / 2.0 - middle).normalize();
-    let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
+    let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), *z]));
     let turn = Pose::from_parts(Vec3::zeros().into(), UnitQuaternion::from_rotation_matrix(&turn));
     shifted(middle) * turn
 }

@@ -49,6 +49,8 @@ pub mod passage;
 pub mod sampling;
 
 pub mod net;
+pub mod plane;
+pub mod rearrange;
 pub mod refold;
 
 pub use exact::{Optimum, Proof};

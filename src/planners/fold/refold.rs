@@ -5,17 +5,28 @@
 //! then no panel moves while connections change. The sheet grows cell by cell. A new cell is joined to
 //! a neighbour across which both shapes go on, which is a connection that both layouts have; or, where
 //! there is none, to one neighbour in the first shape and to another in the second, which is one
-//! change. Growth begins anew with other choices among equals as long as the budget lasts. Whether it
-//! can do without any change is also searched exhaustively.
+//! change. Where growth is stuck, the rest of either shape is laid around what they have in common, and
+//! panels [walk](super::rearrange) from the one sheet to the other. Growth begins anew with other choices
+//! among equals as long as the budget lasts.
 
 use super::layout::Layout;
+use super::meeting::Solids;
+use super::plane::{Corners, Plane, Point as Cell, Stroke, across, bond, cell};
+use super::rearrange::{Goal, Panels, pair, rearranged};
 use super::target::Target;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How often growth that is stuck takes panels away before it begins anew.
 const RETREATS: usize = 200;
 
-/// Two layouts on one sheet.
+/// Pairs of sheets that are tried, those first that have the most in common.
+const TRIED: usize = 24;
+
+/// States that the search for one rearrangement goes on from, and times the panels for all.
+const STEPS_MAX: usize = 400;
+const STEPS_IN_ALL_MAX: usize = 100_000;
+
+/// Two layouts, and how the sheet of the one becomes that of the other.
 #[derive(Clone, Debug)]
 pub struct Refolding {
     /// Panels are numbered as the faces of the first shape. Both hang at the same panel.
@@ -25,8 +36,8 @@ pub struct Refolding {
     pub becomes: Vec<usize>,
     /// By panel: its side k becomes the second shape's side (k + turn) mod 3.
     pub turns: Vec<usize>,
-    /// How many connections are undone, and as many made.
-    pub changes: usize,
+    /// One after the other, each undoes a connection and makes one.
+    pub strokes: Vec<Stroke>,
 }
 
 impl Refolding {
@@ -73,10 +84,12 @@ pub enum NoRefolding {
     Budget,
 }
 
-/// Sheets that unfold from `from` and fold into `to`. `cost` orders those with equally many changes.
+/// Sheets that unfold from `from` and sheets that fold into `to`, with what lies between. `cost` orders
+/// those with equally many changes. `solids`: by panel.
 pub fn sheets(
     from: &Target,
     to: &Target,
+    solids: &Solids,
     settings: &Settings,
     cost: impl Fn(&Refolding) -> f64,
 ) -> Result<Found, NoRefolding> {
@@ -86,46 +99,145 @@ pub fn sheets(
     }
     let mut left = settings.budget / 2;
     let mut random = Random(settings.seed);
-    let mut best: Vec<(usize, f64, Refolding)> = Vec::new();
+    let mut pairs: Vec<(usize, Pair)> = Vec::new();
     while left > 0 {
         crate::interrupt::checkpoint();
         let mut sheet = Sheet::new(from, to);
         sheet.begin(random.below(n), random.below(n), random.below(3));
         let bias = random.below(3);
-        if !sheet.grow(&mut random, bias, &mut left) {
+        let peak = sheet.grow(&mut random, bias, &mut left);
+        let Some(found) = peak.pair(&mut random) else { continue };
+        let apart = found.apart(from, to);
+        if pairs.last().is_some_and(|last| pairs.len() == TRIED && last.0 <= apart) {
             continue;
         }
-        let found = sheet.finish();
-        if best.last().is_some_and(|last| best.len() == settings.kept && last.0 < found.changes) {
-            continue;
-        }
-        let price = cost(&found);
-        let known = |other: &(usize, f64, Refolding)| {
-            other.2.from.hinges() == found.from.hinges() && other.2.becomes == found.becomes
-        };
-        if !best.iter().any(known) {
-            best.push((found.changes, price, found));
-            best.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-            best.truncate(settings.kept);
+        if !pairs.iter().any(|(_, other)| *other == found) {
+            let place = pairs.partition_point(|other| other.0 <= apart);
+            pairs.insert(place, (apart, found));
+            pairs.truncate(TRIED);
         }
     }
+    let (a, b) = (from.corners(0)[0], from.corners(0)[1]);
+    let panels = Panels { solids, side: (b - a).norm() };
+    let mut best: Vec<(usize, f64, Refolding)> = Vec::new();
+    let tried = (STEPS_IN_ALL_MAX / (STEPS_MAX * n)).max(1);
+    for (_, pair) in pairs.iter().take(tried) {
+        // One that is as good may cost less.
+        let most = best.iter().map(|other| other.0 + 1).min().unwrap_or(usize::MAX);
+        if let Some(found) = pair.refolding(from, to, panels, most) {
+            best.push((found.strokes.len(), cost(&found), found));
+        }
+    }
+    best.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    best.truncate(settings.kept);
     let least = best.first().ok_or(NoRefolding::Budget)?.0;
-    let bound = usize::from(least > 0 && !can_do_without(from, to, settings.budget / 2));
+    let bound = bound(from, to, least, settings.budget / 2);
     Ok(Found { best: best.into_iter().map(|(_, _, found)| found).collect(), bound })
 }
 
-type Cell = [i64; 2];
-type Corners = [Cell; 3];
-
-/// The sum of the corners is a name for the cell.
-fn cell(corners: &Corners) -> Cell {
-    [0, 1].map(|k| corners.iter().map(|c| c[k]).sum())
+/// A sheet of either shape on the same lattice.
+#[derive(Clone, Debug, PartialEq)]
+struct Pair {
+    from: Laid,
+    to: Laid,
 }
 
-/// The cell across side `k`, its first side the common one.
-fn across(corners: &Corners, k: usize) -> Corners {
-    let (a, b, c) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
-    [b, a, [a[0] + b[0] - c[0], a[1] + b[1] - c[1]]]
+/// A shape laid out.
+#[derive(Clone, Debug, PartialEq)]
+struct Laid {
+    /// By face.
+    corners: Vec<Corners>,
+    /// In order of number.
+    hinges: Vec<usize>,
+}
+
+impl Laid {
+    fn cells(&self) -> BTreeSet<Cell> {
+        self.corners.iter().map(cell).collect()
+    }
+
+    /// Pairs of cells that are joined.
+    fn joined<'l>(&'l self, target: &'l Target) -> impl Iterator<Item = [Cell; 2]> + 'l {
+        self.hinges.iter().map(|hinge| {
+            let [a, b] = target.hinges[*hinge].faces.map(|face| cell(&self.corners[face]));
+            pair(a, b)
+        })
+    }
+}
+
+impl Pair {
+    /// Cells that only one covers, and connections that only one has: about what lies between them.
+    fn apart(&self, from: &Target, to: &Target) -> usize {
+        let cells = self.to.cells();
+        let stray = self.from.corners.iter().filter(|corners| !cells.contains(&cell(corners))).count();
+        let joined: BTreeSet<[Cell; 2]> = self.from.joined(from).collect();
+        stray + self.to.joined(to).filter(|pair| !joined.contains(pair)).count()
+    }
+
+    fn refolding(&self, from: &Target, to: &Target, panels: Panels, most: usize) -> Option<Refolding> {
+        let bonds = self.from.hinges.iter().map(|hinge| {
+            let hinge = &from.hinges[*hinge];
+            let [a, b] = [0, 1].map(|end| (hinge.faces[end], hinge.sides[end]));
+            bond(a, b)
+        });
+        let start = Plane::new(self.from.corners.clone(), bonds.collect());
+        let goal = Goal { cells: self.to.cells(), bonds: self.to.joined(to).collect() };
+        let (strokes, end) = rearranged(&start, &goal, panels, most, STEPS_MAX)?;
+        let faces: BTreeMap<Cell, usize> =
+            self.to.corners.iter().enumerate().map(|(face, corners)| (cell(corners), face)).collect();
+        let becomes: Vec<usize> = end.corners.iter().map(|corners| faces[&cell(corners)]).collect();
+        let turn = |(panel, face): (usize, &usize)| {
+            let there = self.to.corners[*face];
+            (0..3)
+                .find(|turn| there[*turn] == end.corners[panel][0])
+                .expect("one cell has one set of corners")
+        };
+        let turns = becomes.iter().enumerate().map(turn).collect();
+        Some(Refolding {
+            from: Layout::of_hinges(from, &self.from.hinges, 0).expect("laid out as a tree"),
+            to: Layout::of_hinges(to, &self.to.hinges, becomes[0]).expect("laid out as a tree"),
+            becomes,
+            turns,
+            strokes,
+        })
+    }
+}
+
+/// Lays the rest of a shape around the faces that are laid out, on cells of the other's sheet where it
+/// can. `None` where it gets stuck.
+fn spread(
+    target: &Target,
+    mut corners: Vec<Option<Corners>>,
+    mut hinges: Vec<usize>,
+    wanted: &BTreeSet<Cell>,
+    random: &mut Random,
+) -> Option<Laid> {
+    let mut cells: BTreeSet<Cell> = corners.iter().flatten().map(cell).collect();
+    while hinges.len() + 1 < corners.len() {
+        let mut choices: Vec<(bool, usize, usize, Corners)> = Vec::new();
+        for (face, laid) in corners.iter().enumerate() {
+            let Some(laid) = laid else { continue };
+            for side in 0..3 {
+                let ahead = across(laid, side);
+                let next = Sheet::beyond(target, face, side, |other| corners[other].is_some());
+                if let Some([other, own, hinge]) = next.filter(|_| !cells.contains(&cell(&ahead))) {
+                    let ahead = [0, 1, 2].map(|k| ahead[(k + 3 - own) % 3]);
+                    choices.push((wanted.contains(&cell(&ahead)), other, hinge, ahead));
+                }
+            }
+        }
+        let are_wanted = choices.iter().any(|choice| choice.0);
+        choices.retain(|choice| choice.0 == are_wanted);
+        if choices.is_empty() {
+            return None;
+        }
+        let (_, face, hinge, ahead) = choices[random.below(choices.len())];
+        cells.insert(cell(&ahead));
+        corners[face] = Some(ahead);
+        hinges.push(hinge);
+    }
+    hinges.sort_unstable();
+    Some(Laid { corners: corners.into_iter().flatten().collect(), hinges })
 }
 
 /// A panel on the sheet.
@@ -140,6 +252,7 @@ struct Placed {
 }
 
 /// A sheet that grows.
+#[derive(Clone)]
 struct Sheet<'t> {
     from: &'t Target,
     to: &'t Target,
@@ -213,9 +326,11 @@ impl<'t> Sheet<'t> {
     }
 
     /// Adds panels until all are on the sheet; where it gets stuck it takes some of the last away, a
-    /// few times. `bias`: among equals the first placed neighbour (0), the last (1), or any.
-    fn grow(&mut self, random: &mut Random, bias: usize, left: &mut u64) -> bool {
+    /// few times. The sheet with the most panels. `bias`: among equals the first placed neighbour (0),
+    /// the last (1), or any.
+    fn grow(&mut self, random: &mut Random, bias: usize, left: &mut u64) -> Sheet<'t> {
         let mut retreats = RETREATS;
+        let mut peak = self.clone();
         while self.grown.len() + 1 < self.placed.len() {
             crate::interrupt::checkpoint();
             let choices = self.choices(left);
@@ -225,8 +340,11 @@ impl<'t> Sheet<'t> {
                 _ => 0,
             };
             let Some(least) = choices.iter().map(|c| (c.changes, key(c))).min() else {
+                if self.grown.len() > peak.grown.len() {
+                    peak = self.clone();
+                }
                 if retreats == 0 || *left == 0 || self.grown.is_empty() {
-                    return false;
+                    return peak;
                 }
                 retreats -= 1;
                 for _ in 0..=random.below(self.grown.len()) {
@@ -240,7 +358,7 @@ impl<'t> Sheet<'t> {
             self.put(face, Placed { becomes, turn, corners, number: self.grown.len() + 1 });
             self.grown.push(choice);
         }
-        true
+        self.clone()
     }
 
     fn take_back(&mut self) {
@@ -312,65 +430,100 @@ impl<'t> Sheet<'t> {
         Some(Choice { face: new, becomes, turn, corners, hinges: [hinge, second], changes, after })
     }
 
-    fn finish(self) -> Refolding {
-        let panel = |face: usize| self.placed[face].expect("all are on the sheet");
+    /// The rest of either shape laid around what they have in common.
+    fn pair(&self, random: &mut Random) -> Option<Pair> {
         let n = self.placed.len();
-        let becomes: Vec<usize> = (0..n).map(|face| panel(face).becomes).collect();
-        let [from, to] = [0, 1].map(|shape| self.grown.iter().map(|c| c.hinges[shape]).collect::<Vec<_>>());
-        let tree = "a sheet grows as a tree";
-        Refolding {
-            from: Layout::of_hinges(self.from, &from, self.first).expect(tree),
-            to: Layout::of_hinges(self.to, &to, becomes[self.first]).expect(tree),
-            turns: (0..n).map(|face| panel(face).turn).collect(),
-            becomes,
-            changes: self.grown.iter().map(|c| c.changes).sum(),
+        let mut first = vec![None; n];
+        let mut second = vec![None; n];
+        for (face, panel) in self.placed.iter().enumerate() {
+            let Some(Placed { becomes, turn, corners, .. }) = panel else { continue };
+            first[face] = Some(*corners);
+            second[*becomes] = Some([0, 1, 2].map(|k| corners[(k + 3 - turn) % 3]));
         }
+        let [from, to] = [0, 1].map(|shape| self.grown.iter().map(|c| c.hinges[shape]).collect::<Vec<_>>());
+        let from = spread(self.from, first, from, &BTreeSet::new(), random)?;
+        let to = spread(self.to, second, to, &from.cells(), random)?;
+        Some(Pair { from, to })
     }
 }
 
-/// Whether both shapes have a layout in common, as far as the steps reach: `true` also where they do
-/// not suffice.
-fn can_do_without(from: &Target, to: &Target, mut left: u64) -> bool {
+/// How many connections have to be made at least, `most` at most. Those that both shapes have join
+/// panels to pieces, each a part of a layout of either; the other connections of the second shape
+/// are made. Whether so few pieces do is searched exhaustively, as far as the steps reach.
+fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
+    let mut left = budget;
+    (0..most).find(|more| can_do_with(from, to, more + 1, &mut left)).unwrap_or(most)
+}
+
+/// Whether so many pieces do: `true` also where the steps do not suffice.
+fn can_do_with(from: &Target, to: &Target, pieces: usize, left: &mut u64) -> bool {
     let n = to.faces.len();
-    (0..n).any(|face| {
-        (0..3).any(|turn| {
-            let mut sheet = Sheet::new(from, to);
-            sheet.begin(0, face, turn);
-            let mut closed = vec![[false; 3]; n];
-            common(&mut sheet, &mut closed, n - 1, &mut left)
-        })
-    })
+    let mut search = Pieces { sheet: Sheet::new(from, to), closed: vec![[false; 3]; n], left };
+    search.begun(n, pieces)
 }
 
-/// Goes on with the first hinge that both shapes have: over it, or never over it. As deep as there are
-/// sides.
-fn common(sheet: &mut Sheet, closed: &mut [[bool; 3]], missing: usize, left: &mut u64) -> bool {
-    if missing == 0 || *left == 0 {
-        return true;
-    }
-    for face in 0..closed.len() {
-        let Some(panel) = sheet.placed[face] else { continue };
-        for side in 0..3 {
-            *left = left.saturating_sub(1);
-            let ahead = across(&panel.corners, side);
-            if closed[face][side] || sheet.cells.contains_key(&cell(&ahead)) {
+struct Pieces<'t, 'l> {
+    sheet: Sheet<'t>,
+    /// Sides of faces of the first shape across which no piece goes on.
+    closed: Vec<[bool; 3]>,
+    left: &'l mut u64,
+}
+
+impl Pieces<'_, '_> {
+    /// Begins a piece with the first face that is in none. As deep as there are sides.
+    fn begun(&mut self, missing: usize, pieces: usize) -> bool {
+        if missing == 0 || *self.left == 0 {
+            return true;
+        }
+        let Some(face) = self.sheet.placed.iter().position(Option::is_none).filter(|_| pieces > 0) else {
+            return false;
+        };
+        // No piece reaches the next.
+        let away = 4 * (missing * self.closed.len()) as i64;
+        let corners = [[away, 0], [away + 1, 0], [away, 1]];
+        for becomes in 0..self.closed.len() {
+            if self.sheet.taken[becomes] {
                 continue;
             }
-            let Some(next) = sheet.next_from(face, side) else { continue };
-            let Some(choice) = sheet.joined(face, next, ahead, face, side, 0) else { continue };
-            let Choice { face: new, becomes, turn, corners, .. } = choice;
-            sheet.put(new, Placed { becomes, turn, corners, number: 0 });
-            if common(sheet, closed, missing - 1, left) {
-                return true;
+            for turn in 0..3 {
+                self.sheet.put(face, Placed { becomes, turn, corners, number: 0 });
+                let found = self.grown(missing - 1, pieces - 1);
+                self.sheet.lift(face, becomes, &corners);
+                if found {
+                    return true;
+                }
             }
-            sheet.lift(new, becomes, &corners);
-            closed[face][side] = true;
-            let found = common(sheet, closed, missing, left);
-            closed[face][side] = false;
-            return found;
         }
+        false
     }
-    false
+
+    /// Goes on with the first hinge that both shapes have: over it, or never over it.
+    fn grown(&mut self, missing: usize, pieces: usize) -> bool {
+        for face in 0..self.closed.len() {
+            let Some(panel) = self.sheet.placed[face] else { continue };
+            for side in 0..3 {
+                *self.left = self.left.saturating_sub(1);
+                let ahead = across(&panel.corners, side);
+                if self.closed[face][side] || self.sheet.cells.contains_key(&cell(&ahead)) {
+                    continue;
+                }
+                let Some(next) = self.sheet.next_from(face, side) else { continue };
+                let Some(choice) = self.sheet.joined(face, next, ahead, face, side, 0) else { continue };
+                let Choice { face: new, becomes, turn, corners, .. } = choice;
+                self.sheet.put(new, Placed { becomes, turn, corners, number: 0 });
+                let found = missing == 1 || *self.left == 0 || self.grown(missing - 1, pieces);
+                self.sheet.lift(new, becomes, &corners);
+                if found {
+                    return true;
+                }
+                self.closed[face][side] = true;
+                let found = self.grown(missing, pieces);
+                self.closed[face][side] = false;
+                return found;
+            }
+        }
+        self.begun(missing, pieces)
+    }
 }
 
 /// SplitMix64.

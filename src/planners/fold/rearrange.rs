@@ -1,0 +1,149 @@
+//! From one sheet to another in the plane: a search for a short series of strokes.
+//!
+//! Panels are alike, so a state is the cells that are covered and the pairs of them that are joined.
+//! Every stroke makes one connection, so as many are needed as the state lacks of those that are
+//! wanted. To this is added how far the panels that lie elsewhere are from the cells that are still
+//! free, and what is best by both is looked at next: the series that is found need not be the shortest.
+
+use super::meeting::Solids;
+use super::plane::{Plane, Point, Side, Stroke, cell};
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+
+/// What a panel's way to its cell counts, by the steps of the lattice: more, and the search goes
+/// straighter.
+const FARNESS: i64 = 2;
+
+/// The sheet that is wanted.
+#[derive(Clone, Debug)]
+pub struct Goal {
+    pub cells: BTreeSet<Point>,
+    /// Pairs of cells that are joined, the lesser first: a tree.
+    pub bonds: BTreeSet<[Point; 2]>,
+}
+
+/// What panels are, to see whether they meet.
+#[derive(Clone, Copy)]
+pub struct Panels<'p> {
+    pub solids: &'p Solids,
+    /// m
+    pub side: f64,
+}
+
+pub fn pair(a: Point, b: Point) -> [Point; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+/// A state that was reached.
+struct Node {
+    plane: Plane,
+    /// The state before, and what led on.
+    from: Option<(usize, Stroke)>,
+    strokes: i64,
+}
+
+/// Changes one sheet into the other, in fewer strokes than `most`; `steps`: states that are gone on
+/// from. Strokes and the sheet after them.
+pub fn rearranged(
+    start: &Plane,
+    goal: &Goal,
+    panels: Panels,
+    most: usize,
+    steps: usize,
+) -> Option<(Vec<Stroke>, Plane)> {
+    let mut nodes = vec![Node { plane: start.clone(), from: None, strokes: 0 }];
+    let mut queue = BinaryHeap::from([Reverse((0, 0))]);
+    let mut known = BTreeSet::from([state(start)]);
+    for _ in 0..steps {
+        let Reverse((_, at)) = queue.pop()?;
+        // Looked at as late as that, for most are never gone on from.
+        if !is_free(&mut nodes, at, panels) {
+            continue;
+        }
+        let Node { plane, strokes, .. } = &nodes[at];
+        if lacking(plane, goal) == 0 {
+            return Some(series(nodes, at));
+        }
+        let (plane, strokes) = (plane.clone(), *strokes);
+        for stroke in strokes_of(&plane, goal) {
+            let mut next = plane.clone();
+            next.apply(&stroke);
+            let lacking = lacking(&next, goal);
+            if strokes as usize + 1 + lacking >= most || !known.insert(state(&next)) {
+                continue;
+            }
+            let value = strokes + 1 + lacking as i64 + FARNESS * farness(&next, goal);
+            queue.push(Reverse((value, nodes.len())));
+            nodes.push(Node { plane: next, from: Some((at, stroke)), strokes: strokes + 1 });
+        }
+    }
+    None
+}
+
+/// Whether nothing meets on the way into a state; folded to the other side, if it has to be.
+fn is_free(nodes: &mut [Node], at: usize, Panels { solids, side }: Panels) -> bool {
+    let Some((before, stroke)) = nodes[at].from.clone() else { return true };
+    let other = Stroke { angle: -stroke.angle, ..stroke.clone() };
+    let free = [stroke, other].into_iter().find(|s| nodes[before].plane.is_free(s, solids, side));
+    let is_free = free.is_some();
+    nodes[at].from = free.map(|stroke| (before, stroke));
+    is_free
+}
+
+fn series(mut nodes: Vec<Node>, end: usize) -> (Vec<Stroke>, Plane) {
+    let mut strokes = Vec::new();
+    let mut at = end;
+    while let Some((before, stroke)) = nodes[at].from.take() {
+        strokes.push(stroke);
+        at = before;
+    }
+    strokes.reverse();
+    (strokes, nodes.swap_remove(end).plane)
+}
+
+fn joined(plane: &Plane, bond: &[Side; 2]) -> [Point; 2] {
+    let [a, b] = bond.map(|side| cell(&plane.corners[side.0]));
+    pair(a, b)
+}
+
+fn state(plane: &Plane) -> Vec<[Point; 2]> {
+    let mut bonds: Vec<[Point; 2]> = plane.bonds.iter().map(|bond| joined(plane, bond)).collect();
+    bonds.sort_unstable();
+    bonds
+}
+
+/// Connections that are still to be made.
+fn lacking(plane: &Plane, goal: &Goal) -> usize {
+    let has = plane.bonds.iter().filter(|bond| goal.bonds.contains(&joined(plane, bond))).count();
+    goal.bonds.len() - has
+}
+
+/// How far panels on cells that are not wanted are from wanted cells that are free, and the other way
+/// round: the greater sum, in steps from a cell to the next but one.
+fn farness(plane: &Plane, goal: &Goal) -> i64 {
+    let stray: Vec<Point> = plane.cells.keys().filter(|cell| !goal.cells.contains(*cell)).copied().collect();
+    let free: Vec<Point> =
+        goal.cells.iter().filter(|cell| !plane.cells.contains_key(*cell)).copied().collect();
+    let sum = |from: &[Point], to: &[Point]| -> i64 {
+        from.iter().map(|a| to.iter().map(|b| steps(*a, *b)).min().unwrap_or(0)).sum()
+    };
+    sum(&stray, &free).max(sum(&free, &stray))
+}
+
+/// Lattice steps between two cells, rounded up; cells are named by the sums of their corners.
+fn steps(a: Point, b: Point) -> i64 {
+    let [i, j] = [b[0] - a[0], b[1] - a[1]];
+    let thirds = i.abs().max(j.abs()).max((i + j).abs());
+    (thirds + 2) / 3
+}
+
+/// What can be done: a wanted connection at once, where there is one.
+fn strokes_of(plane: &Plane, goal: &Goal) -> Vec<Stroke> {
+    let worth = |bond: &[Side; 2]| usize::from(goal.bonds.contains(&joined(plane, bond)));
+    let open = plane.open();
+    if let Some(make) = open.iter().find(|make| worth(make) > 0) {
+        return vec![plane.change(*make, worth)];
+    }
+    let changes = open.into_iter().map(|make| plane.change(make, worth));
+    changes.chain(plane.pivots()).collect()
+}
