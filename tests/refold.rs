@@ -285,7 +285,7 @@ fn panels_walk_from_sheet_to_sheet() {
         ran.host.printed[0].split(' ').take(2).map(|n| n.parse().expect("a number")).collect();
     let docks = |kind: DockKind| tracks.docks.iter().filter(|d| d.kind == kind).count();
     assert_eq!((docks(DockKind::Dock), docks(DockKind::Undock)), (printed[0], printed[0]));
-    assert!(printed[0] > 0 && printed[1] <= printed[0], "{printed:?}");
+    assert!(0 < printed[1] && printed[1] <= printed[0], "{printed:?}");
     let (middles, ends) = (panels(tracks, false), panels(tracks, true));
     // An icosahedron's middles are on a ball; those of a tube of five are in four rows of five heights.
     let centre = |places: &[Vec3]| places.iter().sum::<Vec3>() / places.len() as f64;

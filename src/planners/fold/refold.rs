@@ -68,7 +68,7 @@ pub struct Found {
 /// How long to search.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Cells weighed in all; half of it goes into the proof that a change is needed.
+    /// Cells weighed in all; half of it goes into the bound.
     pub budget: u64,
     pub seed: u64,
     /// Sheets that are kept.
@@ -497,18 +497,42 @@ impl Pieces<'_, '_> {
         false
     }
 
+    /// The hinge across a side of a panel, if both shapes may go on there.
+    fn choice(&self, face: usize, side: usize) -> Option<Choice> {
+        let ahead = across(&self.sheet.panel(face).corners, side);
+        if self.closed[face][side] || self.sheet.cells.contains_key(&cell(&ahead)) {
+            return None;
+        }
+        let next = self.sheet.next_from(face, side)?;
+        self.sheet.joined(face, next, ahead, face, side, 0)
+    }
+
+    /// Whether the faces that no panel can be continued to are no more groups than pieces are left, in
+    /// either shape.
+    fn can_reach(&self, pieces: usize) -> bool {
+        let Sheet { from, to, placed, taken, .. } = &self.sheet;
+        let sides = (0..placed.len()).flat_map(|face| (0..3).map(move |side| (face, side)));
+        let ahead: Vec<Choice> = sides
+            .filter(|(face, _)| placed[*face].is_some())
+            .filter_map(|(f, s)| self.choice(f, s))
+            .collect();
+        let first = groups(from, |face| placed[face].is_some(), ahead.iter().map(|choice| choice.face));
+        let second = groups(to, |face| taken[face], ahead.iter().map(|choice| choice.becomes));
+        first.max(second) <= pieces
+    }
+
     /// Goes on with the first hinge that both shapes have: over it, or never over it.
     fn grown(&mut self, missing: usize, pieces: usize) -> bool {
+        if !self.can_reach(pieces) {
+            return false;
+        }
         for face in 0..self.closed.len() {
-            let Some(panel) = self.sheet.placed[face] else { continue };
+            if self.sheet.placed[face].is_none() {
+                continue;
+            }
             for side in 0..3 {
                 *self.left = self.left.saturating_sub(1);
-                let ahead = across(&panel.corners, side);
-                if self.closed[face][side] || self.sheet.cells.contains_key(&cell(&ahead)) {
-                    continue;
-                }
-                let Some(next) = self.sheet.next_from(face, side) else { continue };
-                let Some(choice) = self.sheet.joined(face, next, ahead, face, side, 0) else { continue };
+                let Some(choice) = self.choice(face, side) else { continue };
                 let Choice { face: new, becomes, turn, corners, .. } = choice;
                 self.sheet.put(new, Placed { becomes, turn, corners, number: 0 });
                 let found = missing == 1 || *self.left == 0 || self.grown(missing - 1, pieces);
@@ -524,6 +548,31 @@ impl Pieces<'_, '_> {
         }
         self.begun(missing, pieces)
     }
+}
+
+/// Into how many groups those faces fall which are not gone and hang together with none of the first.
+fn groups(target: &Target, gone: impl Fn(usize) -> bool, first: impl Iterator<Item = usize>) -> usize {
+    let mut seen: Vec<bool> = (0..target.faces.len()).map(gone).collect();
+    let flood = |seen: &mut Vec<bool>, mut stack: Vec<usize>| {
+        while let Some(face) = stack.pop() {
+            for (_, other) in target.around(face) {
+                if !std::mem::replace(&mut seen[other], true) {
+                    stack.push(other);
+                }
+            }
+        }
+    };
+    let first: Vec<usize> = first.collect();
+    first.iter().for_each(|face| seen[*face] = true);
+    flood(&mut seen, first);
+    let mut groups = 0;
+    for face in 0..seen.len() {
+        if !std::mem::replace(&mut seen[face], true) {
+            groups += 1;
+            flood(&mut seen, vec![face]);
+        }
+    }
+    groups
 }
 
 /// SplitMix64.

@@ -176,7 +176,7 @@ print(refold(octahedron(80mm), boat(70mm), module: Mori).changes)
 print(refold(octahedron(80mm), boat(80mm), module: Smores).changes)
 //                                                 ^^^^^^ E0506 no triangular panel
 print(refold(octahedron(80mm), boat(80mm), module: Mori, budget: 0).changes)
-//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0802 no flat sheet
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0802 no way was found
 print(refold(octahedron(80mm), boat(80mm), module: Mori, step: 1ms).changes)
 //                                                             ^^^ E0506 as fast as that
 
