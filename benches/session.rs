@@ -50,11 +50,11 @@ mod unix {
         });
         report("an entry", &mut || ask(&mut session, "1 + 1", "2: Int"));
         report("Tab", &mut || {
-            session.types("Hing");
-            session.sees("Hing");
+            session.types("clam");
+            session.sees("clam");
             let begin = Instant::now();
             session.types("\t");
-            session.sees("Hinge0");
+            session.sees("clamp");
             let took = begin.elapsed();
             session.types("\x03");
             prompt(&mut session);

@@ -24,6 +24,7 @@ pub mod view;
 
 pub mod interpret;
 
+pub mod document;
 pub mod session;
 
 pub mod cli;

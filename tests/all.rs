@@ -12,6 +12,7 @@ mod designs;
 mod desk;
 mod distance;
 mod docs;
+mod documentation;
 mod faithful;
 mod fences;
 mod fold;

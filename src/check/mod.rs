@@ -23,6 +23,7 @@ mod members;
 mod module;
 mod names;
 mod operators;
+pub mod summary;
 mod type_expr;
 pub mod typed;
 mod typed_expr;

@@ -52,7 +52,7 @@ pub enum Command {
         #[arg(value_name = "FILE", required = true)]
         files: Vec<PathBuf>,
     },
-    /// Run the tests that programs contain
+    /// Run the tests that programs contain, and the examples in their documentation
     #[command(after_help = "Examples:\n  modl test walkbot.mod\n  modl test *.mod --filter order")]
     Test {
         /// The programs; `-` reads standard input
@@ -109,6 +109,23 @@ pub enum Command {
         /// A program whose declarations are taken in first; none of its statements is run
         #[arg(value_name = "FILE")]
         file: Option<PathBuf>,
+    },
+    /// Write the documentation of a project, and of the standard library, as a site
+    #[command(
+        after_help = "Examples:\n  modl doc\n  modl doc rover --open\n\nThe site is written to doc/ below the output folder, works \
+        from there without a server, and can be searched.\nIn documentation [`Name`] is a link to a declaration; links that lead \
+        nowhere are errors."
+    )]
+    Doc {
+        /// The project: all programs in it
+        #[arg(value_name = "FOLDER", default_value = ".")]
+        folder: PathBuf,
+        /// Leave the standard library out
+        #[arg(long)]
+        only: bool,
+        /// Open it in the browser
+        #[arg(long)]
+        open: bool,
     },
     /// Lay programs out in the one style
     #[command(

@@ -6,7 +6,9 @@
 
 mod arguments;
 mod disk;
+mod doc;
 mod editor;
+mod examples;
 mod explain;
 mod fmt;
 mod judge;
@@ -76,6 +78,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         }
         Command::Verify { files } => judge::run(files, globals),
         Command::Show { file, open } => show::run(file, *open, globals),
+        Command::Doc { folder, only, open } => doc::run(folder, !only, *open, globals),
         Command::Repl { file } => repl::run(file.as_deref(), globals),
         Command::Fmt { files, check } => fmt::run(files, *check, globals),
         Command::New { name } => new::run(name, globals),

@@ -5,7 +5,7 @@ use super::disk::{Project, STDIN_NAME};
 use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
 use super::watch::Watched;
-use super::{CallError, Ending};
+use super::{CallError, Ending, examples};
 
 use crate::check;
 use crate::interpret::{self, Limits, Mode, Options, Outcome, TestResult};
@@ -116,6 +116,16 @@ fn one(
         show_test(file, test, tally, globals);
     }
     tally.report.add(&checked.sources, &diagnostics, &style, globals);
+    if let Task::Test(filter) = task
+        && !checked.has_errors()
+        && !outcome.cancelled
+    {
+        for example in examples::run(project, filter.as_deref(), terminal, &options(project, task, globals)) {
+            tally.cancelled |= example.cancelled;
+            show_test(file, &TestResult { name: example.name, passed: example.passed }, tally, globals);
+            tally.report.add(&example.checked.sources, &example.diagnostics, &style, globals);
+        }
+    }
     show_written(outcome.written, tally, task, globals);
     if outcome.cancelled {
         tally.cancelled = true;

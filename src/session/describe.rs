@@ -1,12 +1,13 @@
 //! What a name means, how it is declared, and what there is: `:doc`, `:source`, `:vars`, `:type`.
 
 use super::dependencies::meant;
-use super::members::{about, param_text, params_of};
+use super::members::about;
 use super::state::{Session, is_given, value_type};
-use crate::check::typed::{Def, DefId, DefKind, Param};
+use crate::check::summary::{self, Group, Inside};
+use crate::check::typed::{Def, DefId};
 use crate::check::{self, Checked, Entry, Meaning, Type};
 use crate::source::suggest::suggest;
-use crate::source::{Diagnostic, Symbol, library};
+use crate::source::{Diagnostic, library};
 use crate::syntax::{self, ast};
 use std::sync::Arc;
 
@@ -105,14 +106,13 @@ impl Session {
 
     fn doc_of(&self, id: DefId) -> String {
         let def = self.checked.program.def(id);
-        let mut out = format!("{}\n", signature(&self.checked, def, params_of(&self.checked.program, id)));
+        let mut out = format!("{}\n", summary::signature(&self.checked, id));
         if let Some(doc) = &def.doc {
             out.push_str(&format!("\n{}\n", doc.trim()));
         }
-        let inner = inside(&self.checked, def);
-        if !inner.is_empty() {
-            out.push('\n');
-            out.push_str(&inner);
+        let inside = summary::inside(&self.checked, def);
+        if !inside.is_empty() {
+            out.push_str(&format!("\n{}", lines(&inside)));
         }
         out
     }
@@ -143,102 +143,28 @@ fn is_named(item: &ast::Item, name: &str) -> bool {
     declared.text == name
 }
 
-/// As it is declared, without a body: `fn ramp(i: Int, n: Int = 4) -> Number`.
-fn signature(checked: &Checked, def: &Def, params: &[Param]) -> String {
-    let program = &checked.program;
-    let written = params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
-    let written = if params.is_empty() { String::new() } else { format!("({written})") };
-    match &def.kind {
-        DefKind::Let(binding) => format!("let {}: {}", def.name, program.type_name(&binding.ty)),
-        DefKind::Fn(f) => called(def.name, &written, &program.type_name(&f.result)),
-        DefKind::Native(f) => called(def.name, &written, &program.type_name(&f.result)),
-        DefKind::Record(_) => format!("type {}", def.name),
-        DefKind::Error => def.name.to_string(),
-        DefKind::Connector(_) => format!("connector {}", def.name),
-        DefKind::Module(_) => format!("module {}{written}", def.name),
-        DefKind::Cell(_) => format!("cell {}{written}", def.name),
-        DefKind::Strut(_) => format!("strut {}{written}", def.name),
-        DefKind::Config(_) => format!("config {}{written}", def.name),
-        DefKind::Lattice(_) => format!("lattice {}{written}", def.name),
-        DefKind::Truss(_) => format!("truss {}{written}", def.name),
-    }
-}
-
-fn called(name: Symbol, params: &str, result: &str) -> String {
-    let params = if params.is_empty() { "()" } else { params };
-    format!("fn {name}{params} -> {result}")
-}
-
-fn with_default(checked: &Checked, param: &Param) -> String {
-    let default = param.default.as_ref().map(|value| checked.sources.text(value.span));
-    let default = default.map(|text| format!(" = {text}")).unwrap_or_default();
-    format!("{}{default}", param_text(&checked.program, param))
-}
-
-/// Joints, ports, behaviours, fields and methods, a line each.
-fn inside(checked: &Checked, def: &Def) -> String {
-    let lines = lines_inside(checked, def);
-    let line = |(head, doc): &(String, Option<Arc<str>>)| match doc {
-        Some(doc) => format!("  {head}\n      {}\n", first_paragraph(doc)),
-        None => format!("  {head}\n"),
+/// Joints, ports, parts, behaviours, fields and methods, a line each.
+fn lines(inside: &[Inside]) -> String {
+    let line = |inside: &Inside| {
+        let doc = inside.doc.as_deref().map(|doc| format!("      {}\n", first_paragraph(doc)));
+        format!("  {}\n{}", head(inside), doc.unwrap_or_default())
     };
-    lines.iter().map(line).collect()
+    inside.iter().map(line).collect()
 }
 
-type Line = (String, Option<Arc<str>>);
-
-fn lines_inside(checked: &Checked, def: &Def) -> Vec<Line> {
-    let program = &checked.program;
-    match &def.kind {
-        DefKind::Module(module) => {
-            let joints = module.joints.iter().map(|j| {
-                let position = program.type_name(&Type::Quantity(j.dimension));
-                (format!("joint {}: Joint<{position}>", j.name), j.doc.clone())
-            });
-            let ports = module.ports.iter();
-            let ports =
-                ports.map(|p| (format!("port {}{}", p.name, if p.array { "[]" } else { "" }), p.doc.clone()));
-            joints.chain(ports).collect()
-        }
-        DefKind::Config(config) => {
-            let parts = config.parts.iter().map(|part| {
-                let many = if part.count.is_some() { "[]" } else { "" };
-                (format!("part {}{many}: {}", part.name, program.def(part.of).name), None)
-            });
-            let behaviors = config.behaviors.iter().map(|b| {
-                let params: Vec<String> = b.params.iter().map(|p| with_default(checked, p)).collect();
-                (format!("behavior {}({})", b.name, params.join(", ")), b.doc.clone())
-            });
-            parts.chain(behaviors).collect()
-        }
-        DefKind::Record(record) => {
-            let fields = record.fields.iter();
-            let fields = fields.map(|f| (format!("{}: {}", f.name, program.type_name(&f.ty)), f.doc.clone()));
-            let methods = record.methods.iter().map(|id| {
-                let method = program.def(*id);
-                let params = params_of(program, *id).get(1..).unwrap_or_default();
-                let params: Vec<String> = params.iter().map(|p| with_default(checked, p)).collect();
-                (format!("{}({})", method.name, params.join(", ")), method.doc.clone())
-            });
-            fields.chain(methods).collect()
-        }
-        _ => Vec::new(),
+/// With the word of the language before it, where it has one.
+fn head(inside: &Inside) -> String {
+    match inside.group {
+        Group::Field | Group::Method => inside.head.clone(),
+        group => format!("{} {}", group.word(), inside.head),
     }
 }
 
 /// What is said of a joint, port, behaviour, field or method.
 fn member_doc(checked: &Checked, def: &Def, name: &str) -> Option<String> {
-    let is_named = |head: &str| {
-        let words = head.trim_start_matches("joint ").trim_start_matches("port ");
-        let words = words.trim_start_matches("part ").trim_start_matches("behavior ");
-        words
-            .strip_prefix(name)
-            .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
-    };
-    let lines = lines_inside(checked, def);
-    let (head, doc) = lines.into_iter().find(|(head, _)| is_named(head))?;
-    let doc = doc.map(|doc| format!("\n{}\n", doc.trim())).unwrap_or_default();
-    Some(format!("{head}, of {}\n{doc}", def.name))
+    let found = summary::inside(checked, def).into_iter().find(|inside| inside.name.as_str() == name)?;
+    let doc = found.doc.as_deref().map(|doc| format!("\n{}\n", doc.trim())).unwrap_or_default();
+    Some(format!("{}, of {}\n{doc}", head(&found), def.name))
 }
 
 fn first_paragraph(doc: &str) -> String {

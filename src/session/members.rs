@@ -1,5 +1,6 @@
 //! What stands behind a dot: the members of a type with their own types.
 
+use crate::check::summary::{param_text, params_of, word};
 use crate::check::typed::{DefId, DefKind, Member, MemberKind, Param, RecordDef};
 use crate::check::{Checked, Program, Type};
 use crate::source::Symbol;
@@ -113,25 +114,6 @@ pub fn params_text(program: &Program, params: &[Param], result: &str) -> String 
     format!("({}) -> {result}", params.join(", "))
 }
 
-pub fn param_text(program: &Program, param: &Param) -> String {
-    let dots = if param.variadic { "..." } else { "" };
-    format!("{}: {}{dots}", param.name, program.type_name(&param.ty))
-}
-
-/// Parameters of what a call of this declaration takes.
-pub fn params_of(program: &Program, id: DefId) -> &[Param] {
-    match &program.def(id).kind {
-        DefKind::Fn(function) => &function.params,
-        DefKind::Native(native) => &native.params,
-        DefKind::Module(d) => &d.params,
-        DefKind::Cell(d) | DefKind::Strut(d) => &d.params,
-        DefKind::Config(d) => &d.params,
-        DefKind::Lattice(d) => &d.params,
-        DefKind::Truss(d) => &d.params,
-        _ => &[],
-    }
-}
-
 /// Parameters of what is called by a name behind a dot.
 pub fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
     let program = &checked.program;
@@ -162,13 +144,6 @@ pub fn about(program: &Program, id: DefId) -> String {
         DefKind::Fn(f) => params_text(program, &f.params, &program.type_name(&f.result)),
         DefKind::Native(f) => params_text(program, &f.params, &program.type_name(&f.result)),
         DefKind::Record(_) => "a record".into(),
-        DefKind::Connector(_) => "connector".into(),
-        DefKind::Module(_) => "module".into(),
-        DefKind::Cell(_) => "cell".into(),
-        DefKind::Strut(_) => "strut".into(),
-        DefKind::Config(_) => "config".into(),
-        DefKind::Lattice(_) => "lattice".into(),
-        DefKind::Truss(_) => "truss".into(),
-        DefKind::Error => String::new(),
+        kind => word(kind).into(),
     }
 }

@@ -1,0 +1,158 @@
+//! Declarations as they are written, without their bodies: for people who look something up.
+
+use super::typed::{Def, DefId, DefKind, Param, Program};
+use super::{Checked, Type};
+use crate::source::Symbol;
+use std::sync::Arc;
+
+/// What stands inside a declaration: how it is written, and what is said of it.
+#[derive(Clone, Debug)]
+pub struct Inside {
+    pub group: Group,
+    pub name: Symbol,
+    /// `bend: Joint<Angle>`, `walk(steps: Int = 4)`
+    pub head: String,
+    pub doc: Option<Arc<str>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    Joint,
+    Port,
+    Part,
+    Behavior,
+    Field,
+    Method,
+}
+
+impl Group {
+    /// The word of the language, or what a record has instead.
+    pub fn word(self) -> &'static str {
+        match self {
+            Group::Joint => "joint",
+            Group::Port => "port",
+            Group::Part => "part",
+            Group::Behavior => "behavior",
+            Group::Field => "field",
+            Group::Method => "method",
+        }
+    }
+}
+
+/// As it is declared, without a body: `fn ramp(i: Int, n: Int = 4) -> Number`.
+pub fn signature(checked: &Checked, id: DefId) -> String {
+    let program = &checked.program;
+    let def = program.def(id);
+    let params = params_of(program, id);
+    let written = params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+    let written = if params.is_empty() { String::new() } else { format!("({written})") };
+    match &def.kind {
+        DefKind::Let(binding) => format!("let {}: {}", def.name, program.type_name(&binding.ty)),
+        DefKind::Fn(f) => called(def.name, &written, &program.type_name(&f.result)),
+        DefKind::Native(f) => called(def.name, &written, &program.type_name(&f.result)),
+        DefKind::Error => def.name.to_string(),
+        _ => format!("{} {}{written}", word(&def.kind), def.name),
+    }
+}
+
+/// What a declaration declares: `module`, `config`, `fn`.
+pub fn word(kind: &DefKind) -> &'static str {
+    match kind {
+        DefKind::Let(_) => "let",
+        DefKind::Fn(_) | DefKind::Native(_) => "fn",
+        DefKind::Record(_) => "type",
+        DefKind::Connector(_) => "connector",
+        DefKind::Module(_) => "module",
+        DefKind::Cell(_) => "cell",
+        DefKind::Strut(_) => "strut",
+        DefKind::Config(_) => "config",
+        DefKind::Lattice(_) => "lattice",
+        DefKind::Truss(_) => "truss",
+        DefKind::Error => "",
+    }
+}
+
+fn called(name: Symbol, params: &str, result: &str) -> String {
+    let params = if params.is_empty() { "()" } else { params };
+    format!("fn {name}{params} -> {result}")
+}
+
+/// `n: Int = 4`
+fn with_default(checked: &Checked, param: &Param) -> String {
+    let default = param.default.as_ref().map(|value| checked.sources.text(value.span));
+    let default = default.map(|text| format!(" = {text}")).unwrap_or_default();
+    format!("{}{default}", param_text(&checked.program, param))
+}
+
+/// `n: Int`
+pub fn param_text(program: &Program, param: &Param) -> String {
+    let dots = if param.variadic { "..." } else { "" };
+    format!("{}: {}{dots}", param.name, program.type_name(&param.ty))
+}
+
+/// Parameters of what a call of this declaration takes.
+pub fn params_of(program: &Program, id: DefId) -> &[Param] {
+    match &program.def(id).kind {
+        DefKind::Fn(function) => &function.params,
+        DefKind::Native(native) => &native.params,
+        DefKind::Module(d) => &d.params,
+        DefKind::Cell(d) | DefKind::Strut(d) => &d.params,
+        DefKind::Config(d) => &d.params,
+        DefKind::Lattice(d) => &d.params,
+        DefKind::Truss(d) => &d.params,
+        _ => &[],
+    }
+}
+
+/// Joints, ports, parts, behaviours, fields and methods, in the order of the text.
+pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
+    let program = &checked.program;
+    let entry = |group, name: Symbol, head: String, doc: &Option<Arc<str>>| Inside {
+        group,
+        name,
+        head,
+        doc: doc.clone(),
+    };
+    let params =
+        |params: &[Param]| params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+    match &def.kind {
+        DefKind::Module(module) => {
+            let joints = module.joints.iter().map(|j| {
+                let position = program.type_name(&Type::Quantity(j.dimension));
+                entry(Group::Joint, j.name, format!("{}: Joint<{position}>", j.name), &j.doc)
+            });
+            let ports = module.ports.iter().map(|p| {
+                entry(Group::Port, p.name, format!("{}{}", p.name, if p.array { "[]" } else { "" }), &p.doc)
+            });
+            joints.chain(ports).collect()
+        }
+        DefKind::Config(config) => {
+            let parts = config.parts.iter().map(|part| {
+                let many = part.count.as_ref().map_or_else(String::new, |_| "[]".to_owned());
+                let head = format!("{}{many}: {}", part.name, checked.sources.text(part.ty_span));
+                entry(Group::Part, part.name, head, &None)
+            });
+            let behaviors = config.behaviors.iter().map(|b| {
+                entry(Group::Behavior, b.name, format!("{}({})", b.name, params(&b.params)), &b.doc)
+            });
+            parts.chain(behaviors).collect()
+        }
+        DefKind::Record(record) => {
+            let fields = record.fields.iter().map(|f| {
+                entry(Group::Field, f.name, format!("{}: {}", f.name, program.type_name(&f.ty)), &f.doc)
+            });
+            let methods = record.methods.iter().map(|id| {
+                let method = program.def(*id);
+                let own = params_of(program, *id).get(1..).unwrap_or_default();
+                let result = match &method.kind {
+                    DefKind::Native(native) => program.type_name(&native.result),
+                    _ => String::new(),
+                };
+                let head = format!("{}({}) -> {result}", method.name, params(own));
+                entry(Group::Method, method.name, head, &method.doc)
+            });
+            fields.chain(methods).collect()
+        }
+        _ => Vec::new(),
+    }
+}

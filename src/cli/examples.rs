@@ -1,0 +1,69 @@
+//! `modl test`, the second half: programs in documentation are run, and write nothing.
+
+use super::disk::Project;
+use super::terminal::Terminal;
+use crate::check::{self, Checked, Entry};
+use crate::document::examples::examples;
+use crate::interpret::{self, Host, Mode, Options, WriteError};
+use crate::interrupt::Interrupt;
+use crate::source::{Diagnostic, Files};
+
+/// An example that was run.
+pub struct Ran {
+    /// By which `--filter` finds it, and people.
+    pub name: String,
+    pub checked: Checked,
+    pub diagnostics: Vec<Diagnostic>,
+    pub passed: bool,
+    pub cancelled: bool,
+}
+
+/// Nothing that an example prints or writes is wanted.
+struct Silent(Interrupt);
+
+impl Host for Silent {
+    fn print(&mut self, _: &str) {}
+
+    fn write(&mut self, path: &str, _: &[u8]) -> Result<String, WriteError> {
+        Ok(path.to_owned())
+    }
+
+    fn progress(&mut self, _: &str) {}
+
+    fn interrupt(&self) -> Interrupt {
+        self.0.clone()
+    }
+}
+
+/// Runs the examples of a program whose name contains the filter.
+pub fn run(project: &Project, filter: Option<&str>, terminal: &Terminal, options: &Options) -> Vec<Ran> {
+    let Ok(bytes) = project.read(&project.name) else { return Vec::new() };
+    let text = String::from_utf8_lossy(&bytes);
+    let mut ran = Vec::new();
+    for example in examples(&text) {
+        let name = format!("example in line {}", example.first_line);
+        if !name.contains(filter.unwrap_or_default()) {
+            continue;
+        }
+        let entry = Entry {
+            name: project.name.clone(),
+            text: example.text,
+            first_line: example.first_line,
+            value: None,
+            last: None,
+        };
+        let checked = check::check_session(project, &[entry]);
+        let mut diagnostics = checked.diagnostics.clone();
+        let mut cancelled = false;
+        if !diagnostics.iter().any(Diagnostic::is_error) {
+            let mode = if example.only_checked { Mode::Check } else { Mode::Run };
+            let mut host = Silent(terminal.interrupt());
+            let mut outcome = interpret::run(&checked, mode, project as &dyn Files, &mut host, options);
+            diagnostics.append(&mut outcome.diagnostics);
+            cancelled = outcome.cancelled;
+        }
+        let passed = !cancelled && !diagnostics.iter().any(Diagnostic::is_error);
+        ran.push(Ran { name, checked, diagnostics, passed, cancelled });
+    }
+    ran
+}

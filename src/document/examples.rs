@@ -1,0 +1,59 @@
+//! Programs in the comments of a program: what stands there between ` ```modl ` and ` ``` `.
+
+use crate::source::FileId;
+use crate::syntax::{self, ast};
+
+/// An example, as a text that stands where it does in its file: blanks take the place of the comment's
+/// marks, so that lines and columns are those of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Example {
+    pub text: String,
+    /// The line of its first line, from 1.
+    pub first_line: usize,
+    /// Whether it is only checked: ` ```modl check `.
+    pub only_checked: bool,
+}
+
+/// The examples of a program, in order.
+pub fn examples(text: &str) -> Vec<Example> {
+    let parsed = syntax::parse(FileId(0), text);
+    let docs = parsed.file.comments.iter().filter(|c| is_doc(c.kind)).map(|c| c.span.start as usize);
+    let mut found: Vec<Example> = Vec::new();
+    let mut open = false;
+    let mut before = 0;
+    for start in docs {
+        let line = text[..start].matches('\n').count() + 1;
+        // A fence does not go on behind something else.
+        open &= line == before + 1;
+        before = line;
+        let whole = text.lines().nth(line - 1).unwrap_or("");
+        let indent = start - text[..start].rfind('\n').map_or(0, |at| at + 1);
+        let content = whole.get(indent + MARK..).unwrap_or("");
+        match content.trim().strip_prefix("```") {
+            Some(tag) if !open => {
+                let mut words = tag.split_whitespace();
+                if words.next() != Some("modl") {
+                    // Another language, up to its end.
+                    continue;
+                }
+                let only_checked = words.next() == Some("check");
+                found.push(Example { text: String::new(), first_line: line + 1, only_checked });
+                open = true;
+            }
+            Some(_) => open = false,
+            None if open => {
+                let example = found.last_mut().expect("a fence was opened");
+                example.text.push_str(&format!("{:width$}{content}\n", "", width = indent + MARK));
+            }
+            None => {}
+        }
+    }
+    found
+}
+
+/// Bytes of `///` and `//!`.
+const MARK: usize = 3;
+
+fn is_doc(kind: ast::CommentKind) -> bool {
+    matches!(kind, ast::CommentKind::ItemDoc | ast::CommentKind::FileDoc)
+}

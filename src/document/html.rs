@@ -1,0 +1,197 @@
+//! The pages of the site: plain HTML that works from a file.
+
+use super::outline::{Entry, Page};
+use crate::check::summary::{Group, Inside};
+use std::fmt::Write as _;
+
+pub const STYLE: &str = include_str!("site.css");
+pub const SCRIPT: &str = include_str!("search.js");
+
+/// A piece of documentation as HTML.
+pub type Doc<'d> = &'d mut dyn FnMut(&str) -> String;
+
+/// Text that is no markup.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+fn frame(title: &str, pages: &[Page], body: &str) -> String {
+    let links: String = pages.iter().map(|page| link(&page.file, &page.title)).collect();
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
+         <link rel=\"stylesheet\" href=\"site.css\">\n</head>\n<body>\n<nav>\n\
+         <input id=\"search\" type=\"search\" placeholder=\"Search\" aria-label=\"Search\">\n\
+         <ul id=\"found\"></ul>\n<ul>\n{}{}{links}</ul>\n</nav>\n<main>\n{body}</main>\n\
+         <script src=\"index.js\"></script>\n<script src=\"search.js\"></script>\n</body>\n</html>\n",
+        link("index.html", "All"),
+        link("guide.html", "Guide to the robots"),
+        title = escaped(title),
+    )
+}
+
+fn link(to: &str, words: &str) -> String {
+    format!("<li><a href=\"{to}\">{}</a></li>\n", escaped(words))
+}
+
+/// The page of a file.
+pub fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
+    let mut body = format!("<h1>{}</h1>\n", escaped(&page.title));
+    if let Some(text) = &page.doc {
+        body.push_str(&doc(text));
+    }
+    for entry in &page.entries {
+        body.push_str(&section(entry, doc));
+    }
+    frame(&page.title, pages, &body)
+}
+
+fn section(entry: &Entry, doc: Doc) -> String {
+    let mut out = format!(
+        "<section id=\"{name}\">\n<h2><a href=\"#{name}\">{name}</a> <small>{}</small></h2>\n\
+         <pre class=\"signature\">{}</pre>\n",
+        entry.word,
+        escaped(&wrapped(&entry.signature)),
+        name = escaped(&entry.name),
+    );
+    if let Some(picture) = &entry.picture {
+        let _ = writeln!(out, "<img src=\"{picture}\" alt=\"{}\" loading=\"lazy\">", escaped(&entry.name));
+    }
+    if !entry.facts.is_empty() {
+        let _ = writeln!(out, "<p class=\"facts\">{}</p>", escaped(&entry.facts.join(" · ")));
+    }
+    if let Some(text) = &entry.doc {
+        out.push_str(&doc(text));
+    }
+    let groups = [Group::Joint, Group::Port, Group::Part, Group::Behavior, Group::Field, Group::Method];
+    for group in groups {
+        let inside: Vec<&Inside> = entry.inside.iter().filter(|i| i.group == group).collect();
+        if !inside.is_empty() {
+            out.push_str(&list(entry, group, &inside, doc));
+        }
+    }
+    out + "</section>\n"
+}
+
+fn list(entry: &Entry, group: Group, inside: &[&Inside], doc: Doc) -> String {
+    let mut out = format!("<h3>{}s</h3>\n<dl>\n", group.word());
+    for i in inside {
+        let id = format!("{}.{}", entry.name, i.name);
+        let _ = write!(out, "<dt id=\"{id}\"><code>{}</code></dt>\n", escaped(&i.head), id = escaped(&id));
+        if let Some(text) = &i.doc {
+            let _ = write!(out, "<dd>{}</dd>\n", doc(text));
+        }
+    }
+    out + "</dl>\n"
+}
+
+/// Parameters of a long signature each on a line.
+fn wrapped(signature: &str) -> String {
+    const WIDTH: usize = 90;
+    if signature.len() <= WIDTH {
+        return signature.to_owned();
+    }
+    let mut depth = 0usize;
+    let mut out = String::new();
+    for c in signature.chars() {
+        match c {
+            '(' | '[' | '<' | '{' => depth += 1,
+            ')' | ']' | '>' | '}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        match c {
+            '(' if depth == 1 => out.push_str("(\n  "),
+            ',' if depth == 1 => out.push_str(",\n  "),
+            ' ' if out.ends_with("\n  ") => {}
+            ')' if depth == 0 => out.push_str("\n)"),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// What there is, page by page.
+pub fn index(pages: &[Page]) -> String {
+    let mut body = String::from("<h1>Documentation</h1>\n");
+    for page in pages {
+        let _ = write!(
+            body,
+            "<h2><a href=\"{}\">{}</a></h2>\n<ul class=\"names\">\n",
+            page.file,
+            escaped(&page.title)
+        );
+        for entry in &page.entries {
+            let _ = write!(
+                body,
+                "<li><a href=\"{}#{name}\">{name}</a> <small>{}</small></li>\n",
+                page.file,
+                entry.word,
+                name = escaped(&entry.name)
+            );
+        }
+        body.push_str("</ul>\n");
+    }
+    frame("Documentation", pages, &body)
+}
+
+/// All configurations, by order, with what they can do.
+pub fn guide(pages: &[Page], doc: Doc) -> String {
+    let mut body = String::from(
+        "<h1>Guide to the robots</h1>\n<p>A configuration of order 1 is made of modules; one of order 2, of \
+         configurations of order 1 and modules; and so on.</p>\n",
+    );
+    let all = pages.iter().flat_map(|page| page.entries.iter().map(move |entry| (page, entry)));
+    let mut configs: Vec<(u32, &Page, &Entry)> =
+        all.filter_map(|(page, entry)| Some((entry.order?, page, entry))).collect();
+    configs.sort_by_key(|(order, _, _)| *order);
+    let mut last = None;
+    for (order, page, entry) in configs {
+        if last != Some(order) {
+            let _ = write!(body, "<h2>Order {order}</h2>\n");
+            last = Some(order);
+        }
+        let _ = write!(
+            body,
+            "<section>\n<h3><a href=\"{}#{name}\">{name}</a> <small>{} · {}</small></h3>\n",
+            page.file,
+            escaped(&page.title),
+            escaped(&entry.facts.join(" · ")),
+            name = escaped(&entry.name)
+        );
+        if let Some(picture) = &entry.picture {
+            let _ =
+                writeln!(body, "<img src=\"{picture}\" alt=\"{}\" loading=\"lazy\">", escaped(&entry.name));
+        }
+        if let Some(text) = &entry.doc {
+            body.push_str(&doc(text.trim().split("\n\n").next().unwrap_or("")));
+        }
+        let behaviors: Vec<&Inside> = entry.inside.iter().filter(|i| i.group == Group::Behavior).collect();
+        if !behaviors.is_empty() {
+            let shown = behaviors.iter().map(|b| format!("<code>{}</code>", escaped(&b.head)));
+            let _ = write!(body, "<p>{}</p>\n", shown.collect::<Vec<_>>().join(" "));
+        }
+        body.push_str("</section>\n");
+    }
+    frame("Guide to the robots", pages, &body)
+}
+
+/// What can be searched for, as a script: name, words, address.
+pub fn search_index(pages: &[Page]) -> String {
+    let mut rows = Vec::new();
+    for page in pages {
+        for entry in &page.entries {
+            let about = entry.doc.as_deref().unwrap_or("").lines().next().unwrap_or("");
+            let address = format!("{}#{}", page.file, entry.name);
+            rows.push([entry.name.clone(), format!("{} · {} · {about}", entry.word, page.title), address]);
+            for i in &entry.inside {
+                let name = format!("{}.{}", entry.name, i.name);
+                let about = i.doc.as_deref().unwrap_or("").lines().next().unwrap_or("");
+                let address = format!("{}#{name}", page.file);
+                rows.push([name, format!("{} · {} · {about}", i.group.word(), page.title), address]);
+            }
+        }
+    }
+    let json = serde_json::to_string(&rows).expect("texts are plain data");
+    // So that no text ends the script.
+    format!("const INDEX = {};\n", json.replace('<', "\\u003c"))
+}

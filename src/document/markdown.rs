@@ -1,0 +1,67 @@
+//! Documentation as HTML: Markdown, in which the name of a declaration in brackets is a link to it.
+
+use pulldown_cmark::{BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag, html};
+
+/// Where names lead.
+pub trait Targets {
+    /// The address of a declaration, or of a member behind a dot, as seen from the page at hand.
+    fn address(&self, name: &str) -> Option<String>;
+
+    /// Whether there is a file of the project at this path.
+    fn is_file(&self, path: &str) -> bool;
+}
+
+/// The HTML of a text, and the links in it that lead nowhere.
+pub fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
+    let mut lost = Vec::new();
+    let mut lost_names = Vec::new();
+    let mut resolve = |link: BrokenLink| {
+        let name = bare(&link.reference);
+        let is_name = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '.');
+        let found = is_name.then(|| targets.address(name)).flatten();
+        if found.is_none() && is_name && link.reference.starts_with('`') {
+            lost_names.push(link.reference.to_string());
+        }
+        found.map(|address| (CowStr::from(address), CowStr::from("")))
+    };
+    let parser = Parser::new_with_broken_link_callback(text, Options::ENABLE_TABLES, Some(&mut resolve));
+    let events: Vec<Event> = parser.map(|event| followed(event, targets, &mut lost)).collect();
+    let mut out = String::new();
+    html::push_html(&mut out, events.into_iter());
+    lost.extend(lost_names);
+    (out, lost)
+}
+
+fn bare(reference: &str) -> &str {
+    reference.trim_matches('`')
+}
+
+/// Links that are written out: `[text](Name)`, `[text](file.md)`, `[text](https://...)`.
+fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> Event<'e> {
+    match event {
+        Event::Start(Tag::Link { link_type: link_type @ LinkType::Inline, dest_url, title, id }) => {
+            let dest_url = match destination(&dest_url, targets) {
+                Some(address) => CowStr::from(address),
+                None => {
+                    lost.push(dest_url.to_string());
+                    dest_url
+                }
+            };
+            Event::Start(Tag::Link { link_type, dest_url, title, id })
+        }
+        // Nobody's markup becomes part of the site.
+        Event::Html(text) | Event::InlineHtml(text) => Event::Text(text),
+        other => other,
+    }
+}
+
+fn destination(to: &str, targets: &dyn Targets) -> Option<String> {
+    let outside = to.starts_with("https://") || to.starts_with("http://") || to.starts_with("mailto:");
+    if outside || to.starts_with('#') {
+        return Some(to.to_owned());
+    }
+    if let Some(address) = targets.address(bare(to)) {
+        return Some(address);
+    }
+    targets.is_file(to.split('#').next().unwrap_or(to)).then(|| to.to_owned())
+}

@@ -1,0 +1,81 @@
+//! A checked program as pages: one for each file, an entry for each of its declarations.
+
+use crate::check::Checked;
+use crate::check::summary::{self, Inside};
+use crate::check::typed::{DefId, DefKind};
+use crate::source::FileId;
+use std::sync::Arc;
+
+/// What a page tells of a file.
+pub struct Page {
+    /// `std.smores`, or the file's path.
+    pub title: String,
+    /// The name of its file in the site.
+    pub file: String,
+    pub doc: Option<String>,
+    pub entries: Vec<Entry>,
+}
+
+/// A declaration.
+pub struct Entry {
+    pub name: String,
+    /// `module`, `config`, `fn`.
+    pub word: &'static str,
+    pub signature: String,
+    pub doc: Option<Arc<str>>,
+    pub inside: Vec<Inside>,
+    /// Whether an instance can be had without arguments.
+    pub has_default: bool,
+    /// What was found out about its instance: order, modules, mass.
+    pub facts: Vec<String>,
+    /// The order of its instance, if it is a configuration's.
+    pub order: Option<u32>,
+    /// The name of its picture in the site.
+    pub picture: Option<String>,
+}
+
+/// The page of one file of a program; `None` for a file that declares nothing for others.
+pub fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Option<Page> {
+    let source = checked.sources.file(file);
+    let stem = source.name.trim_end_matches(".mod");
+    let title = match stem.strip_prefix("std/") {
+        Some("prelude") => "prelude".to_owned(),
+        Some(name) if source.library => format!("std.{}", name.replace('/', ".")),
+        _ => source.name.to_string(),
+    };
+    let methods = methods(checked);
+    let here = (0..checked.program.defs.len()).map(|index| DefId(index as u32)).filter(|id| {
+        let def = checked.program.def(*id);
+        def.file == file && !def.name.as_str().starts_with('_') && !methods.contains(id)
+    });
+    let entries: Vec<Entry> = here.map(|id| entry(checked, id)).collect();
+    let file = format!("{}.html", title.replace(['/', '.'], "-"));
+    (!entries.is_empty()).then_some(Page { title, file, doc, entries })
+}
+
+/// Methods are told with their records.
+fn methods(checked: &Checked) -> Vec<DefId> {
+    let records = checked.program.defs.iter().filter_map(|def| match &def.kind {
+        DefKind::Record(record) => Some(&record.methods),
+        _ => None,
+    });
+    records.flatten().copied().collect()
+}
+
+fn entry(checked: &Checked, id: DefId) -> Entry {
+    let def = checked.program.def(id);
+    let params = summary::params_of(&checked.program, id);
+    let instances =
+        matches!(def.kind, DefKind::Module(_) | DefKind::Config(_) | DefKind::Lattice(_) | DefKind::Truss(_));
+    Entry {
+        name: def.name.to_string(),
+        word: summary::word(&def.kind),
+        signature: summary::signature(checked, id),
+        doc: def.doc.clone(),
+        inside: summary::inside(checked, def),
+        has_default: instances && params.iter().all(|p| p.default.is_some()),
+        facts: Vec::new(),
+        order: None,
+        picture: None,
+    }
+}

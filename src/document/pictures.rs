@@ -1,0 +1,79 @@
+//! What can only be known of an instance: its order, modules and mass, and how it looks. Asked as a person
+//! would, by a program.
+
+use super::outline::{Entry, Page};
+use crate::check::{self, Entry as Cell};
+use crate::interpret::{self, Host, Mode, Options, WriteError};
+use crate::interrupt::Interrupt;
+use crate::source::Files;
+
+/// What the asking program prints and writes.
+struct Answers {
+    lines: Vec<String>,
+    picture: Option<Vec<u8>>,
+    interrupt: Interrupt,
+}
+
+impl Host for Answers {
+    fn print(&mut self, line: &str) {
+        self.lines.push(line.to_owned());
+    }
+
+    fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
+        self.picture = Some(bytes.to_vec());
+        Ok(path.to_owned())
+    }
+
+    fn progress(&mut self, _: &str) {}
+
+    fn interrupt(&self) -> Interrupt {
+        self.interrupt.clone()
+    }
+}
+
+/// Finds out about every instance of a page that can be had without arguments; gives the pictures by name.
+pub fn drawn(page: &mut Page, files: &dyn Files, interrupt: &Interrupt) -> Vec<(String, Vec<u8>)> {
+    let import = match page.title.strip_prefix("std.") {
+        Some(_) => page.title.clone(),
+        None => format!("\"{}\"", page.title),
+    };
+    let stem = page.file.trim_end_matches(".html").to_owned();
+    let mut pictures = Vec::new();
+    for entry in page.entries.iter_mut().filter(|entry| entry.has_default) {
+        let Some(answers) = asked(entry, &import, files, interrupt) else { continue };
+        if let Some(bytes) = answers.picture {
+            let name = format!("pictures/{stem}-{}.png", entry.name);
+            entry.picture = Some(name.clone());
+            pictures.push((name, bytes));
+        }
+        let mut facts = answers.lines.iter();
+        entry.order = facts.next().and_then(|order| order.parse().ok()).filter(|_| entry.word == "config");
+        if let Some(order) = entry.order {
+            entry.facts.push(format!("order {order}"));
+        }
+        entry.facts.extend(facts.cloned());
+    }
+    pictures
+}
+
+fn asked(entry: &Entry, import: &str, files: &dyn Files, interrupt: &Interrupt) -> Option<Answers> {
+    let name = &entry.name;
+    let facts = match entry.word {
+        "config" => {
+            format!("print(order({name}()))\nprint(count({name}()), \"modules\")\nprint(mass({name}()))\n")
+        }
+        "module" => format!("print(0)\nprint(mass({name}()))\n"),
+        "lattice" => format!("print(0)\nprint(count({name}()), \"cells\")\n"),
+        _ => String::new(),
+    };
+    let text = format!("use {import}.{{{name}}}\n{facts}show({name}(), \"picture.png\")\n");
+    let cell = Cell { name: "<documentation>".into(), text, first_line: 1, value: None, last: None };
+    let checked = check::check_session(files, &[cell]);
+    if checked.has_errors() {
+        return None;
+    }
+    let mut answers = Answers { lines: Vec::new(), picture: None, interrupt: interrupt.clone() };
+    // A robot that does not stand is drawn all the same, and nobody said that it stands.
+    interpret::run(&checked, Mode::Run, files, &mut answers, &Options::default());
+    Some(answers)
+}

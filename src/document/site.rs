@@ -1,0 +1,151 @@
+//! The whole site: what is read, what is written, and what is wrong with the documentation.
+
+use super::html;
+use super::markdown::{Targets, to_html};
+use super::outline::{Entry, Page, page};
+use super::pictures::drawn;
+use crate::check::{self, Checked, Entry as Cell};
+use crate::interrupt::Interrupt;
+use crate::source::{Diagnostic, FileId, Files, library};
+use crate::syntax;
+use std::collections::BTreeMap;
+
+/// What to document.
+pub struct Request<'r> {
+    pub files: &'r dyn Files,
+    /// Programs of the project, by path.
+    pub programs: &'r [String],
+    /// Whether to document the standard library, too.
+    pub library: bool,
+    pub interrupt: Interrupt,
+}
+
+/// Files of the site by name, and what is wrong.
+pub struct Site {
+    pub files: Vec<(String, Vec<u8>)>,
+    pub faults: Vec<Fault>,
+    /// Programs that can't be documented because of mistakes in them.
+    pub wrong: Vec<(Checked, Vec<Diagnostic>)>,
+}
+
+/// A link that leads nowhere.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    pub file: String,
+    /// The declaration whose documentation it stands in.
+    pub entry: String,
+    pub link: String,
+}
+
+pub fn site(request: &Request) -> Site {
+    let mut site = Site { files: Vec::new(), faults: Vec::new(), wrong: Vec::new() };
+    let mut pages = Vec::new();
+    for path in request.programs {
+        // Private names are no part of it, so an import of all others shows what there is.
+        let checked = check::check(request.files, path);
+        let errors: Vec<Diagnostic> = checked.diagnostics.iter().filter(|d| d.is_error()).cloned().collect();
+        let file = checked.sources.files().find(|(_, f)| &*f.name == path.as_str()).map(|(id, _)| id);
+        match file {
+            Some(file) if errors.is_empty() => pages.extend(page_of(&checked, file)),
+            _ => site.wrong.push((checked, errors)),
+        }
+    }
+    if request.library {
+        pages.extend(library_pages(request.files));
+    }
+    for page in &mut pages {
+        site.files.extend(drawn(page, request.files, &request.interrupt));
+    }
+    write(&pages, request, &mut site);
+    site
+}
+
+fn page_of(checked: &Checked, file: FileId) -> Option<Page> {
+    let doc = syntax::parse(file, &checked.sources.file(file).text).file.doc;
+    page(checked, file, doc)
+}
+
+/// Every file of the standard library; the prelude last, since it is the longest.
+fn library_pages(files: &dyn Files) -> Vec<Page> {
+    let names = library::FILES.iter().filter_map(|(name, _)| name.strip_suffix(".mod"));
+    let uses: Vec<String> = names.filter(|n| *n != "prelude").map(|n| format!("use std.{n}\n")).collect();
+    let text = uses.concat();
+    let cell = Cell { name: "<documentation>".into(), text, first_line: 1, value: None, last: None };
+    let checked = check::check_session(files, &[cell]);
+    let library: Vec<FileId> = checked.sources.files().filter(|(_, f)| f.library).map(|(id, _)| id).collect();
+    let mut pages: Vec<Page> = library.into_iter().filter_map(|file| page_of(&checked, file)).collect();
+    pages.sort_by_key(|page| (page.title == "prelude", page.title.clone()));
+    pages
+}
+
+fn write(pages: &[Page], request: &Request, site: &mut Site) {
+    let addresses = addresses(pages);
+    let mut add = |name: &str, text: String| site.files.push((name.to_owned(), text.into_bytes()));
+    let mut faults = Vec::new();
+    let mut texts = Vec::new();
+    for page in pages {
+        let links = Links { addresses: &addresses, page, files: request.files };
+        let mut doc = |text: &str| {
+            let (html, lost) = to_html(text, &links);
+            let entry = page.entries.iter().find(|entry| stands_in(entry, text));
+            let entry = entry.map_or_else(String::new, |entry| entry.name.clone());
+            faults.extend(lost.into_iter().map(|link| Fault {
+                file: page.title.clone(),
+                entry: entry.clone(),
+                link,
+            }));
+            html
+        };
+        texts.push((page.file.clone(), html::page(page, pages, &mut doc)));
+    }
+    for (name, text) in texts {
+        add(&name, text);
+    }
+    let home = Page { title: String::new(), file: String::new(), doc: None, entries: Vec::new() };
+    let links = Links { addresses: &addresses, page: &home, files: request.files };
+    // What is wrong there was said where it stands.
+    add("guide.html", html::guide(pages, &mut |text| to_html(text, &links).0));
+    add("index.html", html::index(pages));
+    add("index.js", html::search_index(pages));
+    add("search.js", html::SCRIPT.to_owned());
+    add("site.css", html::STYLE.to_owned());
+    site.faults = faults;
+}
+
+fn stands_in(entry: &Entry, text: &str) -> bool {
+    entry.doc.as_deref() == Some(text) || entry.inside.iter().any(|i| i.doc.as_deref() == Some(text))
+}
+
+/// Where names lead: the name of a declaration, or of a member behind a dot, by page.
+fn addresses(pages: &[Page]) -> BTreeMap<String, Vec<(String, String)>> {
+    let mut found: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
+    for page in pages {
+        for entry in &page.entries {
+            let inside = entry.inside.iter().map(|i| format!("{}.{}", entry.name, i.name));
+            for name in std::iter::once(entry.name.clone()).chain(inside) {
+                let address = format!("{}#{name}", page.file);
+                found.entry(name).or_default().push((page.title.clone(), address));
+            }
+        }
+    }
+    found
+}
+
+struct Links<'l> {
+    addresses: &'l BTreeMap<String, Vec<(String, String)>>,
+    page: &'l Page,
+    files: &'l dyn Files,
+}
+
+impl Targets for Links<'_> {
+    /// What the page itself declares comes first.
+    fn address(&self, name: &str) -> Option<String> {
+        let found = self.addresses.get(name)?;
+        let own = found.iter().find(|(page, _)| *page == self.page.title);
+        own.or(found.first()).map(|(_, address)| address.clone())
+    }
+
+    fn is_file(&self, path: &str) -> bool {
+        self.files.read(path).is_ok()
+    }
+}
