@@ -94,8 +94,4 @@ impl Host for Kept {
     }
 
     fn progress(&mut self, _: &str) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
 }

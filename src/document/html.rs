@@ -77,9 +77,9 @@ fn list(entry: &Entry, group: Group, inside: &[&Inside], doc: Doc) -> String {
     let mut out = format!("<h3>{}s</h3>\n<dl>\n", group.word());
     for i in inside {
         let id = format!("{}.{}", entry.name, i.name);
-        let _ = write!(out, "<dt id=\"{id}\"><code>{}</code></dt>\n", escaped(&i.head), id = escaped(&id));
+        let _ = writeln!(out, "<dt id=\"{id}\"><code>{}</code></dt>", escaped(&i.head), id = escaped(&id));
         if let Some(text) = &i.doc {
-            let _ = write!(out, "<dd>{}</dd>\n", doc(text));
+            let _ = writeln!(out, "<dd>{}</dd>", doc(text));
         }
     }
     out + "</dl>\n"
@@ -114,16 +114,16 @@ fn wrapped(signature: &str) -> String {
 pub fn index(pages: &[Page]) -> String {
     let mut body = String::from("<h1>Documentation</h1>\n");
     for page in pages {
-        let _ = write!(
+        let _ = writeln!(
             body,
-            "<h2><a href=\"{}\">{}</a></h2>\n<ul class=\"names\">\n",
+            "<h2><a href=\"{}\">{}</a></h2>\n<ul class=\"names\">",
             page.file,
             escaped(&page.title)
         );
         for entry in &page.entries {
-            let _ = write!(
+            let _ = writeln!(
                 body,
-                "<li><a href=\"{}#{name}\">{name}</a> <small>{}</small></li>\n",
+                "<li><a href=\"{}#{name}\">{name}</a> <small>{}</small></li>",
                 page.file,
                 entry.word,
                 name = escaped(&entry.name)
@@ -147,12 +147,12 @@ pub fn guide(pages: &[Page], doc: Doc) -> String {
     let mut last = None;
     for (order, page, entry) in configs {
         if last != Some(order) {
-            let _ = write!(body, "<h2>Order {order}</h2>\n");
+            let _ = writeln!(body, "<h2>Order {order}</h2>");
             last = Some(order);
         }
-        let _ = write!(
+        let _ = writeln!(
             body,
-            "<section>\n<h3><a href=\"{}#{name}\">{name}</a> <small>{} · {}</small></h3>\n",
+            "<section>\n<h3><a href=\"{}#{name}\">{name}</a> <small>{} · {}</small></h3>",
             page.file,
             escaped(&page.title),
             escaped(&entry.facts.join(" · ")),
@@ -168,7 +168,7 @@ pub fn guide(pages: &[Page], doc: Doc) -> String {
         let behaviors: Vec<&Inside> = entry.inside.iter().filter(|i| i.group == Group::Behavior).collect();
         if !behaviors.is_empty() {
             let shown = behaviors.iter().map(|b| format!("<code>{}</code>", escaped(&b.head)));
-            let _ = write!(body, "<p>{}</p>\n", shown.collect::<Vec<_>>().join(" "));
+            let _ = writeln!(body, "<p>{}</p>", shown.collect::<Vec<_>>().join(" "));
         }
         body.push_str("</section>\n");
     }
