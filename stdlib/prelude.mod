@@ -1650,36 +1650,59 @@ extern type Unwinding is Plan {
   docks: Int
   /// How many connections are let go on the way.
   undocks: Int
+  /// How far all joints turn, together.
+  joint_travel: Angle
+  /// How many pairs of ends were tried.
+  tried: Int
+  /// How many poses of the robot the search worked out; `budget` bounds it.
+  work: Int
 }
 
-/// Unwinds a robot to a snake: one chain of all its modules. Not yet available.
+/// Unwinds a robot of RoFI modules to a snake: one straight chain of all its modules, dock -Z on dock -Z.
+///
+/// Connections that close loops are let go. Then two chains at a time become one: the joints between
+/// their ends bend until the ends meet and dock, and a connection of the loop that this closes is let
+/// go. All joints of a step turn at once; the robot never falls apart, and its modules never meet, at
+/// any instant.
+///
+/// The same robot and `seed` give the same plan. `budget` bounds the poses that the search works out; a
+/// search that takes longer than `timeout` is refused, too. Both refusals say how far it got; another
+/// seed may get farther.
+///
+/// Without gravity the robot floats. With it, the plan is made in the same way and then judged with the
+/// base held fast: it is refused where a joint would have to hold more than it can.
 ///
 /// Example:
-/// ```modl check
-/// use std.rofi.Snake
-/// print(tosnake(Snake(n: 4)).steps)
+/// ```modl
+/// use std.rofi.Ring
+/// let p = tosnake(Ring(n: 8))
+/// print(p.docks, p.undocks, verify(p).ok)
 /// ```
 extern fn tosnake(
   robot: Config,
   gravity: off | Acceleration = off,
   seed: Int = 0,
-  budget: Int = 1_000_000,
+  budget: Int = 5_000_000,
   timeout: Time?,
 ) -> Unwinding
 
-/// Turns one robot into another of as many modules. Not yet available.
+/// Turns one robot of RoFI modules into another of as many modules: both unwind to a snake, and the
+/// second way is taken backwards. Options are those of `tosnake`, for either way.
+///
+/// The result ends as the second robot, with the first one's modules in its places.
 ///
 /// Example:
-/// ```modl check
+/// ```modl
 /// use std.rofi.{Snake, Ring}
-/// print(reconfigure(Snake(n: 8), Ring(n: 8), seed: 1).steps)
+/// let p = reconfigure(Snake(n: 8), Ring(n: 8))
+/// print(p.docks, p.undocks, verify(p).ok)
 /// ```
 extern fn reconfigure(
   from: Config,
   to: Config,
   gravity: off | Acceleration = off,
   seed: Int = 0,
-  budget: Int = 1_000_000,
+  budget: Int = 5_000_000,
   timeout: Time?,
 ) -> Unwinding
 

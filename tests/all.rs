@@ -50,6 +50,7 @@ mod suite;
 mod syntax;
 mod syntax_random;
 mod tidy;
+mod tosnake;
 mod tour;
 mod transcripts;
 mod tree;

@@ -9,7 +9,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Whether the user wants the command to end.
 static CANCELLED: AtomicBool = AtomicBool::new(false);
@@ -87,6 +87,7 @@ pub struct Terminal {
     pub watched: Option<Arc<Watched>>,
     shows_progress: bool,
     progress_shown: bool,
+    begun: Instant,
 }
 
 impl Terminal {
@@ -97,6 +98,7 @@ impl Terminal {
             watched: None,
             shows_progress: !globals.json && io::stderr().is_terminal(),
             progress_shown: false,
+            begun: Instant::now(),
         }
     }
 
@@ -130,5 +132,9 @@ impl Host for Terminal {
 
     fn interrupt(&self) -> Interrupt {
         interrupt()
+    }
+
+    fn elapsed(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
     }
 }

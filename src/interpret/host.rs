@@ -27,6 +27,12 @@ pub trait Host {
     fn interrupt(&self) -> Interrupt {
         Interrupt::default()
     }
+
+    /// Seconds since some instant, for timeouts, which refuse and choose nothing. Without a clock there
+    /// are none.
+    fn elapsed(&self) -> f64 {
+        0.0
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

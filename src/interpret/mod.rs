@@ -71,6 +71,7 @@ mod natives_save;
 mod natives_shape;
 mod natives_show;
 mod natives_squeeze;
+mod natives_tosnake;
 mod show_value;
 
 mod run;

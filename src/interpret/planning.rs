@@ -6,6 +6,7 @@ use super::folding::Folded;
 use super::interpreter::Interpreter;
 use super::natives_refold::Refolded;
 use super::natives_squeeze::Squeezed;
+use super::natives_tosnake::Unwound;
 use super::record::{Record, StateValue, first_world};
 use super::robot_of::Robot;
 use super::stop::{Eval, Stop, fault};
@@ -39,6 +40,8 @@ pub struct Planned {
     pub folded: Option<Folded>,
     /// What `refold` says of it.
     pub refolded: Option<Refolded>,
+    /// What `tosnake` and `reconfigure` say of it.
+    pub unwound: Option<Unwound>,
     /// Verdicts so far.
     judged: RefCell<Vec<Judged>>,
 }
@@ -80,6 +83,7 @@ impl Planned {
             squeezed: None,
             folded: None,
             refolded: None,
+            unwound: None,
             judged: RefCell::default(),
         }
     }
@@ -94,6 +98,10 @@ impl Planned {
 
     pub fn with_refolded(self, refolded: Refolded) -> Planned {
         Planned { refolded: Some(refolded), ..self }
+    }
+
+    pub fn with_unwound(self, unwound: Unwound) -> Planned {
+        Planned { unwound: Some(unwound), ..self }
     }
 
     pub fn actions(&self) -> usize {

@@ -5,6 +5,7 @@ use super::folding::{FOLDING, ORDER_SAMPLE, folding_field, layout_field, sample_
 use super::interpreter::Interpreter;
 use super::natives_refold::{REFOLDING, refolding_field};
 use super::natives_squeeze::Squeezed;
+use super::natives_tosnake::{UNWINDING, unwinding_field};
 use super::planning::Planned;
 use super::robot_of::Robot;
 use super::stop::Eval;
@@ -72,7 +73,12 @@ impl Interpreter<'_> {
                             Some(refolded) if REFOLDING.contains(&field.as_str()) => {
                                 refolding_field(refolded, field.as_str())
                             }
-                            _ => self.plan_field(planned, field.as_str(), span)?,
+                            _ => match &planned.unwound {
+                                Some(unwound) if UNWINDING.contains(&field.as_str()) => {
+                                    unwinding_field(unwound, field.as_str())
+                                }
+                                _ => self.plan_field(planned, field.as_str(), span)?,
+                            },
                         },
                     },
                 },
@@ -178,6 +184,7 @@ pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
         "Folding" => FOLDING,
         "OrderSample" => ORDER_SAMPLE,
         "Refolding" => REFOLDING,
+        "Unwinding" => UNWINDING,
         "Layout" => &["panels", "hinges", "overlaps"],
         "Report" => &[
             "ok",

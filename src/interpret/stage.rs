@@ -18,6 +18,7 @@ enum Request {
     Read(String, Sender<Result<Vec<u8>, ReadError>>),
     /// The job at hand is done, and its result waits.
     Done,
+    Elapsed(Sender<f64>),
 }
 
 /// The evaluator's end of the way to the outside.
@@ -47,6 +48,11 @@ impl Stage {
     /// Whether the user wants the run to end.
     pub fn cancelled(&self) -> bool {
         self.interrupt.raised()
+    }
+
+    /// Seconds since some instant; see [`Host::elapsed`].
+    pub fn elapsed(&self) -> f64 {
+        self.ask(Request::Elapsed)
     }
 
     fn ask<T>(&self, request: impl FnOnce(Sender<T>) -> Request) -> T {
@@ -129,5 +135,6 @@ fn answer(request: Request, files: &dyn Files, host: &mut dyn Host) {
         Request::Progress(line) => host.progress(&line),
         Request::Write(path, bytes, reply) => drop(reply.send(host.write(&path, &bytes))),
         Request::Read(path, reply) => drop(reply.send(files.read(&path))),
+        Request::Elapsed(reply) => drop(reply.send(host.elapsed())),
     }
 }

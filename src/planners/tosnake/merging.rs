@@ -1,0 +1,171 @@
+//! Two chains become one: their ends meet, and a bond that is none of a snake is let go.
+
+use super::closing::{self, Loop, Manner};
+use super::random::Dice;
+use super::robot::{Bond, Dock, FACES, GAMMA, RED};
+use super::state::{Joints, State};
+use super::sweep::Scene;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Two free red docks of different chains.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair {
+    pub a: Dock,
+    pub b: Dock,
+    /// Modules that bend between them.
+    pub length: usize,
+    /// Small is promising.
+    pub cost: f64,
+}
+
+/// All pairs of free ends of different chains, the most promising first.
+pub fn pairs(state: &State) -> Vec<Pair> {
+    let at = state.robot.bond_at();
+    let chains = state.chains();
+    let free: Vec<Dock> = (0..2 * state.robot.modules())
+        .map(Dock::red)
+        .filter(|dock| at[dock.module][dock.dock].is_none())
+        .collect();
+    let mut pairs = Vec::new();
+    for (i, &a) in free.iter().enumerate() {
+        for &b in &free[i + 1..] {
+            if chains[a.module] == chains[b.module] {
+                continue;
+            }
+            let length = bending(state, a, b);
+            let gap = gap(state, a, b);
+            pairs.push(Pair { a, b, length, cost: cost(length, gap) });
+        }
+    }
+    pairs.sort_by(|p, q| p.cost.total_cmp(&q.cost).then((p.a, p.b).cmp(&(q.a, q.b))));
+    pairs
+}
+
+/// The straight distance of two docks' shoes.
+fn gap(state: &State, a: Dock, b: Dock) -> f64 {
+    let place = |dock: Dock| state.poses[state.tree.place[dock.shoe()]].place;
+    (place(a) - place(b)).norm()
+}
+
+/// Loops of few modules hardly close, long ones sweep through much room.
+fn cost(length: usize, gap: f64) -> f64 {
+    let short = match length {
+        0 | 1 => 1000.0,
+        2 => 6.0,
+        3 => 2.0,
+        _ => 0.0,
+    };
+    length as f64 + 0.3 * gap + short
+}
+
+/// How many modules bend on the way between two docks.
+fn bending(state: &State, a: Dock, b: Dock) -> usize {
+    let tree = &state.tree;
+    let (mut p, mut q) = (tree.place[a.shoe()], tree.place[b.shoe()]);
+    let mut count = 0;
+    while p != q {
+        let lower = if p > q { &mut p } else { &mut q };
+        let parent = tree.parent[*lower];
+        count += usize::from(tree.shoe[*lower] / 2 == tree.shoe[parent] / 2);
+        *lower = parent;
+    }
+    count
+}
+
+/// One way of bringing two docks together.
+pub struct Attempt<'a> {
+    pub pair: &'a Pair,
+    pub manner: Manner,
+    /// How far from where it is the loop sets out: 0 to 1.
+    pub size: f64,
+    pub closing: &'a closing::Settings,
+}
+
+impl Attempt<'_> {
+    /// On success the docks hold each other, and another bond does not.
+    pub fn merge(&self, state: &mut State, dice: &mut Dice) -> bool {
+        let mut work = 0;
+        let way = self.way(state, dice, &mut work);
+        state.work += work;
+        let Some(way) = way else { return false };
+        way.iter().for_each(|joints| state.go(joints));
+        let bond = Bond { a: self.pair.a, b: self.pair.b, turn: 0 };
+        let cut = cut(state, self.pair);
+        state.dock(bond);
+        state.undock(cut);
+        state.regrow();
+        true
+    }
+
+    /// Positions of the joints one after the other, the last of them with the docks together, and the
+    /// ways between them free.
+    fn way(&self, state: &State, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
+        let scene = state.scene();
+        let lp = Loop::new(&state.tree, self.pair.a, self.pair.b);
+        let here = &state.robot.joints;
+        let (mut start, mut drift) = (here.clone(), Vec::new());
+        match self.manner {
+            Manner::Leap => {
+                for (joint, _) in &lp.joints {
+                    let q = &mut start[joint.module][joint.joint];
+                    let range = if joint.joint == GAMMA { PI } else { FRAC_PI_2 };
+                    *q = closing::limited(joint.joint, *q + self.size * range * dice.signed());
+                }
+            }
+            Manner::Flow => {
+                drift = vec![0.0; 3 * here.len()];
+                for (joint, _) in &lp.joints {
+                    drift[3 * joint.module + joint.joint] = DRIFT * self.size * dice.signed();
+                }
+            }
+        }
+        let closing =
+            closing::Closing { scene: &scene, lp: &lp, manner: self.manner, settings: self.closing };
+        let way = closing.close(&start, &drift, work)?;
+        let last = way.last()?.clone();
+        if scene.is_free(here, &last, work) {
+            return Some(vec![last]);
+        }
+        if self.manner == Manner::Leap {
+            return None;
+        }
+        let mut stops = Vec::new();
+        connect(&scene, &way, 0, way.len() - 1, work, &mut stops).then_some(stops)
+    }
+}
+
+/// How far a joint drifts in one step of a flow at most, rad.
+const DRIFT: f64 = 0.15;
+
+/// The states between which the straight way is free, as few as halving finds.
+fn connect(
+    scene: &Scene,
+    way: &[Joints],
+    from: usize,
+    to: usize,
+    work: &mut u64,
+    stops: &mut Vec<Joints>,
+) -> bool {
+    if (from, to) != (0, way.len() - 1) && scene.is_free(&way[from], &way[to], work) {
+        stops.push(way[to].clone());
+        return true;
+    }
+    if to == from + 1 {
+        return false;
+    }
+    let middle = (from + to) / 2;
+    connect(scene, way, from, middle, work, stops) && connect(scene, way, middle, to, work, stops)
+}
+
+/// Which bond of the loop is let go: one that is none of a snake, and of these one that frees a red dock.
+fn cut(state: &State, pair: &Pair) -> usize {
+    let tree = &state.tree;
+    let path = tree.path(tree.place[pair.a.shoe()], tree.place[pair.b.shoe()]);
+    let bonds = path.places.windows(2).filter_map(|step| tree.bond(step[0].max(step[1])));
+    let bad = bonds.filter(|bond| !state.robot.bonds[*bond].is_good());
+    let freed = |bond: &usize| {
+        let Bond { a, b, .. } = state.robot.bonds[*bond];
+        [a, b].iter().filter(|dock| dock.dock % FACES == RED).count()
+    };
+    bad.max_by_key(freed).expect("between two chains there is a bond that is none of a snake")
+}

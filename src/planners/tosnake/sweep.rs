@@ -1,0 +1,146 @@
+//! Many joints turn at once, each at its own steady rate: does anything meet?
+//!
+//! Balls are followed from instant to instant, so often that between two of them they go nearly straight;
+//! by how much not is measured in the middle and allowed for. The judge proves it afterwards.
+
+use super::near::{self, touch_always};
+use super::rigid::{Rigid, Vec3};
+use super::robot::Robot;
+use super::tree::Tree;
+
+/// Balls are never nearer than this; the judge's limit is 0.999.
+pub const APART: f64 = 1.0 - 6e-4;
+
+/// How far a ball may be off its straight way in the middle between two instants.
+const BEND_MAX: f64 = 4e-4;
+/// How far a ball goes at most between two instants.
+const STEP_MAX: f64 = 0.4;
+/// The list of near pairs reaches this far beyond touching.
+const SKIN: f64 = 1.5;
+/// The shortest step, in parts of the whole motion.
+const PART_MIN: f64 = 1e-7;
+
+/// What moves, and what need not be looked at.
+pub struct Scene<'a> {
+    pub tree: &'a Tree,
+    /// Pairs of places that are docked; see [`near::docked`].
+    pub docked: Vec<(usize, usize)>,
+}
+
+impl<'a> Scene<'a> {
+    pub fn new(robot: &Robot, tree: &'a Tree) -> Scene<'a> {
+        Scene { tree, docked: near::docked(robot, tree) }
+    }
+
+    /// Whether the straight way between two positions of the joints is free. `work` counts poses.
+    pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
+        let rigid = self.rigid_parts(from, to);
+        let mut walk = Walk { scene: self, from, to, rigid, joints: from.to_vec(), work };
+        walk.is_free()
+    }
+
+    /// By place: balls of one number do not move against each other.
+    fn rigid_parts(&self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Vec<usize> {
+        let mut part = vec![0; self.tree.shoes()];
+        for place in 1..part.len() {
+            let module = self.tree.shoe[place] / 2;
+            let moves = self.tree.joints_at(place).next().is_some() && from[module] != to[module];
+            part[place] = if moves { place } else { part[self.tree.parent[place]] };
+        }
+        part
+    }
+}
+
+struct Walk<'a> {
+    scene: &'a Scene<'a>,
+    from: &'a [[f64; 3]],
+    to: &'a [[f64; 3]],
+    rigid: Vec<usize>,
+    joints: Vec<[f64; 3]>,
+    work: &'a mut u64,
+}
+
+impl Walk<'_> {
+    fn at(&mut self, t: f64, poses: &mut Vec<Rigid>) {
+        for (joint, (from, to)) in self.joints.iter_mut().zip(self.from.iter().zip(self.to)) {
+            for k in 0..3 {
+                joint[k] = from[k] + t * (to[k] - from[k]);
+            }
+        }
+        *self.work += 1;
+        self.scene.tree.poses(&self.joints, poses);
+    }
+
+    fn is_free(&mut self) -> bool {
+        let (mut here, mut middle, mut there) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut t, mut step) = (0.0, 1.0 / 16.0);
+        self.at(0.0, &mut here);
+        let mut list = self.list(&here);
+        let mut gone = 0.0;
+        while t < 1.0 {
+            let until = f64::min(1.0, t + step);
+            self.at(0.5 * (t + until), &mut middle);
+            self.at(until, &mut there);
+            let (bend, far) = bent(&here, &middle, &there);
+            if bend > BEND_MAX || far > STEP_MAX {
+                step = 0.5 * (until - t);
+                if step < PART_MIN {
+                    return false;
+                }
+                continue;
+            }
+            if gone + far > SKIN / 2.0 {
+                list = self.list(&here);
+                gone = 0.0;
+            }
+            gone += far;
+            let apart = APART + 0.75 * bend;
+            if meets(&list, &here, &middle, apart) || meets(&list, &middle, &there, apart) {
+                return false;
+            }
+            if bend < BEND_MAX / 5.0 && far < STEP_MAX / 2.5 {
+                step *= 2.0;
+            }
+            t = until;
+            std::mem::swap(&mut here, &mut there);
+        }
+        true
+    }
+
+    /// Pairs that may meet within a while.
+    fn list(&self, poses: &[Rigid]) -> Vec<(u32, u32)> {
+        let mut list = Vec::new();
+        near::pairs(poses, 1.0 + SKIN, &mut |a, b, _| {
+            if self.rigid[a] != self.rigid[b] && !touch_always(self.scene.tree, a, b, &self.scene.docked) {
+                list.push((a as u32, b as u32));
+            }
+        });
+        list
+    }
+}
+
+/// How far balls are off the straight way in the middle, and how far they go, at most.
+fn bent(here: &[Rigid], middle: &[Rigid], there: &[Rigid]) -> (f64, f64) {
+    let (mut bend, mut far) = (0.0f64, 0.0f64);
+    for ((h, m), t) in here.iter().zip(middle).zip(there) {
+        bend = bend.max((m.place - (h.place + t.place) * 0.5).norm_squared());
+        far = far.max((t.place - h.place).norm_squared());
+    }
+    (libm::sqrt(bend), libm::sqrt(far))
+}
+
+fn meets(list: &[(u32, u32)], from: &[Rigid], to: &[Rigid], apart: f64) -> bool {
+    list.iter().any(|&(a, b)| {
+        let (a, b) = (a as usize, b as usize);
+        let r0 = from[b].place - from[a].place;
+        let r1 = to[b].place - to[a].place;
+        nearest_squared(&r0, &(r1 - r0)) < apart * apart
+    })
+}
+
+/// The least squared length of `r + s·d` for s from 0 to 1.
+fn nearest_squared(r: &Vec3, d: &Vec3) -> f64 {
+    let along = d.norm_squared();
+    let s = if along > 0.0 { (-r.dot(d) / along).clamp(0.0, 1.0) } else { 0.0 };
+    (r + d * s).norm_squared()
+}
