@@ -5,8 +5,9 @@
 //! `--seed=N`, `--budget=N` are the planner's. Without a folder: tangles of our own.
 
 use modl::interpret::{self, Host, Mode, Options, WriteError};
-use modl::planners::tosnake::{Bond, Dock, Refusal, Robot, Settings, Unsound, sound, unwind};
-use modl::robot::rofi::{self, Face, Side};
+use modl::planners::tosnake::assembly::{of_world, to_world};
+use modl::planners::tosnake::{Refusal, Settings, Unsound, sound, tangle, unwind};
+use modl::robot::rofi;
 use modl::source::{Files, ReadError};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -47,6 +48,9 @@ fn main() {
             (name, text, world)
         })
         .collect();
+    if worlds.is_empty() {
+        worlds = tangles();
+    }
     worlds.sort_by_key(|(name, _, world)| (world.as_ref().map_or(0, |w| w.modules.len()), name.clone()));
     println!("| configuration | modules | planning | docks | steps | poses | judging |");
     println!("|---|---|---|---|---|---|---|");
@@ -55,6 +59,16 @@ fn main() {
         .filter_map(|(name, text, world)| row(name, text, world.as_ref()?, &settings, judge))
         .collect();
     table(&rows);
+}
+
+/// Tangles of our own: for every ten modules one of 1,000 and one of 6,000 actions.
+fn tangles() -> Vec<(String, String, Option<rofi::World>)> {
+    let sizes = (10..200).step_by(10).flat_map(|n| [(n, 1_000), (n, 6_000)]);
+    let one = |(modules, actions)| {
+        let world = to_world(&tangle::tangled(modules, actions, modules as u64));
+        (format!("tangle({modules}, {actions})"), rofi::write(&world), Some(world))
+    };
+    sizes.map(one).collect()
 }
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) {
@@ -69,7 +83,7 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) {
 }
 
 fn row(name: &str, text: &str, world: &rofi::World, settings: &Settings, judge: bool) -> Option<Row> {
-    let mut robot = robot_of(world);
+    let mut robot = of_world(world);
     let modules = robot.modules();
     let start = Instant::now();
     let found = sound::mend(&mut robot)
@@ -90,21 +104,6 @@ fn row(name: &str, text: &str, world: &rofi::World, settings: &Settings, judge: 
         Err(refusal) => println!("| {name} | {modules} | {time:.3} s: {refusal:?} | | | | |"),
     }
     Some(Row { modules, planned: found.is_ok().then_some(time), unsound })
-}
-
-fn robot_of(world: &rofi::World) -> Robot {
-    let face = |face: Face| match face {
-        Face::PlusX => 0,
-        Face::MinusX => 1,
-        Face::MinusZ => 2,
-    };
-    let dock =
-        |d: &rofi::Dock| Dock { module: d.module, dock: 3 * usize::from(d.side == Side::B) + face(d.face) };
-    Robot {
-        joints: world.modules.iter().map(|m| m.joints.map(f64::to_radians)).collect(),
-        bonds: world.edges.iter().map(|e| Bond { a: dock(&e.a), b: dock(&e.b), turn: e.turn }).collect(),
-        holds: vec![true; world.edges.len()],
-    }
 }
 
 /// Plans again, in the language, and judges.

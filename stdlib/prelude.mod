@@ -399,7 +399,7 @@ extern fn show(
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.
 ///
-/// A robot of RoFI modules is a `.rofi` file. A folding is a `.fold` file (FOLD 1.2): the flat net in
+/// A robot of RoFI modules is a `.rofi` file, or a `.json` file in RoFI's newer format. A folding is a `.fold` file (FOLD 1.2): the flat net in
 /// millimetres with its mountains, valleys and fold angles, the step in which each hinge folds, the
 /// edges that meet in the end, and the folded form after every step as further frames.
 ///
@@ -409,11 +409,15 @@ extern fn show(
 /// use std.rofi.Snake
 /// use std.shapes.octahedron
 /// save(Snake(n: 4), "snake.rofi")
+/// save(Snake(n: 4), "snake.json")
 /// save(fold(octahedron(edge: 80mm), module: Mori), "octahedron.fold")
 /// ```
 extern fn save(what: Config | Folding | Layout, file: Text)
 
-/// Reads a robot from a `.rofi` file of this project; its modules are `modules(c, Rofi)`.
+/// Reads a robot from a `.rofi` file of this project, or from a `.json` file in RoFI's newer format; its
+/// modules are `modules(c, Rofi)`.
+///
+/// In the newer format the docks +X and -X have each other's names; what is read is the same robot.
 ///
 /// Example:
 /// ```modl check

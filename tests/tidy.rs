@@ -76,7 +76,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("strsim", &["source"]),
     ("pulldown_cmark", &["document"]),
     ("rustyline", &["cli"]),
-    ("serde_json", &["source", "plan", "view", "document", "cli"]),
+    ("serde_json", &["source", "robot", "plan", "view", "document", "cli"]),
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("ctrlc", &["cli"]),

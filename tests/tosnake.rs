@@ -165,10 +165,37 @@ fn spoilt_plans_do_not_pass() {
 #[test]
 fn a_robot_becomes_another() {
     let printed = run_clean(&format!(
-        "{SHAPES}\nlet p = reconfigure(Ring(n: 6), Snake(n: 6))\nprint(verify(p).ok, p.docks, p.undocks)\n\
-         let q = tosnake(Ring(n: 6)) ++ reverse(tosnake(Ring(n: 6), seed: 1))\nprint(verify(q).ok)\n"
+        "{SHAPES}\nuse std.rofi.{{Chair, Spider}}
+let p = reconfigure(Star(length: 1), Snake(n: 5))
+print(verify(p).ok, p.docks, p.undocks)
+let q = tosnake(Chair()) ++ reverse(tosnake(Spider(), seed: 1))
+print(verify(q).ok)
+// It ends as the second robot: a motion of that robot goes on from there.
+config Waving closed {{
+  part s: Spider
+  behavior wave = move(s.foot[0].gamma, by: 30deg)
+}}
+let free = world(ground: off, gravity: off)
+print(verify(q ++ plan(Waving().wave(), world: free)).ok)
+emit(q, \"q.plan.json\")
+"
     ));
-    assert_eq!(printed.printed, ["true 0 1", "true"]);
+    assert_eq!(printed.printed, ["true 4 4", "true", "true"]);
+    // Its program does what its tracks say, whichever end of a bond it names first.
+    let plan = plan::file::read(printed.text("q.plan.json")).expect("it was written to be read");
+    assert_eq!(modl::behavior::unfaithful(&plan), None);
+}
+
+#[test]
+fn the_shapes_of_the_paper_unwind() {
+    for shape in ["Chair", "Spider", "Ball", "Puppy", "Human", "Crab(folded: true)"] {
+        let name = shape.split('(').next().unwrap_or(shape);
+        let text = format!("use std.rofi.{name}\nemit(tosnake({shape}), \"p.plan.json\")\n");
+        let plan = plan::file::read(run_clean(&text).text("p.plan.json")).expect("it was written to be read");
+        let replay = Replay::new(tracks(&plan));
+        replay.judge().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
+        replay.ends_as_snake().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
+    }
 }
 
 /// A plan replayed with formulas of the RoFI project, in steps of at most a degree.

@@ -9,7 +9,7 @@ use super::refusal::{Reason, Refusal};
 use super::run::Run;
 use crate::plan::time::tick_after;
 use crate::plan::{Action, CauseId, Command, Dock, DockKind, Profile, Target};
-use crate::robot::{JointId, PortRef};
+use crate::robot::{Bond, JointId, PortRef};
 use std::sync::Arc;
 
 /// When the action ends by itself, and the joint to hold if it ends before.
@@ -204,8 +204,10 @@ impl Run<'_> {
     fn dock(&mut self, a: PortRef, b: PortRef, cause: CauseId) -> Result<(), Reason> {
         let joints: Vec<f64> = self.motions.iter().map(|m| m.position(self.now)).collect();
         let (bond, hinge) = docking::docked(&self.robot, &self.holds, &joints, a, b)?;
-        // A bond whose hinge may have turned since is a new one.
-        let known = self.robot.bonds.iter().position(|known| *known == bond && hinge.is_none());
+        // A bond whose hinge may have turned since is a new one; without a hinge its ends are alike.
+        let swapped = Bond { a: bond.b, b: bond.a, turn: bond.turn };
+        let same = |known: &Bond| (*known == bond || *known == swapped) && hinge.is_none();
+        let known = self.robot.bonds.iter().position(same);
         let index = known.unwrap_or_else(|| {
             Arc::make_mut(&mut self.robot).bonds.push(bond);
             self.holds.push(false);

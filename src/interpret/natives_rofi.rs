@@ -7,13 +7,17 @@ use super::natives::{Native, pure};
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
 use crate::check::typed::DefId;
+use crate::planners::tosnake::assembly::{of_world, to_world};
+use crate::planners::tosnake::sound::mend;
+use crate::planners::tosnake::tangle::tangled;
 use crate::robot::rofi::{self, Dock, Edge, Module, World};
+use crate::robot::rofi_json;
 use crate::robot::{JointOwner, Residual};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-pub const TABLE: &[Native] = &[pure("load", 1, load)];
+pub const TABLE: &[Native] = &[pure("load", 1, load), pure("tangle", 3, tangle)];
 
 /// Where the library declares the module.
 const LIBRARY: &str = "std/rofi.mod";
@@ -26,10 +30,7 @@ const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
 fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let path = call.text(0)?.to_string();
-    let (Some(kind), Some(loaded)) = (declared(interpreter, "Rofi"), declared(interpreter, "_Loaded")) else {
-        let message = "a robot of RoFI modules needs the library's module";
-        return Err(fault(code::UNKNOWN_IMPORT, call.span, message, "`use std.rofi.Rofi` is missing"));
-    };
+    let (kind, loaded) = library(interpreter, call)?;
     let (file, bytes) = interpreter.project_file(call, 0)?;
     let known = |design: &&Rc<Design>| matches!(&design.args[..], [Value::Text(text)] if **text == *file);
     if let Some(design) = interpreter.designs[loaded.0 as usize].iter().find(known).cloned() {
@@ -38,30 +39,91 @@ fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let text = String::from_utf8(bytes).map_err(|_| {
         fault(code::CANNOT_READ, call.at(0), format!("`{path}` is not UTF-8 text"), "no text")
     })?;
-    let world = rofi::read(&text).map_err(|f| faulty(call, &path, f.line, f.column, &f.what))?;
+    let read = if path.ends_with(".json") { rofi_json::read } else { rofi::read };
+    let world = read(&text).map_err(|f| faulty(call, &path, f.line, f.column, &f.what))?;
+    made(interpreter, call, (kind, loaded), &file, &path, world)
+}
+
+/// A tangle to unwind; see the planner's own words.
+fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let kinds = library(interpreter, call)?;
+    let modules = call.count(0, "a number of modules")?;
+    let actions = call.count(1, "a number of actions")?;
+    let seed = call.count(2, "a seed")?;
+    if modules == 0 {
+        return Err(call.refuse(0, "a robot has a module at least"));
+    }
+    check_count(interpreter, call, modules)?;
+    if actions > ACTIONS_MAX {
+        let message = format!("more than {ACTIONS_MAX} actions are not made");
+        return Err(fault(code::SIZE_LIMIT, call.at(1), message, "too many actions"));
+    }
+    let name = format!("tangle({modules}, {actions}, seed: {seed})");
+    interpreter.stage.progress(format!("tangling {modules} modules"));
+    let world = to_world(&tangled(modules, actions, seed as u64));
+    made(interpreter, call, kinds, &name, &name, world)
+}
+
+/// Actions of one tangle.
+const ACTIONS_MAX: usize = 1_000_000;
+
+/// The library's module, and the configuration that holds what is made from data.
+fn library(interpreter: &Interpreter, call: &Call) -> Eval<(DefId, DefId)> {
+    match (declared(interpreter, "Rofi"), declared(interpreter, "_Loaded")) {
+        (Some(kind), Some(loaded)) => Ok((kind, loaded)),
+        _ => {
+            let message = "a robot of RoFI modules needs the library's module";
+            Err(fault(code::UNKNOWN_IMPORT, call.span, message, "`use std.rofi.Rofi` is missing"))
+        }
+    }
+}
+
+fn check_count(interpreter: &Interpreter, call: &Call, modules: usize) -> Eval<()> {
     let limit = interpreter.limits().modules;
-    if world.modules.len() > limit {
+    if modules > limit {
         let message = format!("a robot of more than {limit} modules is not allowed");
         return Err(fault(code::SIZE_LIMIT, call.at(0), message, "too many modules"));
     }
+    Ok(())
+}
+
+/// A robot from data. `key` tells it from others, `path` is its name for people.
+fn made(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    (kind, loaded): (DefId, DefId),
+    key: &str,
+    path: &str,
+    mut world: World,
+) -> Eval<Value> {
+    check_count(interpreter, call, world.modules.len())?;
     let Some(module) = interpreter.default_design(kind)? else { return Ok(Value::Unknown) };
-    let mut world = world;
+    contradictions_last(&mut world);
     let design = loop {
         let design = Rc::new(Design {
             def: loaded,
-            name: path.clone(),
-            args: vec![Value::text(&file)],
-            kind: DesignKind::Config(configuration(&world, &module, call, &path)?),
+            name: path.to_owned(),
+            args: vec![Value::text(key)],
+            kind: DesignKind::Config(configuration(&world, &module, call, path)?),
             broken: false.into(),
         });
-        let open = open_loops(interpreter, &world, &design, call, &path)?;
+        let open = open_loops(interpreter, &world, &design, call, path)?;
         if open.is_empty() {
             break design;
         }
-        leave_out(interpreter, &mut world, &open, call, &path);
+        leave_out(interpreter, &mut world, &open, call, path);
     };
     interpreter.designs[loaded.0 as usize].push(design.clone());
     Ok(instance(interpreter, &design))
+}
+
+/// Of connections that contradict each other the first counts: those that would put modules into each
+/// other are therefore moved behind the others.
+fn contradictions_last(world: &mut World) {
+    let Ok(open) = mend(&mut of_world(world)) else { return };
+    let edges = std::mem::take(&mut world.edges).into_iter().enumerate();
+    let (last, first): (Vec<_>, Vec<_>) = edges.partition(|(index, _)| open.contains(index));
+    world.edges = first.into_iter().chain(last).map(|(_, edge)| edge).collect();
 }
 
 fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
@@ -175,8 +237,9 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     });
 }
 
-/// The text of a file for the robot in argument 0; `None` where it is not sound.
-pub fn written(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<String>> {
+/// The text of a file for the robot in argument 0, by the end of its name; `None` where the robot is not
+/// sound.
+pub fn written(interpreter: &mut Interpreter, call: &Call, ending: &str) -> Eval<Option<String>> {
     let design = call.instance(0)?.design.clone();
     let Some(robot) = interpreter.robot_at(&design, call.at(0))? else { return Ok(None) };
     let mut world = World::default();
@@ -190,7 +253,7 @@ pub fn written(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<String
         let (Some([alpha, beta, gamma]), Some(_)) =
             (positions.as_deref(), Dock::of_port(index, &kind.ports[0].name))
         else {
-            let message = format!("{} is no RoFI module: a `.rofi` file can't say what it is", module.name);
+            let message = format!("{} is no RoFI module: no file of RoFI's can say what it is", module.name);
             return Err(call.refuse(0, message));
         };
         world.modules.push(Module { id: index as u64, joints: [*alpha, *beta, *gamma], line: 0 });
@@ -203,7 +266,7 @@ pub fn written(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<String
             world.edges.push(Edge { a, b, turn: bond.turn, line: 0 });
         }
     }
-    Ok(Some(rofi::write(&world)))
+    Ok(Some(if ending == "json" { rofi_json::write(&world) } else { rofi::write(&world) }))
 }
 
 /// Without the rounding of radians.

@@ -19,8 +19,8 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, 1)?;
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
     let bytes = match (call.arg(0), ending) {
-        (Value::Instance(_), "fold") | (Value::Record(_), "rofi") => {
-            return Err(call.refuse(1, "a robot's name ends in `.rofi`, a folding's in `.fold`"));
+        (Value::Instance(_), "fold") | (Value::Record(_), "rofi" | "json") => {
+            return Err(call.refuse(1, "a robot's name ends in `.rofi` or `.json`, a folding's in `.fold`"));
         }
         (Value::Record(record), _) => {
             let (Record::Plan(planned) | Record::Layout(planned)) = &**record else {
@@ -34,7 +34,7 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             }
             fold_file(&creases(planned, folded))
         }
-        _ => match natives_rofi::written(interpreter, call)? {
+        _ => match natives_rofi::written(interpreter, call, ending)? {
             Some(text) => text,
             None => return Ok(Value::Unknown),
         },

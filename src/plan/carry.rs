@@ -15,13 +15,11 @@ pub struct Carrier {
     robot: Assembly,
     /// State at the start, those bonds open.
     start: State,
-    modules: Vec<usize>,
+    found: Matching,
     /// For every bond of B.
     bonds: Vec<usize>,
     /// For every joint of B.
     joints: Vec<JointId>,
-    /// For every joint of B: what to add to its position.
-    offsets: Vec<f64>,
     /// What to add to a cause.
     causes: u32,
 }
@@ -33,8 +31,7 @@ impl Carrier {
         let mut hinges = Vec::new();
         let mut bonds = Vec::new();
         for (index, bond) in b.robot.bonds.iter().enumerate() {
-            let port = |p: PortRef| PortRef { module: found.modules[p.module], port: p.port };
-            let image = Bond { a: port(bond.a), b: port(bond.b), turn: bond.turn };
+            let image = Bond { a: found.port(bond.a), b: found.port(bond.b), turn: bond.turn };
             let known = found.bonds[index].or_else(|| free_bond(&robot, &image, &start));
             bonds.push(known.unwrap_or_else(|| {
                 robot.bonds.push(image);
@@ -49,21 +46,36 @@ impl Carrier {
         }
         let in_a = Kinematics::new(&robot, &start.bonds, robot.base);
         let image = |owner| match owner {
-            JointOwner::Module { module, joint } => in_a.joint(found.modules[module], joint),
+            JointOwner::Module { module, joint } => {
+                let (module, joint) = found.joint(module, joint);
+                in_a.joint(module, joint)
+            }
             JointOwner::Bond(bond) => {
                 in_a.hinge(bonds[bond]).expect("a hinge's bond is matched by one with a hinge")
             }
         };
         let joints = b.robot.joints().map(|owner| JointId(image(owner) as u32)).collect();
-        let (modules, offsets) = (found.modules.clone(), found.offsets.clone());
-        Carrier { robot, start, modules, bonds, joints, offsets, causes }
+        Carrier { robot, start, found: found.clone(), bonds, joints, causes }
     }
 
-    /// Which modules have another name in A: (name in B, name in A).
+    /// What has another name in A: modules, and joints of modules that lie turned round (name in B, name
+    /// in A).
     pub fn renamed(&self, b: &Assembly) -> Vec<(String, String)> {
-        let pairs =
-            b.modules.iter().zip(&self.modules).map(|(m, &image)| (&m.name, &self.robot.modules[image].name));
-        pairs.filter(|(b, a)| a != b).map(|(b, a)| (b.clone(), a.clone())).collect()
+        let mut pairs = Vec::new();
+        for (module, instance) in b.modules.iter().enumerate() {
+            pairs.push((instance.name.clone(), self.robot.modules[self.found.modules[module]].name.clone()));
+            for joint in 0..b.module_type(module).joints.len() {
+                let (there, image) = self.found.joint(module, joint);
+                if image != joint {
+                    let name = |robot: &Assembly, module, joint| {
+                        robot.joint_name(JointOwner::Module { module, joint })
+                    };
+                    pairs.push((name(b, module, joint), name(&self.robot, there, image)));
+                }
+            }
+        }
+        pairs.retain(|(b, a)| a != b);
+        pairs
     }
 
     /// Motion `a`, then motion `b`.
@@ -98,7 +110,7 @@ impl Carrier {
 
     /// The segments of a track, later by `seam`; the first begins exactly where the joint is.
     fn segments(&self, track: &Track, seam: f64, at: Option<f64>) -> Vec<Segment> {
-        let offset = self.offsets[track.joint.0 as usize];
+        let offset = self.found.offsets[track.joint.0 as usize];
         let mut segments: Vec<Segment> = track
             .segments
             .iter()
@@ -127,7 +139,7 @@ impl Carrier {
     fn kind(&self, kind: &ExemptionKind) -> ExemptionKind {
         match kind {
             ExemptionKind::Collision(Some((m, n))) => {
-                ExemptionKind::Collision(Some((self.modules[*m], self.modules[*n])))
+                ExemptionKind::Collision(Some((self.found.modules[*m], self.found.modules[*n])))
             }
             ExemptionKind::Overload(Some(joint)) => {
                 ExemptionKind::Overload(Some(self.joint(JointId(*joint)).0))
@@ -216,11 +228,11 @@ impl Carrier {
     }
 
     fn offset(&self, joint: JointId) -> f64 {
-        self.offsets[joint.0 as usize]
+        self.found.offsets[joint.0 as usize]
     }
 
     fn port(&self, port: PortRef) -> PortRef {
-        PortRef { module: self.modules[port.module], port: port.port }
+        self.found.port(port)
     }
 
     fn cause(&self, cause: CauseId) -> CauseId {

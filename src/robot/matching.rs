@@ -1,11 +1,13 @@
 //! Whether two robots are the same but for the names of their modules: an isomorphism that keeps
-//! module types, ports, turns and joint positions.
+//! module types, ports, turns and joint positions, where a module may lie turned round if it is the same
+//! then.
 //!
 //! A connected robot is explored from one module along its bonds, and a bond leaves by a known port:
 //! so the image of one module fixes all others. Every image of the first module is tried in turn,
 //! which takes time in the square of the number of modules at worst.
 
-use super::{Assembly, JointKind, Kinematics, Library, State};
+use super::symmetry::{Symmetry, symmetries};
+use super::{Assembly, JointKind, Kinematics, Library, PortRef, State};
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
@@ -14,11 +16,26 @@ use std::f64::consts::TAU;
 pub struct Matching {
     /// For every module of B, the module of A.
     pub modules: Vec<usize>,
+    /// For every module of B, how it lies there.
+    pub turned: Vec<Symmetry>,
     /// For every bond of B that holds, the bond of A.
     pub bonds: Vec<Option<usize>>,
     /// For every joint of B, what to add to its position to have that in A: whole turns, and 0 for
     /// joints that do not turn without end.
     pub offsets: Vec<f64>,
+}
+
+impl Matching {
+    /// Where a port of B is in A.
+    pub fn port(&self, port: PortRef) -> PortRef {
+        let turned = &self.turned[port.module];
+        PortRef { module: self.modules[port.module], port: turned.ports[port.port] }
+    }
+
+    /// Where a joint of a module of B is in A: module, and index in its joints.
+    pub fn joint(&self, module: usize, joint: usize) -> (usize, usize) {
+        (self.modules[module], self.turned[module].joints[joint])
+    }
 }
 
 /// Why two robots do not match; modules by path name.
@@ -65,18 +82,21 @@ pub fn matching(
     if count.0 != count.1 || count.0 == 0 {
         return Err(Mismatch::Count { a: count.0, b: count.1 });
     }
-    let search = Search { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), tol_joint };
+    let turns = b.0.library.modules.iter().map(symmetries).collect();
+    let search = Search { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), turns, tol_joint };
     // The module of the same name first: names are kept where they can be.
     let first = &b.0.modules[0];
     let same_name = a.0.modules.iter().position(|m| m.name == first.name);
     let others = (0..count.0).filter(|i| Some(*i) != same_name);
     let mut best: Option<(usize, Mismatch)> = None;
     for image in same_name.into_iter().chain(others) {
-        match search.from(image) {
-            Ok(found) => return Ok(found),
-            Err((reached, mismatch)) => {
-                if best.as_ref().is_none_or(|(most, _)| reached > *most) {
-                    best = Some((reached, mismatch));
+        for turn in &search.turns[b.0.modules[0].kind] {
+            match search.from(image, turn) {
+                Ok(found) => return Ok(found),
+                Err((reached, mismatch)) => {
+                    if best.as_ref().is_none_or(|(most, _)| reached > *most) {
+                        best = Some((reached, mismatch));
+                    }
                 }
             }
         }
@@ -143,52 +163,63 @@ impl<'a> Side<'a> {
 struct Search<'a> {
     a: Side<'a>,
     b: Side<'a>,
+    /// By type of B: how a module may lie.
+    turns: Vec<Vec<Symmetry>>,
     tol_joint: f64,
 }
 
-impl Search<'_> {
-    /// Tries one image of the first module of B; otherwise how many modules agreed, and what did not.
-    fn from(&self, image: usize) -> Result<Matching, (usize, Mismatch)> {
+impl<'a> Search<'a> {
+    /// Tries one image of the first module of B, lying in one way; otherwise how many modules agreed, and what did not.
+    fn from(&self, image: usize, turn: &Symmetry) -> Result<Matching, (usize, Mismatch)> {
         let n = self.b.robot.modules.len();
-        let mut images = vec![None; n];
+        let mut images: Vec<Option<(usize, &Symmetry)>> = vec![None; n];
         let mut taken = vec![false; n];
         let mut found = Matching {
             modules: vec![],
+            turned: vec![],
             bonds: vec![None; self.b.robot.bonds.len()],
             offsets: vec![0.0; self.b.state.joints.len()],
         };
-        (images[0], taken[image]) = (Some(image), true);
+        (images[0], taken[image]) = (Some((image, turn)), true);
         let mut queue = VecDeque::from([0]);
         let mut reached = 0;
         // A joint elsewhere does not end the attempt: that the rest fits makes it worth telling.
         let mut elsewhere: Option<Mismatch> = None;
         while let Some(x) = queue.pop_front() {
-            let y = images[x].expect("what is queued has an image");
+            let (y, turned) = images[x].expect("what is queued has an image");
             self.same_type(x, y).map_err(|mismatch| (reached, mismatch))?;
-            elsewhere = elsewhere.or(self.joints(x, y, &mut found).err());
+            elsewhere = elsewhere.or(self.joints((x, y), turned, &mut found).err());
             reached += 1;
             for port in 0..self.b.docked[x].len() {
-                let (here, there) = (self.b.docked[x][port], self.a.docked[y][port]);
+                let (here, there) = (self.b.docked[x][port], self.a.docked[y][turned.ports[port]]);
                 let (Some(u), Some(v)) = (here, there) else {
                     if here.is_some() != there.is_some() {
                         return Err((reached, self.differ(x, y, port)));
                     }
                     continue;
                 };
-                let fits = u.port == v.port && u.turn == v.turn && u.leads == v.leads;
-                let fresh = images[u.module].is_none() && !taken[v.module];
-                if !fits || !(fresh || images[u.module] == Some(v.module)) {
+                let kind = self.b.robot.modules[u.module].kind;
+                let image = match images[u.module] {
+                    Some((module, turned)) => (module == v.module).then_some(turned),
+                    None if taken[v.module] => None,
+                    None => self.turns[kind].iter().find(|turned| turned.ports[u.port] == v.port),
+                };
+                let image = image.filter(|turned| turned.ports[u.port] == v.port);
+                let Some(image) = image.filter(|_| u.turn == v.turn && u.leads == v.leads) else {
                     return Err((reached, self.differ(x, y, port)));
-                }
+                };
                 elsewhere = elsewhere.or(self.hinge(u.bond, v.bond, &mut found).err());
                 found.bonds[u.bond] = Some(v.bond);
-                if fresh {
-                    (images[u.module], taken[v.module]) = (Some(v.module), true);
+                if images[u.module].is_none() {
+                    (images[u.module], taken[v.module]) = (Some((v.module, image)), true);
                     queue.push_back(u.module);
                 }
             }
         }
-        found.modules = images.into_iter().collect::<Option<_>>().ok_or((reached, Mismatch::Pieces))?;
+        let images: Vec<(usize, &Symmetry)> =
+            images.into_iter().collect::<Option<_>>().ok_or((reached, Mismatch::Pieces))?;
+        found.modules = images.iter().map(|(module, _)| *module).collect();
+        found.turned = images.iter().map(|(_, turned)| (*turned).clone()).collect();
         elsewhere.map_or(Ok(found), |mismatch| Err((reached, mismatch)))
     }
 
@@ -201,15 +232,23 @@ impl Search<'_> {
     }
 
     /// Compares the joint positions of a module of B and one of A of the same type.
-    fn joints(&self, x: usize, y: usize, found: &mut Matching) -> Result<(), Mismatch> {
+    fn joints(
+        &self,
+        (x, y): (usize, usize),
+        turned: &Symmetry,
+        found: &mut Matching,
+    ) -> Result<(), Mismatch> {
         for (index, joint) in self.b.robot.module_type(x).joints.iter().enumerate() {
             if joint.kind == JointKind::Fixed || joint.mimic.is_some() {
                 continue;
             }
             let endless = joint.kind == JointKind::Revolute && joint.limits.range.is_none();
-            let (at_a, at_b) = (self.a.kinematics.joint(y, index), self.b.kinematics.joint(x, index));
-            let name = |side: &Side, module| format!("{}.{}", side.name(module), joint.name);
-            let (in_a, in_b) = (name(&self.a, y), name(&self.b, x));
+            let image = turned.joints[index];
+            let (at_a, at_b) = (self.a.kinematics.joint(y, image), self.b.kinematics.joint(x, index));
+            let name = |side: &Side, module, joint: usize| {
+                format!("{}.{}", side.name(module), side.robot.module_type(module).joints[joint].name)
+            };
+            let (in_a, in_b) = (name(&self.a, y, image), name(&self.b, x, index));
             self.joint((at_a, in_a), (at_b, in_b), endless, found)?;
         }
         Ok(())

@@ -5,10 +5,12 @@ pub mod assembly;
 pub mod library;
 pub mod mass;
 pub mod rofi;
+pub mod rofi_json;
 
 pub mod kinematics;
 pub mod matching;
 pub mod step;
+pub mod symmetry;
 pub mod tree;
 pub mod truss;
 
@@ -19,3 +21,4 @@ pub use library::{
 };
 pub use mass::Mass;
 pub use matching::{Matching, Mismatch, matching};
+pub use symmetry::{Symmetry, symmetries};

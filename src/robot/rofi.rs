@@ -128,8 +128,9 @@ fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: T) -> &'static str 
     names.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| name)
 }
 
+/// What was read so far, in any format.
 #[derive(Default)]
-struct Reader {
+pub(super) struct Reader {
     begun: bool,
     modules: Vec<Module>,
     /// Place in `modules` of each id.
@@ -146,11 +147,21 @@ impl Reader {
         for (k, joint) in joints.iter_mut().enumerate() {
             *joint = words.number(2 + k)?;
         }
-        if self.places.insert(id, self.modules.len()).is_some() {
-            return Err(words.fault(1, format!("a second module {id}")));
+        self.add_module(Module { id, joints, line: words.line }).map_err(|what| words.fault(1, what))
+    }
+
+    /// Takes in a module; what is wrong with it, in words.
+    pub(super) fn add_module(&mut self, module: Module) -> Result<(), String> {
+        if self.places.insert(module.id, self.modules.len()).is_some() {
+            return Err(format!("a second module {}", module.id));
         }
-        self.modules.push(Module { id, joints, line: words.line });
+        self.modules.push(module);
         Ok(())
+    }
+
+    /// The place of a module in the list.
+    pub(super) fn place(&self, id: u64) -> Option<usize> {
+        self.places.get(&id).copied()
     }
 
     fn edge(&mut self, words: &Words) -> Result<(), Fault> {
@@ -158,19 +169,24 @@ impl Reader {
         let turn = words.one_of(4, &TURNS, "an orientation")?;
         let b = self.dock(words, (7, 6, 5))?;
         let edge = Edge { a, b, turn: turn as u32, line: words.line };
-        for (dock, column) in [(a, 1), (b, 7)] {
+        self.add_edge(edge).map_err(|(end, what)| words.fault([1, 7][end], what))
+    }
+
+    /// Takes in a connection; which end of it is wrong, and what is, in words.
+    pub(super) fn add_edge(&mut self, edge: Edge) -> Result<(), (usize, String)> {
+        let Edge { a, b, .. } = edge;
+        for (end, dock) in [a, b].into_iter().enumerate() {
             if let Some(&other) = self.taken.get(&dock) {
                 let known = &self.edges[other];
                 // The same connection said twice is no harm.
                 if known.turn == edge.turn && [(known.a, known.b), (known.b, known.a)].contains(&(a, b)) {
                     return Ok(());
                 }
-                let message = format!("this dock was connected in line {}", known.line);
-                return Err(words.fault(column, message));
+                return Err((end, format!("this dock was connected in line {}", known.line)));
             }
         }
         if a == b {
-            return Err(words.fault(1, "a dock can't hold itself"));
+            return Err((0, "a dock can't hold itself".into()));
         }
         self.taken.extend([(a, self.edges.len()), (b, self.edges.len())]);
         self.edges.push(edge);
@@ -187,7 +203,7 @@ impl Reader {
         Ok(Dock { module, side, face })
     }
 
-    fn finish(self) -> Result<World, Fault> {
+    pub(super) fn finish(self) -> Result<World, Fault> {
         if self.modules.is_empty() {
             return Err(Fault { line: 1, column: 1, what: "there are no modules in it".into() });
         }

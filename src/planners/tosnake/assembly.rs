@@ -1,4 +1,5 @@
-//! From an assembly of RoFI modules to the planner's robot, and from its steps to a program.
+//! From an assembly of RoFI modules, or one of its files, to the planner's robot, and from steps to a
+//! program.
 
 use super::robot::{Bond, Dock, Robot};
 use super::state::Step;
@@ -30,6 +31,38 @@ pub enum NoRofi {
     /// This module has another pitch than the first.
     Pitch(usize),
 }
+
+/// A configuration as a file has it.
+pub fn of_world(world: &rofi::World) -> Robot {
+    let dock = |dock: &rofi::Dock| {
+        let place = (0..super::robot::DOCKS).find(|&place| port_name(dock.module, place) == dock.port());
+        Dock { module: dock.module, dock: place.expect("both name the docks of one module") }
+    };
+    Robot {
+        joints: world.modules.iter().map(|m| m.joints.map(f64::to_radians)).collect(),
+        bonds: world.edges.iter().map(|e| Bond { a: dock(&e.a), b: dock(&e.b), turn: e.turn }).collect(),
+        holds: vec![true; world.edges.len()],
+    }
+}
+
+/// What a file says of a configuration. Bonds that do not hold are left out.
+pub fn to_world(robot: &Robot) -> rofi::World {
+    let joints = |q: &[f64; 3]| q.map(|angle| libm::round(angle.to_degrees() * PARTS) / PARTS);
+    let module = |(id, q): (usize, &[f64; 3])| rofi::Module { id: id as u64, joints: joints(q), line: 0 };
+    let dock = |dock: Dock| {
+        rofi::Dock::of_port(dock.module, port_name(dock.module, dock.dock)).expect("it is a dock's name")
+    };
+    rofi::World {
+        modules: robot.joints.iter().enumerate().map(module).collect(),
+        edges: robot
+            .held()
+            .map(|(_, bond)| rofi::Edge { a: dock(bond.a), b: dock(bond.b), turn: bond.turn, line: 0 })
+            .collect(),
+    }
+}
+
+/// Parts of a degree that are written: without the rounding of radians.
+const PARTS: f64 = 1e9;
 
 /// An assembly of RoFI modules, as the planner numbers things.
 pub struct Translated<'a> {

@@ -36,6 +36,8 @@ mod search;
 
 pub mod assembly;
 
+pub mod tangle;
+
 pub use robot::{Bond, Dock, Robot};
 pub use search::unwind;
 pub use sound::Unsound;
