@@ -160,10 +160,6 @@ impl Host for Clock {
             self.verifying = Some(Instant::now());
         }
     }
-
-    fn cancelled(&self) -> bool {
-        false
-    }
 }
 
 /// The share that was planned, and times of those, by size.

@@ -209,6 +209,24 @@ config Spider(gap: Bool = false, straight: Bool = false) closed {
       set foot[i].alpha = -60deg
     }
   }
+
+  /// One foot is lifted, swung with its hip, and put down again.
+  behavior step(leg: Int, swing: Angle, lift: Angle) = Sc(
+    move(foot[leg].alpha, by: lift),
+    move(hip[leg].gamma, by: swing),
+    move(foot[leg].alpha, by: -lift),
+  )
+
+  /// Two opposite feet step forward, one after the other; then both push the body after them. The
+  /// other two feet carry their part of the weight and slip.
+  behavior crawl(steps: Int = 2, swing: Angle = 30deg, lift: Angle = 20deg) = repeat(
+    Sc(
+      step(0, swing, lift),
+      step(2, -swing, lift),
+      Pc(move(hip[0].gamma, by: -swing), move(hip[2].gamma, by: swing)),
+    ),
+    steps,
+  )
 }
 
 /// Four legs of two modules: two pairs hold each other by their feet, one pair by its hips. With

@@ -187,6 +187,17 @@ emit(q, \"q.plan.json\")
 }
 
 #[test]
+fn what_a_chair_became_crawls() {
+    let printed = run_clean(
+        "use std.rofi.{Chair, Spider}
+let r = verify(reconfigure(Chair(), Spider(), seed: 1) ++ Spider().crawl())
+print(r.ok, r.travel > 20mm)
+",
+    );
+    assert_eq!(printed.printed, ["true true"]);
+}
+
+#[test]
 fn the_shapes_of_the_paper_unwind() {
     for shape in ["Chair", "Spider", "Ball", "Puppy", "Human", "Crab(folded: true)"] {
         let name = shape.split('(').next().unwrap_or(shape);

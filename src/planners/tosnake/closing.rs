@@ -126,6 +126,7 @@ impl Closing<'_> {
         let drifting = if drift.is_empty() { 0 } else { settings.drifting };
         let (mut best, mut since) = (f64::INFINITY, 0);
         for iteration in 0..(settings.iterations_max as f64 * long) as usize {
+            crate::interrupt::checkpoint();
             tree.poses(&joints, &mut poses);
             *work += STEP_WORK;
             let error = lp.error(&poses);

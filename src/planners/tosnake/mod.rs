@@ -6,7 +6,7 @@
 //!
 //! Loops are opened; then two chains at a time become one: their ends meet ([`merging`], [`closing`]),
 //! and the loop that this closes is opened at a bond that is none of a snake. Between that the robot is
-//! straightened ([`opening`]). Every motion is checked on the way ([`sweep`], [`turn`]), not only where
+//! straightened ([`opening`]), and in the end what is superfluous is left out ([`shortening`]). Every motion is checked on the way ([`sweep`], [`turn`]), not only where
 //! it ends. Lengths are in parts of the pitch, angles in radians.
 
 pub mod random;
@@ -33,6 +33,7 @@ pub mod closing;
 pub mod merging;
 
 mod search;
+mod shortening;
 
 pub mod assembly;
 

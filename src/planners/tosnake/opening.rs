@@ -70,6 +70,7 @@ fn bent(state: &State) -> Vec<JointRef> {
 
 /// Whether a joint is free to turn by an angle, all of it.
 fn free(state: &mut State, joint: JointRef, angle: f64) -> bool {
+    crate::interrupt::checkpoint();
     state.work += 1;
     turn::free(&state.tree, joint, &state.poses, angle, TURN_APART) == angle
 }

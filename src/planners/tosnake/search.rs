@@ -5,6 +5,7 @@ use super::merging::{self, Pair};
 use super::opening;
 use super::random::Dice;
 use super::robot::{GAMMA, Robot};
+use super::shortening::shortened;
 use super::sound;
 use super::state::State;
 use super::{Found, Progress, Refusal, Settings};
@@ -41,8 +42,12 @@ pub fn unwind(
     let mut search = Search { state, dice: Dice(settings.seed), settings, watch, progress };
     search.snake()?;
     search.report()?;
-    let State { robot, steps, .. } = search.state;
-    Ok(Found { robot, steps, progress: search.progress })
+    let State { robot: end, steps, mut work, .. } = search.state;
+    let holds = (0..end.bonds.len()).map(|bond| robot.holds.get(bond).copied().unwrap_or(false)).collect();
+    let start = Robot { joints: robot.joints.clone(), bonds: end.bonds.clone(), holds };
+    let steps = shortened(start, &steps, &mut work);
+    search.progress.work = work;
+    Ok(Found { robot: end, steps, progress: search.progress })
 }
 
 struct Search<'a> {

@@ -78,6 +78,7 @@ impl Walk<'_> {
         let mut list = self.list(&here);
         let mut gone = 0.0;
         while t < 1.0 {
+            crate::interrupt::checkpoint();
             let until = f64::min(1.0, t + step);
             self.at(0.5 * (t + until), &mut middle);
             self.at(until, &mut there);
