@@ -179,15 +179,25 @@ impl std::fmt::Display for ReadFault {
 }
 
 /// The bytes of a regular file. Others are not even opened: opening a pipe would wait for a writer.
-pub fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
+fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     if !fs::metadata(path)?.is_file() {
         return Err(ReadFault::Irregular);
     }
     read_at_most(File::open(path)?, bytes_max)
 }
 
+/// The bytes that the user named, if they are not too many; `-` is standard input.
+pub fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> {
+    let bytes = if file == Path::new("-") {
+        read_at_most(io::stdin().lock(), bytes_max)
+    } else {
+        read_regular(file, bytes_max)
+    };
+    bytes.map_err(|fault| CallError(format!("the file `{}` {fault}", file.display())))
+}
+
 /// All bytes of a stream, if they are not too many. Files may be longer than they say.
-pub fn read_at_most(stream: impl Read, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
+fn read_at_most(stream: impl Read, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     let mut bytes = Vec::new();
     stream.take(bytes_max as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > bytes_max { Err(ReadFault::TooLarge(bytes_max)) } else { Ok(bytes) }

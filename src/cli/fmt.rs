@@ -1,7 +1,7 @@
 //! `modl fmt`: programs in the one style, in place.
 
 use super::arguments::Globals;
-use super::disk::{FILE_BYTES_MAX, STDIN_NAME, read_at_most, read_regular, system_words};
+use super::disk::{self, FILE_BYTES_MAX, STDIN_NAME, system_words};
 use super::report::{self, Report};
 use super::terminal::{print, print_error};
 use super::{CallError, Ending, output};
@@ -39,8 +39,7 @@ struct Program {
 
 fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(), CallError> {
     if file == Path::new("-") {
-        let bytes = read_at_most(io::stdin().lock(), FILE_BYTES_MAX)
-            .map_err(|e| CallError(format!("standard input {e}")))?;
+        let bytes = disk::read(file, FILE_BYTES_MAX)?;
         programs.push(Program { file: None, name: STDIN_NAME.to_owned(), bytes });
         return Ok(());
     }
@@ -57,8 +56,7 @@ fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(),
         }
         return Ok(());
     }
-    let bytes =
-        read_regular(file, FILE_BYTES_MAX).map_err(|e| CallError(format!("the file `{name}` {e}")))?;
+    let bytes = disk::read(file, FILE_BYTES_MAX)?;
     programs.push(Program { file: Some(file.to_owned()), name, bytes });
     Ok(())
 }

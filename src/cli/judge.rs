@@ -1,7 +1,7 @@
 //! `modl verify`: judges plan files again, from nothing but the files.
 
 use super::arguments::Globals;
-use super::disk::{read_at_most, read_regular};
+use super::disk;
 use super::report::{self, JsonPlan, Report};
 use super::terminal::{cancelled, listen_for_cancel, print};
 use super::verdict;
@@ -9,7 +9,6 @@ use super::{CallError, Ending};
 use crate::behavior::unfaithful;
 use crate::plan::{self, Body, CheckKind, Plan, Status, Verdict, Worst};
 use crate::source::{Diagnostic, Sources, Span, code};
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// No plan file larger than this is read, bytes.
@@ -102,12 +101,7 @@ fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Global
 
 /// The bytes of a plan file, if they are not too many; `-` is standard input.
 pub fn read(file: &Path) -> Result<Vec<u8>, CallError> {
-    let bytes = if file == Path::new("-") {
-        read_at_most(io::stdin().lock(), PLAN_BYTES_MAX)
-    } else {
-        read_regular(file, PLAN_BYTES_MAX)
-    };
-    bytes.map_err(|fault| CallError(format!("the file `{}` {fault}", file.display())))
+    disk::read(file, PLAN_BYTES_MAX)
 }
 
 /// Values of two verdicts that differ by less are the same.

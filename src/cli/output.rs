@@ -6,6 +6,10 @@ use crate::source::files::join;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// How the names of files begin that are not whole yet.
+const PREFIX: &str = ".modl-";
 
 /// Writes `bytes` to `path` below `folder`, making folders as needed. The file appears whole or not
 /// at all: it is written under another name beside its place, then moved. Gives the path to show.
@@ -33,10 +37,9 @@ pub fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
         return Err(io::ErrorKind::PermissionDenied.into());
     }
     let parent = target.parent().unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(".modl-").tempfile_in(parent)?;
-    file.write_all(bytes)?;
+    let file = tempfile::Builder::new().prefix(PREFIX).tempfile_in(parent)?;
     file.as_file().set_permissions(found.permissions())?;
-    file.persist(&target).map(drop).map_err(|e| e.error)
+    filled(file, &target, bytes)
 }
 
 /// Steps down folder by folder, making the missing ones. A link may lead about, but not out.
@@ -71,10 +74,13 @@ fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
 
 fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".modl-");
+    builder.prefix(PREFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(parent)?;
+    filled(builder.tempfile_in(parent)?, target, bytes)
+}
+
+fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.persist(target).map(drop).map_err(|e| e.error)
 }

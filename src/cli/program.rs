@@ -13,7 +13,6 @@ use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-#[derive(Clone, Debug)]
 pub enum Task {
     Run,
     /// As `Run`, and every plan is drawn.

@@ -265,10 +265,7 @@ impl Interpreter<'_> {
                 }
                 declared.limits
             }
-            JointOwner::Bond(bond) => {
-                let bond = target.robot.bonds()[bond].clone();
-                self.hinge_at(&target.robot, bond.a)?.map(|hinge| hinge.limits).unwrap_or_default()
-            }
+            JointOwner::Bond(bond) => self.hinge_limits(&target.robot, bond)?,
         };
         if let Some((low, high)) = limits.range
             && !(low..=high).contains(&position)
@@ -341,6 +338,12 @@ fn inherited(part: &str, inside: &str) -> Rc<str> {
     }
 }
 
+/// That a joint can't be at a position.
+pub fn outside(joint: &str, position: f64, (low, high): (f64, f64), dimension: Dimension) -> String {
+    let [position, low, high] = [position, low, high].map(|x| quantity(x, dimension));
+    format!("{joint} can't be at {position}: its range is {low} to {high}")
+}
+
 pub fn out_of_range(
     joint: &str,
     position: f64,
@@ -349,7 +352,6 @@ pub fn out_of_range(
     span: Span,
 ) -> Stop {
     let show = |x| quantity(x, dimension);
-    let message =
-        format!("{joint} can't be at {}: its range is {} to {}", show(position), show(low), show(high));
+    let message = outside(joint, position, (low, high), dimension);
     fault(code::OUT_OF_RANGE, span, message, format!("outside {} to {}", show(low), show(high)))
 }

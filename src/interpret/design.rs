@@ -221,6 +221,12 @@ impl Design {
         self.config().map_or_else(Vec::new, |config| config.bonds.borrow().clone())
     }
 
+    /// One of them.
+    pub fn bond(&self, index: usize) -> BondRecord {
+        let config = self.config().expect("only configurations have bonds");
+        config.bonds.borrow()[index].clone()
+    }
+
     pub fn sets(&self) -> Vec<SetRecord> {
         self.config().map_or_else(Vec::new, |config| config.sets.borrow().clone())
     }
@@ -322,7 +328,7 @@ impl JointValue {
                 format!("{}.{joint}", self.robot.module_name(module))
             }
             JointOwner::Bond(bond) => {
-                let BondRecord { a, b, .. } = self.robot.bonds()[bond].clone();
+                let BondRecord { a, b, .. } = self.robot.bond(bond);
                 let [a, b] =
                     [a, b].map(|(module, port)| PortValue { robot: self.robot.clone(), module, port }.name());
                 format!("{a} -- {b}")

@@ -145,16 +145,7 @@ impl Question<'_> {
         let ties = (0..all.by_root.len()).filter(|root| all.by_root[*root] <= tie).collect();
         let least = self.scaled(all.least);
         if !all.complete {
-            let (layouts, tied) = (vec![all.best], all.ties);
-            return Ok(Found {
-                layouts,
-                next: None,
-                bound: self.objective.lower_bound(root),
-                least,
-                proved: false,
-                ties,
-                tied,
-            });
+            return Ok(self.unproved(vec![all.best], least, ties, all.ties));
         }
         // It may overlap: the best that lies flat costs no less.
         let flat = self.proved()?;
@@ -191,8 +182,8 @@ impl Question<'_> {
         };
         let ties: Vec<usize> = layouts.iter().zip(&values).filter_map(reaches).collect();
         let best = layouts.into_iter().filter(|layout| ties.contains(&layout.root)).collect();
-        let (bound, tied) = (self.objective.lower_bound(self.options.root), ties.len() as u64);
-        Ok(Found { layouts: best, next: None, bound, least, proved: false, ties, tied })
+        let tied = ties.len() as u64;
+        Ok(self.unproved(best, least, ties, tied))
     }
 
     /// Every layout measured, or as many as may be; with how many that are.
@@ -220,15 +211,12 @@ impl Question<'_> {
             heuristic::preferred(self.target, &measure, root, budget).map_err(self.too_many_faces())?;
         let least = self.objective.value(&found.layout)[0];
         let ties = vec![found.layout.root];
-        let (layouts, tied) = (vec![found.layout], found.ties);
-        Ok(Found {
-            layouts,
-            next: None,
-            bound: self.objective.lower_bound(root),
-            least,
-            proved: false,
-            ties,
-            tied,
-        })
+        Ok(self.unproved(vec![found.layout], least, ties, found.ties))
+    }
+
+    /// Layouts of which nothing is proved but what no layout undercuts.
+    fn unproved(&self, layouts: Vec<Layout>, least: f64, ties: Vec<usize>, tied: u64) -> Found {
+        let bound = self.objective.lower_bound(self.options.root);
+        Found { layouts, next: None, bound, least, proved: false, ties, tied }
     }
 }

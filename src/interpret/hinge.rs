@@ -1,10 +1,11 @@
 //! Joints that live in connections: the hinges of connectors such as Mori's edges.
 
+use super::connector::ConnectorDesign;
 use super::design::Design;
 use super::interpreter::Interpreter;
 use super::stop::Eval;
 use super::value::{JointValue, PortValue, Value};
-use crate::robot::{Hinge, JointOwner};
+use crate::robot::{JointOwner, Limits};
 use crate::source::{Diagnostic, Span, code};
 use crate::units::Dimension;
 use std::rc::Rc;
@@ -22,10 +23,9 @@ impl Interpreter<'_> {
             let hint = "a hinge belongs to a connection that `connect` made";
             return Err(no_hinge("nothing is connected here").hint(hint).into());
         };
-        // The hinge is that of the first port's connector, as in an assembly.
-        let first = port.robot.bonds()[bond].a;
-        if self.hinge_at(&port.robot, first)?.is_none() {
-            let made = self.connector_name(&port.robot, first);
+        let Some(connector) = self.connector_of(&port.robot, bond)? else { return Ok(Value::Unknown) };
+        if connector.connector.hinge.is_none() {
+            let made = &connector.connector.name;
             let d = no_hinge(&format!("connections of {made} do not turn"));
             return Err(d.hint(format!("`hinge(...)` in `connector {made}` makes a joint of each")).into());
         }
@@ -33,17 +33,16 @@ impl Interpreter<'_> {
         Ok(Value::Joint(JointValue { robot: port.robot.clone(), owner, dimension: Dimension::ANGLE }))
     }
 
-    /// The hinge of the connector at a port: module and index of the port.
-    pub fn hinge_at(&mut self, robot: &Rc<Design>, (module, port): (usize, usize)) -> Eval<Option<Hinge>> {
-        let design = robot.module_at(module);
-        let module = design.module().expect("only modules are listed");
-        let def = module.connectors[module.module.ports[port].connector];
-        Ok(self.connector(def)?.and_then(|connector| connector.connector.hinge.clone()))
+    /// What the joint of a connection can do.
+    pub fn hinge_limits(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Limits> {
+        let connector = self.connector_of(robot, bond)?;
+        let hinge = connector.and_then(|connector| connector.connector.hinge.as_ref().map(|h| h.limits));
+        Ok(hinge.unwrap_or_default())
     }
 
-    fn connector_name(&self, robot: &Rc<Design>, (module, port): (usize, usize)) -> String {
-        let design = robot.module_at(module);
-        let module = design.module().expect("only modules are listed");
-        self.name(module.connectors[module.module.ports[port].connector]).to_string()
+    /// The connector whose hinge a connection has: that of its first port, as in an assembly.
+    fn connector_of(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Option<Rc<ConnectorDesign>>> {
+        let (module, port) = robot.bond(bond).a;
+        self.connector_at(&PortValue { robot: robot.clone(), module, port })
     }
 }

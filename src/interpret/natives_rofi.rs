@@ -1,6 +1,7 @@
 //! Robots of RoFI modules from and to RoFI's files.
 
 use super::call::Call;
+use super::config::outside;
 use super::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
 use super::interpreter::Interpreter;
 use super::natives::{Native, pure};
@@ -157,14 +158,8 @@ fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) ->
             if let Some((low, high)) = kind.joints[joint].limits.range
                 && !(low..=high).contains(&value)
             {
-                let show = |x| quantity(x, Dimension::ANGLE);
                 let name = &kind.joints[joint].name;
-                let what = format!(
-                    "{name} can't be at {}: its range is {} to {}",
-                    show(value),
-                    show(low),
-                    show(high)
-                );
+                let what = outside(name, value, (low, high), Dimension::ANGLE);
                 return Err(faulty(call, path, declared.line, 1, &what));
             }
             let instance = format!("module {}", declared.id).as_str().into();

@@ -56,9 +56,8 @@ impl Outline {
         let scan = scan(FileId(0), text);
         let mut found = Found::default();
         let mut chunks = Vec::new();
-        let ends = scan.chunks.iter().skip(1).copied().chain([text.len()]);
-        for (&start, end) in scan.chunks.iter().zip(ends) {
-            let range = start..end;
+        for range in scan.ranges() {
+            let start = range.start;
             let faulty = scan.faults.iter().any(|fault| range.contains(&fault.at));
             let root = if faulty { None } else { nodes(Rule::chunk, &scan.text[range.clone()]) };
             chunks.push(Chunk { range, sound: root.is_some() });
@@ -80,10 +79,9 @@ pub struct Skeleton(Vec<(Rule, usize, String)>);
 pub fn skeleton(text: &str) -> Option<Skeleton> {
     let scan = scan(FileId(0), text);
     let mut out = Skeleton::default();
-    let ends = scan.chunks.iter().skip(1).copied().chain([text.len()]);
-    for (&start, end) in scan.chunks.iter().zip(ends) {
+    for range in scan.ranges() {
         // Where chunks begin means nothing.
-        for node in nodes(Rule::chunk, &scan.text[start..end])?.into_inner() {
+        for node in nodes(Rule::chunk, &scan.text[range])?.into_inner() {
             if node.as_rule() != Rule::EOI {
                 out.add(node, 0);
             }

@@ -43,9 +43,8 @@ pub fn parse(id: FileId, text: &str) -> Parsed {
     let scan = scan(id, text);
     let mut parser = Parser::new(Builder::new(id, text, &scan.text, &scan.comments), &scan);
     let mut items = Vec::new();
-    let ends = scan.chunks.iter().skip(1).copied().chain([text.len()]);
-    for (&start, end) in scan.chunks.iter().zip(ends) {
-        parser.chunk(start..end, &mut items);
+    for range in scan.ranges() {
+        parser.chunk(range, &mut items);
     }
     let doc = parser.builder.file_doc();
     let Builder { mut diagnostics, unread, .. } = parser.builder;

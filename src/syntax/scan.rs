@@ -12,6 +12,7 @@ use super::parse::{DIAGNOSTICS_MAX, NESTING_MAX};
 use super::words;
 use crate::source::{Diagnostic, FileId, Span};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// How far back on its line a wrong bracket looks for what it closes, in bytes.
 const LINE_LENGTH: usize = 500;
@@ -34,6 +35,14 @@ pub(super) struct Fault {
     pub(super) at: usize,
     /// The grammar must not see this place: recursion would be too deep, or the meaning is lost.
     pub(super) fatal: bool,
+}
+
+impl Scan<'_> {
+    /// The chunks, without gaps up to the end.
+    pub(super) fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        let ends = self.chunks.iter().skip(1).copied().chain([self.text.len()]);
+        self.chunks.iter().copied().zip(ends).map(|(start, end)| start..end)
+    }
 }
 
 pub(super) fn scan(file: FileId, text: &str) -> Scan<'_> {

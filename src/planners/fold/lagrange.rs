@@ -16,10 +16,9 @@
 //! not used: a subgradient of L, with Polyak's step. The greatest L is the bound of the linear
 //! programme of flows.
 
-use super::routes::{self, Allowed, Arc};
+use super::routes::{self, Allowed, Arc, Waiting};
 use super::target::Target;
 use super::weights::Weights;
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// Rounds without progress after which steps get shorter.
@@ -84,28 +83,6 @@ pub struct Lagrange<'t> {
     /// By face: the arc that was chosen.
     chosen: Vec<usize>,
 }
-
-struct Waiting {
-    cost: f64,
-    face: usize,
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Waiting) -> Ordering {
-        other.cost.total_cmp(&self.cost).then(other.face.cmp(&self.face))
-    }
-}
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Waiting) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Waiting) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Waiting {}
 
 impl<'t> Lagrange<'t> {
     pub fn new(target: &'t Target, weights: &Weights) -> Lagrange<'t> {

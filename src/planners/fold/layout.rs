@@ -61,8 +61,8 @@ impl Layout {
     /// The hinge of a face, from both sides; no root has one.
     pub fn across(&self, target: &Target, face: usize) -> Across {
         let hinge = &target.hinges[self.hinge[face].expect("only the root has none")];
-        let own = usize::from(hinge.faces[1] == face);
-        Across { parent: self.parent[face], parent_side: hinge.sides[1 - own], side: hinge.sides[own] }
+        let parent = self.parent[face];
+        Across { parent, parent_side: hinge.side_of(parent), side: hinge.side_of(face) }
     }
 
     /// The hinges that fold, in order of number.

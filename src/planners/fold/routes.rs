@@ -37,9 +37,9 @@ pub struct Routes<'t> {
 }
 
 /// A face with the least that a path through it costs; the cheapest is the greatest.
-struct Waiting {
-    cost: f64,
-    face: usize,
+pub struct Waiting {
+    pub cost: f64,
+    pub face: usize,
 }
 
 impl Ord for Waiting {
@@ -128,7 +128,7 @@ impl<'t> Routes<'t> {
             }
             for (index, other) in self.target.around(face) {
                 let hinge = &self.target.hinges[index];
-                let side = hinge.sides[usize::from(hinge.faces[1] == other)];
+                let side = hinge.side_of(other);
                 if allowed[other] & (1 << side) == 0 {
                     continue;
                 }
@@ -155,7 +155,7 @@ impl<'t> Routes<'t> {
             for face in (0..costs.len()).filter(|face| costs[*face].is_finite()) {
                 for (index, other) in self.target.around(face) {
                     let hinge = &self.target.hinges[index];
-                    let side = hinge.sides[usize::from(hinge.faces[1] == other)];
+                    let side = hinge.side_of(other);
                     let further = costs[face] + self.weights.at(index, goal);
                     if allowed[other] & (1 << side) != 0 && further < next[other] {
                         (next[other], arcs[other]) = (further, arc(other, side));

@@ -50,6 +50,11 @@ impl Hinge {
         if self.faces[0] == face { self.faces[1] } else { self.faces[0] }
     }
 
+    /// Which side of a face of the two it is.
+    pub fn side_of(&self, face: usize) -> usize {
+        self.sides[usize::from(self.faces[1] == face)]
+    }
+
     /// The axis about which a positive turn folds the face across from `parent`.
     pub fn axis_from(&self, parent: usize) -> Vec3 {
         if self.faces[0] == parent { self.axis } else { -self.axis }
