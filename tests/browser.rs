@@ -315,7 +315,7 @@ fn pages_play_in_a_browser() {
         }),
         bound(Looks {
             joints: false,
-            colours: &["size", "part", "type"],
+            colours: &["size", "type"],
             toggles: free,
             curves: &[],
             ..slab
@@ -331,7 +331,7 @@ fn pages_play_in_a_browser() {
     let robot = Looks { joints: true, toggles: ON_GROUND, ..of_family("snake", snake(), OF_ROBOT) };
     let families = [
         robot,
-        of_family("lattice", lattice(), &["size", "part", "type"]),
+        of_family("lattice", lattice(), &["size", "type"]),
         of_family("truss", truss(), &["length", "part", "type"]),
         Looks { joints: true, ..of_family(HOSTILE, hostile(), OF_ROBOT) },
     ];

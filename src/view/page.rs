@@ -7,11 +7,12 @@ const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
 
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("page/math.js"),
     include_str!("page/motion.js"),
     include_str!("page/shapes.js"),
     include_str!("page/shaders.js"),
+    include_str!("page/detail.js"),
     include_str!("page/render.js"),
     include_str!("page/framing.js"),
     include_str!("page/camera.js"),

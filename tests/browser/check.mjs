@@ -4,7 +4,7 @@
 
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
-import { PATIENCE, lost, opened, picture } from "./opening.mjs";
+import { PATIENCE, lost, opened, picture, time } from "./opening.mjs";
 import { plays } from "./player.mjs";
 import * as views from "./views.mjs";
 
@@ -59,7 +59,8 @@ async function checked(browser, one) {
   if (out.length) fault("out of the picture: " + JSON.stringify(out));
   const [start, end] = [await picture(page, 0), await picture(page, "end")];
   if (start.colours < 50) fault(`a blank picture of ${start.colours} colours`);
-  if (start.sum === end.sum) fault("nothing moves");
+  // What comes back to where it was has moved between.
+  if (start.sum === end.sum && start.sum === (await picture(page, 0.4 * (await time(page)))).sum) fault("nothing moves");
   await views.hovers(page, one.joints, fault);
   await places(page, one.poses, fault);
   if (one.title && await page.locator("h1").textContent() !== one.title) fault("the title is " + await page.locator("h1").textContent());

@@ -5,7 +5,7 @@ const FOVY = (38 * Math.PI) / 180;
 function cameraOf(canvas, calm, changed) {
   const goal = { yaw: -0.9, pitch: 0.42, distance: 1, target: [0, 0, 0] };
   const now = { ...goal };
-  const camera = { matrix: null, eye: [0, 0, 0], target: [0, 0, 0], distance: 1, reach: 0, goal, follow: true, framed: "first" };
+  const camera = { matrix: null, eye: [0, 0, 0], target: [0, 0, 0], distance: 1, reach: 0, goal, follow: true, atEnd: false, framed: "first" };
   const pointers = new Map();
   let moved = 0;
 
@@ -37,6 +37,7 @@ function cameraOf(canvas, calm, changed) {
     goal.target = framing.now().middle;
     goal.distance = framing.distance(goal.yaw, goal.pitch, camera.aspect());
     camera.framed = "whole";
+    camera.atEnd = false;
   };
 
   /** The first look: from a corner, or along a row from its end, so that the near modules are seen. */
@@ -45,6 +46,7 @@ function cameraOf(canvas, calm, changed) {
     if (!thread) camera.fit(framing);
     camera.framed = "first";
     if (!thread) return;
+    camera.atEnd = true;
     const half = Math.atan(camera.aspect() * Math.tan(FOVY / 2));
     const { end, angle, wide } = thread;
     // What goes away from the eye vanishes within the picture, above its middle.

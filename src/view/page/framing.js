@@ -27,7 +27,7 @@ function framingOf(plan, motion, X) {
   }
 
   /** The row that everything stands in, if it is one: its near end, direction and width. */
-  function thread() {
+  function thread({ low, high } = now()) {
     let [x, y, xx, xy, yy] = [0, 0, 0, 0, 0];
     for (let b = 0; b < motion.bodies; b++) (x += X[TEXELS * b] / motion.bodies), (y += X[TEXELS * b + 1] / motion.bodies);
     for (let b = 0; b < motion.bodies; b++) {
@@ -37,7 +37,6 @@ function framingOf(plan, motion, X) {
     const angle = 0.5 * Math.atan2(2 * xy, xx - yy);
     const along = [Math.cos(angle), Math.sin(angle)];
     let [first, last, wide] = [Infinity, -Infinity, 0];
-    const { low, high } = now();
     for (let b = 0; b < motion.bodies; b++) {
       const [dx, dy] = [X[TEXELS * b] - x, X[TEXELS * b + 1] - y];
       const u = dx * along[0] + dy * along[1];
@@ -55,22 +54,19 @@ function framingOf(plan, motion, X) {
   for (let i = 0; i <= times; i++) {
     motion.place((plan.end * i) / times, X);
     looks.push(now());
-    threads.push(thread());
+    threads.push(thread(looks[i]));
   }
 
-  /** Whether it is still the same row, and its end where it was. */
-  function stays(thread, i) {
-    const first = threads[0];
-    if (!thread || !first) return false;
-    const moved = sub(sub(thread.end, looks[i].middle), sub(first.end, looks[0].middle));
-    return Math.abs(thread.angle - first.angle) < 0.1 && norm(moved) < 3 * first.wide;
-  }
+  /** Whether it is still the same row. */
+  const stays = thread => thread && threads[0] && Math.abs(thread.angle - threads[0].angle) < 0.1;
 
   return {
     now,
     /** The greatest size that there is over time. */
     radius: Math.max(...looks.map(look => look.radius)),
     thread: threads.every(stays) ? threads[0] : null,
+    /** Where a camera that follows looks, of what was found now: the row's end, or the middle. */
+    followed: (end, found) => (end && (thread(found) || {}).end) || found.middle,
     /** How far away a camera of this direction has to be for all that it follows to be in the picture. */
     distance(yaw, pitch, aspect, only) {
       const { away, right, up } = axesOf(yaw, pitch);

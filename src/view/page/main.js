@@ -166,8 +166,9 @@ function main() {
     paint(plan, motion, colouring, X, state.t, state.hovered, failure, state.theme.dark);
     const stand = standAt(plan, state.t);
     const now = framing.now();
-    if (camera.follow && follows) camera.goal.target = add(camera.goal.target, sub(now.middle, follows));
-    follows = now.middle;
+    const place = framing.followed(camera.atEnd, now);
+    if (camera.follow && follows && follows.atEnd === camera.atEnd) camera.goal.target = add(camera.goal.target, sub(place, follows.place));
+    follows = { place, atEnd: camera.atEnd };
     const moving = camera.update(seconds_);
     const lineTheme = { ...state.theme, ink: state.lineInk };
     const lines = [];
@@ -183,7 +184,7 @@ function main() {
     const scene = {
       camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
       middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground && coarseness() < 1,
-      edges: options.edges && coarseness() < 2, coarse: coarseness() > 0, ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
+      edges: options.edges && coarseness() < 2, detail: DETAIL[coarseness()], ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
     };
     if (renderer) {
       scene.ghosts.forEach((shown, i) => shown && !ghosts[i] && makeGhost(i));

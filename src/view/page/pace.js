@@ -1,12 +1,14 @@
 // How finely to draw while things move: where frames come too slowly for the eye, as with a renderer in
-// software, shadows go first, then edges and pixels. What stands still is drawn in full.
+// software, shadows go first, then edges and pixels, then the detail of what is small. What stands still
+// is drawn in full.
 
 /** Slower than this a motion is seen as single pictures, ms. */
 const FRAME_MAX = 45;
 /** Frames of one kind before it is judged. */
 const FRAMES_JUDGED = 6;
-/** What is left of the pixels each way, from the finest on. */
-const PIXELS = [1, 0.8, 0.5];
+/** What is left, from the finest on: of the pixels each way; of the size by which bodies get their detail. */
+const PIXELS = [1, 0.8, 0.5, 0.5];
+const DETAIL = [1, 0.4, 0.4, 0.2];
 
 function paceOf() {
   let level = 0;

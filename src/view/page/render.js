@@ -13,38 +13,34 @@ function rendererOf(canvas, plan, motion) {
   const programOf = name => programs[name] || (programs[name] = finishProgram(gl, begun[name]));
   const quad = bufferOf(gl, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
   const square = arrayOf(gl, [[0, quad, 2, 8, 0, 0]]);
-  const meshesOf = round => shapesOf(plan, round).map(shape => ({ faces: bufferOf(gl, shape.faces), lines: bufferOf(gl, shape.lines), shape }));
+  const meshes = shapesOf(plan, DETAILS.map(detail => detail.round)).map(levels => levels.map(shape => meshOf(gl, shape)));
   const rows = Math.max(Math.ceil((motion.bodies * 4) / 1024), 1);
   const texels = new Float32Array(rows * 1024 * 4);
   const texture = poseTexture(gl, rows);
-  const ghosts = [poseTexture(gl, rows), poseTexture(gl, rows)];
+  const ghosts = [0, 1].map(() => ({ texture: poseTexture(gl, rows), X: null }));
   const shadows = shadowMap(gl);
   const picking = pickTarget(gl);
   const lines = lineBatch(gl);
   const flats = { buffer: gl.createBuffer() };
   flats.array = arrayOf(gl, [[0, flats.buffer, 3, 12, 0, 0]]);
-  /** Meshes, and batches by list of solids: fine, and coarse where frames are slow. */
-  const finenesses = [roundness(motion.solids.length), ROUND_COARSE].map(round => ({ round, meshes: null, sets: new Map() }));
-  let fineness = finenesses[0];
+  const lists = new Map();
+  /** What is drawn now, of the list of solids that was chosen from last. */
+  let chosen = null;
   let calls = 0;
 
-  /** The instances of a list of solids, one batch a shape. */
-  function batches(solids) {
-    const { sets } = fineness;
-    if (!fineness.meshes) fineness.meshes = meshesOf(fineness.round);
-    if (!sets.has(solids)) sets.set(solids, batchesOf(gl, fineness.meshes, solids));
-    return sets.get(solids);
+  function choose(solids, X, { camera, detail }, within) {
+    if (!lists.has(solids)) lists.set(solids, instancesOf(gl, meshes, plan, motion, solids));
+    chosen = lists.get(solids);
+    chosen.choose(X, camera.matrix, pixelsOf() * detail, within);
   }
 
-  function draw(program, solids, what) {
-    for (const batch of batches(solids)) {
-      const count = what === "lines" ? batch.mesh.shape.lines.length / 3 : batch.mesh.shape.faces.length / 6;
-      if (!count) continue;
-      gl.bindVertexArray(what === "lines" ? batch.lines : batch.faces);
-      gl.drawArraysInstanced(what === "lines" ? gl.LINES : gl.TRIANGLES, 0, count, batch.count);
-      calls++;
-    }
+  function draw(what) {
+    for (const batch of chosen.batches) calls += batch.draw(what);
+    gl.disable(gl.CULL_FACE);
   }
+
+  /** Pixels of a metre at a distance of one. */
+  const pixelsOf = () => canvas.height / (2 * Math.tan(FOVY / 2));
 
   function use(name, uniforms, poses) {
     const program = programOf(name);
@@ -61,6 +57,11 @@ function rendererOf(canvas, plan, motion) {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 1024, rows, gl.RGBA, gl.FLOAT, data);
   }
 
+  function setGhost(i, X) {
+    ghosts[i].X = X;
+    upload(ghosts[i].texture, X);
+  }
+
   /** The sun's eyes: a box around what is drawn, or of something long around what is near. */
   function sunView(scene) {
     const near = 1.6 * scene.camera.distance;
@@ -72,10 +73,11 @@ function rendererOf(canvas, plan, motion) {
 
   function render(scene) {
     calls = 0;
-    fineness = finenesses[scene.coarse ? 1 : 0];
     const { camera, theme } = scene;
     const sun = sunView(scene);
     upload(texture, texels);
+    // What is out of the picture may still throw a shadow into it.
+    choose(scene.solids, texels, scene, scene.shadow ? null : camera.matrix);
     if (scene.shadow) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, shadows.frame);
       gl.viewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);
@@ -84,7 +86,7 @@ function rendererOf(canvas, plan, motion) {
       gl.enable(gl.POLYGON_OFFSET_FILL);
       gl.polygonOffset(1.5, 2);
       use("depth", { view: sun, shadows: 2 });
-      draw("depth", scene.solids, "faces");
+      draw("faces");
       gl.disable(gl.POLYGON_OFFSET_FILL);
     }
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
@@ -97,18 +99,18 @@ function rendererOf(canvas, plan, motion) {
     calls++;
     gl.enable(gl.DEPTH_TEST);
     const dark = theme.dark ? 1 : 0;
-    const pixels = canvas.height / (2 * Math.tan(FOVY / 2));
+    const pixels = pixelsOf();
     const common = { view: camera.matrix, sun, eye: camera.eye, sunDirection: SUN, dark, pixels, shadowed: scene.shadow ? 1 : 0 };
     use("solid", { ...common, opacity: 1 });
-    draw("solid", scene.solids, "faces");
+    draw("faces");
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     if (scene.edges) {
       use("edge", { view: camera.matrix, opacity: 1, dark, pixels });
-      draw("edge", scene.solids, "lines");
+      draw("lines");
     }
     if (scene.ground) drawGround(scene, sun);
-    scene.ghosts.forEach((shown, i) => shown && drawGhost(scene, common, ghosts[i]));
+    scene.ghosts.forEach((shown, i) => shown && drawGhost(scene, common, i));
     gl.depthMask(false);
     if (scene.area.length) drawArea(scene);
     drawLines(scene, scene.lines);
@@ -137,16 +139,18 @@ function rendererOf(canvas, plan, motion) {
   }
 
   /** Depth first, then colour once: what lies behind a ghost's own surface stays hidden. */
-  function drawGhost(scene, common, poses) {
+  function drawGhost(scene, common, i) {
+    const poses = ghosts[i].texture;
+    choose(scene.solids, ghosts[i].X, scene, scene.camera.matrix);
     gl.colorMask(false, false, false, false);
     use("depth", { view: common.view, shadows: 2 }, poses);
-    draw("depth", scene.solids, "faces");
+    draw("faces");
     gl.colorMask(true, true, true, true);
     gl.depthFunc(gl.LEQUAL);
     use("solid", { ...common, opacity: 0.16, shadowed: 0 }, poses);
-    draw("solid", scene.solids, "faces");
+    draw("faces");
     use("edge", { view: common.view, opacity: 0.3, dark: common.dark, pixels: canvas.height }, poses);
-    draw("edge", scene.solids, "lines");
+    draw("lines");
     gl.depthFunc(gl.LESS);
   }
 
@@ -181,15 +185,17 @@ function rendererOf(canvas, plan, motion) {
     gl.viewport(0, 0, 1, 1);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    use("pick", { view: times(narrow, scene.camera.matrix) });
-    draw("pick", scene.solids, "faces");
+    const view = times(narrow, scene.camera.matrix);
+    choose(scene.solids, texels, scene, view);
+    use("pick", { view });
+    draw("faces");
     const found = new Uint8Array(4);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, found);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     return found[0] + 256 * found[1] + 65536 * found[2] - 1;
   }
 
-  return { gl, texels, render, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), setGhost: (i, data) => upload(ghosts[i], data), empty: () => new Float32Array(texels.length) };
+  return { gl, texels, render, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), setGhost, empty: () => new Float32Array(texels.length) };
 }
 
 function beginProgram(gl, texts) {
@@ -228,15 +234,15 @@ function finishProgram(gl, handle) {
   return { handle, set };
 }
 
-function bufferOf(gl, data) {
+function bufferOf(gl, data, kind = gl.ARRAY_BUFFER) {
   const buffer = gl.createBuffer();
-  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-  gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+  gl.bindBuffer(kind, buffer);
+  gl.bufferData(kind, data, gl.STATIC_DRAW);
   return buffer;
 }
 
-/** A vertex array of attributes: [location, buffer, numbers, stride, offset, divisor]. */
-function arrayOf(gl, attributes) {
+/** A vertex array of attributes [location, buffer, numbers, stride, offset, divisor], with its indices. */
+function arrayOf(gl, attributes, index = null) {
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
   for (const [location, buffer, numbers, stride, offset, divisor] of attributes) {
@@ -245,6 +251,7 @@ function arrayOf(gl, attributes) {
     gl.vertexAttribPointer(location, numbers, gl.FLOAT, false, stride, offset);
     gl.vertexAttribDivisor(location, divisor);
   }
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, index);
   gl.bindVertexArray(null);
   return array;
 }
@@ -252,24 +259,8 @@ function arrayOf(gl, attributes) {
 /** The first link of a module keeps its colour; the others are lighter and darker by turns. */
 const SHADES = [0, 0.22, -0.42, -0.3, -0.3, 0.34, -0.2, 0.12];
 
-function batchesOf(gl, meshes, solids) {
-  const by = new Map();
-  for (const solid of solids) {
-    if (!by.has(solid.shape)) by.set(solid.shape, []);
-    const shade = SHADES[solid.shade % SHADES.length];
-    by.get(solid.shape).push(...solid.p, solid.body, ...solid.q, ...solid.s, shade);
-  }
-  return [...by].map(([shape, numbers]) => {
-    const instances = bufferOf(gl, new Float32Array(numbers));
-    const mesh = meshes[shape];
-    const each = [[2, instances, 4, 48, 0, 1], [3, instances, 4, 48, 16, 1], [4, instances, 4, 48, 32, 1]];
-    return {
-      mesh,
-      count: numbers.length / 12,
-      faces: arrayOf(gl, [[0, mesh.faces, 3, 24, 0, 0], [1, mesh.faces, 3, 24, 12, 0], ...each]),
-      lines: arrayOf(gl, [[0, mesh.lines, 3, 12, 0, 0], ...each]),
-    };
-  });
+function meshOf(gl, { faces, index, lines }) {
+  return { faces: bufferOf(gl, faces), index: bufferOf(gl, index, gl.ELEMENT_ARRAY_BUFFER), corners: index.length, lines: bufferOf(gl, lines), ends: lines.length / 3 };
 }
 
 function poseTexture(gl, rows) {

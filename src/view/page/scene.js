@@ -19,7 +19,7 @@ function colouringsOf(plan, motion) {
   const groups = [...new Set(motion.modules.map(m => m.group))];
   const types = [...new Set(motion.modules.map(m => m.type))];
   const by = (list, key) => motion.modules.map(m => rgb(PALETTE[list.indexOf(m[key]) % PALETTE.length]));
-  const swatches = list => [...list.slice(0, 8).map((name, i) => [PALETTE[i], name || "cells"]), ...(list.length > 8 ? [["none", "and " + (list.length - 8) + " more"]] : [])];
+  const swatches = list => [...list.slice(0, 8).map((name, i) => [PALETTE[i], name]), ...(list.length > 8 ? [["none", "and " + (list.length - 8) + " more"]] : [])];
   const ofGroup = by(groups, "group");
   const ofType = by(types, "type");
   const all = [];
@@ -29,7 +29,8 @@ function colouringsOf(plan, motion) {
     name: "length", title: "Length", legend: [["ramp", "shortest to longest"]],
     colour: (b, X) => { const u = motion.extended(X, b); return u === null ? rgb("#59626c") : ramp(u); },
   });
-  plain("part", "Part", ofGroup, groups);
+  // Cells of a lattice are parts of nothing.
+  if (groups.some(Boolean)) plain("part", "Part", ofGroup, groups);
   if (plan.loads) {
     const loads = loadsOf(plan, motion);
     all.push({ name: "load", title: "Joint load", colour: (b, X, t) => loads(motion.moduleOf[b], t), legend: [["ramp", "joint load, none to its limit, the ground's forces spread evenly"]] });

@@ -4,12 +4,21 @@
 /** Faces that meet at less than this are drawn as one smooth surface. */
 const CREASE = Math.cos((32 * Math.PI) / 180);
 
-/** In how many pieces a full turn is drawn: what is many is small on the screen. */
-const roundness = count => (count > 1200 ? 20 : 40);
-const ROUND_COARSE = 8;
+/** Every shape, each in the finenesses in which it is drawn, the finest first. */
+function shapesOf(plan, rounds) {
+  return [[boxShape()], rounds.map(cylinderShape), rounds.map(ballShape), ...(plan.meshes || []).map(mesh => [meshShape(mesh)])];
+}
 
-function shapesOf(plan, round) {
-  return [boxShape(), cylinderShape(round), ballShape(round), ...(plan.meshes || []).map(meshShape)];
+/** Corners [x, y, z, normal], three a triangle, as corners that are there once, and their indices. */
+function indexed(corners) {
+  const known = new Map();
+  const faces = [];
+  const index = corners.map(corner => {
+    const key = corner.join();
+    if (!known.has(key)) known.set(key, known.size), faces.push(...corner);
+    return known.get(key);
+  });
+  return { faces: new Float32Array(faces), index: new Uint32Array(index) };
 }
 
 function boxShape() {
@@ -27,44 +36,44 @@ function boxShape() {
     for (const side of [-1, 1]) {
       const normal = corner(2 * side, 0, 0);
       const ring = [corner(side, -side, -1), corner(side, side, -1), corner(side, side, 1), corner(side, -side, 1)];
-      for (const i of [0, 1, 2, 0, 2, 3]) faces.push(...ring[i], ...normal);
+      for (const i of [0, 1, 2, 0, 2, 3]) faces.push([...ring[i], ...normal]);
       for (const other of [-1, 1]) lines.push(...corner(-1, side, other), ...corner(1, side, other));
     }
   }
-  return { faces: new Float32Array(faces), lines: new Float32Array(lines) };
+  return { ...indexed(faces), lines: new Float32Array(lines) };
 }
 
 function cylinderShape(round) {
   const faces = [];
   const lines = [];
-  const at = (i, z) => [Math.cos((2 * Math.PI * i) / round) / 2, Math.sin((2 * Math.PI * i) / round) / 2, z];
+  const at = (i, z) => [Math.cos((2 * Math.PI * (i % round)) / round) / 2, Math.sin((2 * Math.PI * (i % round)) / round) / 2, z];
   for (let i = 0; i < round; i++) {
     const quad = [at(i, -0.5), at(i + 1, -0.5), at(i + 1, 0.5), at(i, 0.5)];
-    for (const k of [0, 1, 2, 0, 2, 3]) faces.push(...quad[k], 2 * quad[k][0], 2 * quad[k][1], 0);
+    for (const k of [0, 1, 2, 0, 2, 3]) faces.push([...quad[k], 2 * quad[k][0], 2 * quad[k][1], 0]);
     for (const z of [-0.5, 0.5]) {
       const [a, b] = z > 0 ? [i, i + 1] : [i + 1, i];
-      for (const p of [[0, 0, z], at(a, z), at(b, z)]) faces.push(...p, 0, 0, 2 * z);
+      if (i) for (const p of [at(0, z), at(a, z), at(b, z)]) faces.push([...p, 0, 0, 2 * z]);
       lines.push(...at(i, z), ...at(i + 1, z));
     }
   }
   // A mark on each end, or nobody would see it turn.
   for (const z of [-0.501, 0.501]) lines.push(0.12, 0, z, 0.46, 0, z);
-  return { faces: new Float32Array(faces), lines: new Float32Array(lines) };
+  return { ...indexed(faces), lines: new Float32Array(lines) };
 }
 
 function ballShape(round) {
   const [around, down] = [Math.round(round * 0.6), Math.round(round * 0.35)];
   const faces = [];
   const at = (i, j) => {
-    const [a, b] = [(2 * Math.PI * i) / around, (Math.PI * j) / down];
+    const [a, b] = [(2 * Math.PI * (i % around)) / around, (Math.PI * j) / down];
     return [(Math.sin(b) * Math.cos(a)) / 2, (Math.sin(b) * Math.sin(a)) / 2, Math.cos(b) / 2];
   };
   for (let i = 0; i < around; i++)
     for (let j = 0; j < down; j++) {
       const quad = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
-      for (const k of [0, 1, 2, 0, 2, 3]) faces.push(...quad[k], ...scaled(quad[k], 2));
+      for (const k of [0, 1, 2, 0, 2, 3]) faces.push([...quad[k], ...scaled(quad[k], 2)]);
     }
-  return { faces: new Float32Array(faces), lines: new Float32Array(0) };
+  return { ...indexed(faces), lines: new Float32Array(0) };
 }
 
 /** A mesh with its sharp edges as lines, smooth across the others. */
@@ -90,7 +99,7 @@ function meshShape({ points, triangles }) {
     for (let k = 0; k < 3; k++) {
       const i = triangles[3 * t + k];
       const smooth = around.get(i).filter(o => dot(normals[o], normals[t]) > CREASE);
-      faces.push(...p(i), ...unit(smooth.reduce((sum, o) => add(sum, normals[o]), [0, 0, 0])));
+      faces.push([...p(i), ...unit(smooth.reduce((sum, o) => add(sum, normals[o]), [0, 0, 0]))]);
     }
   const lines = [];
   for (const [key, [a, b]] of edges)
@@ -98,5 +107,5 @@ function meshShape({ points, triangles }) {
       const [i, j] = key.split(",").map(Number);
       lines.push(...p(i), ...p(j));
     }
-  return { faces: new Float32Array(faces), lines: new Float32Array(lines) };
+  return { ...indexed(faces), lines: new Float32Array(lines) };
 }

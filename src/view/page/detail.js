@@ -1,0 +1,155 @@
+// How finely each body is drawn: by its size on the screen, and not at all where it is out of the
+// picture. A robot of hundreds of modules costs no more than what can be seen of it.
+
+/** From this diameter on, in pixels, round things are drawn with so many pieces a full turn. */
+const DETAILS = [{ from: 100, round: 40 }, { from: 28, round: 16 }, { from: 0, round: 8 }];
+/** A module smaller than this is drawn as one box, in pixels. */
+const SPECK = 6;
+const BOX = 0;
+const MESHES = 3;
+const INSTANCE = 12;
+
+/** The solids of a list as instances: what of them is drawn is chosen for every picture. */
+function instancesOf(gl, meshes, plan, motion, solids) {
+  const numbers = new Float32Array(INSTANCE * solids.length);
+  const fill = (target, i, { p, body, q, s, shade }) => target.set([...p, body, ...q, ...s, SHADES[shade % SHADES.length]], INSTANCE * i);
+  solids.forEach((solid, i) => fill(numbers, i, solid));
+  const modules = modulesOf(plan, motion, solids);
+  const specks = new Float32Array(INSTANCE * modules.length);
+  let known = false;
+  const counts = new Map();
+  solids.forEach(({ shape }) => counts.set(shape, (counts.get(shape) || 0) + 1));
+  /** A batch for each fineness of each shape; the last is for specks, of which no edges are seen. */
+  const batches = new Map();
+  for (const [shape, count] of counts) batches.set(shape, meshes[shape].map(mesh => batchOf(gl, mesh, count, shape < MESHES, true)));
+  const far = batchOf(gl, meshes[BOX][0], modules.length, true, false);
+  const all = [...[...batches.values()].flat(), far];
+  const levelsOf = solids.map(({ shape }) => batches.get(shape));
+  const wide = solids.map(({ s }) => Math.max(s[0], s[1]));
+
+  /** Chooses for a camera: poses X, view matrix, pixels of a metre at a distance of one; of `within`
+      only what is in its picture. */
+  function choose(X, view, pixels, within) {
+    if (!known) modules.forEach((module, i) => fill(specks, i, speckOf(module, X)));
+    known = true;
+    for (const batch of all) batch.count = 0;
+    const sides = within && sidesOf(within);
+    modules.forEach((bodies, m) => {
+      const i = TEXELS * bodies[0].body;
+      const [x, y, z] = [X[i], X[i + 1], X[i + 2]];
+      let reach = 0;
+      for (const { body, reach: own } of bodies) {
+        const k = TEXELS * body;
+        reach = Math.max(reach, Math.hypot(X[k] - x, X[k + 1] - y, X[k + 2] - z) + own * Math.max(X[k + 8], X[k + 9], X[k + 10]));
+      }
+      if (sides && sides.some(([a, b, c, d, n]) => a * x + b * y + c * z + d < -n * reach)) return;
+      const away = Math.max(view[3] * x + view[7] * y + view[11] * z + view[15] - reach, 1e-3);
+      if ((2 * reach * pixels) / away < SPECK) return far.add(specks, m);
+      for (const { body, first, after } of bodies) {
+        const seen = (Math.max(X[TEXELS * body + 8], X[TEXELS * body + 9]) * pixels) / away;
+        for (let j = first; j < after; j++) {
+          const levels = levelsOf[j];
+          let level = 0;
+          while (level + 1 < levels.length && wide[j] * seen < DETAILS[level].from) level++;
+          levels[level].add(numbers, j);
+        }
+      }
+    });
+    for (const batch of all) batch.upload();
+  }
+
+  return { batches: all, choose };
+}
+
+/** The bodies of each module, which follow each other, and so do their solids: which solids, a box around
+    them in the body's frame, and how far it reaches. */
+function modulesOf(plan, motion, solids) {
+  const modules = [];
+  let [last, body] = [-1, null];
+  solids.forEach((solid, i) => {
+    if (!body || body.body !== solid.body) {
+      body = { body: solid.body, first: i, shade: solid.shade, low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity], reach: 0 };
+      if (motion.moduleOf[solid.body] !== last) modules.push([]);
+      last = motion.moduleOf[solid.body];
+      modules[modules.length - 1].push(body);
+    }
+    body.after = i + 1;
+    for (const corner of cornersOf(plan, solid)) {
+      const p = add(solid.p, turned(solid.q, corner));
+      widen(body, p);
+      body.reach = Math.max(body.reach, norm(p));
+    }
+  });
+  return modules;
+}
+
+function widen({ low, high }, p) {
+  for (let k = 0; k < 3; k++) (low[k] = Math.min(low[k], p[k])), (high[k] = Math.max(high[k], p[k]));
+}
+
+/** A module as one box, as it stands in X, fixed to its first body. */
+function speckOf(bodies, X) {
+  const at = body => [0, 4, 8].map(k => Array.from(X.subarray(TEXELS * body + k, TEXELS * body + k + (k === 4 ? 4 : 3))));
+  const box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
+  const [origin, [x, y, z, w], grown] = at(bodies[0].body);
+  for (const { body, low, high } of bodies) {
+    const [p, q, s] = at(body);
+    for (let i = 0; i < 8; i++) {
+      const corner = [0, 1, 2].map(k => (i >> k & 1 ? high : low)[k] * s[k]);
+      const own = turned([-x, -y, -z, w], sub(add(p, turned(q, corner)), origin));
+      widen(box, own.map((c, k) => c / grown[k]));
+    }
+  }
+  const { body, shade } = bodies[0];
+  return { body, shade, p: scaled(add(box.low, box.high), 0.5), q: [0, 0, 0, 1], s: box.high.map((h, k) => Math.max(h - box.low[k], 1e-6)) };
+}
+
+function cornersOf(plan, { shape, s }) {
+  if (shape < MESHES) return [0, 1, 2, 3, 4, 5, 6, 7].map(i => [0, 1, 2].map(k => (i >> k & 1 ? 0.5 : -0.5) * s[k]));
+  const { points } = plan.meshes[shape - MESHES];
+  return Array.from({ length: points.length / 3 }, (_, i) => points.slice(3 * i, 3 * i + 3));
+}
+
+/** The planes around what a matrix shows, but the far one: [a, b, c, d, length of (a, b, c)]. */
+function sidesOf(m) {
+  const row = r => [m[r], m[4 + r], m[8 + r], m[12 + r]];
+  const last = row(3);
+  return [[0, 1], [0, -1], [1, 1], [1, -1], [2, 1]].map(([r, sign]) => {
+    const side = row(r).map((x, k) => last[k] + sign * x);
+    return [...side, norm(side)];
+  });
+}
+
+/** Instances of one mesh, filled anew for every picture. `closed`: its inside is never seen. */
+function batchOf(gl, mesh, capacity, closed, edged) {
+  const data = new Float32Array(INSTANCE * capacity);
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  gl.bufferData(gl.ARRAY_BUFFER, data.byteLength, gl.DYNAMIC_DRAW);
+  const each = [2, 3, 4].map((location, k) => [location, buffer, 4, 4 * INSTANCE, 16 * k, 1]);
+  const faces = arrayOf(gl, [[0, mesh.faces, 3, 24, 0, 0], [1, mesh.faces, 3, 24, 12, 0], ...each], mesh.index);
+  const lines = edged && mesh.ends ? arrayOf(gl, [[0, mesh.lines, 3, 12, 0, 0], ...each]) : null;
+  return {
+    count: 0,
+    add(numbers, i) {
+      const to = INSTANCE * this.count++;
+      for (let k = 0; k < INSTANCE; k++) data[to + k] = numbers[INSTANCE * i + k];
+    },
+    upload() {
+      if (!this.count) return;
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferSubData(gl.ARRAY_BUFFER, 0, data, 0, INSTANCE * this.count);
+    },
+    /** Draws them as `faces` or as `lines`; says how many calls it took. */
+    draw(what) {
+      if (!this.count || (what === "lines" && !lines)) return 0;
+      gl.bindVertexArray(what === "lines" ? lines : faces);
+      if (what === "lines") gl.drawArraysInstanced(gl.LINES, 0, mesh.ends, this.count);
+      else {
+        (closed ? gl.enable : gl.disable).call(gl, gl.CULL_FACE);
+        gl.drawElementsInstanced(gl.TRIANGLES, mesh.corners, gl.UNSIGNED_INT, 0, this.count);
+      }
+      return 1;
+    },
+  };
+}
