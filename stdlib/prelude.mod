@@ -1712,28 +1712,49 @@ extern fn reconfigure(
 
 /// What `morph` found.
 extern type Morphing is Plan {
-  /// Root mean square distance between the truss and its target, both ways.
+  /// Root mean square distance from the target's points to the truss's outer surface, as in the
+  /// linear-actuator-robots paper.
   rms: Length
-  /// The least length that is left between struts.
+  /// Root mean square distance from the outer surface to the target.
+  rms_back: Length
+  /// The farthest that either is from the other.
+  worst: Length
+  /// What `rms` was at the start.
+  start_rms: Length
+  /// The least distance between struts that share no node.
   clearance: Length
+  /// `done`, or what it came to and which limits were in the way.
+  ended: Text
 }
 
-/// Morphs a truss into a shape. Not yet available.
+/// Morphs a truss into a shape: its outer surface comes near the target, and the target near it.
+///
+/// The target is moved so that its middle is the middle of the nodes; it is not scaled. The outer surface
+/// is that of the truss's hull, which triangles of struts have to make up. Each step is a quadratic
+/// programme (Gauss and Newton's step for the distances both ways, with springs in all struts that
+/// vanish) under the limits of the struts: length, and clearance between struts that share no node, which
+/// hold between the steps, too. It is done when both distances, as root mean squares, are within
+/// `tolerance`; after `budget` steps the best so far is given, with a warning.
+///
+/// The target keeps its orientation; with `orientations`, as many random ones are tried for some steps
+/// each, and the best is taken. There is neither gravity nor ground, as in the paper; struts move as fast
+/// as their speed allows.
 ///
 /// Example:
-/// ```modl check
+/// ```modl
 /// use std.shapes.cube
 /// use std.truss.PneumaticReel
 /// truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
-/// print(morph(Pyramid, cube(edge: 2m)).rms)
+/// let c = morph(Pyramid, cube(edge: 2m), tolerance: 50mm)
+/// print(c.rms, c.rms_back, c.steps, c.ended)
 /// ```
 extern fn morph(
   truss: Truss,
   target: Mesh | Cloud,
   tolerance: Length = 20mm,
+  budget: Int = 300,
+  orientations: Int = 0,
   seed: Int = 0,
-  budget: Int = 100_000,
-  timeout: Time?,
 ) -> Morphing
 
 /// What `locomote` found.
@@ -1742,20 +1763,44 @@ extern type Travel is Plan {
   distance: Length
   /// How often the truss has rolled on.
   rolls: Int
+  /// How many places of the path were reached.
+  reached: Int
+  /// How far nodes slid over the ground, all together.
+  slip: Length
+  /// Steps that were made slower, or otherwise easier, because no ordinary step kept all limits.
+  eased: Int
+  /// `arrived`, or what stopped it.
+  ended: Text
 }
 
-/// Rolls a truss along a path on the ground. Not yet available.
+/// Moves a truss so that its centre of mass goes along a path over the ground, and rolls it over the edge
+/// of its support where the centre of mass gets there.
+///
+/// The places of the path are in the world, in which the truss stands where its nodes were declared, on
+/// the ground at height 0; heights of the path mean nothing. A place is reached within a quarter of a
+/// strut. Each step is a quadratic programme under the limits of the struts, with the `objective` of the
+/// linear-actuator-robots paper: `springs` keeps all struts near their first length (17), `lengths`
+/// changes lengths as little as possible (14, with the motion of nodes beside it, without which it gets
+/// stuck), `restoring` is `lengths` towards the first lengths. `hold` says which nodes on the ground stay
+/// where they are: `three` around the centre of mass, or `all`. Where no step is found, easier ones are
+/// tried, unless `ladder` is false: slower, with the centre free to sink, with the other hold, with the
+/// other objective. `budget` is in steps.
+///
+/// Gravity is taken to be slow: nothing swings, and a roll is a rigid turn. Where it ends short of its
+/// path, the plan so far is given, with a warning.
 ///
 /// Example:
-/// ```modl check
+/// ```modl
 /// use std.truss.PneumaticReel
-/// truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
-/// print(locomote(Pyramid, path: [[0m, 0m, 0m], [8m, 0m, 0m]]).distance)
+/// truss Pyramid of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
+/// let there = locomote(Pyramid, path: [[3m, 0m, 0m]])
+/// print(there.distance, there.rolls, there.ended)
 /// ```
 extern fn locomote(
   truss: Truss,
   path: List<Vec3<Length>>,
-  seed: Int = 0,
+  objective: springs | lengths | restoring = springs,
+  hold: three | all = three,
+  ladder: Bool = true,
   budget: Int = 100_000,
-  timeout: Time?,
 ) -> Travel

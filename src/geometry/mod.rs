@@ -3,6 +3,7 @@
 
 pub mod angle;
 pub mod json;
+pub mod polygon;
 pub mod pose;
 pub mod shape;
 

@@ -72,6 +72,7 @@ mod natives_shape;
 mod natives_show;
 mod natives_squeeze;
 mod natives_tosnake;
+mod natives_truss;
 mod show_value;
 
 mod run;

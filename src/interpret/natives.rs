@@ -10,6 +10,7 @@ use super::value::Value;
 use super::{
     natives_action, natives_family, natives_fold, natives_list, natives_math, natives_plan, natives_refold,
     natives_robot, natives_rofi, natives_save, natives_shape, natives_show, natives_squeeze, natives_tosnake,
+    natives_truss,
 };
 use crate::source::Symbol;
 use std::collections::HashMap;
@@ -54,7 +55,7 @@ pub const fn on_run(
 
 /// All built-ins, one table a subject.
 pub fn all() -> impl Iterator<Item = &'static Native> {
-    let tables: [&'static [Native]; 14] = [
+    let tables: [&'static [Native]; 15] = [
         natives_math::TABLE,
         natives_list::TABLE,
         natives_refold::TABLE,
@@ -67,6 +68,7 @@ pub fn all() -> impl Iterator<Item = &'static Native> {
         natives_plan::TABLE,
         natives_squeeze::TABLE,
         natives_tosnake::TABLE,
+        natives_truss::TABLE,
         natives_fold::TABLE,
         natives_show::TABLE,
     ];

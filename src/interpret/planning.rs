@@ -7,6 +7,7 @@ use super::interpreter::Interpreter;
 use super::natives_refold::Refolded;
 use super::natives_squeeze::Squeezed;
 use super::natives_tosnake::Unwound;
+use super::natives_truss::Trussed;
 use super::record::{Record, StateValue, first_world};
 use super::robot_of::Robot;
 use super::stop::{Eval, Stop, fault};
@@ -42,6 +43,8 @@ pub struct Planned {
     pub refolded: Option<Refolded>,
     /// What `tosnake` and `reconfigure` say of it.
     pub unwound: Option<Unwound>,
+    /// What `morph` or `locomote` says of it.
+    pub trussed: Option<Trussed>,
     /// Verdicts so far.
     judged: RefCell<Vec<Judged>>,
 }
@@ -84,6 +87,7 @@ impl Planned {
             folded: None,
             refolded: None,
             unwound: None,
+            trussed: None,
             judged: RefCell::default(),
         }
     }
@@ -102,6 +106,10 @@ impl Planned {
 
     pub fn with_unwound(self, unwound: Unwound) -> Planned {
         Planned { unwound: Some(unwound), ..self }
+    }
+
+    pub fn with_trussed(self, trussed: Trussed) -> Planned {
+        Planned { trussed: Some(trussed), ..self }
     }
 
     pub fn actions(&self) -> usize {

@@ -6,6 +6,7 @@ use super::interpreter::Interpreter;
 use super::natives_refold::{REFOLDING, refolding_field};
 use super::natives_squeeze::Squeezed;
 use super::natives_tosnake::{UNWINDING, unwinding_field};
+use super::natives_truss::{MORPHING, TRAVEL};
 use super::planning::Planned;
 use super::robot_of::Robot;
 use super::stop::Eval;
@@ -61,6 +62,10 @@ impl Interpreter<'_> {
                 None => Ok(Value::Unknown),
             },
             Value::Record(record) => Ok(match &**record {
+                Record::Plan(planned) if planned.trussed.as_ref().is_some_and(|t| t.has(field.as_str())) => {
+                    let trussed = planned.trussed.as_ref().expect("it was asked");
+                    self.trussed_field(planned, trussed, field.as_str())
+                }
                 Record::Plan(planned) => match &planned.squeezed {
                     Some(squeezed) if SQUEEZING.contains(&field.as_str()) => {
                         self.squeezing_field(planned, squeezed, field.as_str())
@@ -185,6 +190,8 @@ pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
         "OrderSample" => ORDER_SAMPLE,
         "Refolding" => REFOLDING,
         "Unwinding" => UNWINDING,
+        "Morphing" => MORPHING,
+        "Travel" => TRAVEL,
         "Layout" => &["panels", "hinges", "overlaps"],
         "Report" => &[
             "ok",

@@ -1,3 +1,5 @@
 //! Optimisation. The only user of clarabel; knows no robots.
 
 pub mod linear;
+pub mod quadratic;
+mod sparse;

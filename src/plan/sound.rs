@@ -1,7 +1,7 @@
 //! Whether a plan can be judged at all: what [`validate`] asks, and that all numbers mean something.
 
 use super::validate::validate;
-use super::{Body, Plan, Tracks, finite};
+use super::{Body, NodePaths, Plan, Tracks, Way, finite};
 use crate::geometry::{Placed, soundness};
 use crate::robot::{Assembly, JointKind, JointOwner, Library, Link, ModuleType};
 
@@ -20,7 +20,8 @@ pub fn faults(plan: &Plan) -> Vec<String> {
         &|| library(&plan.library),
         &|| match &plan.body {
             Body::Tracks(tracks) => robot(tracks),
-            Body::Stages(_) | Body::NodePaths(_) => Ok(()),
+            Body::Stages(_) => Ok(()),
+            Body::NodePaths(paths) => trusses(paths),
         },
     ];
     // Each check may rely on those before it.
@@ -41,6 +42,19 @@ fn numbers(plan: &Plan) -> Result<(), String> {
         finite("the robot", finite::check(&*tracks.robot.library))?;
     }
     Ok(())
+}
+
+/// Every strut has two ends, and every node a place.
+fn trusses(paths: &NodePaths) -> Result<(), String> {
+    let finite = |what: &str, checked: Result<(), finite::Fault>| checked.map_err(|e| format!("{what}: {e}"));
+    finite("the knots", finite::check(&paths.knots))?;
+    need(paths.struts.iter().all(|(a, b)| a != b), || "a strut begins and ends at one node".to_owned())?;
+    paths.knots.iter().try_for_each(|knot| match knot.way {
+        Way::Roll { edge: (a, b), .. } => need(knot.nodes[a] != knot.nodes[b], || {
+            format!("the roll to {} s is about an edge without length", knot.time)
+        }),
+        Way::Straight => Ok(()),
+    })
 }
 
 fn need(holds: bool, otherwise: impl FnOnce() -> String) -> Result<(), String> {

@@ -4,3 +4,4 @@
 pub mod fold;
 pub mod squeeze;
 pub mod tosnake;
+pub mod truss;

@@ -114,5 +114,6 @@ codes! {
     UNNEEDED_EXEMPTION = "W0004", "an exemption that was not needed";
     JOINT_OVERLAP = "W0005", "links that overlap within the range of their joint";
     OPEN_LOOP = "W0006", "a connection in a file whose docks do not meet";
+    SHORT_OF_GOAL = "W0007", "a plan that ends short of its goal";
     START_SETTLES = "N0001", "the robot settles at the start";
 }

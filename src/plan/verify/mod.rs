@@ -60,6 +60,11 @@ mod lattice_moments;
 mod lattice_tiles;
 mod lattice_window;
 
+pub mod truss;
+mod truss_distance;
+mod truss_lengths;
+mod truss_standing;
+
 pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};
 pub use collision::{Collision, Findings, Precision};
@@ -86,7 +91,7 @@ pub fn verify(plan: &Plan) -> Verdict {
     match &plan.body {
         Body::Tracks(tracks) => judge::tracks(plan, tracks),
         Body::Stages(stages) => lattice::judge(plan, stages),
-        Body::NodePaths(_) => unjudged("plans of trusses"),
+        Body::NodePaths(paths) => truss::judge(plan, paths),
     }
 }
 
@@ -113,16 +118,6 @@ pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &S
         exemptions: vec![],
         verdict: None,
     })
-}
-
-/// Nothing unverified may pass: what the judge can't judge yet fails.
-fn unjudged(what: &str) -> Verdict {
-    let why = format!("{what} can't be judged yet");
-    Verdict {
-        checks: vec![Check { kind: CheckKind::Form, status: Status::NotChecked(why.clone()) }],
-        failures: vec![Failure::form(why)],
-        ..Verdict::default()
-    }
 }
 
 /// A plan that means nothing is judged no further.

@@ -7,6 +7,8 @@ const calmWish = matchMedia("(prefers-reduced-motion: reduce)");
 /** What stands at the place of a failure; the words of the judge stand under the title. */
 const CALLOUTS = { collision: "they meet here", stability: "it falls here", torque: "overloaded", "bond load": "overloaded", closure: "torn", docking: "missed", ground: "in the ground" };
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+/** Longer than this nobody waits, s. */
+const WATCHED_MAX = 120;
 
 function main() {
   const motion = motionOf(plan);
@@ -310,7 +312,8 @@ function main() {
   $("help").addEventListener("click", () => $("keys").showModal());
   SPEEDS.forEach(s => $("speed").append(el("option", { value: s }, s + "×")));
   $("speed").addEventListener("change", () => speed(Number($("speed").value)));
-  speed(1);
+  // A plan of many minutes is seen in two at first.
+  speed(SPEEDS.find(s => s >= 1 && plan.duration / s <= WATCHED_MAX) || SPEEDS[SPEEDS.length - 1]);
 
   /** The address as it was last read or written: another one is a wish that is still to be read. */
   let known = location.hash;

@@ -278,6 +278,9 @@ function latticeMotion(plan, body) {
   };
 }
 
+/** Ways of a truss that are marked one by one. */
+const KNOTS_MARKED = 12;
+
 function trussMotion(plan, body) {
   const nodes = body.nodes.length;
   const times = body.knots.map(knot => knot.time);
@@ -322,7 +325,11 @@ function trussMotion(plan, body) {
     },
     causes: t => new Set([body.knots[clamp(lastNotAbove(times, t) + 1, 0, times.length - 1)].cause]),
     beginnings: () => body.knots.slice(1).map((knot, i) => [times[i], knot.cause]),
-    events: body.knots.slice(1, -1).map(knot => ({ time: knot.time, kind: "stage", text: knot.roll ? "rolls" : "moves on" })),
+    // Of a planner's many knots only the rolls are worth a mark, which lie before them.
+    events: body.knots.flatMap((knot, i) => {
+      if (knot.roll) return [{ time: times[i - 1], kind: "stage", text: "rolls over " + body.nodes[knot.roll[0]] + " -- " + body.nodes[knot.roll[1]] }];
+      return i > 0 && i + 1 < times.length && times.length <= KNOTS_MARKED ? [{ time: knot.time, kind: "stage", text: "moves on" }] : [];
+    }),
     facts(b, t) {
       if (b < nodes) return [["node", nodesAt(t)(b).map(x => x.toFixed(2)).join(", ") + " m"]];
       const length = lengths(nodesAt(t), body.struts[b - nodes]);

@@ -1,0 +1,33 @@
+//! Polygons in space as triangles.
+
+use super::Vec3;
+
+/// A plane polygon, convex or not, as triangles: three indices of its corners each, turning the same way
+/// as it does. Ears are cut off one by one (Meisters). A polygon that crosses itself gives triangles all
+/// the same, which overlap.
+pub fn triangulated(corners: &[Vec3]) -> Vec<[usize; 3]> {
+    // Newell's normal, of twice the area.
+    let n = corners.len();
+    let normal: Vec3 = (0..n).map(|i| corners[i].cross(&corners[(i + 1) % n])).sum();
+    let turn = |a: usize, b: usize, c: usize| {
+        (corners[b] - corners[a]).cross(&(corners[c] - corners[b])).dot(&normal)
+    };
+    let mut rest: Vec<usize> = (0..n).collect();
+    let mut triangles = Vec::new();
+    while rest.len() > 3 {
+        let around = |i: usize| (rest[(i + rest.len() - 1) % rest.len()], rest[i], rest[(i + 1) % rest.len()]);
+        let ear = |i: &usize| {
+            let (a, b, c) = around(*i);
+            let inside = |p: usize| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+            turn(a, b, c) > 0.0 && !rest.iter().any(|&p| p != a && p != b && p != c && inside(p))
+        };
+        let cut = (0..rest.len()).find(ear).unwrap_or(0);
+        let (a, b, c) = around(cut);
+        triangles.push([a, b, c]);
+        rest.remove(cut);
+    }
+    if let [a, b, c] = rest[..] {
+        triangles.push([a, b, c]);
+    }
+    triangles
+}

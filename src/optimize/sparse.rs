@@ -1,0 +1,53 @@
+//! What linear and quadratic programmes have in common: their rows, put before the solver.
+
+use super::linear::{Solution, Unsolved};
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
+};
+
+/// Terms (column, coefficient) and the value on the right.
+pub type Row = (Vec<(usize, f64)>, f64);
+
+/// Iterations of the solver.
+const ROUNDS_MAX: u32 = 200;
+
+/// `min ½ xᵀ H x + c·x` subject to the rows; of H what is on and above the diagonal.
+pub fn solved(
+    hessian: &CscMatrix,
+    costs: &[f64],
+    equal: &[Row],
+    at_most: &[Row],
+) -> Result<Solution, Unsolved> {
+    let n = costs.len();
+    let rows: Vec<_> = equal.iter().chain(at_most).collect();
+    let (mut at_row, mut at_column, mut values) = (Vec::new(), Vec::new(), Vec::new());
+    for (row, (terms, _)) in rows.iter().enumerate() {
+        for &(column, value) in terms {
+            at_row.push(row);
+            at_column.push(column);
+            values.push(value);
+        }
+    }
+    let matrix = CscMatrix::new_from_triplets(rows.len(), n, at_row, at_column, values);
+    let right: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
+    let cones = [ZeroConeT(equal.len()), NonnegativeConeT(at_most.len())];
+    let settings = DefaultSettingsBuilder::default()
+        .verbose(false)
+        .max_iter(ROUNDS_MAX)
+        .max_threads(1)
+        .build()
+        .map_err(|_| Unsolved::Numerical)?;
+    let mut solver = DefaultSolver::new(hessian, costs, &matrix, &right, &cones, settings)
+        .map_err(|_| Unsolved::Numerical)?;
+    solver.solve();
+    let (y, z) = solver.solution.z.split_at(equal.len());
+    match solver.solution.status {
+        SolverStatus::Solved | SolverStatus::AlmostSolved => {
+            Ok(Solution { x: solver.solution.x.clone(), y: y.to_vec(), z: z.to_vec() })
+        }
+        SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => Err(Unsolved::Infeasible),
+        SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => Err(Unsolved::Unbounded),
+        _ => Err(Unsolved::Numerical),
+    }
+}

@@ -1,0 +1,64 @@
+//! What a step of locomotion makes small: equations (14) and (17) of the paper, and (14) as it has to be
+//! weighed to arrive.
+
+use super::step::Objective;
+use super::structure::Structure;
+use crate::geometry::Vec3;
+use std::collections::BTreeMap;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Aim {
+    /// (17): every node goes where its struts, as springs of their first length, pull it.
+    Springs,
+    /// (14): the struts change as little as possible. `still` weighs the motion of the nodes beside it:
+    /// without it, motion that hardly changes lengths costs nothing, and the robot throws itself flat.
+    Lengths { still: f64 },
+    /// (14) towards the first lengths: rates as of springs, with the same weight.
+    Restoring { still: f64 },
+}
+
+/// For a step in which a speed of one unit a second means `pace` seconds.
+pub fn objective(aim: Aim, truss: &Structure, x: &[Vec3], pace: f64) -> Objective {
+    match aim {
+        Aim::Springs => springs(truss, x, pace),
+        Aim::Lengths { still } => lengths(truss, x, still, |_| 0.0),
+        Aim::Restoring { still } => lengths(truss, x, still, |length| (truss.unit - length) * pace),
+    }
+}
+
+/// `½ |u - pace v|²`, v by (15).
+fn springs(truss: &Structure, x: &[Vec3], pace: f64) -> Objective {
+    let mut pull = vec![Vec3::zeros(); truss.nodes];
+    for &(a, b) in &truss.struts {
+        let d = x[b] - x[a];
+        let along = d * ((d.norm() - truss.unit) / d.norm());
+        pull[a] += along;
+        pull[b] -= along;
+    }
+    Objective {
+        hessian: (0..3 * truss.nodes).map(|i| (i, i, 1.0)).collect(),
+        linear: pull.iter().flat_map(|v| (0..3).map(move |k| -pace * v[k])).collect(),
+    }
+}
+
+/// `½ |R u - w|² + ½ still |u|²`, R the rigidity matrix of unit rows, w by strut's length.
+fn lengths(truss: &Structure, x: &[Vec3], still: f64, wanted: impl Fn(f64) -> f64) -> Objective {
+    let mut hessian: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    let mut linear = vec![0.0; 3 * truss.nodes];
+    for i in 0..3 * truss.nodes {
+        *hessian.entry((i, i)).or_default() += still;
+    }
+    for &(a, b) in &truss.struts {
+        let d = x[a] - x[b];
+        let (along, length) = (d.normalize(), d.norm());
+        let row: Vec<(usize, f64)> =
+            [(a, 1.0), (b, -1.0)].iter().flat_map(|&(node, sign)| (0..3).map(move |k| (3 * node + k, sign * along[k]))).collect();
+        for &(i, p) in &row {
+            linear[i] -= p * wanted(length);
+            for &(j, q) in row.iter().filter(|(j, _)| *j >= i) {
+                *hessian.entry((i, j)).or_default() += p * q;
+            }
+        }
+    }
+    Objective { hessian: hessian.into_iter().map(|((i, j), v)| (i, j, v)).collect(), linear }
+}

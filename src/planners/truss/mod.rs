@@ -1,0 +1,31 @@
+//! `morph` and `locomote`: trusses of linear actuators that change shape and roll, after "Linear
+//! Actuator Robots: Differential Kinematics, Controllability, and Algorithms for Locomotion and Shape
+//! Morphing" (Usevitch, Hammond, Follmer, Schwager), with Algorithm 1 mended ([`step`]) and a
+//! certificate between the ends of steps ([`between`]).
+
+mod segment;
+mod structure;
+
+pub mod bound;
+mod nearby;
+
+pub mod between;
+
+pub mod step;
+
+pub mod locomotion;
+mod support;
+
+pub mod roll;
+
+pub mod locomote;
+
+pub mod surface;
+
+pub mod goal;
+
+pub mod fit;
+
+pub mod morph;
+
+pub use structure::Structure;

@@ -1,0 +1,53 @@
+//! Rolling: when the centre of mass comes over an edge of the support, the truss falls over it as one
+//! rigid body until other nodes meet the ground.
+
+use super::structure::Structure;
+use super::support;
+use crate::geometry::{Vec3, pose::turned};
+use std::f64::consts::TAU;
+
+/// Nodes this near to the edge (parts of the unit) stay where they are.
+const ON_EDGE: f64 = 1e-9;
+/// Turns smaller than this are none, rad.
+const TURN_MIN: f64 = 1e-9;
+
+/// A turn about the line from the first node to the second, by the right-hand rule, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roll {
+    pub edge: (usize, usize),
+    pub angle: f64,
+}
+
+/// The roll over an edge of the support (its inside on the left) to the outside, by the least angle that
+/// brings a node to the ground, height 0.
+pub fn over(truss: &Structure, x: &[Vec3], edge: (usize, usize)) -> Option<Roll> {
+    let origin = x[edge.0];
+    let along = (x[edge.1] - origin).normalize();
+    // Turned by t, a node is at the height `middle + level cos t + ahead sin t`.
+    let landing = |p: &Vec3| {
+        let arm = p - origin;
+        let across = arm - along * along.dot(&arm);
+        let (level, ahead) = (across.z, along.cross(&arm).z);
+        let middle = p.z - level;
+        let reach = libm::hypot(level, ahead);
+        if across.norm() <= ON_EDGE * truss.unit || middle.abs() >= reach {
+            return None;
+        }
+        let angle = libm::atan2(ahead, level) + libm::acos(-middle / reach);
+        Some(if angle > TURN_MIN { angle } else { angle + TAU })
+    };
+    let angle = x.iter().filter_map(landing).min_by(f64::total_cmp)?;
+    Some(Roll { edge, angle })
+}
+
+pub fn rolled(x: &[Vec3], roll: Roll) -> Vec<Vec3> {
+    let origin = x[roll.edge.0];
+    let turn = turned(x[roll.edge.1] - origin, roll.angle);
+    x.iter().map(|p| origin + turn.rotation * (p - origin)).collect()
+}
+
+/// How far the centre of mass is inside the hull of some nodes (m, negative outside), and the edge that it
+/// is nearest to.
+pub fn standing(truss: &Structure, x: &[Vec3], feet: &[usize]) -> Option<(f64, (usize, usize))> {
+    support::margin(x, &support::hull(x, feet), truss.centre(x))
+}

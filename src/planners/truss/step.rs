@@ -1,0 +1,176 @@
+//! One step: Algorithm 1 of the paper, mended. A quadratic programme gives the nodes' displacements;
+//! whatever they would break is added as a row and it is solved again.
+//!
+//! The paper's rows ask that a value does not fall to first order. Lengths and distances curve, so a
+//! value at its limit falls all the same, and the same row comes back for ever. Here rows ask for the
+//! value itself, and each time that one comes back for more than it fell short.
+
+use super::between;
+use super::bound::Bound;
+use super::nearby;
+use super::structure::Structure;
+use crate::geometry::Vec3;
+use crate::optimize::linear::Unsolved;
+use crate::optimize::quadratic::{Problem, quadratic_program};
+use std::collections::BTreeMap;
+
+/// Programmes of one step.
+const ROUNDS_MAX: usize = 40;
+/// What a row asks for beyond what it fell short by.
+const INSIST: f64 = 1.5;
+/// Parts of the unit: how far inside its bound a value is asked to stay at first, how near to it it is
+/// kept in mind for the next step, and how much nearer than the clearance of the plan distances may
+/// come between the ends of steps (the structure's clearance has it on top).
+const INSIDE: f64 = 1e-6;
+const NEAR: f64 = 0.02;
+pub const CUSHION: f64 = 2e-4;
+/// A value is below zero if it is by more than this part of the unit.
+const ROUNDING: f64 = 1e-10;
+/// Struts whose angle has a smaller sine are nearly parallel.
+const PARALLEL: f64 = 0.1;
+
+/// `½ uᵀ H u + c·u` over the displacements u, three for each node; of H what is on and above the
+/// diagonal.
+#[derive(Clone, Debug, Default)]
+pub struct Objective {
+    pub hessian: Vec<(usize, usize, f64)>,
+    pub linear: Vec<f64>,
+}
+
+pub struct Task<'a> {
+    pub truss: &'a Structure,
+    pub x: &'a [Vec3],
+    pub objective: &'a Objective,
+    /// Nodes that stay where they are.
+    pub held: &'a [usize],
+    /// The displacement of the centre of mass along these axes, m.
+    pub centre: &'a [(usize, f64)],
+    pub ground: bool,
+    /// The farthest that a node goes, m: a longer step is shortened as a whole.
+    pub cap: f64,
+}
+
+/// Why there is no step: the bounds that were asked for when it was given up.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stuck {
+    /// They contradict each other.
+    Infeasible(Vec<Bound>),
+    /// They come back again and again.
+    Unsettled(Vec<Bound>),
+}
+
+/// The bounds that were near in the step before.
+pub type Memory = Vec<Bound>;
+
+/// Where the nodes are after the step. Every bound holds there and on the way.
+pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
+    let Task { truss, x, .. } = *task;
+    let columns = columns(task);
+    let mut rows: BTreeMap<Bound, f64> = memory.iter().map(|bound| (*bound, INSIDE * truss.unit)).collect();
+    let asked = |rows: &BTreeMap<Bound, f64>| rows.keys().copied().collect::<Vec<_>>();
+    for _ in 0..ROUNDS_MAX {
+        let y = match quadratic_program(&problem(task, &columns, &rows)) {
+            Ok(u) => moved(task, &columns, &u),
+            Err(Unsolved::Infeasible | Unsolved::Unbounded) => return Err(Stuck::Infeasible(asked(&rows))),
+            Err(Unsolved::Numerical) => return Err(Stuck::Unsettled(asked(&rows))),
+        };
+        let broken = broken(task, &y);
+        if broken.is_empty() {
+            let near = |bound: &&Bound| bound.value(truss, &y) < NEAR * truss.unit;
+            *memory = rows.keys().filter(near).copied().collect();
+            return Ok(y);
+        }
+        for (bound, lack) in broken {
+            let insist = |wanted: &mut f64| *wanted += INSIST * lack;
+            rows.entry(bound).and_modify(insist).or_insert(INSIDE * truss.unit);
+            if let Bound::Apart(i, j) = bound
+                && parallel(truss, x, i, j)
+            {
+                for end in [Bound::EndApart(i, 0, j), Bound::EndApart(i, 1, j), Bound::EndApart(j, 0, i), Bound::EndApart(j, 1, i)] {
+                    if end.value(truss, x) < NEAR * truss.unit {
+                        rows.entry(end).or_insert(INSIDE * truss.unit);
+                    }
+                }
+            }
+        }
+    }
+    Err(Stuck::Unsettled(asked(&rows)))
+}
+
+fn parallel(truss: &Structure, x: &[Vec3], i: usize, j: usize) -> bool {
+    let along = |strut: usize| {
+        let (a, b) = truss.segment(x, strut);
+        (b - a).normalize()
+    };
+    along(i).cross(&along(j)).norm() < PARALLEL
+}
+
+/// The first column of each node that may move.
+fn columns(task: &Task) -> Vec<Option<usize>> {
+    let mut next = 0;
+    let mut column = |node: usize| {
+        let free = !task.held.contains(&node);
+        next += if free { 3 } else { 0 };
+        free.then(|| next - 3)
+    };
+    (0..task.truss.nodes).map(&mut column).collect()
+}
+
+fn problem(task: &Task, columns: &[Option<usize>], rows: &BTreeMap<Bound, f64>) -> Problem {
+    let Task { truss, x, objective, .. } = *task;
+    let place = |entry: usize| columns[entry / 3].map(|column| column + entry % 3);
+    let free = columns.iter().flatten().count();
+    let mut problem = Problem { linear: vec![0.0; 3 * free], ..Problem::default() };
+    for &(row, column, value) in &objective.hessian {
+        if let (Some(row), Some(column)) = (place(row), place(column)) {
+            problem.hessian.push((row, column, value));
+        }
+    }
+    for (entry, value) in objective.linear.iter().enumerate() {
+        if let Some(column) = place(entry) {
+            problem.linear[column] = *value;
+        }
+    }
+    for &(axis, wanted) in task.centre {
+        let terms = columns.iter().zip(&truss.shares).filter_map(|(column, share)| Some((column.as_ref()? + axis, *share)));
+        problem.equal.push((terms.collect(), wanted));
+    }
+    for (bound, wanted) in rows {
+        let gradient = bound.gradient(truss, x);
+        let terms = gradient.iter().filter_map(|(node, g)| Some((columns[*node]?, g)));
+        let terms: Vec<(usize, f64)> =
+            terms.flat_map(|(column, g)| (0..3).map(move |k| (column + k, -g[k]))).collect();
+        // Between nodes that stay nothing changes.
+        if !terms.is_empty() {
+            problem.at_most.push((terms, bound.value(truss, x) - wanted));
+        }
+    }
+    problem
+}
+
+fn moved(task: &Task, columns: &[Option<usize>], u: &[f64]) -> Vec<Vec3> {
+    let displacement = |column: &Option<usize>| column.map_or_else(Vec3::zeros, |c| Vec3::new(u[c], u[c + 1], u[c + 2]));
+    let farthest = columns.iter().map(|c| displacement(c).norm()).fold(0.0, f64::max);
+    let part = (task.cap / farthest.max(f64::MIN_POSITIVE)).min(1.0);
+    task.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * part).collect()
+}
+
+/// Bounds that do not hold at y or on the way there, with by how much, m.
+fn broken(task: &Task, y: &[Vec3]) -> Vec<(Bound, f64)> {
+    let Task { truss, x, .. } = *task;
+    let pairs = nearby::pairs(truss, x, y, truss.clearance);
+    let lengths = (0..truss.struts.len()).flat_map(|strut| [Bound::Shortest(strut), Bound::Longest(strut)]);
+    let apart = pairs.iter().map(|&(i, j)| Bound::Apart(i, j));
+    let above = (0..truss.nodes).filter(|_| task.ground).map(Bound::Above);
+    let mut broken: BTreeMap<Bound, f64> = BTreeMap::new();
+    for bound in lengths.chain(apart).chain(above) {
+        let value = bound.value(truss, y);
+        if value < -ROUNDING * truss.unit {
+            broken.insert(bound, -value);
+        }
+    }
+    for (bound, lack) in between::shortfalls(truss, x, y, &pairs, CUSHION * truss.unit) {
+        broken.entry(bound).and_modify(|known| *known = known.max(lack)).or_insert(lack);
+    }
+    broken.into_iter().collect()
+}

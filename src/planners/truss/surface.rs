@@ -1,0 +1,133 @@
+//! The outer surface of a truss, and the nearest points of surfaces of triangles.
+
+use super::structure::Structure;
+use crate::geometry::Vec3;
+use std::collections::BTreeMap;
+
+/// Nodes this far (parts of the unit) beyond a face are on its plane.
+const ON_PLANE: f64 = 1e-6;
+
+/// Why a truss has no outer surface of triangles: edges that do not lie between two of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Open {
+    pub edges: Vec<(usize, usize)>,
+}
+
+/// The triangles of struts that have all nodes on one side, counter-clockwise as seen from outside: the
+/// boundary of the hull, where struts triangulate it.
+pub fn outer(truss: &Structure, x: &[Vec3]) -> Result<Vec<[usize; 3]>, Open> {
+    let mut after: Vec<Vec<usize>> = vec![Vec::new(); truss.nodes];
+    for &(a, b) in &truss.struts {
+        after[a.min(b)].push(a.max(b));
+    }
+    after.iter_mut().for_each(|list| list.sort_unstable());
+    let mut triangles = Vec::new();
+    for a in 0..truss.nodes {
+        for (i, &b) in after[a].iter().enumerate() {
+            for &c in after[a][i + 1..].iter().filter(|c| after[b].contains(c)) {
+                let normal = (x[b] - x[a]).cross(&(x[c] - x[a])).normalize();
+                let sides = x.iter().map(|p| normal.dot(&(p - x[a])));
+                let (low, high) = sides.fold((0.0f64, 0.0f64), |(low, high), s| (low.min(s), high.max(s)));
+                let tolerance = ON_PLANE * truss.unit;
+                if high <= tolerance {
+                    triangles.push([a, b, c]);
+                } else if low >= -tolerance {
+                    triangles.push([a, c, b]);
+                }
+            }
+        }
+    }
+    let mut uses: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for t in &triangles {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            *uses.entry((a.min(b), a.max(b))).or_default() += 1;
+        }
+    }
+    let edges: Vec<(usize, usize)> = uses.iter().filter(|(_, n)| **n != 2).map(|(edge, _)| *edge).collect();
+    if edges.is_empty() && !triangles.is_empty() { Ok(triangles) } else { Err(Open { edges }) }
+}
+
+/// A point of a triangle, by its weights.
+#[derive(Clone, Copy, Debug)]
+pub struct Foot {
+    pub triangle: usize,
+    pub weights: [f64; 3],
+    pub at: Vec3,
+    pub distance: f64,
+}
+
+/// Triangles with a ball around each, so that most need not be looked at.
+pub struct Surface {
+    corners: Vec<[Vec3; 3]>,
+    balls: Vec<(Vec3, f64)>,
+}
+
+impl Surface {
+    pub fn new(corners: Vec<[Vec3; 3]>) -> Surface {
+        let ball = |t: &[Vec3; 3]| {
+            let middle = (t[0] + t[1] + t[2]) / 3.0;
+            (middle, t.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max))
+        };
+        Surface { balls: corners.iter().map(ball).collect(), corners }
+    }
+
+    pub fn triangles(&self) -> &[[Vec3; 3]] {
+        &self.corners
+    }
+
+    /// The point nearest to `p`; a triangle that is near already may be guessed. Of equally near ones the
+    /// first.
+    pub fn nearest(&self, p: Vec3, guess: Option<usize>) -> Foot {
+        let foot = |triangle: usize| {
+            let weights = nearest_weights(p, &self.corners[triangle]);
+            let at = (0..3).map(|k| self.corners[triangle][k] * weights[k]).sum::<Vec3>();
+            Foot { triangle, weights, at, distance: (p - at).norm() }
+        };
+        let mut best = foot(guess.unwrap_or(0));
+        for (triangle, (middle, radius)) in self.balls.iter().enumerate() {
+            if (p - middle).norm() - radius > best.distance {
+                continue;
+            }
+            let found = foot(triangle);
+            if found.distance < best.distance || (found.distance == best.distance && triangle < best.triangle) {
+                best = found;
+            }
+        }
+        best
+    }
+}
+
+/// Weights of the point of a triangle that is nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
+fn nearest_weights(p: Vec3, &[a, b, c]: &[Vec3; 3]) -> [f64; 3] {
+    let (ab, ac) = (b - a, c - a);
+    let (d1, d2) = (ab.dot(&(p - a)), ac.dot(&(p - a)));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return [1.0, 0.0, 0.0];
+    }
+    let (d3, d4) = (ab.dot(&(p - b)), ac.dot(&(p - b)));
+    if d3 >= 0.0 && d4 <= d3 {
+        return [0.0, 1.0, 0.0];
+    }
+    let (d5, d6) = (ab.dot(&(p - c)), ac.dot(&(p - c)));
+    if d6 >= 0.0 && d5 <= d6 {
+        return [0.0, 0.0, 1.0];
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        let v = d1 / (d1 - d3);
+        return [1.0 - v, v, 0.0];
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        let w = d2 / (d2 - d6);
+        return [1.0 - w, 0.0, w];
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        let w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return [0.0, 1.0 - w, w];
+    }
+    let total = va + vb + vc;
+    [va / total, vb / total, vc / total]
+}
