@@ -313,13 +313,7 @@ fn pages_play_in_a_browser() {
             curves: &["joints", "clearance"],
             ..octahedron
         }),
-        bound(Looks {
-            joints: false,
-            colours: &["size", "type"],
-            toggles: free,
-            curves: &[],
-            ..slab
-        }),
+        bound(Looks { joints: false, colours: &["size", "type"], toggles: free, curves: &[], ..slab }),
         of_failure("dig", "falls over arm[0]", &["arm[0]"], false),
         // Four modules at right angles close a ring: the next comes down on the first.
         of_failure("curl", "meet", &["s[0].m[2]", "s[1].m[0]"], true),

@@ -15,7 +15,8 @@ fn s_path(turned: f64, aim: Aim) -> Wish {
     let (s, c) = libm::sincos(turned.to_radians());
     let (truss, start) = robot();
     let from = truss.centre(&start);
-    let corners: Vec<[f64; 2]> = serde_json::from_value(truth()["locomotion"]["path"].clone()).expect("places");
+    let corners: Vec<[f64; 2]> =
+        serde_json::from_value(truth()["locomotion"]["path"].clone()).expect("places");
     let place = |[x, y]: [f64; 2]| [c * x - s * y + from.x, s * x + c * y + from.y];
     let path = corners.into_iter().map(place).collect();
     Wish { path, near: 0.25, stride: 0.05, aim, hold: Hold::Three, ladder: true, steps_max: 3000 }
@@ -31,7 +32,8 @@ fn the_s_is_travelled() {
     // The truth found 655 to 690 steps, 28 to 43 rolls.
     let mut cases = vec![(25.0, Aim::Springs), (200.0, Aim::Lengths { still: 1.0 })];
     if std::env::var_os("MODL_WHOLE").is_some() {
-        let turned = [0.0, 10.0, 25.0, 45.0, 77.0, 90.0, 130.0, 157.0, 200.0, 222.0, 260.0, 300.0, 330.0, 345.0];
+        let turned =
+            [0.0, 10.0, 25.0, 45.0, 77.0, 90.0, 130.0, 157.0, 200.0, 222.0, 260.0, 300.0, 330.0, 345.0];
         let aims = [Aim::Springs, Aim::Lengths { still: 1.0 }, Aim::Restoring { still: 1.0 }];
         cases = turned.iter().flat_map(|&turned| aims.map(|aim| (turned, aim))).collect();
     }
@@ -73,8 +75,15 @@ fn least_change(held: &[usize]) -> f64 {
     truss.shares = vec![1.0 / truss.nodes as f64; truss.nodes];
     let objective = objective(Aim::Lengths { still: 0.0 }, &truss, &x, 0.0);
     let centre = [(0, SMALL), (1, 0.0), (2, 0.0)];
-    let task =
-        Task { truss: &truss, x: &x, objective: &objective, held, centre: &centre, ground: false, cap: f64::INFINITY };
+    let task = Task {
+        truss: &truss,
+        x: &x,
+        objective: &objective,
+        held,
+        centre: &centre,
+        ground: false,
+        cap: f64::INFINITY,
+    };
     let y = step(&task, &mut Memory::new()).expect("nothing is in the way");
     let squares = truss.struts.iter().map(|&(a, b)| {
         let along = (x[a] - x[b]).normalize();
@@ -137,7 +146,8 @@ fn a_strut_at_its_limit_may_turn() {
         hessian: (0..6).map(|i| (i, i, 1.0)).collect(),
         linear: vec![0.0, 0.0, 0.0, 0.0, -0.5, 0.0],
     };
-    let task = Task { truss: &truss, x: &x, objective: &aside, held: &[0], centre: &[], ground: false, cap: 1.0 };
+    let task =
+        Task { truss: &truss, x: &x, objective: &aside, held: &[0], centre: &[], ground: false, cap: 1.0 };
     let y = step(&task, &mut Memory::new()).expect("it can turn");
     assert!(y[1].y > 0.4, "{y:?}");
     assert!(y[1].norm() <= 3.0 + 1e-9, "{}", y[1].norm());

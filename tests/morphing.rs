@@ -109,5 +109,9 @@ fn orientations_are_tried_and_the_same_seed_finds_the_same() {
 #[test]
 fn skew_segments_are_one_apart() {
     let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
-    near(distance([at(-1.0, 0.0, 0.0), at(1.0, 0.0, 0.0)], [at(0.0, -1.0, 1.0), at(0.0, 2.0, 1.0)]), 1.0, 1e-12);
+    near(
+        distance([at(-1.0, 0.0, 0.0), at(1.0, 0.0, 0.0)], [at(0.0, -1.0, 1.0), at(0.0, 2.0, 1.0)]),
+        1.0,
+        1e-12,
+    );
 }

@@ -4,7 +4,9 @@ use crate::cli::Sandbox;
 use crate::plan_operations::plan_of;
 use crate::programs::*;
 use crate::robots::{chain, reel};
-use modl::plan::{Body, CauseId, CheckKind, Ground, Knot, NodePaths, Plan, Verdict, Way, World, WorldFrom, verify};
+use modl::plan::{
+    Body, CauseId, CheckKind, Ground, Knot, NodePaths, Plan, Verdict, Way, World, WorldFrom, verify,
+};
 use modl::robot::Library;
 use std::fs;
 use std::sync::Arc;
@@ -73,11 +75,8 @@ fn struts_have_a_speed_and_a_range() {
     assert_eq!(kinds(&long), [CheckKind::JointRange]);
     assert_eq!(long.failures.len(), 3);
     // Ends that pass each other: short between the knots only.
-    let past = plan_in(
-        FREE,
-        &[(0, 1)],
-        vec![straight(0.0, &[A, B]), straight(1000.0, &[A, [-1.0, 0.1, 0.0]])],
-    );
+    let past =
+        plan_in(FREE, &[(0, 1)], vec![straight(0.0, &[A, B]), straight(1000.0, &[A, [-1.0, 0.1, 0.0]])]);
     let past = verify::verify(&past);
     assert_eq!(kinds(&past), [CheckKind::JointRange]);
     assert!((past.failures[0].value - 0.05 / libm::sqrt(1.0 + 0.0025)).abs() < 1e-9, "{:?}", past.failures);

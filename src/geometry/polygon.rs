@@ -15,7 +15,8 @@ pub fn triangulated(corners: &[Vec3]) -> Vec<[usize; 3]> {
     let mut rest: Vec<usize> = (0..n).collect();
     let mut triangles = Vec::new();
     while rest.len() > 3 {
-        let around = |i: usize| (rest[(i + rest.len() - 1) % rest.len()], rest[i], rest[(i + 1) % rest.len()]);
+        let around =
+            |i: usize| (rest[(i + rest.len() - 1) % rest.len()], rest[i], rest[(i + 1) % rest.len()]);
         let ear = |i: &usize| {
             let (a, b, c) = around(*i);
             let inside = |p: usize| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;

@@ -81,7 +81,9 @@ impl Interpreter<'_> {
             (Trussed::Travelled { reached, .. }, "reached") => Value::count(*reached),
             (Trussed::Travelled { slip, .. }, "slip") => Value::length(*slip),
             (Trussed::Travelled { eased, .. }, "eased") => Value::count(*eased),
-            (Trussed::Morphed { ended, .. } | Trussed::Travelled { ended, .. }, "ended") => Value::text(ended.clone()),
+            (Trussed::Morphed { ended, .. } | Trussed::Travelled { ended, .. }, "ended") => {
+                Value::text(ended.clone())
+            }
             _ => Value::Unknown,
         }
     }
@@ -114,9 +116,10 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         morph::End::Cancelled => return Err(Stop::Halt),
     };
     if found.end != morph::End::Done {
-        let [there, back, wanted] =
-            [found.distance.there, found.distance.back, wish.tolerance].map(|x| quantity(x, Dimension::LENGTH));
-        let message = format!("the truss comes within {there} of the target ({back} back), not within {wanted}");
+        let [there, back, wanted] = [found.distance.there, found.distance.back, wish.tolerance]
+            .map(|x| quantity(x, Dimension::LENGTH));
+        let message =
+            format!("the truss comes within {there} of the target ({back} back), not within {wanted}");
         interpreter.add_report(
             Diagnostic::warning(code::SHORT_OF_GOAL, message)
                 .label(call.span, ended.clone())
@@ -203,7 +206,8 @@ fn goal(call: &Call, task: &Task) -> Eval<Goal> {
             Ok(Goal::surface(triangles, apart))
         }
         Value::Cloud(points) if points.len() < POINTS_MIN => {
-            Err(call.refuse(1, format!("a target has at least {POINTS_MIN} points; these are {}", points.len())))
+            Err(call
+                .refuse(1, format!("a target has at least {POINTS_MIN} points; these are {}", points.len())))
         }
         Value::Cloud(points) => Ok(Goal::cloud(points.to_vec())),
         _ => Err(call.refuse(1, "a mesh or a cloud of points is wanted")),
@@ -320,9 +324,11 @@ impl Task {
                     let rate = self.structure.rates(&x, &y).fold(0.0, f64::max);
                     (y, Way::Straight, rate / self.structure.speed)
                 }
-                Move::Roll(turn) => {
-                    (roll::rolled(&x, turn), Way::Roll { edge: turn.edge, angle: turn.angle }, turn.angle.abs() / FALL)
-                }
+                Move::Roll(turn) => (
+                    roll::rolled(&x, turn),
+                    Way::Roll { edge: turn.edge, angle: turn.angle },
+                    turn.angle.abs() / FALL,
+                ),
             };
             time += lasts.max(STEP_MIN);
             x = y;

@@ -58,7 +58,7 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         if world.ground != Ground::Off {
             judged.ground(&leg, &mut ledger);
             if world.gravity > 0.0 {
-                standing.leg(&leg, plan.settings.unstable_for, &mut ledger);
+                standing.leg(&leg, &mut ledger);
             }
         }
         if let Way::Roll { .. } = knot.way
@@ -93,7 +93,7 @@ impl Judged<'_> {
         if world.ground != Ground::Off && self.paths.knots.len() == 1 {
             self.ground(&leg, ledger);
             if world.gravity > 0.0 {
-                standing.leg(&leg, 0.0, ledger);
+                standing.leg(&leg, ledger);
             }
         }
     }
@@ -112,15 +112,22 @@ impl Judged<'_> {
                     self.strut_name(strut),
                     self.strut.name
                 );
-                let failure = self.failure(CheckKind::JointRange, time, vec![self.strut_name(strut)], message);
-                ledger.fail(Failure { value: length, limit: if length < low { low } else { high }, ..failure });
+                let failure =
+                    self.failure(CheckKind::JointRange, time, vec![self.strut_name(strut)], message);
+                ledger.fail(Failure {
+                    value: length,
+                    limit: if length < low { low } else { high },
+                    ..failure
+                });
             }
             let margin = 1.0 - found.rate / self.strut.speed;
             lower(&mut ledger.verdict.speed_margin, margin, leg.begins, || vec![self.strut_name(strut)]);
             if found.too_fast(self.strut.speed) {
                 let [rate, limit] = [found.rate, self.strut.speed].map(|x| quantity(x, Dimension::SPEED));
-                let message = format!("the strut {} changes by {rate}; its limit is {limit}", self.strut_name(strut));
-                let failure = self.failure(CheckKind::Speed, leg.begins, vec![self.strut_name(strut)], message);
+                let message =
+                    format!("the strut {} changes by {rate}; its limit is {limit}", self.strut_name(strut));
+                let failure =
+                    self.failure(CheckKind::Speed, leg.begins, vec![self.strut_name(strut)], message);
                 ledger.fail(Failure { value: found.rate, limit: self.strut.speed, ..failure });
             }
         }
@@ -138,10 +145,17 @@ impl Judged<'_> {
             if near.holds {
                 continue;
             }
-            let [distance, wanted] = [near.distance, self.strut.clearance].map(|x| quantity(x, Dimension::LENGTH));
+            let [distance, wanted] =
+                [near.distance, self.strut.clearance].map(|x| quantity(x, Dimension::LENGTH));
             let (a, b) = (self.strut_name(near.struts.0), self.strut_name(near.struts.1));
             let name = &self.strut.name;
-            let message = format!("the struts {a} and {b} come within {distance}; a {name} keeps {wanted}");
+            let message = if near.distance < self.strut.clearance {
+                format!("the struts {a} and {b} come within {distance}; a {name} keeps {wanted}")
+            } else {
+                format!(
+                    "the struts {a} and {b} stay so near to {wanted} that it is not proved that they keep it"
+                )
+            };
             let failure = self.failure(CheckKind::Collision, time, names(), message);
             ledger.fail(Failure { value: near.distance, limit: self.strut.clearance, ..failure });
         }
@@ -168,7 +182,9 @@ impl Judged<'_> {
             ledger.verdict.events.push((*time, words.clone()));
         }
         let on_ground = plan.worlds.iter().any(|w| w.world.gravity > 0.0 && w.world.ground != Ground::Off);
-        let stands = |status: Status| if on_ground { status } else { Status::NotChecked("nothing pulls it down".into()) };
+        let stands = |status: Status| {
+            if on_ground { status } else { Status::NotChecked("nothing pulls it down".into()) }
+        };
         for kind in [CheckKind::Form, CheckKind::Collision, CheckKind::JointRange, CheckKind::Speed] {
             ledger.check(kind, Status::Proved);
         }
@@ -177,8 +193,11 @@ impl Judged<'_> {
         ledger.check(CheckKind::Acceleration, Status::NoLimit);
         if on_ground {
             let (slid, node) = standing.slid();
-            ledger.verdict.slip =
-                Some(Worst { value: slid, time: plan.body.duration(), at: vec![self.paths.node_names[node].clone()] });
+            ledger.verdict.slip = Some(Worst {
+                value: slid,
+                time: plan.body.duration(),
+                at: vec![self.paths.node_names[node].clone()],
+            });
             ledger.check(CheckKind::Slip, Status::NotChecked("nodes may slide on the ground".into()));
             let why = "the forces in the struts are not found";
             ledger.check(CheckKind::BondLoad, Status::NotChecked(why.into()));

@@ -42,7 +42,8 @@ pub fn nearest(paths: &NodePaths, leg: &Leg, clearance: f64) -> Vec<Near> {
     let mut found = Vec::new();
     for (at, &i) in order.iter().enumerate() {
         for &j in order[at + 1..].iter().take_while(|&&j| boxes[j].0.x <= boxes[i].1.x + reach) {
-            let meet = (1..3).all(|k| boxes[i].0[k] <= boxes[j].1[k] + reach && boxes[j].0[k] <= boxes[i].1[k] + reach);
+            let meet = (1..3)
+                .all(|k| boxes[i].0[k] <= boxes[j].1[k] + reach && boxes[j].0[k] <= boxes[i].1[k] + reach);
             if meet && !shares(i, j) {
                 found.push(pair(paths, leg, (i.min(j), i.max(j)), clearance));
             }
@@ -97,7 +98,11 @@ fn distance(p: [Vec3; 2], q: [Vec3; 2]) -> f64 {
     // Where the lines are nearest, by Cramer's rule.
     let (s, t) = (apart.cross(&v).dot(&normal), apart.cross(&u).dot(&normal));
     let inside = |x: f64| 0.0 < x && x < area;
-    if area > 0.0 && inside(s) && inside(t) { least.min(apart.dot(&normal).abs() / area.sqrt()) } else { least }
+    if area > 0.0 && inside(s) && inside(t) {
+        least.min(apart.dot(&normal).abs() / area.sqrt())
+    } else {
+        least
+    }
 }
 
 fn to_segment(point: Vec3, [a, b]: [Vec3; 2]) -> f64 {

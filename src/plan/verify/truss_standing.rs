@@ -10,12 +10,14 @@ use crate::units::{Dimension, quantity};
 
 /// Nodes lower than this part of a strut's mean length carry weight: trusses give way.
 const CONTACT: f64 = 1e-4;
-/// The centre of mass may be this much outside of the support, m: rounding, and what lies between two
-/// samples.
+/// The centre of mass may be this much outside of the support at a sample, and twice as much between two,
+/// m: rounding, and so that few samples are enough.
 const TOL_MARGIN: f64 = 1e-5;
 /// How exactly a rigid turn has to lead where the plan says, m.
 const TOL_ROLL: f64 = 1e-6;
 const SAMPLES_MAX: usize = 100_000;
+/// A narrower support is a line, m.
+const WIDTH_MIN: f64 = 1e-6;
 
 pub struct Standing<'a> {
     judged: &'a Judged<'a>,
@@ -44,7 +46,9 @@ pub fn lowest(leg: &Leg, node: usize) -> (f64, f64) {
     let (level, ahead) = (across.z, axis.cross(&arm).z);
     let highest = libm::atan2(ahead, level);
     let half = std::f64::consts::PI;
-    let bottom = [highest - half, highest + half].into_iter().find(|t| 0.0 < t * angle.signum() && t.abs() < angle.abs());
+    let bottom = [highest - half, highest + half]
+        .into_iter()
+        .find(|t| 0.0 < t * angle.signum() && t.abs() < angle.abs());
     match bottom {
         Some(t) => (from.z - level - libm::hypot(level, ahead), t / angle),
         None => ends,
@@ -62,21 +66,24 @@ impl<'a> Standing<'a> {
 
     /// The farthest that a node slid, m, and which.
     pub fn slid(&self) -> (f64, usize) {
-        let most = |best: (f64, usize), (node, slid): (usize, &f64)| if *slid > best.0 { (*slid, node) } else { best };
+        let most = |best: (f64, usize), (node, slid): (usize, &f64)| {
+            if *slid > best.0 { (*slid, node) } else { best }
+        };
         self.slid.iter().enumerate().fold((0.0, 0), most)
     }
 
-    pub fn leg(&mut self, leg: &Leg, unstable_for: f64, ledger: &mut Ledger) {
+    pub fn leg(&mut self, leg: &Leg, ledger: &mut Ledger) {
         match leg.way {
-            Way::Straight => self.straight(leg, unstable_for, ledger),
+            Way::Straight => self.straight(leg, ledger),
             Way::Roll { edge, angle } => self.roll(leg, edge, angle, ledger),
         }
     }
 
     /// It stands on the nodes that are on the ground at both ends, and so all the way.
-    fn straight(&mut self, leg: &Leg, unstable_for: f64, ledger: &mut Ledger) {
+    fn straight(&mut self, leg: &Leg, ledger: &mut Ledger) {
         let low = |x: &[Vec3], node: usize| x[node].z <= self.contact;
-        let feet: Vec<usize> = (0..leg.from.len()).filter(|&n| low(&leg.from, n) && low(&leg.to, n)).collect();
+        let feet: Vec<usize> =
+            (0..leg.from.len()).filter(|&n| low(&leg.from, n) && low(&leg.to, n)).collect();
         for &node in &feet {
             let slid = leg.to[node] - leg.from[node];
             self.slid[node] += libm::hypot(slid.x, slid.y);
@@ -85,26 +92,33 @@ impl<'a> Standing<'a> {
         let centre_way = centre(paths, &leg.to) - centre(paths, &leg.from);
         let fastest = feet.iter().map(|&n| (leg.to[n] - leg.from[n] - centre_way).norm()).fold(0.0, f64::max);
         let mut part = 0.0;
-        let mut lost: Option<(f64, f64)> = None;
+        // Where it was last seen to stand, until it is proved to stand to the end.
+        let mut lost = Some((f64::NAN, leg.begins));
         for _ in 0..SAMPLES_MAX {
             let inside = self.margin(leg, &feet, part);
             let time = leg.begins + part * leg.lasts;
             let names = || feet.iter().map(|&n| paths.node_names[n].clone()).collect();
             lower(&mut ledger.verdict.margin, inside, time, names);
+            lost = Some((inside, time));
             if inside < -TOL_MARGIN {
-                lost = Some((inside, time));
                 break;
             }
             if part >= 1.0 {
+                lost = None;
                 break;
             }
             let step = if fastest > 0.0 { (inside + 2.0 * TOL_MARGIN) / fastest } else { 1.0 };
             part = (part + step).min(1.0);
         }
-        let end = leg.begins + leg.lasts;
-        if let Some((inside, time)) = lost.filter(|(_, time)| end - time > unstable_for || unstable_for == 0.0 || *time <= leg.begins) {
-            let message = if inside.is_finite() {
-                format!("the centre of mass is {} outside of the support", quantity(-inside, Dimension::LENGTH))
+        if let Some((inside, time)) = lost {
+            let message = if inside >= -TOL_MARGIN {
+                "the centre of mass is so near to the rim of the support that it is not proved to stand"
+                    .to_string()
+            } else if inside.is_finite() {
+                format!(
+                    "the centre of mass is {} outside of the support",
+                    quantity(-inside, Dimension::LENGTH)
+                )
             } else {
                 "it does not stand on three nodes".to_string()
             };
@@ -120,7 +134,9 @@ impl<'a> Standing<'a> {
         let paths = self.judged.paths;
         let middle = centre(paths, &leg.from) * (1.0 - part) + centre(paths, &leg.to) * part;
         let points: Vec<Point> = feet.iter().map(|&node| [at(node).x, at(node).y]).collect();
-        footprint::margin(&points, [middle.x, middle.y]).map_or(f64::NEG_INFINITY, |margin| margin.distance)
+        let margin = footprint::margin(&points, [middle.x, middle.y]);
+        // On two feet, or on a row of them, nothing stands.
+        margin.filter(|m| m.width > WIDTH_MIN).map_or(f64::NEG_INFINITY, |margin| margin.distance)
     }
 
     /// It falls over an edge of its support: both ends on the ground, all other feet behind it, the
@@ -134,10 +150,14 @@ impl<'a> Standing<'a> {
             ledger.fail(self.judged.failure(CheckKind::Stability, leg.begins, vec![name.clone()], message));
         };
         let turn = turned(along, angle);
-        let off = leg.from.iter().zip(&leg.to).map(|(p, q)| (origin + turn.rotation * (p - origin) - q).norm());
+        let off =
+            leg.from.iter().zip(&leg.to).map(|(p, q)| (origin + turn.rotation * (p - origin) - q).norm());
         let off = off.fold(0.0, f64::max);
         if off > TOL_ROLL {
-            refuse(format!("the roll over {name} leads {} elsewhere", quantity(off, Dimension::LENGTH)), ledger);
+            refuse(
+                format!("the roll over {name} leads {} elsewhere", quantity(off, Dimension::LENGTH)),
+                ledger,
+            );
         }
         if origin.z > self.contact || end.z > self.contact {
             return refuse(format!("it rolls over {name}, which is not on the ground"), ledger);
@@ -157,6 +177,7 @@ impl<'a> Standing<'a> {
             let away = quantity(-centre, Dimension::LENGTH);
             return refuse(format!("it rolls over {name}, and its centre of mass is {away} behind"), ledger);
         }
-        self.events.push((leg.begins, format!("rolls over {name} by {}", quantity(angle.abs(), Dimension::ANGLE))));
+        self.events
+            .push((leg.begins, format!("rolls over {name} by {}", quantity(angle.abs(), Dimension::ANGLE))));
     }
 }

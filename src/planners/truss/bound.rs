@@ -51,7 +51,9 @@ impl Bound {
     fn witness(self, truss: &Structure, x: &[Vec3]) -> Witness {
         match self {
             Bound::Apart(i, j) => segment::nearest(truss.segment(x, i), truss.segment(x, j)),
-            Bound::EndApart(i, end, j) => segment::nearest_to_end(truss.segment(x, i), end, truss.segment(x, j)),
+            Bound::EndApart(i, end, j) => {
+                segment::nearest_to_end(truss.segment(x, i), end, truss.segment(x, j))
+            }
             _ => unreachable!("only distances have witnesses"),
         }
     }

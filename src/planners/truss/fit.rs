@@ -64,7 +64,8 @@ pub struct Fit {
 /// Measures; `guesses` are the triangles on which the feet were last.
 pub fn fit(faces: &[[usize; 3]], x: &[Vec3], goal: &Goal, guesses: &mut Vec<usize>) -> Fit {
     let corners: Vec<[Vec3; 3]> = faces.iter().map(|f| f.map(|node| x[node])).collect();
-    let normals: Vec<Vec3> = corners.iter().map(|t| (t[1] - t[0]).cross(&(t[2] - t[0])).normalize()).collect();
+    let normals: Vec<Vec3> =
+        corners.iter().map(|t| (t[1] - t[0]).cross(&(t[2] - t[0])).normalize()).collect();
     let area = |t: &[Vec3; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).norm();
     let whole: f64 = corners.iter().map(area).sum();
     let surface = Surface::new(corners);
@@ -120,7 +121,10 @@ impl Fit {
         for node in 0..truss.nodes {
             sums.add(&[(node, 1.0)], &Vec3::zeros(), weights.still / truss.nodes as f64, 0.0, &Vec3::z());
         }
-        Objective { hessian: sums.hessian.into_iter().map(|((i, j), v)| (i, j, v)).collect(), linear: sums.linear }
+        Objective {
+            hessian: sums.hessian.into_iter().map(|((i, j), v)| (i, j, v)).collect(),
+            linear: sums.linear,
+        }
     }
 }
 
@@ -137,9 +141,8 @@ impl Sums {
 
     /// `½ weight rᵀ M r` with r = residual + Σ factor u, M = (1 - across) + across normal normalᵀ.
     fn add(&mut self, terms: &[(usize, f64)], residual: &Vec3, weight: f64, across: f64, normal: &Vec3) {
-        let metric = |i: usize, j: usize| {
-            (if i == j { 1.0 - across } else { 0.0 }) + across * normal[i] * normal[j]
-        };
+        let metric =
+            |i: usize, j: usize| (if i == j { 1.0 - across } else { 0.0 }) + across * normal[i] * normal[j];
         for &(a, p) in terms.iter().filter(|(_, p)| *p != 0.0) {
             for i in 0..3 {
                 let pushed: f64 = (0..3).map(|j| metric(i, j) * residual[j]).sum();
@@ -148,7 +151,8 @@ impl Sums {
                     for j in 0..3 {
                         let value = metric(i, j);
                         if 3 * b + j >= 3 * a + i && value != 0.0 {
-                            *self.hessian.entry((3 * a + i, 3 * b + j)).or_default() += weight * p * q * value;
+                            *self.hessian.entry((3 * a + i, 3 * b + j)).or_default() +=
+                                weight * p * q * value;
                         }
                     }
                 }

@@ -44,7 +44,8 @@ impl Goal {
     /// Every point moved.
     pub fn moved(&self, motion: impl Fn(&Vec3) -> Vec3) -> Goal {
         let surface = self.surface.as_ref();
-        let surface = surface.map(|s| Surface::new(s.triangles().iter().map(|t| t.each_ref().map(&motion)).collect()));
+        let surface =
+            surface.map(|s| Surface::new(s.triangles().iter().map(|t| t.each_ref().map(&motion)).collect()));
         Goal { points: self.points.iter().map(&motion).collect(), shares: self.shares.clone(), surface }
     }
 

@@ -95,7 +95,14 @@ const RUNGS: [Rung; 8] = [
 /// Moves a truss that stands on the ground at height 0. `going` is asked before every step.
 pub fn locomote(truss: &Structure, start: &[Vec3], wish: &Wish, going: &dyn Fn(usize) -> bool) -> Travel {
     let truss = &Structure { clearance: truss.clearance + CUSHION * truss.unit, ..truss.clone() };
-    let mut walk = Walk { truss, wish, x: start.to_vec(), memory: Memory::new(), eased_in_a_row: 0, travel: Travel::new() };
+    let mut walk = Walk {
+        truss,
+        wish,
+        x: start.to_vec(),
+        memory: Memory::new(),
+        eased_in_a_row: 0,
+        travel: Travel::new(),
+    };
     walk.travel.end = walk.settle().err().unwrap_or_else(|| walk.go(going));
     walk.travel
 }
@@ -174,7 +181,9 @@ impl Walk<'_> {
             _ => Hold::All,
         };
         let held = match hold {
-            Hold::Three => support::feet(&self.x, &support::hull(&self.x, contacts), self.truss.centre(&self.x)),
+            Hold::Three => {
+                support::feet(&self.x, &support::hull(&self.x, contacts), self.truss.centre(&self.x))
+            }
             Hold::All => contacts.to_vec(),
         };
         let aim = if rung.springs { Aim::Springs } else { self.wish.aim };
@@ -207,9 +216,8 @@ impl Walk<'_> {
             let now = support::contacts(self.truss, x);
             before.iter().copied().filter(|node| now.contains(node)).collect::<Vec<_>>()
         };
-        let stands = |x: &[Vec3]| {
-            roll::standing(self.truss, x, &feet(x)).is_some_and(|(inside, _)| inside >= 0.0)
-        };
+        let stands =
+            |x: &[Vec3]| roll::standing(self.truss, x, &feet(x)).is_some_and(|(inside, _)| inside >= 0.0);
         let next = if stands(&y) {
             y
         } else {

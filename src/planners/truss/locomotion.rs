@@ -51,8 +51,10 @@ fn lengths(truss: &Structure, x: &[Vec3], still: f64, wanted: impl Fn(f64) -> f6
     for &(a, b) in &truss.struts {
         let d = x[a] - x[b];
         let (along, length) = (d.normalize(), d.norm());
-        let row: Vec<(usize, f64)> =
-            [(a, 1.0), (b, -1.0)].iter().flat_map(|&(node, sign)| (0..3).map(move |k| (3 * node + k, sign * along[k]))).collect();
+        let row: Vec<(usize, f64)> = [(a, 1.0), (b, -1.0)]
+            .iter()
+            .flat_map(|&(node, sign)| (0..3).map(move |k| (3 * node + k, sign * along[k])))
+            .collect();
         for &(i, p) in &row {
             linear[i] -= p * wanted(length);
             for &(j, q) in row.iter().filter(|(j, _)| *j >= i) {

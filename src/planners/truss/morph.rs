@@ -113,7 +113,8 @@ fn towards(
         let weights = Weights { back: 1.0, across: ACROSS, springs, still: STILL };
         let objective = found.objective(truss, &x, &weights);
         let shorter = |cap: f64, memory: &mut Memory| {
-            let task = Task { truss, x: &x, objective: &objective, held: &[], centre: &[], ground: false, cap };
+            let task =
+                Task { truss, x: &x, objective: &objective, held: &[], centre: &[], ground: false, cap };
             step(&task, memory)
         };
         let caps = (0..TRIES).map(|i| CAP * truss.unit / (1 << (2 * i)) as f64);

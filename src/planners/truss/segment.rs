@@ -19,7 +19,8 @@ pub fn nearest(p: (Vec3, Vec3), q: (Vec3, Vec3)) -> Witness {
     let (u, v, w) = (p.1 - p.0, q.1 - q.0, p.0 - q.0);
     let (a, b, c, d, e) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
     let determinant = a * c - b * b;
-    let along_p = if determinant > PARALLEL * a * c { ((b * e - c * d) / determinant).clamp(0.0, 1.0) } else { 0.0 };
+    let along_p =
+        if determinant > PARALLEL * a * c { ((b * e - c * d) / determinant).clamp(0.0, 1.0) } else { 0.0 };
     let project = |from: f64, over: f64| if over > 0.0 { (from / over).clamp(0.0, 1.0) } else { 0.0 };
     let along_q = project(b * along_p + e, c);
     let along_p = project(b * along_q - d, a);

@@ -86,7 +86,12 @@ pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
             if let Bound::Apart(i, j) = bound
                 && parallel(truss, x, i, j)
             {
-                for end in [Bound::EndApart(i, 0, j), Bound::EndApart(i, 1, j), Bound::EndApart(j, 0, i), Bound::EndApart(j, 1, i)] {
+                for end in [
+                    Bound::EndApart(i, 0, j),
+                    Bound::EndApart(i, 1, j),
+                    Bound::EndApart(j, 0, i),
+                    Bound::EndApart(j, 1, i),
+                ] {
                     if end.value(truss, x) < NEAR * truss.unit {
                         rows.entry(end).or_insert(INSIDE * truss.unit);
                     }
@@ -132,7 +137,10 @@ fn problem(task: &Task, columns: &[Option<usize>], rows: &BTreeMap<Bound, f64>) 
         }
     }
     for &(axis, wanted) in task.centre {
-        let terms = columns.iter().zip(&truss.shares).filter_map(|(column, share)| Some((column.as_ref()? + axis, *share)));
+        let terms = columns
+            .iter()
+            .zip(&truss.shares)
+            .filter_map(|(column, share)| Some((column.as_ref()? + axis, *share)));
         problem.equal.push((terms.collect(), wanted));
     }
     for (bound, wanted) in rows {
@@ -149,7 +157,8 @@ fn problem(task: &Task, columns: &[Option<usize>], rows: &BTreeMap<Bound, f64>) 
 }
 
 fn moved(task: &Task, columns: &[Option<usize>], u: &[f64]) -> Vec<Vec3> {
-    let displacement = |column: &Option<usize>| column.map_or_else(Vec3::zeros, |c| Vec3::new(u[c], u[c + 1], u[c + 2]));
+    let displacement =
+        |column: &Option<usize>| column.map_or_else(Vec3::zeros, |c| Vec3::new(u[c], u[c + 1], u[c + 2]));
     let farthest = columns.iter().map(|c| displacement(c).norm()).fold(0.0, f64::max);
     let part = (task.cap / farthest.max(f64::MIN_POSITIVE)).min(1.0);
     task.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * part).collect()

@@ -47,7 +47,7 @@ pub fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Option<(f64, (usize, usiz
     }
     let edges = (0..hull.len()).map(|i| (hull[i], hull[(i + 1) % hull.len()]));
     let inside = |(a, b): (usize, usize)| {
-        let along = ((x[b].x - x[a].x).powi(2) + (x[b].y - x[a].y).powi(2)).sqrt();
+        let along = libm::hypot(x[b].x - x[a].x, x[b].y - x[a].y);
         (left(x[a], x[b], at) / along, (a, b))
     };
     edges.map(inside).min_by(|p, q| p.0.total_cmp(&q.0))

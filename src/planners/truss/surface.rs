@@ -90,7 +90,8 @@ impl Surface {
                 continue;
             }
             let found = foot(triangle);
-            if found.distance < best.distance || (found.distance == best.distance && triangle < best.triangle) {
+            if found.distance < best.distance || (found.distance == best.distance && triangle < best.triangle)
+            {
                 best = found;
             }
         }
