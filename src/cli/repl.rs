@@ -1,7 +1,7 @@
 //! `modl repl` and `modl -e`: a session with a person, a pipe, or the command line.
 
 use super::arguments::Globals;
-use super::disk::{FILE_BYTES_MAX, Project, read_at_most};
+use super::disk::{self, FILE_BYTES_MAX, Project};
 use super::editor::{Lines, Typed};
 use super::terminal::{Terminal, interruptible, listen_for_cancel, listen_for_interrupt, print, print_error};
 use super::{CallError, Ending, output, program, report, show};
@@ -64,8 +64,7 @@ pub fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> 
         if let Some(name) = &load {
             talk.load(name);
         }
-        let bytes = read_at_most(io::stdin().lock(), FILE_BYTES_MAX)
-            .map_err(|e| CallError(format!("standard input {e}")))?;
+        let bytes = disk::read(Path::new("-"), FILE_BYTES_MAX)?;
         let text =
             String::from_utf8(bytes).map_err(|_| CallError("standard input is not UTF-8 text".into()))?;
         talk.read_through(&text);
