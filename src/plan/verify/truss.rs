@@ -10,6 +10,7 @@ use super::ledger::{Ledger, lower};
 use super::truss_standing::Standing;
 use super::{truss_distance, truss_lengths, truss_standing};
 use crate::geometry::Vec3;
+use crate::interrupt;
 use crate::plan::{CheckKind, Failure, Ground, NodePaths, Plan, Status, Verdict, Way, World, Worst};
 use crate::robot::Strut;
 use crate::units::{Dimension, quantity};
@@ -44,6 +45,7 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut standing = Standing::new(&judged);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
     for (i, knot) in paths.knots.iter().enumerate().skip(1) {
+        interrupt::checkpoint();
         let begins = paths.knots[i - 1].time;
         let leg = Leg {
             from: places[i - 1].clone(),

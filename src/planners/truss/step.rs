@@ -10,6 +10,7 @@ use super::bound::Bound;
 use super::nearby;
 use super::structure::Structure;
 use crate::geometry::Vec3;
+use crate::interrupt;
 use crate::optimize::linear::Unsolved;
 use crate::optimize::quadratic::{Problem, quadratic_program};
 use std::collections::BTreeMap;
@@ -69,6 +70,7 @@ pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
     let mut rows: BTreeMap<Bound, f64> = memory.iter().map(|bound| (*bound, INSIDE * truss.unit)).collect();
     let asked = |rows: &BTreeMap<Bound, f64>| rows.keys().copied().collect::<Vec<_>>();
     for _ in 0..ROUNDS_MAX {
+        interrupt::checkpoint();
         let y = match quadratic_program(&problem(task, &columns, &rows)) {
             Ok(u) => moved(task, &columns, &u),
             Err(Unsolved::Infeasible | Unsolved::Unbounded) => return Err(Stuck::Infeasible(asked(&rows))),
