@@ -1,8 +1,7 @@
 //! What every file sees without a `use`: the built-in functions and the records that they give.
 //!
 //! Rust supplies the bodies. This file is the only place where a built-in is declared: the type
-//! checker, completion, the reference pages and the tests read it. A declaration whose
-//! documentation says "Not yet available." can be checked but not run.
+//! checker, completion, the reference pages and the tests read it.
 //!
 //! Three things are particular here. `T: Quantity` stands for `Int` or any quantity (an `Int` among
 //! numbers becomes a `Number`). `Any` takes a value of any type. A variadic parameter (`...`) takes

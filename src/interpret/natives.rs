@@ -1,7 +1,7 @@
 //! The bodies of the built-ins: the only bridge between the wings.
 //!
 //! What a built-in is called, takes and gives is declared in `stdlib/prelude.mod`; a test fails
-//! where that and these tables disagree. What is declared and missing here is not available yet.
+//! where that and these tables disagree.
 
 use super::call::Call;
 use super::interpreter::Interpreter;

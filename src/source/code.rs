@@ -85,7 +85,6 @@ codes! {
     SIZE_LIMIT = "E0505", "a value larger than the limit";
     BAD_VALUE = "E0506", "a value that the function cannot take";
     EXPECTATION = "E0507", "an expectation that does not hold";
-    NOT_YET = "E0508", "a built-in that is not available yet";
     // E06xx: verification.
     COLLISION = "E0601", "two modules meet";
     FALL = "E0602", "the robot falls";

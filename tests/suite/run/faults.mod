@@ -55,11 +55,3 @@ expect 1 + 1 == 3
 expect 1mm > 2mm, "too short"
 //     ^^^^^^^^^ E0507 too short
 
---- a built-in that is not there yet ends its statement only
-use std.shapes.cube
-use std.truss.PneumaticReel
-truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)
-print(morph(Pyramid, cube(edge: 2m)).rms)
-//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0508 `morph` is not available yet
-print("on")
-//> on
