@@ -14,6 +14,7 @@ use super::meeting::Solids;
 use super::plane::{Corners, Plane, Point as Cell, Stroke, across, bond, cell};
 use super::rearrange::{Goal, Panels, pair, rearranged};
 use super::target::Target;
+use crate::planners::random::Dice;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How often growth that is stuck takes panels away before it begins anew.
@@ -98,7 +99,7 @@ pub fn sheets(
         return Err(NoRefolding::Counts);
     }
     let mut left = settings.budget / 2;
-    let mut random = Random(settings.seed);
+    let mut random = Random(Dice(settings.seed));
     let mut pairs: Vec<(usize, Pair)> = Vec::new();
     while left > 0 {
         crate::interrupt::checkpoint();
@@ -575,14 +576,11 @@ fn groups(target: &Target, gone: impl Fn(usize) -> bool, first: impl Iterator<It
     groups
 }
 
-/// SplitMix64.
-struct Random(u64);
+/// Choices among few: the remainder prefers none noticeably.
+struct Random(Dice);
 
 impl Random {
     fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((x ^ (x >> 31)) % limit as u64) as usize
+        (self.0.word() % limit as u64) as usize
     }
 }

@@ -2,6 +2,7 @@
 
 use super::layout::Layout;
 use super::steps;
+use crate::planners::random::Dice;
 
 /// Random orders are worse where they take more by this part.
 const TOL_EQUAL: f64 = 1e-9;
@@ -31,10 +32,7 @@ pub fn sample(
     let mut found = Sample { orders, worse: 0, least: f64::INFINITY, mean: 0.0, greatest: f64::NEG_INFINITY };
     for _ in 0..orders {
         crate::interrupt::checkpoint();
-        // Fisher and Yates.
-        for last in (1..order.len()).rev() {
-            order.swap(last, dice.below(last + 1));
-        }
+        dice.shuffle(&mut order);
         let taken = takes(&steps::of_order(layout, &order));
         found.worse += u64::from(taken > reference * (1.0 + TOL_EQUAL));
         found.least = found.least.min(taken);
@@ -42,17 +40,4 @@ pub fn sample(
         found.mean += taken / orders as f64;
     }
     found
-}
-
-/// SplitMix64: a seed, and ever the same numbers.
-struct Dice(u64);
-
-impl Dice {
-    /// A number below `limit`, which is far below the range of a word: none is noticeably preferred.
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((u128::from(x ^ (x >> 31)) * limit as u128) >> 64) as usize
-    }
 }

@@ -1,10 +1,10 @@
 //! Two chains become one: their ends meet, and a bond that is none of a snake is let go.
 
 use super::closing::{self, Loop, Manner};
-use super::random::Dice;
 use super::robot::{Bond, Dock, FACES, GAMMA, RED};
 use super::state::{Joints, State};
 use super::sweep::Scene;
+use crate::planners::random::Dice;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Two free red docks of different chains.

@@ -1,12 +1,12 @@
 //! Opening a tangle: joints turn straight one after the other, as far as they are free to; where none
 //! is, the robot is shaken so that it spreads.
 
-use super::random::Dice;
 use super::robot::GAMMA;
 use super::state::State;
 use super::sweep::APART;
 use super::tree::JointRef;
 use super::turn;
+use crate::planners::random::Dice;
 use std::f64::consts::FRAC_PI_4;
 
 /// Balls of single turns stay a little farther apart than those of sweeps, so that these may begin there.

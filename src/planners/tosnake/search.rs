@@ -3,12 +3,12 @@
 use super::closing::Manner;
 use super::merging::{self, Pair};
 use super::opening;
-use super::random::Dice;
 use super::robot::{GAMMA, Robot};
 use super::shortening::shortened;
 use super::sound;
 use super::state::State;
 use super::{Found, Progress, Refusal, Settings};
+use crate::planners::random::Dice;
 use std::f64::consts::TAU;
 
 /// How pairs of ends are tried: in which manner, from how far a posture of their own, and how many of

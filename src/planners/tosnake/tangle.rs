@@ -1,12 +1,12 @@
 //! Tangles to unwind: a straight snake that does random things, all of which it can do.
 
 use super::near;
-use super::random::Dice;
 use super::rigid::{Rigid, Vec3};
 use super::robot::{Bond, DOCKS, Dock, FACES, GAMMA, Robot, mate};
 use super::sweep::APART;
 use super::tree::{JointRef, Tree};
 use super::turn;
+use crate::planners::random::Dice;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Of so many actions one docks, and one lets go; the others turn a joint.

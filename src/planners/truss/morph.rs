@@ -7,6 +7,7 @@ use super::step::{CUSHION, Memory, Stuck, Task, step};
 use super::structure::Structure;
 use super::surface;
 use crate::geometry::Vec3;
+use crate::planners::random::Dice;
 use nalgebra::UnitQuaternion;
 use std::f64::consts::TAU;
 
@@ -70,7 +71,7 @@ pub fn morph(
         let short = Wish { steps_max: SCREEN.min(wish.steps_max), ..wish.clone() };
         let mut dice = Dice(wish.seed);
         for i in 0..=wish.orientations {
-            let turn = if i == 0 { UnitQuaternion::identity() } else { dice.turn() };
+            let turn = if i == 0 { UnitQuaternion::identity() } else { turn(&mut dice) };
             let tried = towards(truss, start, &faces, &placed(&turn), &short, going);
             if tried.distance.both() < best.0 {
                 best = (tried.distance.both(), turn);
@@ -142,23 +143,10 @@ fn towards(
     Morph { steps, start: first, distance: best.1, end }
 }
 
-/// SplitMix64: a seed, and ever the same numbers.
-struct Dice(u64);
-
-impl Dice {
-    /// Between 0 and 1.
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Every orientation alike (Shoemake).
-    fn turn(&mut self) -> UnitQuaternion<f64> {
-        let (u, v, w) = (self.roll(), TAU * self.roll(), TAU * self.roll());
-        let ((sv, cv), (sw, cw)) = (libm::sincos(v), libm::sincos(w));
-        let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
-        UnitQuaternion::new_normalize(nalgebra::Quaternion::new(b * cw, a * sv, a * cv, b * sw))
-    }
+/// Every orientation alike (Shoemake).
+fn turn(dice: &mut Dice) -> UnitQuaternion<f64> {
+    let (u, v, w) = (dice.part(), TAU * dice.part(), TAU * dice.part());
+    let ((sv, cv), (sw, cw)) = (libm::sincos(v), libm::sincos(w));
+    let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
+    UnitQuaternion::new_normalize(nalgebra::Quaternion::new(b * cw, a * sv, a * cv, b * sw))
 }

@@ -21,6 +21,11 @@ impl Dice {
         (self.word() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
+    /// From 0 on, below 1.
+    pub fn part(&mut self) -> f64 {
+        (self.word() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
     pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for last in (1..list.len()).rev() {
             list.swap(last, self.below(last + 1));
