@@ -1,74 +1,136 @@
-//! Unwinding: how many of the configurations in a folder come to a snake, and how long that takes.
+//! Unwinding: how many configurations come to a snake, how long that takes, and whether the judge and a
+//! second replay let every plan through.
 //!
-//! `cargo bench --bench tosnake -- FOLDER`: all `.rofi` files below it, in order of their size, each
-//! with the default settings. `--judge` puts every plan before the judge, through the language;
-//! `--seed=N`, `--budget=N` are the planner's. Without a folder: tangles of our own.
+//! `cargo bench --bench tosnake -- FOLDER`: all `.rofi` files below it, in order of their size.
+//! `--tangles=N` instead: N tangles of our own, as many from each line of the table; the number of a
+//! tangle is its seed. Each is planned as a program would, with the judge, within `--limit=60` seconds of
+//! the processor; `--replay=K` replays every K-th plan in steps of a degree. `--seed=N` and `--budget=N`
+//! are the planner's. `--out=FILE` keeps what was found, and goes on where it was ended; `--peer=FILE`
+//! prints another planner's times beside, from a table with `instance`, `success` and `cpu_s`.
+//! `--memory` tells the most memory that was taken.
+
+#[path = "../tests/replay.rs"]
+mod replay;
 
 use modl::interpret::{self, Host, Mode, Options, WriteError};
-use modl::planners::tosnake::assembly::{of_world, to_world};
-use modl::planners::tosnake::{Refusal, Settings, Unsound, sound, tangle, unwind};
-use modl::robot::rofi;
+use modl::plan::{Body, file};
 use modl::source::{Files, ReadError};
+use replay::Replay;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// The allocator that the tool has.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 /// Modules at which a new line of the table begins.
-const BUCKETS: [usize; 6] = [0, 5, 50, 100, 150, 200];
+const BUCKETS: [usize; 7] = [0, 5, 50, 100, 150, 200, usize::MAX];
 
-struct Row {
+/// Lines that tangles of our own are for.
+const TANGLED: [[usize; 2]; 4] = [[5, 50], [50, 100], [100, 150], [150, 200]];
+
+/// Something to unwind.
+struct Instance {
+    name: String,
     modules: usize,
-    /// Seconds; `None` where there was no plan.
-    planned: Option<f64>,
-    /// Whether the file says what can't be: modules in each other, or in pieces.
-    unsound: bool,
+    /// How a program names it.
+    expression: String,
+    text: String,
+}
+
+/// What came of it, as it is kept: one line of words.
+#[derive(Clone, Default)]
+struct Row {
+    name: String,
+    modules: usize,
+    /// Seconds of the processor, for the plan and for the judge.
+    planning: f64,
+    judging: f64,
+    /// `proved`, or why not.
+    outcome: String,
+    docks: usize,
+    steps: usize,
+    /// Seconds that the motion takes, and radians that all joints turn together.
+    makespan: f64,
+    travel: f64,
+    /// Empty where it was not replayed.
+    replay: String,
+}
+
+struct Asked {
+    seed: u64,
+    budget: u64,
+    limit: f64,
+    replay: usize,
 }
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
-    let option = |name: &str| args.iter().find_map(|a| a.strip_prefix(name)?.parse::<u64>().ok());
-    let settings = Settings {
-        seed: option("--seed=").unwrap_or(0),
-        budget: option("--budget=").unwrap_or(Settings::default().budget),
-        ..Settings::default()
+    let word = |name: &str| args.iter().find_map(|a| a.strip_prefix(name));
+    let number = |name: &str, otherwise: u64| word(name).and_then(|w| w.parse().ok()).unwrap_or(otherwise);
+    let asked = Asked {
+        seed: number("--seed=", 0),
+        budget: number("--budget=", 5_000_000),
+        limit: number("--limit=", 60) as f64,
+        replay: number("--replay=", 0) as usize,
     };
-    let judge = args.iter().any(|a| a == "--judge");
     let mut files = Vec::new();
     args.iter().filter(|a| !a.starts_with("--")).for_each(|a| collect(Path::new(a), &mut files));
-    let mut worlds: Vec<(String, String, Option<rofi::World>)> = files
-        .iter()
-        .map(|path| {
-            let text = std::fs::read_to_string(path).expect("a text");
-            let name = path.file_stem().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-            let world = rofi::read(&text).ok();
-            (name, text, world)
-        })
-        .collect();
-    if worlds.is_empty() {
-        worlds = tangles();
+    let mut instances: Vec<Instance> = files.iter().filter_map(|path| instance(path)).collect();
+    if instances.is_empty() {
+        instances = tangles(number("--tangles=", 20) as usize);
     }
-    worlds.sort_by_key(|(name, _, world)| (world.as_ref().map_or(0, |w| w.modules.len()), name.clone()));
-    println!("| configuration | modules | planning | docks | steps | poses | judging |");
-    println!("|---|---|---|---|---|---|---|");
-    let rows: Vec<Row> = worlds
-        .iter()
-        .filter_map(|(name, text, world)| row(name, text, world.as_ref()?, &settings, judge))
-        .collect();
-    table(&rows);
+    instances.sort_by(|a, b| (a.modules, &a.name).cmp(&(b.modules, &b.name)));
+    let peer = word("--peer=").map(peers).unwrap_or_default();
+    let out = word("--out=");
+    let known = out.map(kept).unwrap_or_default();
+    println!(
+        "| configuration | modules | outcome | planning | peer | judging | docks | steps | makespan | turns | replay |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    let mut rows = Vec::new();
+    for (index, instance) in instances.iter().enumerate() {
+        let row = known.get(&instance.name).cloned().unwrap_or_else(|| {
+            let replays = asked.replay > 0 && index % asked.replay == 0;
+            let row = planned(instance, &asked, replays);
+            if let Some(out) = out {
+                keep(out, &row);
+            }
+            row
+        });
+        print(&row, peer.get(&row.name));
+        rows.push(row);
+    }
+    table(&rows, &peer);
+    if args.iter().any(|a| a == "--memory") {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        println!(
+            "\n{}",
+            status.lines().find(|line| line.starts_with("VmHWM")).unwrap_or("memory: not told here")
+        );
+    }
 }
 
-/// Tangles of our own: for every ten modules one of 1,000 and one of 6,000 actions.
-fn tangles() -> Vec<(String, String, Option<rofi::World>)> {
-    let sizes = (10..200).step_by(10).flat_map(|n| [(n, 1_000), (n, 6_000)]);
-    let one = |(modules, actions)| {
-        let world = to_world(&tangle::tangled(modules, actions, modules as u64));
-        (format!("tangle({modules}, {actions})"), rofi::write(&world), Some(world))
+fn instance(path: &Path) -> Option<Instance> {
+    let text = std::fs::read_to_string(path).expect("a text");
+    let modules = modl::robot::rofi::read(&text).ok()?.modules.len();
+    let name = path.file_stem()?.to_string_lossy().into_owned();
+    Some(Instance { name, modules, expression: "load(\"x.rofi\")".into(), text })
+}
+
+/// As many for each line of the table, evenly spread over its sizes, 1,000 and 6,000 actions in turns.
+fn tangles(count: usize) -> Vec<Instance> {
+    let each = count.div_ceil(TANGLED.len());
+    let one = |index: usize| {
+        let [low, high] = TANGLED[index / each];
+        let modules = low + index % each * (high - low) / each;
+        let actions = [1_000, 6_000][index % 2];
+        let expression = format!("tangle({modules}, {actions}, seed: {index})");
+        Instance { name: format!("{modules}-{actions}-{index}"), modules, expression, text: String::new() }
     };
-    sizes.map(one).collect()
+    (0..each * TANGLED.len()).map(one).collect()
 }
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) {
@@ -82,45 +144,47 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-fn row(name: &str, text: &str, world: &rofi::World, settings: &Settings, judge: bool) -> Option<Row> {
-    let mut robot = of_world(world);
-    let modules = robot.modules();
-    let start = Instant::now();
-    let found = sound::mend(&mut robot)
-        .map_err(Refusal::Unsound)
-        .and_then(|_| unwind(&robot, settings, &mut |_| true));
-    let time = start.elapsed().as_secs_f64();
-    let unsound = matches!(found, Err(Refusal::Unsound(Unsound::Loose(_) | Unsound::Overlap(..))));
-    match &found {
-        Ok(found) => {
-            let judged = if judge { judged(text, settings) } else { "".into() };
-            println!(
-                "| {name} | {modules} | {time:.3} s | {} | {} | {} | {judged} |",
-                found.progress.made,
-                found.steps.len(),
-                found.progress.work
-            );
+/// Plans one in the language, and judges.
+fn planned(instance: &Instance, asked: &Asked, replays: bool) -> Row {
+    let Asked { seed, budget, limit, .. } = asked;
+    let emit = if replays { "emit(p, \"p.plan.json\")\n" } else { "" };
+    let program = format!(
+        "use std.rofi.{{Rofi, tangle}}\nlet t = {}\nprint(\"begin\")\nlet p = tosnake(t, seed: {seed}, budget: \
+         {budget}, timeout: {limit}s)\nprint(\"plan\", p.docks, p.steps, p.duration / 1s, p.joint_travel / 1rad, \
+         verify(p).ok)\n{emit}save(t, \"end.rofi\")\n",
+        instance.expression
+    );
+    let files = Memory(vec![("main.mod", program), ("x.rofi", instance.text.clone())]);
+    let checked = modl::check::check(&files, "main.mod");
+    let mut host = Clock::default();
+    let outcome = interpret::run(&checked, Mode::Run, &files, &mut host, &Options::default());
+    let mut row = Row { name: instance.name.clone(), modules: instance.modules, ..Row::default() };
+    row.planning = host.planned.unwrap_or(host.ended) - host.begun;
+    row.outcome = match &host.plan[..] {
+        [docks, steps, makespan, travel, ok] => {
+            let number = |word: &str| word.parse::<f64>().expect("the program prints numbers");
+            row.judging = host.ended - host.begun - row.planning;
+            (row.docks, row.steps) = (number(docks) as usize, number(steps) as usize);
+            (row.makespan, row.travel) = (number(makespan), number(travel));
+            (if ok == "true" { "proved" } else { "not proved" }).into()
         }
-        Err(refusal) => println!("| {name} | {modules} | {time:.3} s: {refusal:?} | | | | |"),
+        _ => {
+            let errors = outcome.diagnostics.iter().chain(&checked.diagnostics);
+            let errors = errors.filter(|d| d.code.to_string().starts_with('E'));
+            errors.map(|d| format!("{} {}", d.code, d.message)).next().unwrap_or_else(|| "no plan".into())
+        }
+    };
+    if let Some(text) = &host.file {
+        row.replay = replayed(text);
     }
-    Some(Row { modules, planned: found.is_ok().then_some(time), unsound })
+    row
 }
 
-/// Plans again, in the language, and judges.
-fn judged(text: &str, settings: &Settings) -> String {
-    let Settings { seed, budget, .. } = settings;
-    let program = format!(
-        "use std.rofi.Rofi\nlet p = tosnake(load(\"x.rofi\"), seed: {seed}, budget: {budget})\n\
-         print(p.steps)\nprint(verify(p).ok, p.duration)\n"
-    );
-    let files = Memory(vec![("main.mod", program), ("x.rofi", text.to_owned())]);
-    let checked = modl::check::check(&files, "main.mod");
-    let mut host = Clock { lines: Vec::new(), verifying: None, took: 0.0 };
-    let outcome = interpret::run(&checked, Mode::Run, &files, &mut host, &Options::default());
-    match host.lines.last() {
-        Some(line) if line.starts_with("true") => format!("{:.2} s, {line}", host.took),
-        _ => outcome.diagnostics.first().map_or("no plan".into(), |d| d.message.clone()),
-    }
+fn replayed(text: &str) -> String {
+    let plan = file::read(text).expect("it was written to be read");
+    let Body::Tracks(tracks) = &plan.body else { return "no joints".into() };
+    let replay = Replay::new(tracks);
+    replay.judge().and_then(|()| replay.ends_as_snake()).map_or_else(|fault| fault, |()| "agrees".into())
 }
 
 struct Memory(Vec<(&'static str, String)>);
@@ -136,53 +200,156 @@ impl Files for Memory {
     }
 }
 
-/// Takes the time from the announcement of the judge to the next line that is printed.
+/// Reads the clock where the program begins to plan, where the judge begins, and where the plan is there.
+#[derive(Default)]
 struct Clock {
-    lines: Vec<String>,
-    verifying: Option<Instant>,
-    took: f64,
+    begun: f64,
+    planned: Option<f64>,
+    ended: f64,
+    plan: Vec<String>,
+    file: Option<String>,
 }
 
 impl Host for Clock {
     fn print(&mut self, line: &str) {
-        if let Some(begun) = self.verifying.take() {
-            self.took = begun.elapsed().as_secs_f64();
+        self.ended = cpu();
+        match line.strip_prefix("plan ") {
+            Some(words) => self.plan = words.split(' ').map(str::to_owned).collect(),
+            None => self.begun = self.ended,
         }
-        self.lines.push(line.to_owned());
     }
 
-    fn write(&mut self, path: &str, _: &[u8]) -> Result<String, WriteError> {
+    fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
+        // The last thing that is written is not the plan: it makes the program wait for the clock.
+        if path.ends_with(".json") {
+            self.file = String::from_utf8(bytes.to_vec()).ok();
+        }
         Ok(path.to_owned())
     }
 
     fn progress(&mut self, line: &str) {
+        self.ended = cpu();
         if line.starts_with("verifying") {
-            self.verifying = Some(Instant::now());
+            self.planned = Some(self.ended);
         }
+    }
+
+    fn elapsed(&self) -> f64 {
+        cpu()
     }
 }
 
-/// The share that was planned, and times of those, by size.
-fn table(rows: &[Row]) {
+/// Seconds of the processor that the threads of this program took; where the system does not tell, those
+/// of the wall's clock.
+fn cpu() -> f64 {
+    let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+    let took = |task: std::fs::DirEntry| {
+        let text = std::fs::read_to_string(task.path().join("schedstat")).ok()?;
+        text.split(' ').next()?.parse::<f64>().ok()
+    };
+    let all: f64 = tasks.filter_map(took).sum();
+    if all > 0.0 {
+        return 1e-9 * all;
+    }
+    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    now.map_or(0.0, |since| since.as_secs_f64())
+}
+
+/// Times of another planner by name; `None` where it found no plan.
+fn peers(path: &str) -> BTreeMap<String, Option<f64>> {
+    let text = std::fs::read_to_string(path).expect("the table of the other planner");
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().expect("a table has a head");
+    let column = |name: &str| head.iter().position(|h| *h == name).expect("the table has this column");
+    let (instance, success, time) = (column("instance"), column("success"), column("cpu_s"));
+    let row = |words: Vec<&str>| {
+        let name = Path::new(words[instance]).file_stem()?.to_string_lossy().into_owned();
+        Some((name, if words[success] == "1" { words[time].parse().ok() } else { None }))
+    };
+    lines.filter_map(row).collect()
+}
+
+/// What a run before kept.
+fn kept(path: &str) -> BTreeMap<String, Row> {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let row = |line: &str| {
+        let words: Vec<&str> = line.split('\t').collect();
+        let [name, modules, planning, judging, outcome, docks, steps, makespan, travel, replay] = words[..]
+        else {
+            return None;
+        };
+        let row = Row {
+            name: name.into(),
+            modules: modules.parse().ok()?,
+            planning: planning.parse().ok()?,
+            judging: judging.parse().ok()?,
+            outcome: outcome.into(),
+            docks: docks.parse().ok()?,
+            steps: steps.parse().ok()?,
+            makespan: makespan.parse().ok()?,
+            travel: travel.parse().ok()?,
+            replay: replay.into(),
+        };
+        Some((row.name.clone(), row))
+    };
+    text.lines().filter_map(row).collect()
+}
+
+fn keep(path: &str, row: &Row) {
+    let Row { name, modules, planning, judging, outcome, docks, steps, makespan, travel, replay } = row;
+    let file = std::fs::OpenOptions::new().create(true).append(true).open(path);
+    let line = format!(
+        "{name}\t{modules}\t{planning}\t{judging}\t{outcome}\t{docks}\t{steps}\t{makespan}\t{travel}\t{replay}\n"
+    );
+    file.and_then(|mut file| file.write_all(line.as_bytes())).expect("the file can be written");
+}
+
+fn print(row: &Row, peer: Option<&Option<f64>>) {
+    let Row { name, modules, outcome, planning, judging, docks, steps, makespan, travel, replay } = row;
+    let peer = match peer {
+        Some(Some(time)) => format!("{time:.2} s"),
+        Some(None) => "none".into(),
+        None => String::new(),
+    };
+    println!(
+        "| {name} | {modules} | {outcome} | {planning:.3} s | {peer} | {judging:.2} s | {docks} | {steps} | \
+         {makespan:.1} s | {travel:.0} rad | {replay} |"
+    );
+}
+
+/// The share that has a proved plan, and times of those, by size.
+fn table(rows: &[Row], peer: &BTreeMap<String, Option<f64>>) {
     println!();
-    println!("| modules | configurations | can't be | planned | share of the rest | median | p90 | worst |");
-    println!("|---|---|---|---|---|---|---|---|");
+    println!(
+        "| modules | configurations | starts in itself | proved | share | median | p90 | worst | judging, worst | \
+         replayed | disagree | peer |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     for ends in BUCKETS.windows(2) {
         let within: Vec<&Row> = rows.iter().filter(|r| (ends[0]..ends[1]).contains(&r.modules)).collect();
-        let mut times: Vec<f64> = within.iter().filter_map(|r| r.planned).collect();
+        let proved: Vec<&&Row> = within.iter().filter(|r| r.outcome == "proved").collect();
+        let mut times: Vec<f64> = proved.iter().map(|r| r.planning).collect();
         times.sort_by(f64::total_cmp);
-        let (Some(worst), false) = (times.last(), within.is_empty()) else { continue };
-        let unsound = within.iter().filter(|r| r.unsound).count();
+        let Some(worst) = times.last() else { continue };
+        let judging = proved.iter().map(|r| r.judging).fold(0.0, f64::max);
+        let overlapping = within.iter().filter(|r| r.outcome.contains("in each other before")).count();
         let at = |part: f64| times[((times.len() - 1) as f64 * part) as usize];
+        let replayed: Vec<&&&Row> = proved.iter().filter(|r| !r.replay.is_empty()).collect();
+        let disagree = replayed.iter().filter(|r| r.replay != "agrees").count();
+        let met: Vec<&Option<f64>> = within.iter().filter_map(|r| peer.get(&r.name)).collect();
         println!(
-            "| {}-{} | {} | {unsound} | {} | {:.0} % | {:.2} s | {:.2} s | {worst:.2} s |",
+            "| {}-{} | {} | {overlapping} | {} | {:.1} % | {:.2} s | {:.2} s | {worst:.2} s | {judging:.2} s | {} | \
+             {disagree} | {} of {} |",
             ends[0],
-            ends[1] - 1,
+            ends[1].saturating_sub(1),
             within.len(),
-            times.len(),
-            100.0 * times.len() as f64 / (within.len() - unsound).max(1) as f64,
+            proved.len(),
+            100.0 * proved.len() as f64 / within.len() as f64,
             at(0.5),
-            at(0.9)
+            at(0.9),
+            replayed.len(),
+            met.iter().filter(|time| time.is_some()).count(),
+            met.len()
         );
     }
 }

@@ -1675,6 +1675,11 @@ extern type Unwinding is Plan {
 /// Without gravity the robot floats. With it, the plan is made in the same way and then judged with the
 /// base held fast: it is refused where a joint would have to hold more than it can.
 ///
+/// `collisions` other than `motion` choose the paper's own method, to compare with: FABRIK over two
+/// tentacles, and going back over pairs. Collisions are then looked for nowhere (`none`), in the states in
+/// which tips meet (`detection`), or there and in the inverse kinematics (`avoidance`), and never on the
+/// way. Such a plan comes back unjudged; `verify` says what is wrong with it, and `emit` does not write it.
+///
 /// Example:
 /// ```modl
 /// use std.rofi.Ring
@@ -1687,6 +1692,7 @@ extern fn tosnake(
   seed: Int = 0,
   budget: Int = 5_000_000,
   timeout: Time?,
+  collisions: motion | none | detection | avoidance = motion,
 ) -> Unwinding
 
 /// Turns one robot of RoFI modules into another of as many modules: both unwind to a snake, and the
@@ -1707,6 +1713,7 @@ extern fn reconfigure(
   seed: Int = 0,
   budget: Int = 5_000_000,
   timeout: Time?,
+  collisions: motion | none | detection | avoidance = motion,
 ) -> Unwinding
 
 /// What `morph` found.

@@ -1,13 +1,12 @@
 //! Unwinding: plans from the planner before the judge, and replayed a second time with arithmetic of
 //! their own; what is refused; plans that are spoilt.
-#![allow(non_snake_case)]
 
 use crate::desk::{run, run_clean};
+use crate::replay::Replay;
 use crate::suite::MapFiles;
 use modl::interpret::Mode;
 use modl::plan::{self, Body, DockKind, Plan, Tracks};
 use modl::source::code;
-use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Shapes that are no snake, with what they are made of.
 const SHAPES: &str = "
@@ -155,11 +154,44 @@ fn spoilt_plans_do_not_pass() {
         let longest = tracks.tracks.iter_mut().max_by_key(|track| track.segments.len());
         longest.expect("something moves").segments.remove(0);
     });
+    spoil("a robot that lacks a module", &|tracks| {
+        tracks.robot.modules.pop();
+    });
+    spoil("a bond that is let go, and nothing else holds", &|tracks| {
+        let dock = first(DockKind::Dock, tracks);
+        tracks.docks.remove(dock);
+    });
+    spoil("only ends of moves: whoever is between them", &|tracks| {
+        for track in &mut tracks.tracks {
+            for segment in &mut track.segments {
+                // Half a turn off in the middle, and at the ends where it was.
+                let middle = segment.control.len() / 2;
+                segment.control[middle] += 20.0;
+            }
+        }
+    });
     spoil("a joint beyond its range", &|tracks| {
         let tilt = tracks.tracks.iter_mut().find(|track| track.joint.0 % 3 == 0).expect("a tilt moves");
         let middle = tilt.segments[0].control.len() / 2;
         tilt.segments[0].control[middle] += 3.0;
     });
+}
+
+/// The judge proves motions, whatever they are for. That all modules are in the snake is for the replay.
+#[test]
+fn a_snake_that_lacks_a_module_is_none() {
+    let mut plan = planned("Star");
+    let Body::Tracks(tracks) = &mut plan.body else { panic!("a plan of joints") };
+    Replay::new(tracks).ends_as_snake().expect("as it was planned");
+    let last = |kind: DockKind, tracks: &Tracks| {
+        tracks.docks.iter().rposition(|dock| dock.kind == kind).expect("there is one")
+    };
+    // Before the last leg docked it hung on by another bond, and everything else held as it does in the end.
+    let undock = last(DockKind::Undock, tracks);
+    tracks.docks.remove(undock);
+    let dock = last(DockKind::Dock, tracks);
+    tracks.docks.remove(dock);
+    assert!(Replay::new(tracks).ends_as_snake().is_err());
 }
 
 #[test]
@@ -207,211 +239,4 @@ fn the_shapes_of_the_paper_unwind() {
         replay.judge().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
         replay.ends_as_snake().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
     }
-}
-
-/// A plan replayed with formulas of the RoFI project, in steps of at most a degree.
-struct Replay<'a> {
-    tracks: &'a Tracks,
-}
-
-type Matrix = [[f64; 4]; 4];
-
-impl<'a> Replay<'a> {
-    fn new(tracks: &'a Tracks) -> Replay<'a> {
-        Replay { tracks }
-    }
-
-    /// Positions of a joint, by de Casteljau's construction.
-    fn position(&self, joint: usize, t: f64) -> f64 {
-        let start = self.tracks.start.joints[joint];
-        let Some(track) = self.tracks.tracks.iter().find(|track| track.joint.0 as usize == joint) else {
-            return start;
-        };
-        let Some(segment) = track.segments.iter().rev().find(|s| s.start <= t) else { return start };
-        let u = ((t - segment.start) / (segment.end - segment.start)).min(1.0);
-        let mut points = segment.control.clone();
-        while points.len() > 1 {
-            points = points.windows(2).map(|w| w[0] + u * (w[1] - w[0])).collect();
-        }
-        points[0]
-    }
-
-    fn bonds(&self, t: f64, inclusive: bool) -> Vec<bool> {
-        let mut bonds = self.tracks.start.bonds.clone();
-        for dock in self.tracks.docks.iter().filter(|d| d.time < t || (inclusive && d.time == t)) {
-            bonds[dock.bond] = dock.kind == DockKind::Dock;
-        }
-        bonds
-    }
-
-    /// Poses of both shoes of every module in units of the pitch, the first at the origin; an error
-    /// where the modules do not hang together, or a bond that holds does not meet.
-    fn shoes(&self, t: f64, bonds: &[bool]) -> Result<Vec<Option<Matrix>>, String> {
-        let robot = &self.tracks.robot;
-        let mut shoes: Vec<Option<Matrix>> = vec![None; 2 * robot.modules.len()];
-        let identity = across(0.0, 0.0, 0.0);
-        shoes[0] = Some(times(&identity, &inverse(&identity)));
-        for _ in 0..2 * shoes.len() {
-            for module in 0..robot.modules.len() {
-                let [alpha, gamma, beta] = [0, 1, 2].map(|joint| self.position(3 * module + joint, t));
-                let X = across(alpha, beta, gamma);
-                match (shoes[2 * module], shoes[2 * module + 1]) {
-                    (Some(a), None) => shoes[2 * module + 1] = Some(times(&a, &X)),
-                    (None, Some(b)) => shoes[2 * module] = Some(times(&b, &inverse(&X))),
-                    _ => {}
-                }
-            }
-            for (bond, _) in robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds) {
-                let (from, to, X) = self.mate(bond);
-                match (shoes[from], shoes[to]) {
-                    (Some(a), None) => shoes[to] = Some(times(&a, &X)),
-                    (None, Some(b)) => shoes[from] = Some(times(&b, &inverse(&X))),
-                    _ => {}
-                }
-            }
-        }
-        if shoes.iter().any(Option::is_none) {
-            return Err(format!("at {t} it is in pieces"));
-        }
-        for (bond, _) in robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds) {
-            let (from, to, X) = self.mate(bond);
-            let (Some(a), Some(b)) = (shoes[from], shoes[to]) else { continue };
-            let wanted = times(&a, &X);
-            let missing = (0..16).map(|i| (wanted[i / 4][i % 4] - b[i / 4][i % 4]).abs()).fold(0.0, f64::max);
-            if missing > 1e-6 {
-                return Err(format!("at {t} docks are {missing} apart"));
-            }
-        }
-        Ok(shoes)
-    }
-
-    /// The shoes of a bond, and the pose of the second against the first.
-    fn mate(&self, bond: &modl::robot::Bond) -> (usize, usize, Matrix) {
-        let robot = &self.tracks.robot;
-        let shoe = |port: modl::robot::PortRef| {
-            let name = &robot.module_type(port.module).ports[port.port].name;
-            (2 * port.module + usize::from(name.starts_with('b')), face(&name[2..]))
-        };
-        let ((from, F), (to, G)) = (shoe(bond.a), shoe(bond.b));
-        let quarter = about_z(FRAC_PI_2 * f64::from(bond.turn));
-        let X = times(&times(&times(&F, &quarter), &shift(-1.0)), &times(&about_x(PI), &inverse(&G)));
-        (from, to, X)
-    }
-
-    /// Walks through the whole plan.
-    fn judge(&self) -> Result<(), String> {
-        let mut instants: Vec<f64> = self.tracks.instants();
-        instants.dedup();
-        for ends in instants.windows(2) {
-            let farthest = (0..self.tracks.start.joints.len())
-                .map(|joint| (self.position(joint, ends[1]) - self.position(joint, ends[0])).abs())
-                .fold(0.0, f64::max);
-            // Smooth motions are up to twice as fast as on average.
-            let steps = (2.0 * farthest.to_degrees()).ceil().max(1.0) as usize;
-            let bonds = self.bonds(ends[0], true);
-            for step in 0..=steps {
-                let t = ends[0] + (ends[1] - ends[0]) * step as f64 / steps as f64;
-                self.state(t, &bonds)?;
-            }
-            // At the instant of docking both the old and the new bonds meet.
-            let mut both = self.bonds(ends[1], false);
-            for dock in self.tracks.docks.iter().filter(|d| d.time == ends[1] && d.kind == DockKind::Dock) {
-                both[dock.bond] = true;
-            }
-            self.state(ends[1], &both)?;
-        }
-        Ok(())
-    }
-
-    fn state(&self, t: f64, bonds: &[bool]) -> Result<(), String> {
-        for module in 0..self.tracks.robot.modules.len() {
-            for tilt in [3 * module, 3 * module + 2] {
-                if self.position(tilt, t).abs() > FRAC_PI_2 + 1e-9 {
-                    return Err(format!("at {t} a tilt is beyond its range"));
-                }
-            }
-        }
-        let centres: Vec<[f64; 3]> = self
-            .shoes(t, bonds)?
-            .into_iter()
-            .flatten()
-            .map(|shoe| [shoe[0][3], shoe[1][3], shoe[2][3]])
-            .collect();
-        for (i, a) in centres.iter().enumerate() {
-            for b in &centres[i + 1..] {
-                let squared: f64 = (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum();
-                if squared < 0.999 * 0.999 {
-                    return Err(format!("at {t} balls are {} apart", squared.sqrt()));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// One chain of all modules over red docks in orientation N, straight.
-    fn ends_as_snake(&self) -> Result<(), String> {
-        let (robot, end) = (&self.tracks.robot, self.tracks.duration);
-        let holding = self.bonds(end, true);
-        let held: Vec<_> = robot.bonds.iter().zip(&holding).filter(|(_, h)| **h).map(|(b, _)| b).collect();
-        if held.len() + 1 != robot.modules.len() {
-            return Err(format!("{} bonds hold in the end", held.len()));
-        }
-        for bond in held {
-            let red = [bond.a, bond.b]
-                .iter()
-                .all(|port| robot.module_type(port.module).ports[port.port].name.ends_with("minus_z"));
-            if !red || bond.turn != 0 {
-                return Err("a bond is none of a snake".into());
-            }
-        }
-        let bent = (0..self.tracks.start.joints.len()).find(|&joint| {
-            let turns = self.position(joint, end) / (2.0 * PI);
-            (turns - turns.round()).abs() > 1e-9 || (joint % 3 != 1 && turns.abs() > 1e-9)
-        });
-        bent.map_or(Ok(()), |joint| Err(format!("joint {joint} is not straight in the end")))
-    }
-}
-
-fn across(alpha: f64, beta: f64, gamma: f64) -> Matrix {
-    let half = [[-1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-    let first = times(&about_x(alpha), &about_z(gamma));
-    times(&times(&first, &shift(1.0)), &times(&half, &about_x(-beta)))
-}
-
-fn about_x(angle: f64) -> Matrix {
-    let (s, c) = libm::sincos(angle);
-    [[1.0, 0.0, 0.0, 0.0], [0.0, c, -s, 0.0], [0.0, s, c, 0.0], [0.0, 0.0, 0.0, 1.0]]
-}
-
-fn about_z(angle: f64) -> Matrix {
-    let (s, c) = libm::sincos(angle);
-    [[c, -s, 0.0, 0.0], [s, c, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-}
-
-fn shift(z: f64) -> Matrix {
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z], [0.0, 0.0, 0.0, 1.0]]
-}
-
-/// RoFI's frame of a dock.
-fn face(name: &str) -> Matrix {
-    match name {
-        "plus_x" => {
-            [[0.0, 0.0, -1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-        }
-        "minus_x" => {
-            [[0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-        }
-        _ => about_x(0.0),
-    }
-}
-
-fn times(a: &Matrix, b: &Matrix) -> Matrix {
-    let cell = |i: usize, j: usize| (0..4).map(|k| a[i][k] * b[k][j]).sum();
-    std::array::from_fn(|i| std::array::from_fn(|j| cell(i, j)))
-}
-
-fn inverse(a: &Matrix) -> Matrix {
-    let back = |i: usize| -> f64 { -(0..3).map(|k| a[k][i] * a[k][3]).sum::<f64>() };
-    let row = |i: usize| [a[0][i], a[1][i], a[2][i], back(i)];
-    [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
 }

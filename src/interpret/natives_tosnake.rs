@@ -12,12 +12,12 @@ use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
 use crate::plan::{self, CauseId, Ground, World};
 use crate::planners::tosnake::assembly::{NoRofi, translated};
-use crate::planners::tosnake::{self, Found, Progress, Refusal, Settings, Step, Unsound};
-use crate::source::{Diagnostic, code};
+use crate::planners::tosnake::{self, Collisions, Found, Progress, Refusal, Settings, Step, Unsound};
+use crate::source::{Diagnostic, Span, code};
 use crate::units::Dimension;
 use std::rc::Rc;
 
-pub const TABLE: &[Native] = &[on_run("tosnake", 5, unwind), on_run("reconfigure", 6, reconfigure)];
+pub const TABLE: &[Native] = &[on_run("tosnake", 6, unwind), on_run("reconfigure", 7, reconfigure)];
 
 /// What the planner says of its plan.
 #[derive(Clone, Copy, Default)]
@@ -53,6 +53,7 @@ struct Options {
     budget: u64,
     /// Seconds for the whole search.
     timeout: Option<f64>,
+    collisions: Collisions,
 }
 
 impl Options {
@@ -71,14 +72,20 @@ impl Options {
         let timeout = call.positive_if(first + 3, "a timeout")?;
         let seed = call.count(first + 1, "a seed")? as u64;
         let budget = call.count(first + 2, "a budget")? as u64;
-        Ok(Options { world, seed, budget, timeout })
+        let collisions = match call.word(first + 4) {
+            Some("none") => Collisions::None,
+            Some("detection") => Collisions::Detection,
+            Some("avoidance") => Collisions::Avoidance,
+            _ => Collisions::Motion,
+        };
+        Ok(Options { world, seed, budget, timeout, collisions })
     }
 }
 
 fn unwind(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let options = Options::of(call, 1)?;
     match unwound(interpreter, call, 0, &options)? {
-        Some(planned) => judged(interpreter, call, planned),
+        Some(planned) => judged(interpreter, call, planned, &options),
         None => Ok(Value::Unknown),
     }
 }
@@ -114,11 +121,14 @@ fn reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let causes = there.causes.iter().chain(&back.causes).copied().collect();
     let actions = there.actions + back.actions;
     let planned = Planned::new(there.robot, there.body, plan, causes, actions).with_unwound(unwound);
-    judged(interpreter, call, planned)
+    judged(interpreter, call, planned, &options)
 }
 
-/// The plan, if the judge lets it through.
-fn judged(interpreter: &mut Interpreter, call: &Call, planned: Planned) -> Eval<Value> {
+/// The plan, if the judge lets it through; of the paper's method whatever he would say of it.
+fn judged(interpreter: &mut Interpreter, call: &Call, planned: Planned, options: &Options) -> Eval<Value> {
+    if options.collisions != Collisions::Motion {
+        return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
+    }
     let settings = interpreter.judge_settings();
     let verdict = interpreter.judge(&planned, settings, None);
     if !verdict.ok() {
@@ -162,7 +172,8 @@ fn unwound(
             }
             !stage.cancelled() && options.timeout.is_none_or(|most| stage.elapsed() - begun <= most)
         };
-        let settings = Settings { seed: options.seed, budget: options.budget, ..Settings::default() };
+        let Options { seed, budget, collisions, .. } = *options;
+        let settings = Settings { seed, budget, collisions, ..Settings::default() };
         tosnake::unwind(&translated.robot, &settings, &mut watch)
     };
     if matches!(found, Err(Refusal::Stopped(_))) && interpreter.stage.cancelled() {
@@ -184,7 +195,13 @@ fn unwound(
     let told = told(&translated.robot, &found);
     let (mut planned, _) =
         interpreter.assemble_plan(design, robot.clone(), scheduled, &causes, options.world);
-    planned.plan.provenance.planner = "tosnake".into();
+    planned.plan.provenance.planner = match options.collisions {
+        Collisions::Motion => "tosnake",
+        Collisions::None => "tosnake, collisions: none",
+        Collisions::Detection => "tosnake, collisions: detection",
+        Collisions::Avoidance => "tosnake, collisions: avoidance",
+    }
+    .into();
     planned.plan.provenance.seed = Some(options.seed);
     planned.plan.provenance.budget = Some(options.budget);
     Ok(Some(planned.with_unwound(told)))
@@ -241,19 +258,32 @@ fn refused(call: &Call, index: usize, robot: &Robot, refusal: &Refusal) -> Stop 
                 format!("{a} and {b} are connected and do not meet: {missing:.3} of a pitch is missing");
             fault(code::NO_WAY, at, message, "a loop that is open")
         }
-        Refusal::Budget(progress) | Refusal::Stopped(progress) => {
-            let Progress { needed, made, tried, work } = progress;
-            let limit = if matches!(refusal, Refusal::Budget(_)) { "budget" } else { "timeout" };
-            let message = format!(
-                "no way to the snake within the {limit}: {made} of {needed} connections were made, and {tried} \
-                 pairs of ends tried"
-            );
-            Diagnostic::error(code::NO_WAY, message)
-                .label(at, format!("{work} poses were worked out"))
-                .hint(format!("a greater `{limit}` or another `seed` may find one"))
-                .into()
+        Refusal::Budget(progress) => {
+            let hint = "a greater `budget` or another `seed` may find one";
+            fell_short(at, "no way to the snake within the budget", progress, hint)
+        }
+        Refusal::Stopped(progress) => {
+            let hint = "a greater `timeout` or another `seed` may find one";
+            fell_short(at, "no way to the snake within the timeout", progress, hint)
+        }
+        Refusal::Exhausted(progress) => {
+            let hint = "the default, `collisions: motion`, does not give up so";
+            fell_short(at, "no order of pairs of tentacles leads to the snake", progress, hint)
+        }
+        Refusal::NoTips(progress) => {
+            let hint = "a tip is a free dock -Z; connections that take one can be left out";
+            fell_short(at, "no two tentacles have a free tip", progress, hint)
         }
     }
+}
+
+/// How far a search came that did not come to its end.
+fn fell_short(at: Span, what: &str, progress: &Progress, hint: &str) -> Stop {
+    let Progress { needed, made, tried, work, longest, chains } = progress;
+    let message =
+        format!("{what}: {made} of {needed} connections were made, and {tried} pairs of ends tried");
+    let reached = format!("at best {chains} chains, the longest of {longest} modules, after {work} poses");
+    Diagnostic::error(code::NO_WAY, message).label(at, reached).hint(hint).into()
 }
 
 fn defect(call: &Call, what: &str) -> Stop {

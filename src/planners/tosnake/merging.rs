@@ -82,56 +82,55 @@ pub struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    /// On success the docks hold each other, and another bond does not.
-    pub fn merge(&self, state: &mut State, dice: &mut Dice) -> bool {
-        let mut work = 0;
-        let way = self.way(state, dice, &mut work);
-        state.work += work;
-        let Some(way) = way else { return false };
-        way.iter().for_each(|joints| state.go(joints));
-        let bond = Bond { a: self.pair.a, b: self.pair.b, turn: 0 };
-        let cut = cut(state, self.pair);
-        state.dock(bond);
-        state.undock(cut);
-        state.regrow();
-        true
-    }
-
     /// Positions of the joints one after the other, the last of them with the docks together, and the
     /// ways between them free.
-    fn way(&self, state: &State, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
+    pub fn way(&self, state: &State, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
         let scene = state.scene();
-        let lp = Loop::new(&state.tree, self.pair.a, self.pair.b);
         let here = &state.robot.joints;
-        let (mut start, mut drift) = (here.clone(), Vec::new());
-        match self.manner {
-            Manner::Leap => {
-                for (joint, _) in &lp.joints {
-                    let q = &mut start[joint.module][joint.joint];
-                    let range = if joint.joint == GAMMA { PI } else { FRAC_PI_2 };
-                    *q = closing::limited(joint.joint, *q + self.size * range * dice.signed());
-                }
-            }
-            Manner::Flow => {
-                drift = vec![0.0; 3 * here.len()];
-                for (joint, _) in &lp.joints {
-                    drift[3 * joint.module + joint.joint] = DRIFT * self.size * dice.signed();
-                }
-            }
+        if self.manner == Manner::Leap {
+            let there = self.leap(&scene, here, dice, work)?;
+            return scene.is_free(here, &there, work).then(|| vec![there]);
         }
-        let closing =
-            closing::Closing { scene: &scene, lp: &lp, manner: self.manner, settings: self.closing };
-        let way = closing.close(&start, &drift, work)?;
+        let lp = Loop::new(&state.tree, self.pair.a, self.pair.b);
+        let mut drift = vec![0.0; 3 * here.len()];
+        for (joint, _) in &lp.joints {
+            drift[3 * joint.module + joint.joint] = DRIFT * self.size * dice.signed();
+        }
+        let way = self.closing(&scene, &lp).close(here, &drift, work)?;
         let last = way.last()?.clone();
         if scene.is_free(here, &last, work) {
             return Some(vec![last]);
         }
-        if self.manner == Manner::Leap {
-            return None;
-        }
         let mut stops = Vec::new();
         connect(&scene, &way, 0, way.len() - 1, work, &mut stops).then_some(stops)
     }
+
+    /// Where the loop's joints bring the docks together, set out from near given positions; whatever is
+    /// on the way there.
+    pub fn leap(&self, scene: &Scene, from: &Joints, dice: &mut Dice, work: &mut u64) -> Option<Joints> {
+        let lp = Loop::new(scene.tree, self.pair.a, self.pair.b);
+        let mut start = from.clone();
+        for (joint, _) in &lp.joints {
+            let q = &mut start[joint.module][joint.joint];
+            let range = if joint.joint == GAMMA { PI } else { FRAC_PI_2 };
+            *q = closing::limited(joint.joint, *q + self.size * range * dice.signed());
+        }
+        self.closing(scene, &lp).close(&start, &[], work)?.pop()
+    }
+
+    fn closing<'a>(&'a self, scene: &'a Scene<'a>, lp: &'a Loop) -> closing::Closing<'a> {
+        closing::Closing { scene, lp, manner: self.manner, settings: self.closing }
+    }
+}
+
+/// The ends of pairs that were brought together dock, and for each of them another bond is let go.
+pub fn make(state: &mut State, pairs: &[Pair]) {
+    let cuts: Vec<usize> = pairs.iter().map(|pair| cut(state, pair)).collect();
+    for (pair, cut) in pairs.iter().zip(cuts) {
+        state.dock(Bond { a: pair.a, b: pair.b, turn: 0 });
+        state.undock(cut);
+    }
+    state.regrow();
 }
 
 /// How far a joint drifts in one step of a flow at most, rad.

@@ -31,6 +31,14 @@ pub mod closing;
 
 pub mod merging;
 
+mod alongside;
+mod lattice;
+
+mod piece;
+
+pub mod fabrik;
+mod paper;
+
 mod search;
 mod shortening;
 
@@ -43,6 +51,8 @@ pub use search::unwind;
 pub use sound::Unsound;
 pub use state::Step;
 
+use state::State;
+
 /// What the search may do.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
@@ -53,7 +63,24 @@ pub struct Settings {
     pub shake_slack: f64,
     /// Turns that one shake tries.
     pub shake_turns: usize,
+    /// Pairs of ends that come together in one turn, at most.
+    pub at_once: usize,
     pub closing: closing::Settings,
+    pub collisions: Collisions,
+    /// Of the paper's own method.
+    pub fabrik: fabrik::Settings,
+}
+
+/// Where collisions are looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Collisions {
+    /// All the way.
+    Motion,
+    /// The paper's method, and its three settings: nowhere; in the states in which tips meet; there, and
+    /// in the inverse kinematics.
+    None,
+    Detection,
+    Avoidance,
 }
 
 impl Default for Settings {
@@ -63,7 +90,10 @@ impl Default for Settings {
             budget: BUDGET,
             shake_slack: 0.02,
             shake_turns: 100,
+            at_once: 8,
             closing: closing::Settings::default(),
+            collisions: Collisions::Motion,
+            fabrik: fabrik::Settings::default(),
         }
     }
 }
@@ -72,7 +102,7 @@ impl Default for Settings {
 pub const BUDGET: u64 = 5_000_000;
 
 /// How far a search has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
     /// Chains that are to become one another's parts: one less than there are.
     pub needed: usize,
@@ -80,6 +110,19 @@ pub struct Progress {
     /// Pairs of ends that were tried.
     pub tried: u64,
     pub work: u64,
+    /// Modules of the longest chain, and how many chains there are.
+    pub longest: usize,
+    pub chains: usize,
+}
+
+impl Progress {
+    /// Counts the chains.
+    fn see(&mut self, state: &State) {
+        let mut chains = state.chains();
+        chains.sort_unstable();
+        let lengths = chains.chunk_by(|a, b| a == b).map(<[usize]>::len);
+        (self.chains, self.longest) = lengths.fold((0, 0), |(n, most), l| (n + 1, most.max(l)));
+    }
 }
 
 /// A way to the snake.
@@ -104,4 +147,8 @@ pub enum Refusal {
     Budget(Progress),
     /// Whoever watches had enough.
     Stopped(Progress),
+    /// The paper's method has tried all pairs in every order that it came to.
+    Exhausted(Progress),
+    /// There are not two free ends of different chains.
+    NoTips(Progress),
 }

@@ -1,13 +1,16 @@
 //! The whole way to the snake.
 
+use super::alongside::Party;
 use super::closing::Manner;
+use super::lattice;
 use super::merging::{self, Pair};
 use super::opening;
+use super::paper;
 use super::robot::{GAMMA, Robot};
 use super::shortening::shortened;
 use super::sound;
-use super::state::State;
-use super::{Found, Progress, Refusal, Settings};
+use super::state::{Joints, State};
+use super::{Collisions, Found, Progress, Refusal, Settings};
 use crate::planners::random::Dice;
 use std::f64::consts::TAU;
 
@@ -31,6 +34,9 @@ pub fn unwind(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Found, Refusal> {
+    if settings.collisions != Collisions::Motion {
+        return paper::unwind(robot, settings, watch);
+    }
     sound::check(robot)?;
     let mut state = State::new(robot.clone());
     for bond in state.tree.closing.clone() {
@@ -38,7 +44,8 @@ pub fn unwind(
     }
     state.regrow();
     let needed = state.bad_bonds();
-    let progress = Progress { needed, made: 0, tried: 0, work: 0 };
+    let mut progress = Progress { needed, ..Progress::default() };
+    progress.see(&state);
     let mut search = Search { state, dice: Dice(settings.seed), settings, watch, progress };
     search.snake()?;
     search.report()?;
@@ -88,14 +95,54 @@ impl Search<'_> {
             for pair in pairs.iter().take(many) {
                 self.progress.tried += 1;
                 let attempt = merging::Attempt { pair, manner, size, closing: &self.settings.closing };
-                if attempt.merge(&mut self.state, &mut self.dice) {
-                    self.progress.made += 1;
+                let mut work = 0;
+                let way = attempt.way(&self.state, &mut self.dice, &mut work);
+                self.state.work += work;
+                if let Some(way) = way {
+                    self.take(pair, way, &pairs);
                     return Ok(true);
                 }
                 self.report()?;
             }
         }
+        self.merge_on_lattice(idle, &pairs)
+    }
+
+    /// Where descent brought nothing together, short loops close on the lattice of quarter turns.
+    fn merge_on_lattice(&mut self, idle: usize, pairs: &[Pair]) -> Result<bool, Refusal> {
+        if idle == 0 {
+            return Ok(false);
+        }
+        for pair in pairs.iter().filter(|pair| pair.length <= lattice::LENGTH_MAX) {
+            self.progress.tried += 1;
+            let mut work = 0;
+            let there = lattice::leap(&self.state, pair, &mut work);
+            self.state.work += work;
+            if let Some(there) = there {
+                self.take(pair, vec![there], pairs);
+                return Ok(true);
+            }
+            self.report()?;
+        }
         Ok(false)
+    }
+
+    /// Goes a way that brings a pair together, and others with it where one turn does that.
+    fn take(&mut self, pair: &Pair, mut way: Vec<Joints>, pairs: &[Pair]) {
+        let mut together = vec![*pair];
+        if let [joints] = &mut way[..] {
+            let mut work = 0;
+            let Settings { at_once, closing, .. } = self.settings;
+            let party = Party { pairs: together, joints: std::mem::take(joints) };
+            let counts = (&mut self.progress.tried, &mut work);
+            let party = party.grown(&self.state, pairs, *at_once, closing, &mut self.dice, counts);
+            self.state.work += work;
+            (together, *joints) = (party.pairs, party.joints);
+        }
+        way.iter().for_each(|joints| self.state.go(joints));
+        merging::make(&mut self.state, &together);
+        self.progress.made += together.len();
+        self.progress.see(&self.state);
     }
 
     fn pairs(&mut self, idle: usize) -> Vec<Pair> {
