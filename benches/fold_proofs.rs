@@ -17,6 +17,9 @@ const REPEATS: u32 = 20;
 /// Steps that take about ten seconds on one of the cores that the tables were made on.
 const BUDGET: u64 = 100_000_000;
 
+/// Steps for one point of the plot of growth, of which many end so.
+const GROWTH_BUDGET: u64 = BUDGET / 2;
+
 type Mesh = (Vec<Vec3>, Vec<Vec<usize>>);
 
 fn of_truth(shape: &serde_json::Value) -> Mesh {
@@ -91,9 +94,9 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     (made, start.elapsed())
 }
 
-fn proved(target: &Target, flat: bool) -> (Optimum, Duration) {
+fn proved(target: &Target, flat: bool, budget: u64) -> (Optimum, Duration) {
     let weights = Weights::uniform(target, MASS);
-    let settings = exact::Settings { flat, budget: BUDGET, ..exact::Settings::default() };
+    let settings = exact::Settings { flat, budget, ..exact::Settings::default() };
     timed(|| optimum(target, &weights, &settings).expect("it has layouts"))
 }
 
@@ -104,7 +107,7 @@ fn main() {
     let icosahedron = of_truth(&shapes["icosahedron"]);
     let asked: Vec<String> = std::env::args().skip_while(|a| a != "growth").collect();
     if let [_, file, ..] = &asked[..] {
-        return growth(&icosahedron, file);
+        return growth(shapes, file);
     }
     println!("| shape | faces | all roots | branchings | gap | order (Eq. 17) |");
     println!("|---|---|---|---|---|---|");
@@ -121,9 +124,9 @@ fn main() {
     ]);
     for (name, mesh) in meshes {
         let target = target(mesh);
-        let (found, mut exact) = proved(&target, false);
+        let (found, mut exact) = proved(&target, false, BUDGET);
         if exact < Duration::from_millis(10) {
-            exact = timed(|| (0..REPEATS).for_each(|_| drop(proved(&target, false)))).1 / REPEATS;
+            exact = timed(|| (0..REPEATS).for_each(|_| drop(proved(&target, false, BUDGET)))).1 / REPEATS;
         }
         let loads = vec![MASS * 9.8; target.faces.len()];
         let ((), ordered) = timed(|| drop(order::least_lifting(&target, &found.layout, &loads)));
@@ -138,8 +141,8 @@ fn main() {
         );
     }
     let stella = target(of_truth(&shapes["stella_octangula"]));
-    let (flat, time) = proved(&stella, true);
-    let price = flat.energy / proved(&stella, false).0.energy;
+    let (flat, time) = proved(&stella, true, BUDGET);
+    let price = flat.energy / proved(&stella, false, BUDGET).0.energy;
     println!("\nstella octangula without overlap: {price:.9} times the energy, proved in {time:.3?}");
     let target = target(icosahedron);
     let all = enumerate::Settings { root: None, spectrum: false, budget: u64::MAX };
@@ -148,67 +151,87 @@ fn main() {
     println!("icosahedron: {} layouts with 20 roots enumerated in {time:.3?}", found.layouts);
 }
 
-/// Draws how long proofs take against the number of faces: spheres, whole and shaken, and tubes.
-fn growth(icosahedron: &Mesh, file: &str) {
-    let spheres: Vec<Mesh> = (1..=4).map(|parts| split(icosahedron, parts, true)).collect();
-    let rough = spheres.iter().map(|mesh| shaken(mesh.clone(), 0.1)).collect();
+/// Draws how long proofs take against the number of faces: the convex deltahedra, then spheres, whole
+/// and shaken, tubes and tori. What the budget ends is drawn hollow, with its gap.
+fn growth(shapes: &serde_json::Map<String, serde_json::Value>, file: &str) {
+    let icosahedron = of_truth(&shapes["icosahedron"]);
+    let mut small: Vec<Mesh> = DELTAHEDRA.iter().map(|name| of_truth(&shapes[*name])).collect();
+    let spheres: Vec<Mesh> = (1..=4).map(|parts| split(&icosahedron, parts, true)).collect();
+    let rough = small.iter().chain(&spheres).map(|mesh| shaken(mesh.clone(), 0.1)).collect();
+    small.extend(spheres);
     let tubes = (1..=12).map(|rings| tube(6, rings)).collect();
-    let series: [(&str, &str, Vec<Mesh>); 3] = [
-        ("geodesic spheres", "#0b63a5", spheres),
-        ("shaken, without symmetry", "#c0392b", rough),
+    let tori = (2..=7).map(|n| torus(2 * n, n, 0.4)).skip(1).collect();
+    let series: [(&str, &str, Vec<Mesh>); 4] = [
+        ("deltahedra, geodesic spheres", "#0b63a5", small),
+        ("the same, shaken", "#c0392b", rough),
         ("tubes of six sides", "#2e7d32", tubes),
+        ("tori", "#8e44ad", tori),
     ];
     let mut drawn = String::new();
     for (line, (name, colour, meshes)) in series.into_iter().enumerate() {
         let mut points = Vec::new();
         for mesh in meshes {
             let target = target(mesh);
-            let (found, time) = proved(&target, false);
-            let gap = 1.0 - found.bound / found.energy;
-            println!("{name}: {} faces, {time:.3?}, {:?}, gap {gap:.1e}", target.faces.len(), found.proof);
-            points.push((target.faces.len() as f64, time.as_secs_f64(), found.proof == Proof::Optimal));
+            let (found, time) = proved(&target, false, GROWTH_BUDGET);
+            let gap = (found.proof == Proof::Open).then(|| 100.0 * (1.0 - found.bound / found.energy));
+            println!("{name}: {} faces, {time:.3?}, {:?}, gap {gap:?} %", target.faces.len(), found.proof);
+            points.push((target.faces.len() as f64, time.as_secs_f64(), gap));
         }
         series_drawn(&mut drawn, name, colour, line, &points);
     }
     std::fs::write(file, framed(&drawn)).expect("the file can be written");
 }
 
+/// Convex ones of the truth.
+const DELTAHEDRA: [&str; 4] = ["tetrahedron", "triangular_bipyramid", "octahedron", "snub_disphenoid"];
+
 const WIDTH: f64 = 640.0;
-const HEIGHT: f64 = 400.0;
-/// Decades: faces from 10 to 1000, seconds from 1e-4 to 1e2.
-const FACES: [i32; 2] = [1, 3];
-const SECONDS: [i32; 2] = [-4, 2];
+const HEIGHT: f64 = 440.0;
+/// Faces are drawn from 3 to 400, on a scale of logarithms; decades of seconds from 1e-6 to 1e2.
+const FACES: [f64; 2] = [3.0, 400.0];
+const MARKED: [f64; 8] = [4.0, 8.0, 20.0, 40.0, 80.0, 144.0, 180.0, 320.0];
+const SECONDS: [f64; 2] = [1e-6, 1e2];
 
 fn place(faces: f64, seconds: f64) -> [f64; 2] {
-    let along = |x: f64, [low, high]: [i32; 2]| (libm::log10(x) - f64::from(low)) / f64::from(high - low);
+    let along = |x: f64, [low, high]: [f64; 2]| libm::log(x / low) / libm::log(high / low);
     [70.0 + along(faces, FACES) * (WIDTH - 90.0), HEIGHT - 50.0 - along(seconds, SECONDS) * (HEIGHT - 70.0)]
 }
 
-fn series_drawn(out: &mut String, name: &str, colour: &str, line: usize, points: &[(f64, f64, bool)]) {
+/// A point: faces, seconds, and the gap in per cent where the proof is open.
+type Point = (f64, f64, Option<f64>);
+
+fn series_drawn(out: &mut String, name: &str, colour: &str, line: usize, points: &[Point]) {
     let at: Vec<[f64; 2]> = points.iter().map(|p| place(p.0, p.1)).collect();
     let way: Vec<String> = at.iter().map(|p| format!("{:.1},{:.1}", p[0], p[1])).collect();
     writeln!(out, r#"<polyline points="{}" fill="none" stroke="{colour}"/>"#, way.join(" "))
         .expect("text grows");
-    for (p, (.., proved)) in at.iter().zip(points) {
-        let fill = if *proved { colour } else { "#fffefb" };
-        let [x, y] = p;
+    for ([x, y], (.., gap)) in at.iter().zip(points) {
+        let fill = if gap.is_none() { colour } else { "#fffefb" };
         writeln!(out, r#"<circle cx="{x:.1}" cy="{y:.1}" r="4" fill="{fill}" stroke="{colour}"/>"#)
             .expect("text grows");
+        if let Some(gap) = gap {
+            // Those of one number of faces end at about the same time.
+            let above = y - 8.0 - 14.0 * line as f64;
+            writeln!(
+                out,
+                r#"<text x="{x:.1}" y="{above:.1}" text-anchor="middle" font-size="11" fill="{colour}">{gap:.2} %</text>"#
+            )
+            .expect("text grows");
+        }
     }
-    let y = 30 + 18 * line;
+    let y = 40 + 18 * line;
     writeln!(out, r#"<text x="85" y="{y}" fill="{colour}">{name}</text>"#).expect("text grows");
 }
 
 fn framed(inside: &str) -> String {
     let mut grid = String::new();
-    for decade in FACES[0]..=FACES[1] {
-        let [x, y] = place(libm::pow(10.0, f64::from(decade)), libm::pow(10.0, f64::from(SECONDS[0])));
-        let label = libm::pow(10.0, f64::from(decade));
-        writeln!(grid, r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{label}</text>"#, y + 18.0)
+    for faces in MARKED {
+        let [x, y] = place(faces, SECONDS[0]);
+        writeln!(grid, r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{faces}</text>"#, y + 18.0)
             .expect("text grows");
     }
-    for decade in SECONDS[0]..=SECONDS[1] {
-        let [x, y] = place(libm::pow(10.0, f64::from(FACES[0])), libm::pow(10.0, f64::from(decade)));
+    for decade in -6..=2 {
+        let [x, y] = place(FACES[0], libm::pow(10.0, f64::from(decade)));
         let end = WIDTH - 20.0;
         writeln!(
             grid,

@@ -2,7 +2,7 @@
 
 use super::call::Call;
 use super::fold_panel::Panel;
-use super::stop::Eval;
+use super::stop::{Eval, Stop};
 use super::value::Value;
 use crate::behavior::law;
 use crate::geometry::pose::{shifted, turned};
@@ -13,6 +13,8 @@ use crate::planners::fold::closing;
 use crate::planners::fold::inertia::Inertia;
 use crate::planners::fold::objective::{Conventions, Minimise};
 use crate::planners::fold::simulation::Count;
+use crate::source::{Diagnostic, code};
+use crate::units::{Dimension, quantity};
 
 /// Where the arguments of `fold` stand.
 pub const TARGET: usize = 0;
@@ -142,6 +144,15 @@ impl Options {
 /// What every hinge can do, s: the same for all layouts, or they could not be compared.
 pub fn shortest_step(target: &Target, panel: &Panel) -> f64 {
     step_of(target.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max), panel)
+}
+
+/// A step in argument `index` takes less than the slowest hinge needs, s.
+pub fn too_fast(call: &Call, index: usize, least: f64) -> Stop {
+    let least = quantity(least, Dimension::TIME);
+    Diagnostic::error(code::BAD_VALUE, "the hinges can't fold as fast as that")
+        .label(call.at(index), "too short for the widest angle")
+        .hint(format!("steps of {least} are long enough; without `step` they are as short as they can be"))
+        .into()
 }
 
 /// How long a hinge takes to turn by an angle, s.

@@ -101,17 +101,16 @@ pub fn target(call: &Call, index: usize, module: usize, panel: &Panel) -> Eval<T
     target.map_err(|why| {
         let said = unfoldable(call, index, &why);
         match why {
-            Unfoldable::UnequalSides { .. } => said
-                .label(call.at(module), "these panels")
-                .hint("give the mesh and the module the same side")
-                .into(),
+            Unfoldable::UnequalSides { .. } => said.label(call.at(module), "these panels").into(),
             _ => said.into(),
         }
     })
 }
 
 fn unfoldable(call: &Call, index: usize, why: &Unfoldable) -> Diagnostic {
-    Diagnostic::error(code::UNFOLDABLE, why.to_string()).label(call.at(index), "does not fold")
+    Diagnostic::error(code::UNFOLDABLE, why.to_string())
+        .label(call.at(index), "does not fold")
+        .hint(why.remedy())
 }
 
 /// What each face is made of.
@@ -159,9 +158,7 @@ pub fn panels(
         panels.solids.parts[face].clone_from(&other.parts);
         panels.solids.touch = panel.touch.max(other.touch);
     }
-    let target = target.driven(&driven).map_err(|why| -> Stop {
-        unfoldable(call, listed, &why).hint("one of two panels on a hinge has to be active").into()
-    })?;
+    let target = target.driven(&driven).map_err(|why| -> Stop { unfoldable(call, listed, &why).into() })?;
     Ok((panels, target))
 }
 

@@ -1,7 +1,7 @@
 //! From a layout to a plan that the judge lets through.
 
 use super::fold_method::{Found, Question};
-use super::fold_options::{HINGES, MODULE, SEQUENCE, STEP, Sequence, TARGET};
+use super::fold_options::{HINGES, MODULE, SEQUENCE, STEP, Sequence, TARGET, shortest_step, too_fast};
 use super::fold_orders::{Need, Reordering};
 use super::fold_panel::Panels;
 use super::fold_sheet::{NoSheet, Pieces, Sheet};
@@ -88,7 +88,8 @@ impl Task<'_> {
         let message = format!("no order of folding was found that the judge lets through: {why}");
         let said = Diagnostic::error(code::NOT_COVERED, message)
             .label(call.at(TARGET), "was not folded")
-            .hint("another `root` or `seed` leads to other patterns");
+            .hint("another `root` or `seed` leads to other patterns")
+            .hint(self.found_so_far(found));
         let torque = |torque: f64| quantity(torque, Dimension::TORQUE);
         let (need, holds) = (reordering.need(found)?, self.question.panel.torque);
         Err(match (need, holds) {
@@ -107,6 +108,24 @@ impl Task<'_> {
             _ => said,
         }
         .into())
+    }
+
+    /// What is known of the layout that would have been the answer.
+    fn found_so_far(&self, found: &Found) -> String {
+        let Question { objective, options, .. } = self.question;
+        let (layout, torque) = (&found.layouts[0], |x: f64| quantity(x, Dimension::TORQUE));
+        let effort = objective.effort(layout, &steps::leaves_first(layout));
+        let (what, reached) = match options.minimise {
+            Minimise::PeakTorque => ("needs a torque of", effort.peak),
+            _ => ("spends", effort.energy),
+        };
+        let open = if found.proved { 0.0 } else { (100.0 * (1.0 - found.bound / reached)).max(0.0) };
+        let (reached, bound) = (torque(reached), torque(found.bound));
+        format!(
+            "the best flat pattern {what} {reached} with the leaves folded first, and none less than \
+             {bound}: a gap of {}%",
+            number(open)
+        )
     }
 
     /// Layouts in order of their energy until one is let through; with whether none before it can be.
@@ -261,7 +280,7 @@ impl Task<'_> {
         let (mut planned, issues) =
             interpreter.assemble_plan(design, robot, scheduled, &causes, options.world());
         if !issues.is_empty() {
-            return Err(call.refuse(STEP, "the hinges can't fold as fast as that"));
+            return Err(too_fast(call, STEP, shortest_step(target, panel)));
         }
         planned.plan.provenance.planner = "fold".into();
         planned.plan.provenance.seed = Some(options.seed);

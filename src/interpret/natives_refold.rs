@@ -1,7 +1,7 @@
 //! `refold`: from shape to shape through a flat sheet, as it is called, and what it gives back.
 
 use super::call::Call;
-use super::fold_options::{shortest_step, step_of};
+use super::fold_options::{shortest_step, step_of, too_fast};
 use super::fold_panel::{self, Panel};
 use super::fold_sheet::{NoSheet, Pieces, Sheet};
 use super::interpreter::Interpreter;
@@ -130,12 +130,19 @@ impl Task<'_> {
                     .label(call.at(0), format!("{a} faces"))
                     .hint("panels are neither added nor taken away")
             }
-            NoRefolding::Budget => Diagnostic::error(
-                code::NOT_COVERED,
-                "no way was found from a sheet of the one to one of the other",
-            )
-            .label(call.span, "every pair of sheets that was tried got stuck")
-            .hint("a greater `budget` or another `seed` may find one"),
+            NoRefolding::Budget { apart, bound } => {
+                let message = "no way was found from a sheet of the one to one of the other";
+                let said = Diagnostic::error(code::NOT_COVERED, message)
+                    .label(call.span, "every pair of sheets that was tried got stuck")
+                    .hint("a greater `budget` or another `seed` may find one");
+                match apart {
+                    Some(apart) => said.hint(format!(
+                        "the nearest two sheets differ in {apart} cells and connections; no way takes fewer \
+                         than {bound} changes"
+                    )),
+                    None => said.hint(format!("no way takes fewer than {bound} changes")),
+                }
+            }
         }
     }
 
@@ -201,7 +208,8 @@ impl Task<'_> {
             .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, span))?;
         let (mut planned, issues) = interpreter.assemble_plan(design, robot, scheduled, &causes, World::FREE);
         if !issues.is_empty() {
-            return Err(self.call.refuse(3, "the hinges can't fold as fast as that"));
+            let [from, to] = [&self.from, &self.to].map(|shape| shortest_step(shape, &self.panel));
+            return Err(too_fast(self.call, 3, from.max(to)));
         }
         planned.plan.provenance.planner = "refold".into();
         planned.plan.provenance.seed = Some(self.seed);

@@ -59,6 +59,7 @@ impl Burden {
 
     /// What is wrong with a state.
     fn wrong(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Obstacle> {
+        crate::interrupt::checkpoint();
         let up = -target.normal(layout.root);
         let level = up.dot(&target.centroid(layout.root));
         let place = |face: usize, p: Vec3| poses[face].transform_point(&p.into()).coords;

@@ -24,6 +24,7 @@ pub fn layouts(target: &Target) -> BigInt {
     for k in 0..n {
         // The Laplacian without a face is positive definite: no pivot is zero.
         for i in k + 1..n {
+            crate::interrupt::checkpoint();
             if m[i][k].is_zero() && m[k][k] == before {
                 continue;
             }

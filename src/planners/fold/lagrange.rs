@@ -35,6 +35,9 @@ const PROGRESS: f64 = 1e-4;
 /// rounding may add up to.
 const TOL_GIVEN_UP: f64 = 1e-11;
 
+/// So many sums over the table of prices take about as long as settling a face on a path.
+const SUMS: usize = 64;
+
 /// Prices that are not zero: place in the table and price.
 pub type Prices = [(u32, f64)];
 
@@ -119,8 +122,8 @@ impl<'t> Lagrange<'t> {
     }
 
     /// Raises the bound of the layouts with this root over the arcs allowed, beginning with given
-    /// prices. Arcs that no layout below the cutoff uses are taken from `allowed`. `steps` counts the
-    /// faces settled on the way down; at zero the ascent ends. `layouts` is handed the arcs chosen into
+    /// prices. Arcs that no layout below the cutoff uses are taken from `allowed`. `steps` counts down the
+    /// faces settled on the way, and sums over prices; at zero the ascent ends. `layouts` is handed the arcs chosen into
     /// each face, now and then, which may nearly be a layout.
     pub fn ascend(
         &mut self,
@@ -146,6 +149,7 @@ impl<'t> Lagrange<'t> {
                 }
             }
             let paid = self.paid();
+            *steps = steps.saturating_sub((self.prices.len() / SUMS) as u64);
             let Some(bound) = self.choose(root, allowed, &paid) else {
                 best = f64::INFINITY;
                 break;

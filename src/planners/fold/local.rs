@@ -7,6 +7,9 @@ use super::weights::Weights;
 /// An exchange has to gain this part of the energy, or rounding would go round in circles.
 const GAIN_MIN: f64 = 1e-11;
 
+/// So many sums take about as long as one exchange that is weighed.
+const SUMS: usize = 64;
+
 /// A tree grown from the root: always the face is added whose path costs it least.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let n = target.faces.len();
@@ -38,8 +41,8 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("every face was added by one hinge")
 }
 
-/// Exchanges a hinge that folds for one that doesn't as long as that helps. `steps`: how many
-/// exchanges may be weighed, counted down.
+/// Exchanges a hinge that folds for one that doesn't as long as that helps. `steps`, counted down: how
+/// many exchanges may be weighed, and for each that is made the sums that it takes anew.
 pub fn improved(target: &Target, weights: &Weights, mut layout: Layout, steps: &mut u64) -> Layout {
     let gain = layout.energy(weights) * GAIN_MIN;
     while let Some(better) = exchange(target, weights, &layout, gain, steps) {
@@ -103,6 +106,7 @@ fn exchange(
     steps: &mut u64,
 ) -> Option<Layout> {
     let branches = Branches::new(target, weights, layout);
+    *steps = steps.saturating_sub(((branches.below.len() + branches.along.len()) / SUMS) as u64);
     let depths = layout.depths();
     let folding = |face: usize| layout.hinge[face].expect("only the root has none");
     let mut best: Option<(usize, usize)> = None;

@@ -99,6 +99,7 @@ impl<'t> Look<'t> {
         let against = moving_against(layout, moving);
         let middles: Vec<Vec3> = (0..reach.len()).map(|face| target.centroid(face)).collect();
         (1..=SAMPLES).find_map(|sample| {
+            crate::interrupt::checkpoint();
             let part = quintic(sample as f64 / SAMPLES as f64, 1.0).angle;
             let poses = poses_at(target, layout, |face| match folded[face] {
                 true => full(face),

@@ -137,6 +137,7 @@ impl Search<'_> {
     /// The same, sorted into what folds before the first ancestor, between the first and the second,
     /// and so on: one list more than there are ancestors.
     fn slots(&self, face: usize, ancestors: &[usize]) -> (Vec<Vec<usize>>, f64) {
+        crate::interrupt::checkpoint();
         let own = ancestors.len();
         let costs = self.costs[face].as_ref().expect("costs of all faces were computed");
         let mut best: Option<(Vec<Vec<usize>>, f64)> = None;

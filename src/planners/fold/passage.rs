@@ -10,6 +10,7 @@ use super::burden::{Burden, Obstacle};
 use super::layout::Layout;
 use super::meeting::{Look, Solids};
 use super::target::Target;
+use crate::interrupt;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One step: the hinges that have folded before it, and the face whose hinge folds in it.
@@ -53,6 +54,7 @@ impl<'t> Passages<'t> {
         let mut opened: Vec<usize> = Vec::new();
         let mut tried = vec![0];
         while opened.len() < wished.len() {
+            interrupt::checkpoint();
             let next = tried.last_mut().expect("one for each depth");
             let Some(&face) = wished.iter().rev().nth(*next) else {
                 dead.insert(folded.clone());

@@ -229,6 +229,7 @@ impl Plane {
         let opening = [opening, vec![stroke.make]].concat();
         [(self, &stroke.fold), (&after, &opening)].iter().all(|(plane, bonds)| {
             (1..=SAMPLES).all(|i| {
+                crate::interrupt::checkpoint();
                 let angle = stroke.angle * i as f64 / SAMPLES as f64;
                 // Where the fan is closed, its ends touch along the sides that meet.
                 let ends = [stroke.make, stroke.cut].map(|b| b.map(|side| side.0));

@@ -55,6 +55,7 @@ pub fn rearranged(
     let mut queue = BinaryHeap::from([Reverse((0, 0))]);
     let mut known = BTreeSet::from([state(start)]);
     for _ in 0..steps {
+        crate::interrupt::checkpoint();
         let Reverse((_, at)) = queue.pop()?;
         // Looked at as late as that, for most are never gone on from.
         if !is_free(&mut nodes, at, panels) {

@@ -81,8 +81,14 @@ pub struct Settings {
 pub enum NoRefolding {
     /// The shapes have different numbers of faces.
     Counts,
-    /// No sheet was found that both shapes unfold into.
-    Budget,
+    /// No way between sheets of the two was found.
+    Budget {
+        /// Panels on cells that only one of the two nearest sheets covers, and connections that only one
+        /// has; `None` where no two sheets were found.
+        apart: Option<usize>,
+        /// No way needs fewer changes.
+        bound: usize,
+    },
 }
 
 /// Sheets that unfold from `from` and sheets that fold into `to`, with what lies between. `cost` orders
@@ -131,8 +137,11 @@ pub fn sheets(
     }
     best.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     best.truncate(settings.kept);
-    let least = best.first().ok_or(NoRefolding::Budget)?.0;
-    let bound = bound(from, to, least, settings.budget / 2);
+    let least = best.first().map(|found| found.0);
+    let bound = bound(from, to, least.unwrap_or(n), settings.budget / 2);
+    if least.is_none() {
+        return Err(NoRefolding::Budget { apart: pairs.first().map(|pair| pair.0), bound });
+    }
     Ok(Found { best: best.into_iter().map(|(_, _, found)| found).collect(), bound })
 }
 
@@ -524,6 +533,7 @@ impl Pieces<'_, '_> {
 
     /// Goes on with the first hinge that both shapes have: over it, or never over it.
     fn grown(&mut self, missing: usize, pieces: usize) -> bool {
+        crate::interrupt::checkpoint();
         if !self.can_reach(pieces) {
             return false;
         }

@@ -17,6 +17,7 @@ pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     // The isometries that leave face 0 in its place, and one for each face to which another carries it,
     // generate all.
     for face in 0..n {
+        crate::interrupt::checkpoint();
         for (turn, mirrored) in (0..6).map(|i| (i % 3, i >= 3)) {
             if face > 0 && find(&mut first, face) == find(&mut first, 0) {
                 break;

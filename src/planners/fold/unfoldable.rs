@@ -47,6 +47,32 @@ pub enum Unfoldable {
     },
 }
 
+impl Unfoldable {
+    /// How to mend it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Unfoldable::Empty => "a target has at least one triangle",
+            Unfoldable::TooLarge { .. } => "fold a coarser mesh, or its parts one by one",
+            Unfoldable::NotTriangle { .. } => "cut such faces into triangles",
+            Unfoldable::Degenerate { .. } => {
+                "leave the face out, or move its corners apart and off one line; it names each vertex once"
+            }
+            Unfoldable::NonManifold { .. } => "leave out faces until two are left at the edge",
+            Unfoldable::Orientation { .. } => {
+                "list the corners of every face counterclockwise, as they are seen from outside"
+            }
+            Unfoldable::FoldedFlat { .. } => {
+                "leave one of them out: two panels on a hinge can't lie on each other"
+            }
+            Unfoldable::Disconnected { .. } => {
+                "make one vertex of those that coincide, or fold the pieces one by one"
+            }
+            Unfoldable::Undriven { .. } => "one of two panels on a hinge has to be active",
+            Unfoldable::UnequalSides { .. } => "give the mesh and the module the same side",
+        }
+    }
+}
+
 impl fmt::Display for Unfoldable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
