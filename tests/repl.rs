@@ -132,7 +132,7 @@ fn ctrl_c_ends_a_planner_and_the_session_goes_on() {
     let sandbox = Sandbox::new(&[]);
     let mut talk = Talk::begin(&sandbox, &["repl"]);
     talk.asks("use std.mori.Mori", "");
-    talk.asks("use std.shapes.{icosahedron, stella_octangula, tube}", "");
+    talk.asks("use std.shapes.{icosahedron, quadruped18, tube}", "");
     talk.asks("let a = 2", "a: Int");
     for long in LONG {
         let mut quickest = Duration::MAX;
@@ -156,7 +156,7 @@ fn ctrl_c_ends_a_planner_and_the_session_goes_on() {
 const LONG: [&str; 3] = [
     "fold(icosahedron(edge: 80mm), Mori, method: enumerate, budget: 1000000000)",
     "refold(tube(8, 5, edge: 80mm), tube(10, 4, edge: 80mm), Mori, budget: 1000000000000)",
-    "fold(stella_octangula(edge: 80mm), Mori, gravity: on)",
+    "fold(quadruped18(edge: 80mm), Mori, gravity: on)",
 ];
 
 #[test]
