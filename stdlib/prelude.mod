@@ -1672,8 +1672,9 @@ extern type Unwinding is Plan {
 /// search that takes longer than `timeout` is refused, too. Both refusals say how far it got; another
 /// seed may get farther.
 ///
-/// Without gravity the robot floats. With it, the plan is made in the same way and then judged with the
-/// base held fast: it is refused where a joint would have to hold more than it can.
+/// Without gravity the robot floats. With it, the plan is made in the same way, and then judged with the
+/// base kept where it is: it is refused where a joint would have to hold more than it can, where the robot
+/// would not stand on what it touches, and where it would go into the ground.
 ///
 /// `collisions` other than `motion` choose the paper's own method, to compare with: FABRIK over two
 /// tentacles, and going back over pairs. Collisions are then looked for nowhere (`none`), in the states in
@@ -1698,7 +1699,8 @@ extern fn tosnake(
 /// Turns one robot of RoFI modules into another of as many modules: both unwind to a snake, and the
 /// second way is taken backwards. Options are those of `tosnake`, for either way.
 ///
-/// The result ends as the second robot, with the first one's modules in its places.
+/// The result ends as the second robot, with the first one's modules in its places. A way to the snake is
+/// looked for once in a run: for n robots n searches make all reconfigurations.
 ///
 /// Example:
 /// ```modl

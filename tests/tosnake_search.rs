@@ -123,6 +123,19 @@ emit(p, \"p.plan.json\")
     replay.judge().and_then(|()| replay.ends_as_snake()).unwrap_or_else(|fault| panic!("{fault}"));
 }
 
+/// n shapes need n ways to the snake, not one for each of the n² pairs.
+#[test]
+fn a_way_to_the_snake_is_looked_for_once() {
+    let mut watcher = Watcher::default();
+    let pairs = ["Human(), Puppy()", "Puppy(), Human()", "Human(), Fan()", "Fan(), Puppy()"];
+    let calls: Vec<String> = pairs.iter().map(|p| format!("verify(reconfigure({p})).ok")).collect();
+    let text = format!("use std.rofi.{{Human, Puppy, Fan}}\nprint({})\n", calls.join(", "));
+    watched(&text, &mut watcher);
+    assert_eq!(watcher.desk.printed, ["true true true true"]);
+    let begun = watcher.seen.iter().filter(|line| line.contains(": 0 of")).count();
+    assert_eq!(begun, 3, "{:?}", watcher.seen);
+}
+
 /// The paper looks at the ends of moves. Its plans come to a snake, and the judge sees what is on the way.
 #[test]
 fn plans_of_the_papers_own_method_are_told_from_true_ones() {

@@ -7,6 +7,7 @@ use super::host::{Limits, Mode, Options, TestResult};
 use super::planning::Planned;
 use super::stage::Stage;
 use super::stop::{Eval, Stop};
+use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, Program};
@@ -30,6 +31,8 @@ pub struct Interpreter<'a> {
     pub causes: Causes,
     /// The last plans; see [`super::planning`].
     pub plans: Vec<Rc<Planned>>,
+    /// Ways to the snake that were found.
+    pub unwindings: Unwindings,
     /// Exemptions of the user's own files that were judged, and whether any plan needed them.
     pub exemptions: BTreeMap<Span, bool>,
     pub reports: Vec<Diagnostic>,
@@ -93,6 +96,7 @@ impl<'a> Interpreter<'a> {
             stage,
             causes: Causes::default(),
             plans: Vec::new(),
+            unwindings: Unwindings::default(),
             exemptions: BTreeMap::new(),
             reports: Vec::new(),
             errors: 0,

@@ -11,6 +11,7 @@ pub mod host;
 
 mod stage;
 mod stop;
+mod unwindings;
 mod value;
 
 mod eval;

@@ -7,6 +7,7 @@ use super::planning::Planned;
 use super::record::Record;
 use super::robot_of::Robot;
 use super::stop::{Eval, Stop, fault};
+use super::unwindings::Sought;
 use super::value::Value;
 use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
@@ -157,7 +158,12 @@ fn unwound(
     let Some(robot) = interpreter.robot_at(&design, call.at(index))? else { return Ok(None) };
     let translated =
         translated(&robot.assembly, &robot.start).map_err(|no| not_rofi(call, index, &robot, &no))?;
-    let found = {
+    let Options { seed, budget, collisions, .. } = *options;
+    let sought = Sought { robot: translated.robot.clone(), seed, budget, collisions };
+    let known = interpreter.unwindings.get(&sought);
+    let found = if let Some(found) = known {
+        found
+    } else {
         let stage = &interpreter.stage;
         let begun = stage.elapsed();
         let mut told = None;
@@ -172,14 +178,15 @@ fn unwound(
             }
             !stage.cancelled() && options.timeout.is_none_or(|most| stage.elapsed() - begun <= most)
         };
-        let Options { seed, budget, collisions, .. } = *options;
         let settings = Settings { seed, budget, collisions, ..Settings::default() };
-        tosnake::unwind(&translated.robot, &settings, &mut watch)
+        let found = tosnake::unwind(&translated.robot, &settings, &mut watch);
+        if matches!(found, Err(Refusal::Stopped(_))) && stage.cancelled() {
+            return Err(Stop::Halt);
+        }
+        let found = Rc::new(found.map_err(|refusal| refused(call, index, &robot, &refusal))?);
+        interpreter.unwindings.keep(sought, found.clone());
+        found
     };
-    if matches!(found, Err(Refusal::Stopped(_))) && interpreter.stage.cancelled() {
-        return Err(Stop::Halt);
-    }
-    let found = found.map_err(|refusal| refused(call, index, &robot, &refusal))?;
     let program = translated.program(&found.steps, &found.robot.bonds, CauseId(0));
     let causes = interpreter.planner_causes(call.span);
     let problem = Problem {

@@ -12,6 +12,7 @@ use super::interpreter::{Interpreter, Lazy};
 use super::planning::Planned;
 use super::stage::{Stage, Standing};
 use super::stop::Eval;
+use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Stmt, StmtKind, Test};
@@ -99,6 +100,7 @@ struct Memory {
     designs: Vec<Vec<Rc<Design>>>,
     connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
     plans: Vec<Rc<Planned>>,
+    unwindings: Unwindings,
     causes: Causes,
     exemptions: BTreeMap<Span, bool>,
 }
@@ -173,6 +175,7 @@ impl<'a> Interpreter<'a> {
         let count = self.program.defs.len();
         (self.globals, self.designs, self.connectors) = (memory.globals, memory.designs, memory.connectors);
         (self.plans, self.causes, self.exemptions) = (memory.plans, memory.causes, memory.exemptions);
+        self.unwindings = memory.unwindings;
         self.globals.resize(count, Lazy::Waiting);
         self.designs.resize(count, Vec::new());
         self.connectors.resize(count, None);
@@ -189,6 +192,7 @@ impl<'a> Interpreter<'a> {
             designs: self.designs,
             connectors: self.connectors,
             plans: self.plans,
+            unwindings: self.unwindings,
             causes: self.causes,
             exemptions: self.exemptions,
         }
