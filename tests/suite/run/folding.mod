@@ -28,6 +28,37 @@ use std.shapes.{cube, octahedron}
 print(fold(cube(edge: 80mm), module: Mori).layouts)
 //         ^^^^^^^^^^^^^^^^ E0803 does not fold
 
+--- what is wrong with a mesh is said with how to mend it
+use std.mori.Mori
+use std.shapes.geodesic
+let s = 80mm
+let h = s * sqrt(0.75)
+let corners: List<Vec3<Length>> = [[0m, 0m, 0m], [s, 0m, 0m], [s / 2, h, 0m], [s / 2, -h, 0m], [s / 2, 0m, h], [s / 2, 0m, 0m]]
+print(fold(polyhedron(corners, [[0, 1, 2], [1, 0, 3], [0, 1, 4]]), module: Mori).layouts)
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 faces 0, 1 and 2 meet at one edge | until two are left
+print(fold(polyhedron(corners, [[0, 1, 2], [0, 1, 3]]), module: Mori).layouts)
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 faces 0 and 1 | counterclockwise
+print(fold(polyhedron(corners, [[0, 1, 2], [0, 5, 1]]), module: Mori).layouts)
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 1 has no area | off one line
+print(fold(polyhedron(corners, [[0, 1, 2], [3, 4, 5]]), module: Mori).layouts)
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 from face 0 to face 1 | that coincide
+print(fold(polyhedron([], []), module: Mori).layouts)
+//         ^^^^^^^^^^^^^^^^^^ E0803 no faces | at least one
+print(fold(geodesic(radius: 1m, parts: 6), module: Mori).layouts)
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 at most 400 | a coarser mesh
+
+--- a panel, and two panels
+use std.mori.Mori
+let s = 80mm
+let h = s * sqrt(0.75)
+let corners: List<Vec3<Length>> = [[0m, 0m, 0m], [s, 0m, 0m], [s / 2, h, 0m], [s / 2, -h * cos(50deg), h * sin(50deg)]]
+let one = fold(polyhedron(corners, [[0, 1, 2]]), module: Mori)
+print(one.layouts, one.optimal, one.order, one.duration, verify(one).ok)
+//> 1 true [] 0ms true
+let two = fold(polyhedron(corners, [[0, 1, 2], [1, 0, 3]]), module: Mori)
+print(two.layouts, two.optimal, two.gap, two.order, verify(two).ok)
+//> 1 true 0 [[1]] true
+
 --- a face that there isn't
 use std.mori.Mori
 use std.shapes.octahedron
@@ -44,7 +75,7 @@ print(fold(octahedron(edge: 80mm), module: Smores).layouts)
 use std.mori.Mori
 use std.shapes.octahedron
 print(fold(octahedron(edge: 80mm), module: Mori, step: 1s).layouts)
-//                                                     ^^ E0506 can't fold as fast
+//                                                     ^^ E0506 can't fold as fast | steps of 1.47s are long enough
 
 --- every layout that ties is counted, and random orders are compared
 use std.mori.Mori
@@ -191,3 +222,9 @@ print(fold(octahedron(e), module: Mori, method: heuristic).gap < 1e-9)
 let short = fold(tube(sides: 4, rings: 2, edge: e), module: Mori, budget: 1)
 print(short.optimal, short.gap >= 0, short.gap < 1, short.bound <= short.energy)
 //> false true true true
+
+--- a search for sheets that its budget ends says how far it came
+use std.mori.Mori
+use std.shapes.{octahedron, tube}
+print(refold(octahedron(edge: 80mm), tube(sides: 4, rings: 1, edge: 80mm), module: Mori, budget: 0).changes)
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0802 a greater `budget` | no way takes fewer than
