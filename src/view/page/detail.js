@@ -7,15 +7,20 @@ const DETAILS = [{ from: 100, round: 40 }, { from: 28, round: 16 }, { from: 0, r
 const SPECK = 6;
 const BOX = 0;
 const MESHES = 3;
-const INSTANCE = 12;
+/** Numbers of an instance: its three sides and its place in the world by rows [side, coordinate of the
+    place], colour and glow, number of the body. */
+const INSTANCE = 17;
+/** Numbers of a solid in its body: three sides, place. */
+const SOLID = 12;
 
 /** The solids of a list as instances: what of them is drawn is chosen for every picture. */
 function instancesOf(gl, meshes, plan, motion, solids) {
-  const numbers = new Float32Array(INSTANCE * solids.length);
-  const fill = (target, i, { p, body, q, s, shade }) => target.set([...p, body, ...q, ...s, SHADES[shade % SHADES.length]], INSTANCE * i);
-  solids.forEach((solid, i) => fill(numbers, i, solid));
+  const own = new Float32Array(SOLID * solids.length);
+  const fill = (target, i, { p, q, s }) => target.set([...[0, 1, 2].flatMap(k => turned(q, [0, 1, 2].map(r => (r === k ? s[k] : 0)))), ...p], SOLID * i);
+  solids.forEach((solid, i) => fill(own, i, solid));
+  const shades = solids.map(({ shade }) => SHADES[shade % SHADES.length]);
   const modules = modulesOf(plan, motion, solids);
-  const specks = new Float32Array(INSTANCE * modules.length);
+  const specks = new Float32Array(SOLID * modules.length);
   let known = false;
   const counts = new Map();
   solids.forEach(({ shape }) => counts.set(shape, (counts.get(shape) || 0) + 1));
@@ -35,23 +40,24 @@ function instancesOf(gl, meshes, plan, motion, solids) {
     for (const batch of all) batch.count = 0;
     const sides = within && sidesOf(within);
     modules.forEach((bodies, m) => {
-      const i = TEXELS * bodies[0].body;
+      const i = POSE * bodies[0].body;
       const [x, y, z] = [X[i], X[i + 1], X[i + 2]];
       let reach = 0;
       for (const { body, reach: own } of bodies) {
-        const k = TEXELS * body;
+        const k = POSE * body;
         reach = Math.max(reach, Math.hypot(X[k] - x, X[k + 1] - y, X[k + 2] - z) + own * Math.max(X[k + 8], X[k + 9], X[k + 10]));
       }
       if (sides && sides.some(([a, b, c, d, n]) => a * x + b * y + c * z + d < -n * reach)) return;
       const away = Math.max(view[3] * x + view[7] * y + view[11] * z + view[15] - reach, 1e-3);
-      if ((2 * reach * pixels) / away < SPECK) return far.add(specks, m);
+      if ((2 * reach * pixels) / away < SPECK) return far.add(specks, m, frameOf(X, bodies[0].body), 0);
       for (const { body, first, after } of bodies) {
-        const seen = (Math.max(X[TEXELS * body + 8], X[TEXELS * body + 9]) * pixels) / away;
+        const frame = frameOf(X, body);
+        const seen = (Math.max(X[POSE * body + 8], X[POSE * body + 9]) * pixels) / away;
         for (let j = first; j < after; j++) {
           const levels = levelsOf[j];
           let level = 0;
           while (level + 1 < levels.length && wide[j] * seen < DETAILS[level].from) level++;
-          levels[level].add(numbers, j);
+          levels[level].add(own, j, frame, shades[j]);
         }
       }
     });
@@ -59,6 +65,22 @@ function instancesOf(gl, meshes, plan, motion, solids) {
   }
 
   return { batches: all, choose };
+}
+
+/** A body as it stands in X: m takes its own coordinates to the world's, its size within. */
+const frame_ = { m: new Float64Array(12), colour: new Float64Array(4), body: 0 };
+function frameOf(X, body) {
+  const i = POSE * body;
+  const [x, y, z, w] = [X[i + 4], X[i + 5], X[i + 6], X[i + 7]];
+  const [a, b, c] = [X[i + 8], X[i + 9], X[i + 10]];
+  const { m, colour } = frame_;
+  (m[0] = a * (1 - 2 * (y * y + z * z))), (m[1] = a * 2 * (x * y + z * w)), (m[2] = a * 2 * (x * z - y * w));
+  (m[3] = b * 2 * (x * y - z * w)), (m[4] = b * (1 - 2 * (x * x + z * z))), (m[5] = b * 2 * (y * z + x * w));
+  (m[6] = c * 2 * (x * z + y * w)), (m[7] = c * 2 * (y * z - x * w)), (m[8] = c * (1 - 2 * (x * x + y * y)));
+  for (let k = 0; k < 3; k++) m[9 + k] = X[i + k];
+  for (let k = 0; k < 4; k++) colour[k] = X[i + 12 + k];
+  frame_.body = body;
+  return frame_;
 }
 
 /** The bodies of each module, which follow each other, and so do their solids: which solids, a box around
@@ -89,7 +111,7 @@ function widen({ low, high }, p) {
 
 /** A module as one box, as it stands in X, fixed to its first body. */
 function speckOf(bodies, X) {
-  const at = body => [0, 4, 8].map(k => Array.from(X.subarray(TEXELS * body + k, TEXELS * body + k + (k === 4 ? 4 : 3))));
+  const at = body => [0, 4, 8].map(k => Array.from(X.subarray(POSE * body + k, POSE * body + k + (k === 4 ? 4 : 3))));
   const box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
   const [origin, [x, y, z, w], grown] = at(bodies[0].body);
   for (const { body, low, high } of bodies) {
@@ -126,14 +148,26 @@ function batchOf(gl, mesh, capacity, closed, edged) {
   const buffer = gl.createBuffer();
   gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
   gl.bufferData(gl.ARRAY_BUFFER, data.byteLength, gl.DYNAMIC_DRAW);
-  const each = [2, 3, 4].map((location, k) => [location, buffer, 4, 4 * INSTANCE, 16 * k, 1]);
+  const each = [4, 4, 4, 4, 1].map((size, k) => [2 + k, buffer, size, 4 * INSTANCE, 16 * k, 1]);
   const faces = arrayOf(gl, [[0, mesh.faces, 3, 24, 0, 0], [1, mesh.faces, 3, 24, 12, 0], ...each], mesh.index);
   const lines = edged && mesh.ends ? arrayOf(gl, [[0, mesh.lines, 3, 12, 0, 0], ...each]) : null;
   return {
     count: 0,
-    add(numbers, i) {
+    /** A solid as its body stands. Parts of one module are told apart by brightness, not by hue. */
+    add(own, i, { m, colour, body }, shade) {
       const to = INSTANCE * this.count++;
-      for (let k = 0; k < INSTANCE; k++) data[to + k] = numbers[INSTANCE * i + k];
+      for (let c = 0; c < 4; c++) {
+        const [x, y, z] = [own[SOLID * i + 3 * c], own[SOLID * i + 3 * c + 1], own[SOLID * i + 3 * c + 2]];
+        for (let r = 0; r < 3; r++) {
+          const value = m[r] * x + m[3 + r] * y + m[6 + r] * z;
+          if (c < 3) data[to + 4 * c + r] = value;
+          else data[to + 4 * r + 3] = value + m[9 + r];
+        }
+      }
+      const grey = 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2];
+      for (let k = 0; k < 3; k++) data[to + 12 + k] = shade ? mix(colour[k], grey, 0.45) * (1 + 0.55 * shade) : colour[k];
+      data[to + 15] = colour[3];
+      data[to + 16] = body;
     },
     upload() {
       if (!this.count) return;

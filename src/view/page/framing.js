@@ -14,7 +14,7 @@ function framingOf(plan, motion, X) {
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
     for (const solid of motion.solids) {
-      const i = TEXELS * solid.body;
+      const i = POSE * solid.body;
       const q = [X[i + 4], X[i + 5], X[i + 6], X[i + 7]];
       const c = add([X[i], X[i + 1], X[i + 2]], turned(q, solid.p.map((x, k) => x * X[i + 8 + k])));
       const reach = 0.8 * (solid.shape > 2 ? plan.meshes[solid.shape - 3].radius : norm(solid.s.map((x, k) => x * X[i + 8 + k])) / 2);
@@ -29,16 +29,16 @@ function framingOf(plan, motion, X) {
   /** The row that everything stands in, if it is one: its near end, direction and width. */
   function thread({ low, high } = now()) {
     let [x, y, xx, xy, yy] = [0, 0, 0, 0, 0];
-    for (let b = 0; b < motion.bodies; b++) (x += X[TEXELS * b] / motion.bodies), (y += X[TEXELS * b + 1] / motion.bodies);
+    for (let b = 0; b < motion.bodies; b++) (x += X[POSE * b] / motion.bodies), (y += X[POSE * b + 1] / motion.bodies);
     for (let b = 0; b < motion.bodies; b++) {
-      const [dx, dy] = [X[TEXELS * b] - x, X[TEXELS * b + 1] - y];
+      const [dx, dy] = [X[POSE * b] - x, X[POSE * b + 1] - y];
       (xx += dx * dx), (xy += dx * dy), (yy += dy * dy);
     }
     const angle = 0.5 * Math.atan2(2 * xy, xx - yy);
     const along = [Math.cos(angle), Math.sin(angle)];
     let [first, last, wide] = [Infinity, -Infinity, 0];
     for (let b = 0; b < motion.bodies; b++) {
-      const [dx, dy] = [X[TEXELS * b] - x, X[TEXELS * b + 1] - y];
+      const [dx, dy] = [X[POSE * b] - x, X[POSE * b + 1] - y];
       const u = dx * along[0] + dy * along[1];
       (first = Math.min(first, u)), (last = Math.max(last, u));
       wide = Math.max(wide, 2 * Math.abs(dy * along[0] - dx * along[1]));

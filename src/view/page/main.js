@@ -61,7 +61,7 @@ function main() {
   const curves = curvesOf(plan, motion, player.seek);
   const panel = panelOf(plan, player);
   showHead();
-  const X = renderer ? renderer.texels : new Float32Array(TEXELS * motion.bodies);
+  const X = new Float32Array(POSE * motion.bodies);
   const framing = framingOf(plan, motion, X);
   camera.reach = 6 * framing.radius;
   const ghosts = [false, false];
@@ -77,10 +77,10 @@ function main() {
   /** The start (0) or the end (1) is placed when it is first wanted. */
   function makeGhost(i) {
     ghosts[i] = true;
-    const ghost = renderer.empty();
+    const ghost = new Float32Array(POSE * motion.bodies);
     motion.place(i ? plan.end : 0, ghost);
     paint(plan, motion, { colour: () => rgb(i ? "#2f7fc1" : "#7d8791") }, ghost, 0, null, null, false);
-    renderer.setGhost(i, ghost);
+    renderer.ghosts[i] = ghost;
   }
 
   /** The whole robot, or what is seen of it at first. */
@@ -186,11 +186,11 @@ function main() {
     const scene = {
       camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
       middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground && coarseness() < 1,
-      edges: options.edges && coarseness() < 2, detail: DETAIL[coarseness()], ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
+      edges: options.edges && coarseness() < 2, smooth: coarseness() < 1, detail: DETAIL[coarseness()], ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
     };
     if (renderer) {
       scene.ghosts.forEach((shown, i) => shown && !ghosts[i] && makeGhost(i));
-      stats.calls = renderer.render(scene);
+      stats.calls = renderer.render(scene, X);
     }
     scene_ = scene;
     placeCallout(failure);
@@ -216,7 +216,7 @@ function main() {
     box.hidden = !failure;
     if (!failure) return;
     const bodies = motion.moduleOf.flatMap((m, b) => (failure.modules.includes(m) ? [b] : []));
-    const sum = bodies.reduce((s, b) => add(s, [X[TEXELS * b], X[TEXELS * b + 1], X[TEXELS * b + 2]]), [0, 0, 0]);
+    const sum = bodies.reduce((s, b) => add(s, [X[POSE * b], X[POSE * b + 1], X[POSE * b + 2]]), [0, 0, 0]);
     const place = failure.point || (bodies.length ? scaled(sum, 1 / bodies.length) : framing.now().middle);
     const at = onScreen(place);
     box.hidden = !at;
@@ -230,7 +230,7 @@ function main() {
     if (!renderer || !scene_ || e.buttons) return;
     const rect = canvas.getBoundingClientRect();
     const [x, y] = [(e.clientX - rect.left) / rect.width, (e.clientY - rect.top) / rect.height];
-    const body = renderer.pick(scene_, x, y);
+    const body = renderer.pick(scene_, X, x, y);
     const module = body < 0 ? null : motion.moduleOf[body];
     const tip = $("tip");
     tip.hidden = body < 0;
@@ -364,12 +364,12 @@ function main() {
   const wished = fromAddress();
   fit(true, true);
   const places = t => {
-    const X = new Float32Array(TEXELS * motion.bodies);
+    const X = new Float32Array(POSE * motion.bodies);
     motion.place(t, X);
     return Array.from(X);
   };
   // For scripts and tests.
-  window.modl = { plan, stats, state, stops: events.stops, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, x, y), places, onScreen };
+  window.modl = { plan, stats, state, stops: events.stops, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, X, x, y), places, onScreen };
   try {
     if (renderer) renderer.ready();
   } catch (error) {

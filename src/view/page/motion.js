@@ -8,7 +8,8 @@
 //   causes(t)    indices of what commands the motion at t
 //   facts(b, t)  lines about a body for the tooltip
 
-const TEXELS = 16;
+/** Numbers of a body in X: place, -, rotation, size, -, colour, glow. */
+const POSE = 16;
 
 function motionOf(plan) {
   const body = plan.body;
@@ -136,7 +137,7 @@ function robotMotion(plan, body) {
       poses(t);
       const { P, Q } = state;
       for (let i = 0; i < n; i++) {
-        X.set([P[3 * i], P[3 * i + 1], P[3 * i + 2], 0, Q[4 * i], Q[4 * i + 1], Q[4 * i + 2], Q[4 * i + 3], 1, 1, 1], TEXELS * i);
+        X.set([P[3 * i], P[3 * i + 1], P[3 * i + 2], 0, Q[4 * i], Q[4 * i + 1], Q[4 * i + 2], Q[4 * i + 3], 1, 1, 1], POSE * i);
       }
     },
     causes(t) {
@@ -262,19 +263,19 @@ function latticeMotion(plan, body) {
       const u = stage ? progress(stage.law, stage.duration > 0 ? (t - times[at]) / stage.duration : 1) : 0;
       for (let i = 0; i < n; i++) {
         const box = k => mix(a[6 * i + k], b[6 * i + k], u) * body.size;
-        X.set([box(0), box(1), box(2) - low * body.size, 0, 0, 0, 0, 1, box(3), box(4), box(5)], TEXELS * i);
+        X.set([box(0), box(1), box(2) - low * body.size, 0, 0, 0, 0, 1, box(3), box(4), box(5)], POSE * i);
       }
     },
     causes: t => new Set(body.stages.length ? [body.stages[stageAt(t)].cause] : []),
     beginnings: () => body.stages.map((stage, i) => [times[i], stage.cause]),
     events: body.stages.map((stage, i) => ({ time: times[i], kind: "stage", text: stage.name })),
     facts(b, t) {
-      const X = new Float32Array(TEXELS * n);
+      const X = new Float32Array(POSE * n);
       this.place(t, X);
-      return [["type", body.cell], ["size", [8, 9, 10].map(k => (X[TEXELS * b + k] * 1000).toFixed(0)).join(" × ") + " mm"]];
+      return [["type", body.cell], ["size", [8, 9, 10].map(k => (X[POSE * b + k] * 1000).toFixed(0)).join(" × ") + " mm"]];
     },
     /** How much smaller than at rest each cell is, 0..1: for the colours. */
-    squeezed: (X, i) => 1 - (X[TEXELS * i + 8] * X[TEXELS * i + 9] * X[TEXELS * i + 10]) / body.size ** 3,
+    squeezed: (X, i) => 1 - (X[POSE * i + 8] * X[POSE * i + 9] * X[POSE * i + 10]) / body.size ** 3,
   };
 }
 
@@ -316,11 +317,11 @@ function trussMotion(plan, body) {
     ...eachItsOwn(modules),
     place(t, X) {
       const at = nodesAt(t);
-      for (let i = 0; i < nodes; i++) X.set([...at(i), 0, 0, 0, 0, 1, 1, 1, 1], TEXELS * i);
+      for (let i = 0; i < nodes; i++) X.set([...at(i), 0, 0, 0, 0, 1, 1, 1, 1], POSE * i);
       body.struts.forEach(([a, b], s) => {
         const [pa, pb] = [at(a), at(b)];
         const d = sub(pb, pa);
-        X.set([...scaled(add(pa, pb), 0.5), 0, ...fromZ(d), 1, 1, norm(d)], TEXELS * (nodes + s));
+        X.set([...scaled(add(pa, pb), 0.5), 0, ...fromZ(d), 1, 1, norm(d)], POSE * (nodes + s));
       });
     },
     causes: t => new Set([body.knots[clamp(lastNotAbove(times, t) + 1, 0, times.length - 1)].cause]),
@@ -336,6 +337,6 @@ function trussMotion(plan, body) {
       return [["type", body.strut], ["length", length.toFixed(3) + " m of " + body.range.map(x => x.toFixed(2)).join(".." ) + " m"]];
     },
     /** How far out each strut is in its range, 0..1: for the colours. */
-    extended: (X, i) => (i < nodes ? null : (X[TEXELS * i + 10] - body.range[0]) / (body.range[1] - body.range[0])),
+    extended: (X, i) => (i < nodes ? null : (X[POSE * i + 10] - body.range[0]) / (body.range[1] - body.range[0])),
   };
 }

@@ -5,7 +5,7 @@ const SHADOW_SIZE = 2048;
 
 /** Throws where WebGL 2 is missing. */
 function rendererOf(canvas, plan, motion) {
-  const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: false });
+  const gl = canvas.getContext("webgl2", { antialias: false, alpha: true, powerPreference: "high-performance", preserveDrawingBuffer: false });
   if (!gl) throw new Error("WebGL 2 is missing");
   // All are begun before the first is asked for: a browser makes them while the page goes on.
   const begun = Object.fromEntries(Object.entries(PROGRAMS).map(([name, texts]) => [name, beginProgram(gl, texts)]));
@@ -14,11 +14,9 @@ function rendererOf(canvas, plan, motion) {
   const quad = bufferOf(gl, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
   const square = arrayOf(gl, [[0, quad, 2, 8, 0, 0]]);
   const meshes = shapesOf(plan, DETAILS.map(detail => detail.round)).map(levels => levels.map(shape => meshOf(gl, shape)));
-  const rows = Math.max(Math.ceil((motion.bodies * 4) / 1024), 1);
-  const texels = new Float32Array(rows * 1024 * 4);
-  const texture = poseTexture(gl, rows);
-  const ghosts = [0, 1].map(() => ({ texture: poseTexture(gl, rows), X: null }));
+  const ghosts = [null, null];
   const shadows = shadowMap(gl);
+  const smooth = smoothTarget(gl);
   const picking = pickTarget(gl);
   const lines = lineBatch(gl);
   const flats = { buffer: gl.createBuffer() };
@@ -42,24 +40,13 @@ function rendererOf(canvas, plan, motion) {
   /** Pixels of a metre at a distance of one. */
   const pixelsOf = () => canvas.height / (2 * Math.tan(FOVY / 2));
 
-  function use(name, uniforms, poses) {
+  function use(name, uniforms) {
     const program = programOf(name);
     gl.useProgram(program.handle);
     gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, poses || texture);
-    gl.activeTexture(gl.TEXTURE1);
-    gl.bindTexture(gl.TEXTURE_2D, shadows.texture);
-    for (const [key, value] of Object.entries({ bodies: 0, shadows: 1, ...uniforms })) program.set(key, value);
-  }
-
-  function upload(target, data) {
-    gl.bindTexture(gl.TEXTURE_2D, target);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 1024, rows, gl.RGBA, gl.FLOAT, data);
-  }
-
-  function setGhost(i, X) {
-    ghosts[i].X = X;
-    upload(ghosts[i].texture, X);
+    // A map can't be read while it is drawn.
+    gl.bindTexture(gl.TEXTURE_2D, name === "depth" ? null : shadows.texture);
+    for (const [key, value] of Object.entries({ shadows: 0, ...uniforms })) program.set(key, value);
   }
 
   /** The sun's eyes: a box around what is drawn, or of something long around what is near. */
@@ -71,13 +58,12 @@ function rendererOf(canvas, plan, motion) {
     return times(orthographic(r, 0.5 * r, 6 * r), lookAt(eye, middle, [0, 1, 0]));
   }
 
-  function render(scene) {
+  function render(scene, X) {
     calls = 0;
     const { camera, theme } = scene;
     const sun = sunView(scene);
-    upload(texture, texels);
     // What is out of the picture may still throw a shadow into it.
-    choose(scene.solids, texels, scene, scene.shadow ? null : camera.matrix);
+    choose(scene.solids, X, scene, scene.shadow ? null : camera.matrix);
     if (scene.shadow) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, shadows.frame);
       gl.viewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);
@@ -85,11 +71,11 @@ function rendererOf(canvas, plan, motion) {
       gl.enable(gl.DEPTH_TEST);
       gl.enable(gl.POLYGON_OFFSET_FILL);
       gl.polygonOffset(1.5, 2);
-      use("depth", { view: sun, shadows: 2 });
+      use("depth", { view: sun });
       draw("faces");
       gl.disable(gl.POLYGON_OFFSET_FILL);
     }
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, scene.smooth ? smooth.sized(canvas.width, canvas.height) : null);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.disable(gl.DEPTH_TEST);
@@ -104,7 +90,8 @@ function rendererOf(canvas, plan, motion) {
     use("solid", { ...common, opacity: 1 });
     draw("faces");
     gl.enable(gl.BLEND);
-    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    // The canvas stays opaque.
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     if (scene.edges) {
       use("edge", { view: camera.matrix, opacity: 1, dark, pixels });
       draw("lines");
@@ -120,6 +107,7 @@ function rendererOf(canvas, plan, motion) {
     gl.depthMask(true);
     gl.disable(gl.BLEND);
     gl.bindVertexArray(null);
+    if (scene.smooth) smooth.show();
     return calls;
   }
 
@@ -140,16 +128,15 @@ function rendererOf(canvas, plan, motion) {
 
   /** Depth first, then colour once: what lies behind a ghost's own surface stays hidden. */
   function drawGhost(scene, common, i) {
-    const poses = ghosts[i].texture;
-    choose(scene.solids, ghosts[i].X, scene, scene.camera.matrix);
+    choose(scene.solids, ghosts[i], scene, scene.camera.matrix);
     gl.colorMask(false, false, false, false);
-    use("depth", { view: common.view, shadows: 2 }, poses);
+    use("depth", { view: common.view });
     draw("faces");
     gl.colorMask(true, true, true, true);
     gl.depthFunc(gl.LEQUAL);
-    use("solid", { ...common, opacity: 0.16, shadowed: 0 }, poses);
+    use("solid", { ...common, opacity: 0.16, shadowed: 0 });
     draw("faces");
-    use("edge", { view: common.view, opacity: 0.3, dark: common.dark, pixels: canvas.height }, poses);
+    use("edge", { view: common.view, opacity: 0.3, dark: common.dark, pixels: canvas.height });
     draw("lines");
     gl.depthFunc(gl.LESS);
   }
@@ -176,7 +163,7 @@ function rendererOf(canvas, plan, motion) {
   }
 
   /** The body under a place of the canvas (x, y in 0..1 from the top left), or -1. */
-  function pick(scene, x, y) {
+  function pick(scene, X, x, y) {
     const width = 4 / canvas.width;
     const height = 4 / canvas.height;
     // The view narrowed to the pixel.
@@ -186,7 +173,7 @@ function rendererOf(canvas, plan, motion) {
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const view = times(narrow, scene.camera.matrix);
-    choose(scene.solids, texels, scene, view);
+    choose(scene.solids, X, scene, view);
     use("pick", { view });
     draw("faces");
     const found = new Uint8Array(4);
@@ -195,7 +182,7 @@ function rendererOf(canvas, plan, motion) {
     return found[0] + 256 * found[1] + 65536 * found[2] - 1;
   }
 
-  return { gl, texels, render, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), setGhost, empty: () => new Float32Array(texels.length) };
+  return { gl, render, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), ghosts };
 }
 
 function beginProgram(gl, texts) {
@@ -263,14 +250,6 @@ function meshOf(gl, { faces, index, lines }) {
   return { faces: bufferOf(gl, faces), index: bufferOf(gl, index, gl.ELEMENT_ARRAY_BUFFER), corners: index.length, lines: bufferOf(gl, lines), ends: lines.length / 3 };
 }
 
-function poseTexture(gl, rows) {
-  const texture = gl.createTexture();
-  gl.bindTexture(gl.TEXTURE_2D, texture);
-  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, 1024, rows);
-  for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
-  return texture;
-}
-
 function shadowMap(gl) {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -284,6 +263,34 @@ function shadowMap(gl) {
   gl.drawBuffers([gl.NONE]);
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   return { texture, frame };
+}
+
+/** Where a picture with soft edges is drawn, of several samples a pixel, before it is shown. The canvas
+    has none of its own, so that what needs speed can do without. */
+function smoothTarget(gl) {
+  const frame = gl.createFramebuffer();
+  const samples = Math.min(4, gl.getParameter(gl.MAX_SAMPLES));
+  const buffers = [[gl.RGBA8, gl.COLOR_ATTACHMENT0], [gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]].map(kind => [gl.createRenderbuffer(), ...kind]);
+  let [wide, high] = [0, 0];
+  return {
+    sized(width, height) {
+      if (wide === width && high === height) return frame;
+      [wide, high] = [width, height];
+      gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+      for (const [buffer, format, place] of buffers) {
+        gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+        gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);
+        gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffer);
+      }
+      return frame;
+    },
+    show() {
+      gl.bindFramebuffer(gl.READ_FRAMEBUFFER, frame);
+      gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+      gl.blitFramebuffer(0, 0, wide, high, 0, 0, wide, high, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    },
+  };
 }
 
 function pickTarget(gl) {

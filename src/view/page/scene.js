@@ -65,7 +65,7 @@ function paint(plan, motion, colouring, X, t, hovered, failure, dark) {
     let c = colouring.colour(b, X, t);
     const module = motion.moduleOf[b];
     if (bad && bad.size) c = bad.has(module) ? rgb(FAILED) : c.map(x => mix(x, grey, 0.7));
-    const i = TEXELS * b + 12;
+    const i = POSE * b + 12;
     X[i] = c[0];
     X[i + 1] = c[1];
     X[i + 2] = c[2];

@@ -2,27 +2,25 @@
 
 const HEAD = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision highp sampler2DShadow;\n";
 
-/** Poses of bodies come from a texture, four texels each, so that a frame uploads nothing else. */
+/** Each instance carries the three sides of what it draws, in the world, and its place. */
 const BODY = `
-uniform sampler2D bodies;
 layout(location=0) in vec3 corner;
 layout(location=1) in vec3 normal;
-layout(location=2) in vec4 place;   // position in the body, number of the body
-layout(location=3) in vec4 turn;
-layout(location=4) in vec4 size;    // w: shade
-vec4 texel(int k) {
-  int i = int(place.w) * 4 + k;
-  return texelFetch(bodies, ivec2(i & 1023, i >> 10), 0);
-}
-vec3 rotate(vec4 q, vec3 v) { vec3 t = 2.0 * cross(q.xyz, v); return v + q.w * t + cross(q.xyz, t); }
+layout(location=2) in vec4 along;   // w: x of the place, of the others y and z
+layout(location=3) in vec4 across;
+layout(location=4) in vec4 up;
+layout(location=5) in vec4 tint;    // w: glow
+layout(location=6) in float body;
+vec3 place() { return vec3(along.w, across.w, up.w); }
+vec3 sides() { return vec3(length(along.xyz), length(across.xyz), length(up.xyz)); }
 vec3 grown(vec3 by) {
-  vec3 p = place.xyz + rotate(turn, corner * size.xyz * by);
-  return texel(0).xyz + rotate(texel(1), texel(2).xyz * p);
+  vec3 c = corner * by;
+  return place() + along.xyz * c.x + across.xyz * c.y + up.xyz * c.z;
 }
 vec3 world() { return grown(vec3(1.0)); }
+/** By the cofactors of the sides, which hold for any of them. */
 vec3 worldNormal() {
-  vec3 n = rotate(turn, normal / size.xyz);
-  return normalize(rotate(texel(1), n / texel(2).xyz));
+  return normalize(cross(across.xyz, up.xyz) * normal.x + cross(up.xyz, along.xyz) * normal.y + cross(along.xyz, across.xyz) * normal.z);
 }
 `;
 
@@ -33,14 +31,13 @@ out vec3 at, facing, colour;
 out vec4 lit;
 out float glow;
 void main() {
-  vec4 c = texel(3);
   // What is thinner than a pixel would be seen in dots, or not at all.
-  float away = (view * vec4(texel(0).xyz, 1.0)).w;
-  at = grown(max(vec3(1.0), 1.1 * away / (pixels * size.xyz * texel(2).xyz)));
+  float away = (view * vec4(place(), 1.0)).w;
+  at = grown(max(vec3(1.0), 1.1 * away / (pixels * sides())));
   facing = worldNormal();
-  // Parts of one module are told apart by brightness, not by hue.
-  colour = mix(c.rgb, mix(c.rgb, vec3(dot(c.rgb, vec3(0.3, 0.6, 0.1))), 0.45) * (1.0 + 0.55 * size.w), step(0.0001, abs(size.w)));
-  glow = c.a;
+  // Light adds up in squares of what is shown, which is near enough to what screens do.
+  colour = tint.rgb * tint.rgb;
+  glow = tint.a;
   lit = sun * vec4(at + facing * 0.002, 1.0);
   gl_Position = view * vec4(at, 1.0);
 }`;
@@ -70,13 +67,12 @@ void main() {
   float direct = max(dot(n, sunDirection), 0.0) * sunlight(lit);
   float back = max(dot(n, vec3(-sunDirection.xy, 0.25)), 0.0);
   vec3 sky = mix(vec3(0.30, 0.29, 0.28), vec3(0.56, 0.60, 0.66), n.z * 0.5 + 0.5) * mix(1.0, 0.72, dark);
-  vec3 base = pow(colour, vec3(2.2));
-  vec3 c = base * (sky + direct * vec3(0.92, 0.88, 0.80) + back * 0.10);
-  vec3 h = normalize(sunDirection + v);
-  c += 0.10 * pow(max(dot(n, h), 0.0), 40.0) * direct;
-  c += base * 0.35 * pow(1.0 - max(dot(n, v), 0.0), 3.0);
-  c = mix(c, base * 1.5 + 0.12, glow);
-  shown = vec4(pow(c, vec3(1.0 / 2.2)), opacity);
+  vec3 c = colour * (sky + direct * vec3(0.92, 0.88, 0.80) + back * 0.10);
+  float gloss = max(dot(n, normalize(sunDirection + v)), 0.0), rim = 1.0 - max(dot(n, v), 0.0);
+  gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss;
+  c += 0.10 * gloss * direct + colour * 0.35 * rim * rim * rim;
+  c = mix(c, colour * 1.5 + 0.12, glow);
+  shown = vec4(sqrt(c), opacity);
 }`;
 
 const EDGE_VERTEX = HEAD + BODY + `
@@ -85,11 +81,10 @@ uniform float pixels;               // of a metre at a distance of one
 out vec3 colour;
 out float strength;
 void main() {
-  colour = texel(3).rgb;
+  colour = tint.rgb;
   gl_Position = view * vec4(world(), 1.0);
   // Edges of what is small on the screen would cover it.
-  vec3 full = size.xyz * texel(2).xyz;
-  strength = smoothstep(5.0, 28.0, length(full) * pixels / gl_Position.w);
+  strength = smoothstep(5.0, 28.0, length(sides()) * pixels / gl_Position.w);
   gl_Position.z -= 0.00015 * gl_Position.w;
 }`;
 
@@ -107,12 +102,12 @@ const DEPTH_FRAGMENT = HEAD + `void main() {}`;
 
 const PICK_VERTEX = HEAD + BODY + `
 uniform mat4 view;
-flat out int body;
-void main() { body = int(place.w) + 1; gl_Position = view * vec4(world(), 1.0); }`;
+flat out int found;
+void main() { found = int(body) + 1; gl_Position = view * vec4(world(), 1.0); }`;
 const PICK_FRAGMENT = HEAD + `
-flat in int body;
+flat in int found;
 out vec4 shown;
-void main() { shown = vec4(body & 255, (body >> 8) & 255, (body >> 16) & 255, 255) / 255.0; }`;
+void main() { shown = vec4(found & 255, (found >> 8) & 255, (found >> 16) & 255, 255) / 255.0; }`;
 
 const GROUND_VERTEX = HEAD + `
 uniform mat4 view, sun;
