@@ -84,7 +84,7 @@ fn least_change(held: &[usize]) -> f64 {
         ground: false,
         cap: f64::INFINITY,
     };
-    let y = step(&task, &mut Memory::new()).expect("nothing is in the way");
+    let y = step(&task, &mut Memory::default()).expect("nothing is in the way");
     let squares = truss.struts.iter().map(|&(a, b)| {
         let along = (x[a] - x[b]).normalize();
         let change = along.dot(&((y[a] - x[a]) - (y[b] - x[b]))) / SMALL;
@@ -148,7 +148,7 @@ fn a_strut_at_its_limit_may_turn() {
     };
     let task =
         Task { truss: &truss, x: &x, objective: &aside, held: &[0], centre: &[], ground: false, cap: 1.0 };
-    let y = step(&task, &mut Memory::new()).expect("it can turn");
+    let y = step(&task, &mut Memory::default()).expect("it can turn");
     assert!(y[1].y > 0.4, "{y:?}");
     assert!(y[1].norm() <= 3.0 + 1e-9, "{}", y[1].norm());
 }

@@ -35,22 +35,24 @@ fn shortest((a, b): (Vec3, Vec3), (c, d): (Vec3, Vec3)) -> f64 {
     (from + change * t.clamp(0.0, 1.0)).norm()
 }
 
-/// By how much two struts come too close, if they do.
+/// By how much two struts come too close, if they do. Seen along the direction in which they are nearest,
+/// each end passes each end of the other evenly: until one would be too near, the struts are not.
 fn closest(truss: &Structure, x: &[Vec3], y: &[Vec3], (i, j): (usize, usize), cushion: f64) -> Option<f64> {
     let ((a, b), (c, d)) = (truss.struts[i], truss.struts[j]);
     let moved = |node: usize| y[node] - x[node];
-    let speed = [(a, c), (a, d), (b, c), (b, d)]
-        .iter()
-        .map(|&(p, q)| (moved(p) - moved(q)).norm())
-        .fold(0.0, f64::max);
     let mut t = 0.0;
     while t < 1.0 {
         let at = |node: usize| x[node] + moved(node) * t;
-        let distance = segment::nearest((at(a), at(b)), (at(c), at(d))).distance;
-        if distance < truss.clearance - cushion / 2.0 {
-            return Some(truss.clearance - distance);
+        let nearest = segment::nearest((at(a), at(b)), (at(c), at(d)));
+        if nearest.distance < truss.clearance - cushion / 2.0 {
+            return Some(truss.clearance - nearest.distance);
         }
-        t += (distance - truss.clearance + cushion) / speed.max(f64::MIN_POSITIVE);
+        let along = |v: Vec3| v.dot(&nearest.normal);
+        let lasts = |(p, q): (usize, usize)| {
+            let (apart, speed) = (along(at(p) - at(q)).max(nearest.distance), along(moved(p) - moved(q)));
+            (apart - truss.clearance + cushion) / (-speed).max(f64::MIN_POSITIVE)
+        };
+        t += [(a, c), (a, d), (b, c), (b, d)].map(lasts).into_iter().fold(f64::INFINITY, f64::min);
     }
     None
 }

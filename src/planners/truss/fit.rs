@@ -9,6 +9,7 @@ use super::step::Objective;
 use super::structure::Structure;
 use super::surface::Surface;
 use crate::geometry::Vec3;
+use nalgebra::Matrix3;
 use std::collections::BTreeMap;
 
 /// Pieces of each side of an outer triangle, each a point from which the goal is looked for.
@@ -107,56 +108,86 @@ pub fn fit(faces: &[[usize; 3]], x: &[Vec3], goal: &Goal, guesses: &mut Vec<usiz
 
 impl Fit {
     pub fn objective(&self, truss: &Structure, x: &[Vec3], weights: &Weights) -> Objective {
-        let mut sums = Sums { hessian: BTreeMap::new(), linear: vec![0.0; 3 * truss.nodes] };
+        let mut sums = Sums { blocks: BTreeMap::new(), linear: vec![Vec3::zeros(); truss.nodes] };
+        // Of one face all residuals have one metric, so that their weights can be added up first.
+        let mut faces: BTreeMap<[usize; 3], Face> = BTreeMap::new();
         for (pulls, weight) in [(&self.pulls, 1.0), (&self.back, weights.back)] {
             for pull in pulls.iter().filter(|_| weight > 0.0) {
-                sums.pull(pull, weight, weights.across);
+                faces
+                    .entry(pull.nodes)
+                    .or_insert_with(|| Face::new(pull.normal))
+                    .add(pull, weight * pull.share);
+            }
+        }
+        for (nodes, face) in &faces {
+            let metric = Matrix3::identity() * (1.0 - weights.across)
+                + face.normal * face.normal.transpose() * weights.across;
+            for k in 0..3 {
+                sums.linear[nodes[k]] += metric * face.pushed[k];
+                for l in (0..3).filter(|l| nodes[*l] >= nodes[k]) {
+                    sums.block(nodes[k], nodes[l], metric * face.weights[(k, l)]);
+                }
             }
         }
         let spring = weights.springs / truss.struts.len() as f64;
         for &(a, b) in &truss.struts {
-            let d = x[a] - x[b];
-            sums.add(&[(a, 1.0), (b, -1.0)], &d, spring, 0.0, &Vec3::z());
+            let pushed = (x[a] - x[b]) * spring;
+            sums.linear[a] += pushed;
+            sums.linear[b] -= pushed;
+            sums.block(a, a, Matrix3::identity() * spring);
+            sums.block(b, b, Matrix3::identity() * spring);
+            sums.block(a.min(b), a.max(b), -Matrix3::identity() * spring);
         }
         for node in 0..truss.nodes {
-            sums.add(&[(node, 1.0)], &Vec3::zeros(), weights.still / truss.nodes as f64, 0.0, &Vec3::z());
+            sums.block(node, node, Matrix3::identity() * (weights.still / truss.nodes as f64));
         }
-        Objective {
-            hessian: sums.hessian.into_iter().map(|((i, j), v)| (i, j, v)).collect(),
-            linear: sums.linear,
+        sums.objective()
+    }
+}
+
+/// The residuals whose points are on one face: `½ Σ weight rᵀ M r`.
+struct Face {
+    normal: Vec3,
+    /// Sums of weight times the points' weights over the corners, two at a time.
+    weights: Matrix3<f64>,
+    /// Of weight times a point's weight times its residual, by corner.
+    pushed: [Vec3; 3],
+}
+
+impl Face {
+    fn new(normal: Vec3) -> Face {
+        Face { normal, weights: Matrix3::zeros(), pushed: [Vec3::zeros(); 3] }
+    }
+
+    fn add(&mut self, pull: &Pull, weight: f64) {
+        let corners = Vec3::from(pull.weights);
+        self.weights += corners * corners.transpose() * weight;
+        for k in 0..3 {
+            self.pushed[k] += (pull.from - pull.at) * (weight * corners[k]);
         }
     }
 }
 
+/// Of H the blocks on and above the diagonal, by nodes.
 struct Sums {
-    hessian: BTreeMap<(usize, usize), f64>,
-    linear: Vec<f64>,
+    blocks: BTreeMap<(usize, usize), Matrix3<f64>>,
+    linear: Vec<Vec3>,
 }
 
 impl Sums {
-    fn pull(&mut self, pull: &Pull, weight: f64, across: f64) {
-        let terms: [(usize, f64); 3] = std::array::from_fn(|k| (pull.nodes[k], pull.weights[k]));
-        self.add(&terms, &(pull.from - pull.at), weight * pull.share, across, &pull.normal);
+    fn block(&mut self, a: usize, b: usize, value: Matrix3<f64>) {
+        *self.blocks.entry((a, b)).or_insert_with(Matrix3::zeros) += value;
     }
 
-    /// `½ weight rᵀ M r` with r = residual + Σ factor u, M = (1 - across) + across normal normalᵀ.
-    fn add(&mut self, terms: &[(usize, f64)], residual: &Vec3, weight: f64, across: f64, normal: &Vec3) {
-        let metric =
-            |i: usize, j: usize| (if i == j { 1.0 - across } else { 0.0 }) + across * normal[i] * normal[j];
-        for &(a, p) in terms.iter().filter(|(_, p)| *p != 0.0) {
+    fn objective(&self) -> Objective {
+        let mut hessian = Vec::with_capacity(9 * self.blocks.len());
+        for ((a, b), block) in &self.blocks {
             for i in 0..3 {
-                let pushed: f64 = (0..3).map(|j| metric(i, j) * residual[j]).sum();
-                self.linear[3 * a + i] += weight * p * pushed;
-                for &(b, q) in terms.iter().filter(|(b, q)| *b >= a && *q != 0.0) {
-                    for j in 0..3 {
-                        let value = metric(i, j);
-                        if 3 * b + j >= 3 * a + i && value != 0.0 {
-                            *self.hessian.entry((3 * a + i, 3 * b + j)).or_default() +=
-                                weight * p * q * value;
-                        }
-                    }
-                }
+                let above = if a == b { i } else { 0 };
+                let entries = (above..3).map(|j| (3 * a + i, 3 * b + j, block[(i, j)]));
+                hessian.extend(entries.filter(|(_, _, value)| *value != 0.0));
             }
         }
+        Objective { hessian, linear: self.linear.iter().flat_map(|v| [v.x, v.y, v.z]).collect() }
     }
 }

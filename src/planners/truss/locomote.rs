@@ -99,7 +99,7 @@ pub fn locomote(truss: &Structure, start: &[Vec3], wish: &Wish, going: &dyn Fn(u
         truss,
         wish,
         x: start.to_vec(),
-        memory: Memory::new(),
+        memory: Memory::default(),
         eased_in_a_row: 0,
         travel: Travel::new(),
     };
@@ -250,7 +250,7 @@ impl Walk<'_> {
             }
             let Some(roll) = roll::over(self.truss, &self.x, edge) else { return Err(End::Falls) };
             self.x = roll::rolled(&self.x, roll);
-            self.memory.retain(|bound| !matches!(bound, Bound::Above(_)));
+            self.memory.near.retain(|bound| !matches!(bound, Bound::Above(_)));
             self.travel.rolls += 1;
             self.travel.moves.push(Move::Roll(roll));
         }

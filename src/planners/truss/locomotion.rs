@@ -4,7 +4,6 @@
 use super::step::Objective;
 use super::structure::Structure;
 use crate::geometry::Vec3;
-use std::collections::BTreeMap;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Aim {
@@ -43,11 +42,8 @@ fn springs(truss: &Structure, x: &[Vec3], pace: f64) -> Objective {
 
 /// `½ |R u - w|² + ½ still |u|²`, R the rigidity matrix of unit rows, w by strut's length.
 fn lengths(truss: &Structure, x: &[Vec3], still: f64, wanted: impl Fn(f64) -> f64) -> Objective {
-    let mut hessian: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    let mut hessian: Vec<(usize, usize, f64)> = (0..3 * truss.nodes).map(|i| (i, i, still)).collect();
     let mut linear = vec![0.0; 3 * truss.nodes];
-    for i in 0..3 * truss.nodes {
-        *hessian.entry((i, i)).or_default() += still;
-    }
     for &(a, b) in &truss.struts {
         let d = x[a] - x[b];
         let (along, length) = (d.normalize(), d.norm());
@@ -58,9 +54,9 @@ fn lengths(truss: &Structure, x: &[Vec3], still: f64, wanted: impl Fn(f64) -> f6
         for &(i, p) in &row {
             linear[i] -= p * wanted(length);
             for &(j, q) in row.iter().filter(|(j, _)| *j >= i) {
-                *hessian.entry((i, j)).or_default() += p * q;
+                hessian.push((i, j, p * q));
             }
         }
     }
-    Objective { hessian: hessian.into_iter().map(|((i, j), v)| (i, j, v)).collect(), linear }
+    Objective { hessian, linear }
 }

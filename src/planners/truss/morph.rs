@@ -94,7 +94,7 @@ fn towards(
 ) -> Morph {
     let mut guesses = Vec::new();
     let mut x = start.to_vec();
-    let mut memory = Memory::new();
+    let mut memory = Memory::default();
     let mut found = fit(faces, &x, goal, &mut guesses);
     let first = found.distance;
     let mut steps: Vec<Vec<Vec3>> = Vec::new();
@@ -123,7 +123,7 @@ fn towards(
         let next = caps.into_iter().find_map(|cap| match shorter(cap, &mut memory) {
             Ok(y) => Some(y),
             Err(why) => {
-                memory.clear();
+                memory.near.clear();
                 stuck.get_or_insert(why);
                 None
             }

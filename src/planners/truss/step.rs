@@ -7,12 +7,12 @@
 
 use super::between;
 use super::bound::Bound;
-use super::nearby;
+use super::nearby::Nearby;
 use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::linear::Unsolved;
-use crate::optimize::quadratic::{Problem, quadratic_program};
+use crate::optimize::quadratic::{Programme, Row};
 use std::collections::BTreeMap;
 
 /// Programmes of one step.
@@ -25,6 +25,8 @@ const INSIST: f64 = 1.5;
 const INSIDE: f64 = 1e-6;
 const NEAR: f64 = 0.02;
 pub const CUSHION: f64 = 2e-4;
+/// How far, of the unit, a row of the programme may be off: less than it is asked to be inside.
+const SOLVED: f64 = 1e-9;
 /// A value is below zero if it is by more than this part of the unit.
 const ROUNDING: f64 = 1e-10;
 /// Struts whose angle has a smaller sine are nearly parallel.
@@ -60,31 +62,38 @@ pub enum Stuck {
     Unsettled(Vec<Bound>),
 }
 
-/// The bounds that were near in the step before.
-pub type Memory = Vec<Bound>;
+/// What a step remembers of the one before.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    /// The bounds that were near.
+    pub near: Vec<Bound>,
+    pairs: Option<Nearby>,
+}
 
 /// Where the nodes are after the step. Every bound holds there and on the way.
 pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
     let Task { truss, x, .. } = *task;
     let columns = columns(task);
-    let mut rows: BTreeMap<Bound, f64> = memory.iter().map(|bound| (*bound, INSIDE * truss.unit)).collect();
-    let asked = |rows: &BTreeMap<Bound, f64>| rows.keys().copied().collect::<Vec<_>>();
+    let mut rows = Rows::new(task, &columns);
+    for bound in &memory.near {
+        rows.ask(*bound, 0.0);
+    }
     for _ in 0..ROUNDS_MAX {
         interrupt::checkpoint();
-        let y = match quadratic_program(&problem(task, &columns, &rows)) {
+        let y = match rows.programme.solve() {
             Ok(u) => moved(task, &columns, &u),
-            Err(Unsolved::Infeasible | Unsolved::Unbounded) => return Err(Stuck::Infeasible(asked(&rows))),
-            Err(Unsolved::Numerical) => return Err(Stuck::Unsettled(asked(&rows))),
+            Err(Unsolved::Infeasible | Unsolved::Unbounded) => return Err(Stuck::Infeasible(rows.asked())),
+            Err(Unsolved::Numerical) => return Err(Stuck::Unsettled(rows.asked())),
         };
-        let broken = broken(task, &y);
+        let broken = broken(task, &y, &mut memory.pairs);
         if broken.is_empty() {
-            let near = |bound: &&Bound| bound.value(truss, &y) < NEAR * truss.unit;
-            *memory = rows.keys().filter(near).copied().collect();
+            let near = |bound: &Bound| bound.value(truss, &y) < NEAR * truss.unit;
+            memory.near = rows.asked().into_iter().filter(near).collect();
+            memory.pairs.iter_mut().for_each(|pairs| pairs.moved(truss, &y));
             return Ok(y);
         }
         for (bound, lack) in broken {
-            let insist = |wanted: &mut f64| *wanted += INSIST * lack;
-            rows.entry(bound).and_modify(insist).or_insert(INSIDE * truss.unit);
+            rows.ask(bound, lack);
             if let Bound::Apart(i, j) = bound
                 && parallel(truss, x, i, j)
             {
@@ -95,13 +104,70 @@ pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
                     Bound::EndApart(j, 1, i),
                 ] {
                     if end.value(truss, x) < NEAR * truss.unit {
-                        rows.entry(end).or_insert(INSIDE * truss.unit);
+                        rows.ask(end, 0.0);
                     }
                 }
             }
         }
     }
-    Err(Stuck::Unsettled(asked(&rows)))
+    Err(Stuck::Unsettled(rows.asked()))
+}
+
+/// The programme of a step, and what each bound is asked for in it.
+struct Rows<'a> {
+    task: &'a Task<'a>,
+    columns: &'a [Option<usize>],
+    programme: Programme,
+    /// The number of the bound's row, if it has one, and what is asked for, m.
+    known: BTreeMap<Bound, (Option<usize>, f64)>,
+}
+
+impl<'a> Rows<'a> {
+    fn new(task: &'a Task, columns: &'a [Option<usize>]) -> Rows<'a> {
+        let Task { truss, objective, .. } = *task;
+        let place = |entry: usize| columns[entry / 3].map(|column| column + entry % 3);
+        let entry = |&(row, column, value): &(usize, usize, f64)| Some((place(row)?, place(column)?, value));
+        let hessian = objective.hessian.iter().filter_map(entry).collect();
+        let mut linear = vec![0.0; 3 * columns.iter().flatten().count()];
+        for (at, value) in objective.linear.iter().enumerate() {
+            if let Some(column) = place(at) {
+                linear[column] = *value;
+            }
+        }
+        let mut programme = Programme::new(hessian, linear, SOLVED * truss.unit);
+        for &(axis, wanted) in task.centre {
+            let shares = columns.iter().zip(&truss.shares);
+            let terms = shares.filter_map(|(column, share)| Some((column.as_ref()? + axis, *share)));
+            programme.equal((terms.collect(), wanted));
+        }
+        Rows { task, columns, programme, known: BTreeMap::new() }
+    }
+
+    /// Asks for a bound; if it was asked for before, for more than it fell short by.
+    fn ask(&mut self, bound: Bound, lack: f64) {
+        let Task { truss, x, .. } = *self.task;
+        if let Some((row, wanted)) = self.known.get_mut(&bound) {
+            *wanted += INSIST * lack;
+            if let Some(row) = row {
+                self.programme.set(*row, bound.value(truss, x) - *wanted);
+            }
+            return;
+        }
+        let wanted = INSIDE * truss.unit;
+        let gradient = bound.gradient(truss, x);
+        let terms = gradient.iter().filter_map(|(node, g)| Some((self.columns[*node]?, g)));
+        let terms: Row = (
+            terms.flat_map(|(column, g)| (0..3).map(move |k| (column + k, -g[k]))).collect(),
+            bound.value(truss, x) - wanted,
+        );
+        // Between nodes that stay nothing changes.
+        let row = (!terms.0.is_empty()).then(|| self.programme.at_most(terms));
+        self.known.insert(bound, (row, wanted));
+    }
+
+    fn asked(&self) -> Vec<Bound> {
+        self.known.keys().copied().collect()
+    }
 }
 
 fn parallel(truss: &Structure, x: &[Vec3], i: usize, j: usize) -> bool {
@@ -123,41 +189,6 @@ fn columns(task: &Task) -> Vec<Option<usize>> {
     (0..task.truss.nodes).map(&mut column).collect()
 }
 
-fn problem(task: &Task, columns: &[Option<usize>], rows: &BTreeMap<Bound, f64>) -> Problem {
-    let Task { truss, x, objective, .. } = *task;
-    let place = |entry: usize| columns[entry / 3].map(|column| column + entry % 3);
-    let free = columns.iter().flatten().count();
-    let mut problem = Problem { linear: vec![0.0; 3 * free], ..Problem::default() };
-    for &(row, column, value) in &objective.hessian {
-        if let (Some(row), Some(column)) = (place(row), place(column)) {
-            problem.hessian.push((row, column, value));
-        }
-    }
-    for (entry, value) in objective.linear.iter().enumerate() {
-        if let Some(column) = place(entry) {
-            problem.linear[column] = *value;
-        }
-    }
-    for &(axis, wanted) in task.centre {
-        let terms = columns
-            .iter()
-            .zip(&truss.shares)
-            .filter_map(|(column, share)| Some((column.as_ref()? + axis, *share)));
-        problem.equal.push((terms.collect(), wanted));
-    }
-    for (bound, wanted) in rows {
-        let gradient = bound.gradient(truss, x);
-        let terms = gradient.iter().filter_map(|(node, g)| Some((columns[*node]?, g)));
-        let terms: Vec<(usize, f64)> =
-            terms.flat_map(|(column, g)| (0..3).map(move |k| (column + k, -g[k]))).collect();
-        // Between nodes that stay nothing changes.
-        if !terms.is_empty() {
-            problem.at_most.push((terms, bound.value(truss, x) - wanted));
-        }
-    }
-    problem
-}
-
 fn moved(task: &Task, columns: &[Option<usize>], u: &[f64]) -> Vec<Vec3> {
     let displacement =
         |column: &Option<usize>| column.map_or_else(Vec3::zeros, |c| Vec3::new(u[c], u[c + 1], u[c + 2]));
@@ -167,9 +198,10 @@ fn moved(task: &Task, columns: &[Option<usize>], u: &[f64]) -> Vec<Vec3> {
 }
 
 /// Bounds that do not hold at y or on the way there, with by how much, m.
-fn broken(task: &Task, y: &[Vec3]) -> Vec<(Bound, f64)> {
+fn broken(task: &Task, y: &[Vec3], pairs: &mut Option<Nearby>) -> Vec<(Bound, f64)> {
     let Task { truss, x, .. } = *task;
-    let pairs = nearby::pairs(truss, x, y, truss.clearance);
+    let cushion = CUSHION * truss.unit;
+    let pairs = Nearby::candidates(pairs, truss, (x, y), cushion);
     let lengths = (0..truss.struts.len()).flat_map(|strut| [Bound::Shortest(strut), Bound::Longest(strut)]);
     let apart = pairs.iter().map(|&(i, j)| Bound::Apart(i, j));
     let above = (0..truss.nodes).filter(|_| task.ground).map(Bound::Above);
@@ -180,7 +212,7 @@ fn broken(task: &Task, y: &[Vec3]) -> Vec<(Bound, f64)> {
             broken.insert(bound, -value);
         }
     }
-    for (bound, lack) in between::shortfalls(truss, x, y, &pairs, CUSHION * truss.unit) {
+    for (bound, lack) in between::shortfalls(truss, x, y, &pairs, cushion) {
         broken.entry(bound).and_modify(|known| *known = known.max(lack)).or_insert(lack);
     }
     broken.into_iter().collect()

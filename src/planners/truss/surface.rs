@@ -57,19 +57,55 @@ pub struct Foot {
     pub distance: f64,
 }
 
-/// Triangles with a ball around each, so that most need not be looked at.
+/// Triangles in a tree of balls, so that most need not be looked at.
 pub struct Surface {
     corners: Vec<[Vec3; 3]>,
-    balls: Vec<(Vec3, f64)>,
+    /// The balls of the tree, depth first: what is in one follows it.
+    balls: Vec<Ball>,
+}
+
+struct Ball {
+    middle: Vec3,
+    radius: f64,
+    /// The place of the ball after all that are in this one.
+    after: usize,
+    /// The triangle, of a ball around one.
+    triangle: Option<usize>,
 }
 
 impl Surface {
     pub fn new(corners: Vec<[Vec3; 3]>) -> Surface {
-        let ball = |t: &[Vec3; 3]| {
-            let middle = (t[0] + t[1] + t[2]) / 3.0;
-            (middle, t.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max))
-        };
-        Surface { balls: corners.iter().map(ball).collect(), corners }
+        let mut order: Vec<usize> = (0..corners.len()).collect();
+        let mut surface = Surface { balls: Vec::with_capacity(2 * corners.len()), corners };
+        surface.grow(&mut order);
+        surface
+    }
+
+    /// A ball around some triangles, and those within, halved across the longest side of their middles' box.
+    fn grow(&mut self, triangles: &mut [usize]) {
+        if triangles.is_empty() {
+            return;
+        }
+        let corners = &self.corners;
+        let middle = |t: &usize| corners[*t].iter().sum::<Vec3>() / 3.0;
+        let low = triangles.iter().map(middle).reduce(|a, b| a.inf(&b)).expect("there are some");
+        let high = triangles.iter().map(middle).reduce(|a, b| a.sup(&b)).expect("there are some");
+        let centre = (low + high) / 2.0;
+        let points = triangles.iter().flat_map(|t| corners[*t]);
+        let radius = points.map(|p| (p - centre).norm()).fold(0.0, f64::max);
+        let at = self.balls.len();
+        let triangle = (triangles.len() == 1).then(|| triangles[0]);
+        if triangle.is_none() {
+            let side = (high - low).imax();
+            triangles.sort_by(|a, b| middle(a)[side].total_cmp(&middle(b)[side]).then(a.cmp(b)));
+        }
+        self.balls.push(Ball { middle: centre, radius, after: 0, triangle });
+        if triangle.is_none() {
+            let (left, right) = triangles.split_at_mut(triangles.len() / 2);
+            self.grow(left);
+            self.grow(right);
+        }
+        self.balls[at].after = self.balls.len();
     }
 
     pub fn triangles(&self) -> &[[Vec3; 3]] {
@@ -85,10 +121,17 @@ impl Surface {
             Foot { triangle, weights, at, distance: (p - at).norm() }
         };
         let mut best = foot(guess.unwrap_or(0));
-        for (triangle, (middle, radius)) in self.balls.iter().enumerate() {
-            if (p - middle).norm() - radius > best.distance {
+        let mut i = 0;
+        while let Some(ball) = self.balls.get(i) {
+            let reach = best.distance + ball.radius;
+            if (p - ball.middle).norm_squared() > reach * reach {
+                i = ball.after;
                 continue;
             }
+            i += 1;
+            let Some(triangle) = ball.triangle.filter(|triangle| *triangle != best.triangle) else {
+                continue;
+            };
             let found = foot(triangle);
             if found.distance < best.distance || (found.distance == best.distance && triangle < best.triangle)
             {

@@ -1,0 +1,262 @@
+//! Strictly convex quadratic programmes by the dual active-set method of Goldfarb and Idnani (1983), for
+//! programmes to which rows are added while they are being solved: each solution begins with the rows
+//! that held the last one.
+//!
+//! With `H = L Lᵀ`, `v = Lᵀ x`, `z = L⁻¹ a` the programme is to find the point v nearest to `v₀ = -L⁻¹ c`
+//! with `z·v ≤ b` for each row. The Gram matrix of the active rows is kept factored.
+
+use super::factor::Factor;
+use super::linear::Unsolved;
+use super::sparse::Row;
+
+/// A row that is nearly a sum of active ones is taken for one: the part of its squared length that is left.
+const DEPENDENT: f64 = 1e-11;
+/// Changes of the active set, per row, until it is given up.
+const CHANGES_MAX: usize = 20;
+
+/// A vector by its entries that are not zero.
+#[derive(Clone, Debug, Default)]
+struct Sparse {
+    at: Vec<usize>,
+    value: Vec<f64>,
+}
+
+impl Sparse {
+    fn dot(&self, dense: &[f64]) -> f64 {
+        self.at.iter().zip(&self.value).map(|(i, v)| v * dense[*i]).sum()
+    }
+
+    fn add_to(&self, dense: &mut [f64], factor: f64) {
+        for (i, v) in self.at.iter().zip(&self.value) {
+            dense[*i] += factor * v;
+        }
+    }
+}
+
+struct Line {
+    terms: Vec<(usize, f64)>,
+    right: f64,
+    equal: bool,
+    /// z, once it was needed; with its squared length and its product with v₀.
+    image: Option<(Sparse, f64, f64)>,
+    active: bool,
+}
+
+pub struct ActiveSet {
+    factor: Factor,
+    /// v₀.
+    free: Vec<f64>,
+    lines: Vec<Line>,
+    /// The active rows with their multipliers, in the order of the factor's rows.
+    active: Vec<usize>,
+    multipliers: Vec<f64>,
+    /// The lower triangle C of the active rows' Gram matrix, `C Cᵀ`, by rows.
+    gram: Vec<Vec<f64>>,
+    /// How far a row may be off, in the units of its right side.
+    tolerance: f64,
+    work: Vec<f64>,
+}
+
+impl ActiveSet {
+    pub fn new(factor: Factor, linear: &[f64], tolerance: f64) -> ActiveSet {
+        let mut free: Vec<f64> = linear.iter().map(|c| -c).collect();
+        factor.forward(&mut free);
+        ActiveSet {
+            work: vec![0.0; free.len()],
+            factor,
+            free,
+            lines: Vec::new(),
+            active: Vec::new(),
+            multipliers: Vec::new(),
+            gram: Vec::new(),
+            tolerance,
+        }
+    }
+
+    /// Adds `a·x = b`; says its number.
+    pub fn equal(&mut self, row: Row) -> usize {
+        self.line(row, true)
+    }
+
+    /// Adds `a·x ≤ b`; says its number.
+    pub fn at_most(&mut self, row: Row) -> usize {
+        self.line(row, false)
+    }
+
+    fn line(&mut self, (terms, right): Row, equal: bool) -> usize {
+        self.lines.push(Line { terms, right, equal, image: None, active: false });
+        self.lines.len() - 1
+    }
+
+    /// Another right side.
+    pub fn set(&mut self, line: usize, right: f64) {
+        self.lines[line].right = right;
+    }
+
+    pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
+        self.restart();
+        for line in 0..self.lines.len() {
+            if self.lines[line].equal && !self.lines[line].active {
+                self.enter(line)?;
+            }
+        }
+        for _ in 0..CHANGES_MAX * (self.lines.len() + 1) {
+            let x = self.point();
+            let Some(line) = self.most_broken(&x) else { return Ok(x) };
+            self.enter(line)?;
+        }
+        Err(Unsolved::Numerical)
+    }
+
+    /// The multipliers for the right sides as they are now; rows that would pull are let go.
+    fn restart(&mut self) {
+        loop {
+            let lack: Vec<f64> = self.active.iter().map(|&line| self.lack(line)).collect();
+            self.multipliers = self.gram_solved(lack);
+            let pulls = self.multipliers.iter().zip(&self.active);
+            let pulls = pulls.enumerate().filter(|(_, (m, line))| **m < 0.0 && !self.lines[**line].equal);
+            let Some((worst, _)) = pulls.min_by(|a, b| a.1.0.total_cmp(b.1.0)) else { return };
+            self.leave(worst);
+        }
+    }
+
+    /// By how much v₀ breaks an active row.
+    fn lack(&self, line: usize) -> f64 {
+        let line = &self.lines[line];
+        line.image.as_ref().expect("active rows have images").2 - line.right
+    }
+
+    /// x for the multipliers as they are.
+    fn point(&mut self) -> Vec<f64> {
+        let mut v = self.nearest();
+        self.factor.back(&mut v);
+        v
+    }
+
+    fn nearest(&self) -> Vec<f64> {
+        let mut v = self.free.clone();
+        for (line, multiplier) in self.active.iter().zip(&self.multipliers) {
+            self.lines[*line].image.as_ref().expect("active rows have images").0.add_to(&mut v, -multiplier);
+        }
+        v
+    }
+
+    fn most_broken(&self, x: &[f64]) -> Option<usize> {
+        let over = |line: &Line| line.terms.iter().map(|(i, a)| a * x[*i]).sum::<f64>() - line.right;
+        let open = self.lines.iter().enumerate().filter(|(_, line)| !line.active && !line.equal);
+        let worst =
+            open.map(|(i, line)| (i, over(line))).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        worst.filter(|(_, over)| *over > self.tolerance).map(|(i, _)| i)
+    }
+
+    /// Takes a row in, and lets others go as it comes.
+    fn enter(&mut self, line: usize) -> Result<(), Unsolved> {
+        self.imagine(line);
+        let mut own = 0.0;
+        loop {
+            let (image, square, _) = self.lines[line].image.as_ref().expect("just made");
+            image.add_to(&mut self.work, 1.0);
+            let products: Vec<f64> = self
+                .active
+                .iter()
+                .map(|other| self.lines[*other].image.as_ref().expect("active").0.dot(&self.work))
+                .collect();
+            image.at.iter().for_each(|i| self.work[*i] = 0.0);
+            let half = self.gram_forward(products);
+            let left = square - half.iter().map(|h| h * h).sum::<f64>();
+            let over = image.dot(&self.nearest()) - own * square - self.lines[line].right;
+            let falls = self.gram_back(half.clone());
+            let equal = self.lines[line].equal;
+            // Downwards an equality pushes the other way.
+            let sign = if equal && over < 0.0 { -1.0 } else { 1.0 };
+            let may_block = falls.iter().zip(&self.multipliers).zip(&self.active).enumerate();
+            let blocks =
+                may_block.filter(|(_, ((fall, _), other))| sign * **fall > 0.0 && !self.lines[**other].equal);
+            let first = blocks
+                .map(|(i, ((fall, multiplier), _))| (i, (multiplier / (sign * fall)).max(0.0)))
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            let independent = left > DEPENDENT * square;
+            if equal && !independent && over.abs() <= self.tolerance {
+                return Ok(());
+            }
+            let full = if independent { sign * over / left } else { f64::INFINITY };
+            match first {
+                Some((i, step)) if step < full => {
+                    own += sign * step;
+                    self.multipliers.iter_mut().zip(&falls).for_each(|(m, f)| *m -= sign * step * f);
+                    self.leave(i);
+                }
+                _ if full.is_finite() => {
+                    own += sign * full;
+                    self.multipliers.iter_mut().zip(&falls).for_each(|(m, f)| *m -= sign * full * f);
+                    let mut row = half;
+                    row.push(left.sqrt());
+                    self.gram.push(row);
+                    self.multipliers.push(own);
+                    self.active.push(line);
+                    self.lines[line].active = true;
+                    return Ok(());
+                }
+                _ => return Err(Unsolved::Infeasible),
+            }
+        }
+    }
+
+    fn imagine(&mut self, line: usize) {
+        let line = &mut self.lines[line];
+        if line.image.is_some() {
+            return;
+        }
+        let mut z = vec![0.0; self.free.len()];
+        line.terms.iter().for_each(|(i, a)| z[*i] += a);
+        self.factor.forward(&mut z);
+        let mut image = Sparse::default();
+        for (i, value) in z.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            image.at.push(i);
+            image.value.push(*value);
+        }
+        let square = image.value.iter().map(|v| v * v).sum();
+        let along = image.dot(&self.free);
+        line.image = Some((image, square, along));
+    }
+
+    /// Lets the row at a place of the active set go: the factor's later rows are turned until they are
+    /// triangular again.
+    fn leave(&mut self, place: usize) {
+        self.lines[self.active.remove(place)].active = false;
+        self.multipliers.remove(place);
+        self.gram.remove(place);
+        for k in place..self.gram.len() {
+            let (a, b) = (self.gram[k][k], self.gram[k][k + 1]);
+            let r = libm::hypot(a, b);
+            let (c, s) = if r > 0.0 { (a / r, b / r) } else { (1.0, 0.0) };
+            for row in &mut self.gram[k..] {
+                let (p, q) = (row[k], row[k + 1]);
+                row[k] = c * p + s * q;
+                row[k + 1] = c * q - s * p;
+            }
+            self.gram[k].truncate(k + 1);
+        }
+    }
+
+    fn gram_forward(&self, mut right: Vec<f64>) -> Vec<f64> {
+        for (i, row) in self.gram.iter().enumerate() {
+            let known: f64 = row[..i].iter().zip(&right).map(|(c, y)| c * y).sum();
+            right[i] = (right[i] - known) / row[i];
+        }
+        right
+    }
+
+    fn gram_back(&self, mut right: Vec<f64>) -> Vec<f64> {
+        for (i, row) in self.gram.iter().enumerate().rev() {
+            right[i] /= row[i];
+            let value = right[i];
+            right[..i].iter_mut().zip(row).for_each(|(y, c)| *y -= c * value);
+        }
+        right
+    }
+
+    fn gram_solved(&self, right: Vec<f64>) -> Vec<f64> {
+        self.gram_back(self.gram_forward(right))
+    }
+}
