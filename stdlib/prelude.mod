@@ -982,6 +982,23 @@ extern fn on_sphere(mesh: Mesh, radius: Length) -> Mesh
 /// ```
 extern fn cloud(points: List<Vec3<Length>>) -> Cloud
 
+/// A cloud of points from a file of this project, by the end of its name: PLY (its vertices), or XYZ, which
+/// has a point a line. `scale` is the length of one of the file's units. The path is relative to the
+/// program's.
+///
+/// Example:
+/// ```modl
+/// let points = load_cloud("corner.xyz", scale: 1m)
+/// ```
+/// ```modl corner.xyz
+/// # x y z
+/// 0 0 0
+/// 1 0 0
+/// 0 1 0
+/// 0 0 1
+/// ```
+extern fn load_cloud(file: Text, scale: Length = 1mm) -> Cloud
+
 // Actions: the paper's (J, X, xi, T).
 
 /// Moves a joint to a position, or by an amount.
@@ -1332,6 +1349,11 @@ extern type Report {
   bond_margin: Number
   /// What the speed limits leave: 1 - speed / limit.
   speed_margin: Number
+  /// Of a truss that keeps one: the least angle between struts that share a node.
+  angle: Angle
+  /// Of a truss that keeps one: the least singular value of its rigidity matrix (rows of unit vectors) that
+  /// belongs to no rigid motion, at the knots.
+  rigidity: Number
   /// How far the base is from where it began, along the ground.
   travel: Length
   /// From where the base began to where it ends.
@@ -1738,14 +1760,18 @@ extern type Morphing is Plan {
 /// Morphs a truss into a shape: its outer surface comes near the target, and the target near it.
 ///
 /// The target is moved so that its middle is the middle of the nodes; it is not scaled. The outer surface
-/// is that of the truss's hull, which triangles of struts have to make up. Each step is a quadratic
+/// is that of the truss's hull, if triangles of struts make it up, else that of its tetrahedra of struts. Each step is a quadratic
 /// programme (Gauss and Newton's step for the distances both ways, with springs in all struts that
 /// vanish) under the limits of the struts: length, and clearance between struts that share no node, which
 /// hold between the steps, too. It is done when both distances, as root mean squares, are within
 /// `tolerance`; after `budget` steps the best so far is given, with a warning.
 ///
 /// The target keeps its orientation; with `orientations`, as many random ones are tried for some steps
-/// each, and the best is taken. There is neither gravity nor ground, as in the paper; struts move as fast
+/// each, and the best is taken. Limits beside those of the struts are kept, too, and the verdict says how
+/// nearly: `angle` between struts that share a node; `rigidity`, below which no singular value of the
+/// rigidity matrix (rows of unit vectors) falls that belongs to no rigid motion, after every step; `failed`
+/// struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists of struts
+/// whose lengths keep their sum, as those of one tube do. After `timeout` there is no plan. There is neither gravity nor ground, as in the paper; struts move as fast
 /// as their speed allows.
 ///
 /// Example:
@@ -1763,6 +1789,11 @@ extern fn morph(
   budget: Int = 300,
   orientations: Int = 0,
   seed: Int = 0,
+  angle: Angle = 0deg,
+  rigidity: Number = 0,
+  failed: List<Text> = [],
+  perimeters: List<List<Text>> = [],
+  timeout: Time?,
 ) -> Morphing
 
 /// What `locomote` found.
@@ -1784,15 +1815,17 @@ extern type Travel is Plan {
 /// Moves a truss so that its centre of mass goes along a path over the ground, and rolls it over the edge
 /// of its support where the centre of mass gets there.
 ///
-/// The places of the path are in the world, in which the truss stands where its nodes were declared, on
-/// the ground at height 0; heights of the path mean nothing. A place is reached within a quarter of a
+/// The places of the path are in the world, in which the truss begins where its nodes were declared, put
+/// down on the ground at height 0 and fallen to where it rests; heights of the path mean nothing. A place is reached within a quarter of a
 /// strut. Each step is a quadratic programme under the limits of the struts, with the `objective` of the
 /// linear-actuator-robots paper: `springs` keeps all struts near their first length (17), `lengths`
 /// changes lengths as little as possible (14, with the motion of nodes beside it, without which it gets
-/// stuck), `restoring` is `lengths` towards the first lengths. `hold` says which nodes on the ground stay
+/// stuck), `restoring` is `lengths` towards the first lengths, `fewest` moves few struts (the sum of the
+/// rates' sizes; slower to plan). `hold` says which nodes on the ground stay
 /// where they are: `three` around the centre of mass, or `all`. Where no step is found, easier ones are
 /// tried, unless `ladder` is false: slower, with the centre free to sink, with the other hold, with the
-/// other objective. `budget` is in steps.
+/// other objective. `budget` is in steps. `angle`, `rigidity`, `failed`, `perimeters` and `timeout` are
+/// those of `morph`.
 ///
 /// Gravity is taken to be slow: nothing swings, and a roll is a rigid turn. Where it ends short of its
 /// path, the plan so far is given, with a warning.
@@ -1807,8 +1840,13 @@ extern type Travel is Plan {
 extern fn locomote(
   truss: Truss,
   path: List<Vec3<Length>>,
-  objective: springs | lengths | restoring = springs,
+  objective: springs | lengths | restoring | fewest = springs,
   hold: three | all = three,
   ladder: Bool = true,
   budget: Int = 100_000,
+  angle: Angle = 0deg,
+  rigidity: Number = 0,
+  failed: List<Text> = [],
+  perimeters: List<List<Text>> = [],
+  timeout: Time?,
 ) -> Travel

@@ -9,8 +9,8 @@ use crate::programs::*;
 use crate::robots::{TILT, chain, reel};
 use modl::geometry::Pose;
 use modl::plan::{
-    Body, CauseId, CellLimits, Counter, Knot, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages, Way,
-    verify,
+    Body, CauseId, CellLimits, Counter, Knot, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages,
+    TrussLimits, Way, verify,
 };
 use modl::robot::{Cell, Kinematics, Library};
 use modl::view::{Showing, page};
@@ -129,6 +129,7 @@ fn truss() -> Plan {
     let (edge, angle) = ((0, 1), -0.3);
     let leaning = knot(2.0, Way::Straight, nodes(0.3));
     let mut paths = NodePaths {
+        limits: TrussLimits::default(),
         strut: 0,
         node_names: (0..300).map(|i| format!("ring[{}][{}]", i / 3, i % 3)).collect(),
         struts,

@@ -5,8 +5,8 @@ use crate::robots::{FRONT, LEFT, TILT, at_rest, chain, walk4};
 use modl::behavior::Scheduled;
 use modl::plan::{
     Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Knot, Law, Model, Node,
-    NodePaths, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage, Stages, Tracks, Unfit, Way,
-    World, WorldFrom, joined, reversed, sliced, timeline,
+    NodePaths, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage, Stages, Tracks, TrussLimits,
+    Unfit, Way, World, WorldFrom, joined, reversed, sliced, timeline,
 };
 use modl::robot::{Assembly, JointId, Mismatch, PortRef};
 use proptest::prelude::*;
@@ -358,6 +358,7 @@ pub fn rolling() -> NodePaths {
     let long = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.5, 0.0]];
     let over = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, -2.0]];
     NodePaths {
+        limits: TrussLimits::default(),
         strut: 0,
         node_names: ["a", "b", "c"].map(String::from).to_vec(),
         struts: vec![(0, 1), (1, 2), (2, 0)],

@@ -5,7 +5,8 @@ use crate::plan_operations::plan_of;
 use crate::programs::*;
 use crate::robots::{chain, reel};
 use modl::plan::{
-    Body, CauseId, CheckKind, Ground, Knot, NodePaths, Plan, Verdict, Way, World, WorldFrom, verify,
+    Body, CauseId, CheckKind, Ground, Knot, LengthSum, NodePaths, Plan, TrussLimits, Verdict, Way, World,
+    WorldFrom, verify,
 };
 use modl::robot::Library;
 use std::fs;
@@ -33,7 +34,13 @@ fn straight(time: f64, nodes: &[Place]) -> Knot {
 
 fn plan_in(world: World, struts: &[(usize, usize)], knots: Vec<Knot>) -> Plan {
     let names = (0..knots[0].nodes.len()).map(|i| format!("n{i}")).collect();
-    let paths = NodePaths { strut: 0, node_names: names, struts: struts.to_vec(), knots };
+    let paths = NodePaths {
+        strut: 0,
+        node_names: names,
+        struts: struts.to_vec(),
+        knots,
+        limits: TrussLimits::default(),
+    };
     let plan = plan_of(plan(chain(1), wait(1.0)).expect("it can be scheduled"));
     Plan {
         library: Arc::new(Library { struts: vec![reel()], ..Library::default() }),
@@ -47,6 +54,48 @@ fn plan_in(world: World, struts: &[(usize, usize)], knots: Vec<Knot>) -> Plan {
 /// A tetrahedron on the ground whose knots are as given.
 fn tetra(world: World, knots: Vec<Knot>) -> Verdict {
     verify::verify(&plan_in(world, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)], knots))
+}
+
+/// The same plan with limits beside those of its struts.
+fn limited(limits: TrussLimits, knots: Vec<Knot>) -> Verdict {
+    let mut plan = plan_in(FREE, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)], knots);
+    let Body::NodePaths(paths) = &mut plan.body else { unreachable!("it is a truss") };
+    paths.limits = limits;
+    verify::verify(&plan)
+}
+
+#[test]
+fn angles_sums_and_rigidity_are_judged_where_a_plan_keeps_them() {
+    let sunk = [0.5, HIGH / 3.0, 0.3];
+    let knots = || vec![straight(0.0, &[A, B, C, TOP]), straight(100.0, &[A, B, C, sunk])];
+    // From a corner of the ground to the top it goes up by 0.3 over a circumradius of 1 / root 3.
+    let slope = libm::atan2(0.3, 1.0 / libm::sqrt(3.0));
+    // The angle with the side, half of 60 degrees off in the plane.
+    let least = libm::acos(libm::cos(slope) * libm::cos(std::f64::consts::FRAC_PI_6));
+    let angle = |angle: f64| limited(TrussLimits { angle, ..TrussLimits::default() }, knots());
+    assert_eq!(kinds(&angle(least + 1e-6)), [CheckKind::JointRange]);
+    let kept = angle(least - 1e-6);
+    assert_eq!(kept.failures, vec![]);
+    assert!((kept.angle.expect("told").value - least).abs() < 1e-9);
+
+    // A node that passes by another: their distance dips between the knots.
+    let aside = |y: f64| [0.5, HIGH / 3.0, y];
+    let swing = vec![straight(0.0, &[A, B, C, aside(0.8)]), straight(100.0, &[A, B, C, aside(-0.8)])];
+    let whole = 3.0 * libm::sqrt(0.64 + 1.0 / 3.0);
+    let sum = |low: f64| {
+        let sums = vec![LengthSum { struts: vec![2, 4, 5], range: (low, whole + 1e-6) }];
+        limited(TrussLimits { sums, ..TrussLimits::default() }, swing.clone())
+    };
+    let flat = 3.0 / libm::sqrt(3.0);
+    assert_eq!(sum(flat - 1e-6).failures.iter().filter(|f| f.at.len() == 3).count(), 0);
+    let short = sum(flat + 1e-3);
+    assert!(short.failures.iter().any(|f| f.kind == CheckKind::JointRange && f.at.len() == 3));
+
+    // A flat tetrahedron has a motion that changes no length to first order.
+    let flattened = vec![straight(0.0, &[A, B, C, TOP]), straight(100.0, &[A, B, C, aside(0.0)])];
+    let rigid = limited(TrussLimits { rigidity: 0.1, ..TrussLimits::default() }, flattened);
+    assert!(rigid.failures.iter().any(|f| f.message.contains("rigidity")), "{:?}", rigid.failures);
+    assert!(rigid.rigidity.expect("told").value < 1e-6);
 }
 
 fn kinds(verdict: &Verdict) -> Vec<CheckKind> {

@@ -110,8 +110,17 @@ const TOL_VERDICT: f64 = 1e-6;
 /// Whether a verdict says something else than another.
 fn differs(stated: &Verdict, found: &Verdict) -> bool {
     let worst = |v: &Verdict| {
-        [&v.clearance, &v.margin, &v.torque_margin, &v.bond_margin, &v.speed_margin, &v.slip]
-            .map(|worst: &Option<Worst>| worst.as_ref().map(|w| w.value))
+        [
+            &v.clearance,
+            &v.margin,
+            &v.torque_margin,
+            &v.bond_margin,
+            &v.speed_margin,
+            &v.angle,
+            &v.rigidity,
+            &v.slip,
+        ]
+        .map(|worst: &Option<Worst>| worst.as_ref().map(|w| w.value))
     };
     let near = |a: f64, b: f64| (a - b).abs() <= TOL_VERDICT;
     let same = |(a, b): (Option<f64>, Option<f64>)| match (a, b) {

@@ -112,6 +112,8 @@ fn worst_lines(out: &mut String, verdict: &Verdict) {
     add("torque margin", &verdict.torque_margin, percent);
     add("bond margin", &verdict.bond_margin, percent);
     add("speed margin", &verdict.speed_margin, percent);
+    add("angle", &verdict.angle, |v| quantity(v, Dimension::ANGLE));
+    add("rigidity", &verdict.rigidity, |v| number(rounded(v, 1e-4)));
     add("slip", &verdict.slip, length);
 }
 

@@ -1,10 +1,10 @@
-//! Meshes from files: STL, OBJ, OFF and PLY, told apart by the ends of their names.
+//! Meshes and clouds of points from files: STL, OBJ, OFF, PLY and XYZ, told apart by the ends of their names.
 
 use super::call::Call;
 use super::interpreter::Interpreter;
 use super::stop::{Eval, fault};
 use super::value::Mesh;
-use super::{obj, off, ply, stl};
+use super::{obj, off, ply, stl, xyz};
 use crate::geometry::Vec3;
 use crate::source::{Diagnostic, code};
 
@@ -28,16 +28,41 @@ const FORMATS: &[(&str, &str, Reader)] = &[
     ("ply", "PLY", ply::read),
 ];
 
+/// The same for clouds.
+const CLOUDS: &[(&str, &str, Reader)] = &[("ply", "PLY", ply::read), ("xyz", "XYZ", xyz::read)];
+
 /// The mesh in the file that argument `index` names, with its path in the project; `scale` is the
 /// length of one of the file's units, m.
 pub fn read(interpreter: &mut Interpreter, call: &Call, index: usize, scale: f64) -> Eval<(String, Mesh)> {
+    let (path, read) = read_as(interpreter, call, index, "mesh", FORMATS, checked)?;
+    let vertices = read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect();
+    Ok((path, Mesh { vertices, faces: read.faces }))
+}
+
+/// The points in the file that argument `index` names.
+pub fn read_cloud(interpreter: &mut Interpreter, call: &Call, index: usize, scale: f64) -> Eval<Vec<Vec3>> {
+    let (_, read) = read_as(interpreter, call, index, "cloud", CLOUDS, checked_cloud)?;
+    Ok(read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect())
+}
+
+/// What the file holds, with its path in the project.
+fn read_as(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    index: usize,
+    what: &str,
+    formats: &[(&str, &str, Reader)],
+    checked: fn(Read) -> Result<Read, Fault>,
+) -> Eval<(String, Read)> {
     let name = call.text(index)?;
     let ending = name.rsplit_once('.').map_or_else(String::new, |(_, end)| end.to_ascii_lowercase());
-    let Some((_, format, reader)) = FORMATS.iter().find(|(end, ..)| *end == ending) else {
-        let message = format!("`{name}` is no mesh file by its name");
+    let Some((_, format, reader)) = formats.iter().find(|(end, ..)| *end == ending) else {
+        let message = format!("`{name}` is no {what} file by its name");
+        let ends: Vec<String> = formats.iter().map(|(end, ..)| format!("`.{end}`")).collect();
+        let (last, others) = ends.split_last().expect("there are formats");
         return Err(Diagnostic::error(code::CANNOT_READ, message)
-            .label(call.at(index), "not a name of a mesh file")
-            .hint("names of mesh files end in `.stl`, `.obj`, `.off` or `.ply`")
+            .label(call.at(index), format!("not a name of a {what} file"))
+            .hint(format!("names of {what} files end in {} or {last}", others.join(", ")))
             .into());
     };
     let (path, bytes) = interpreter.project_file(call, index)?;
@@ -47,8 +72,22 @@ pub fn read(interpreter: &mut Interpreter, call: &Call, index: usize, scale: f64
     };
     let read = reader(&bytes).and_then(checked).map_err(refused)?;
     interpreter.check_list(read.faces.len().max(read.vertices.len()), call.at(index))?;
-    let vertices = read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect();
-    Ok((path, Mesh { vertices, faces: read.faces }))
+    Ok((path, read))
+}
+
+fn checked_cloud(read: Read) -> Result<Read, Fault> {
+    if read.vertices.is_empty() {
+        return Err("it holds no points".into());
+    }
+    finite(&read)?;
+    Ok(read)
+}
+
+fn finite(read: &Read) -> Result<(), Fault> {
+    match read.vertices.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        Some(vertex) => Err(format!("a coordinate of vertex {vertex} is no finite number")),
+        None => Ok(()),
+    }
 }
 
 /// What holds for a mesh of any format.
@@ -56,9 +95,7 @@ fn checked(read: Read) -> Result<Read, Fault> {
     if read.faces.is_empty() {
         return Err("it holds no faces".into());
     }
-    if let Some(vertex) = read.vertices.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        return Err(format!("a coordinate of vertex {vertex} is no finite number"));
-    }
+    finite(&read)?;
     for (number, face) in read.faces.iter().enumerate() {
         if face.len() < 3 {
             return Err(format!("face {number} has fewer than three corners"));

@@ -32,12 +32,14 @@ mod lattice;
 mod module;
 mod sweep;
 mod truss;
+mod truss_limits;
 
 mod mesh_file;
 mod obj;
 mod off;
 mod ply;
 mod stl;
+mod xyz;
 
 mod config;
 mod connect;

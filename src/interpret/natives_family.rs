@@ -29,6 +29,7 @@ pub const TABLE: &[Native] = &[
     pure("polyhedron", 2, polyhedron),
     pure("faces", 1, faces),
     pure("load_mesh", 2, load_mesh),
+    pure("load_cloud", 2, load_cloud),
     pure("subdivided", 2, subdivided),
     pure("on_sphere", 2, on_sphere),
     pure("cloud", 1, |_, call| Ok(Value::Cloud(Rc::new(points(call, 0)?)))),
@@ -234,6 +235,11 @@ fn load_mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let scale = call.positive(1, "the scale of a mesh")?;
     let (_, mesh) = mesh_file::read(interpreter, call, 0, scale)?;
     Ok(Value::Mesh(Rc::new(mesh)))
+}
+
+fn load_cloud(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let scale = call.positive(1, "the scale of a cloud")?;
+    Ok(Value::Cloud(Rc::new(mesh_file::read_cloud(interpreter, call, 0, scale)?)))
 }
 
 fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

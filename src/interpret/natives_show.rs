@@ -13,7 +13,8 @@ use super::truss::TrussDesign;
 use super::value::Value;
 use crate::check::typed::DefKind;
 use crate::plan::{
-    Body, CauseId, CellLimits, Knot, Model, NodePaths, Plan, Ratio, Run, Settings, Stages, Way, World,
+    Body, CauseId, CellLimits, Knot, Model, NodePaths, Plan, Ratio, Run, Settings, Stages, TrussLimits, Way,
+    World,
 };
 use crate::robot::Library;
 use crate::view::{self, Showing, Side, Still};
@@ -175,6 +176,7 @@ fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
     let start = Knot { time: 0.0, way: Way::Straight, nodes: places.collect(), cause: CauseId(0) };
     Some(NodePaths {
         strut: 0,
+        limits: TrussLimits::default(),
         node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
         struts: truss.struts.clone(),
         knots: vec![start],

@@ -6,8 +6,10 @@ use super::interpreter::Interpreter;
 use super::natives::{Native, on_run};
 use super::planning::Planned;
 use super::record::Record;
+use super::stage::Stage;
 use super::stop::{Eval, Stop};
 use super::truss::TrussDesign;
+use super::truss_limits;
 use super::value::{Mesh, Value};
 use crate::geometry::Vec3;
 use crate::plan::{Body, CauseId, Knot, NodePaths, Way, World};
@@ -25,7 +27,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("morph", 6, morph), on_run("locomote", 6, locomote)];
+pub const TABLE: &[Native] = &[on_run("morph", 11, morph), on_run("locomote", 11, locomote)];
 
 /// Points of a target lie about so far apart, in struts.
 const APART: f64 = 0.125;
@@ -36,6 +38,8 @@ const STRIDE: f64 = 0.05;
 const NEAR: f64 = 0.25;
 /// How much the motion of nodes weighs beside that of lengths: below 1 runs were seen to get stuck.
 const STILL: f64 = 1.0;
+/// The same where few struts are to move: enough that there is one best step.
+const STILL_FEWEST: f64 = 1e-3;
 /// A robot that falls over an edge turns about so fast, rad/s. Nothing depends on it.
 const FALL: f64 = 1.0;
 /// No step is shorter, s.
@@ -90,8 +94,9 @@ impl Interpreter<'_> {
 }
 
 fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Some(task) = Task::of(call)? else { return Ok(Value::Unknown) };
+    let Some(task) = Task::of(call, 6)? else { return Ok(Value::Unknown) };
     let goal = goal(call, &task)?;
+    let timeout = call.positive_if(10, "a timeout")?;
     let wish = morph::Wish {
         tolerance: call.positive(2, "the tolerance")?,
         steps_max: call.count(3, "a number of steps")?,
@@ -100,12 +105,13 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let name = task.design.name.clone();
     let stage = &interpreter.stage;
+    let clock = Clock::new(stage, timeout);
     let going = |step: usize, distance: &Distance| {
         if step.is_multiple_of(TELL) {
             let apart = quantity(distance.there, Dimension::LENGTH);
             stage.progress(format!("morphing {name}: step {step}, {apart} apart"));
         }
-        !stage.cancelled()
+        clock.goes_on()
     };
     let found = morph::morph(&task.structure, &task.start, &goal, &wish, &going);
     let found = found.map_err(|open| task.no_surface(call, &open.edges))?;
@@ -113,7 +119,13 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         morph::End::Done => "done".to_string(),
         morph::End::Steps => format!("{} steps were not enough", wish.steps_max),
         morph::End::Stuck(stuck) => task.stuck(stuck),
-        morph::End::Cancelled => return Err(Stop::Halt),
+        morph::End::Cancelled => {
+            let [there, back] =
+                [found.distance.there, found.distance.back].map(|x| quantity(x, Dimension::LENGTH));
+            return Err(
+                clock.over(call, &format!("the truss was within {there} of the target ({back} back)"))
+            );
+        }
     };
     if found.end != morph::End::Done {
         let [there, back, wanted] = [found.distance.there, found.distance.back, wish.tolerance]
@@ -123,7 +135,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         interpreter.add_report(
             Diagnostic::warning(code::SHORT_OF_GOAL, message)
                 .label(call.span, ended.clone())
-                .hint("more `steps`, some `orientations`, or a greater `tolerance`"),
+                .hint("a greater `budget`, some `orientations`, or a greater `tolerance`"),
         );
     }
     let moves = found.steps.into_iter().map(Move::Step).collect();
@@ -132,10 +144,12 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Some(mut task) = Task::of(call)? else { return Ok(Value::Unknown) };
-    // It stands on the ground, wherever it was declared.
-    let lowest = task.start.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-    task.start.iter_mut().for_each(|p| p.z -= lowest);
+    let Some(mut task) = Task::of(call, 6)? else { return Ok(Value::Unknown) };
+    // It rests on the ground, however it was declared.
+    let Some(rested) = roll::rested(&task.structure, &task.start) else {
+        return Err(call.refuse(0, "the truss does not come to rest on the ground"));
+    };
+    task.start = rested;
     let path = path(call)?;
     let unit = task.structure.unit;
     let wish = locomote::Wish {
@@ -145,6 +159,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         aim: match call.word(2) {
             Some("lengths") => Aim::Lengths { still: STILL },
             Some("restoring") => Aim::Restoring { still: STILL },
+            Some("fewest") => Aim::Fewest { still: STILL_FEWEST },
             _ => Aim::Springs,
         },
         hold: if call.word(3) == Some("all") { Hold::All } else { Hold::Three },
@@ -154,6 +169,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let name = task.design.name.clone();
     let places = wish.path.len();
     let stage = &interpreter.stage;
+    let clock = Clock::new(stage, call.positive_if(10, "a timeout")?);
     let told = std::cell::Cell::new(0usize);
     let going = |reached: usize| {
         let step = told.get();
@@ -161,7 +177,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         if step.is_multiple_of(TELL) {
             stage.progress(format!("moving {name}: step {step}, {reached} of {places} places"));
         }
-        !stage.cancelled()
+        clock.goes_on()
     };
     let travel = locomote::locomote(&task.structure, &task.start, &wish, &going);
     let ended = match &travel.end {
@@ -169,7 +185,10 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         locomote::End::Steps => format!("{} steps were not enough", wish.steps_max),
         locomote::End::Falls => "it does not come to rest on three nodes".to_string(),
         locomote::End::Stuck(stuck) => task.stuck(stuck),
-        locomote::End::Cancelled => return Err(Stop::Halt),
+        locomote::End::Cancelled => {
+            let reached = travel.reached;
+            return Err(clock.over(call, &format!("the truss reached {reached} of {places} places")));
+        }
     };
     if travel.end != locomote::End::Arrived {
         let message = format!("the truss reaches {} of {places} places of its path", travel.reached);
@@ -226,6 +245,34 @@ fn triangles(mesh: &Mesh) -> Vec<[Vec3; 3]> {
     mesh.faces.iter().flat_map(fan).collect()
 }
 
+/// When a planner has to end.
+struct Clock<'a> {
+    stage: &'a Stage,
+    begun: f64,
+    timeout: Option<f64>,
+}
+
+impl Clock<'_> {
+    fn new(stage: &Stage, timeout: Option<f64>) -> Clock<'_> {
+        Clock { begun: stage.elapsed(), stage, timeout }
+    }
+
+    fn goes_on(&self) -> bool {
+        !self.stage.cancelled() && self.timeout.is_none_or(|most| self.stage.elapsed() - self.begun <= most)
+    }
+
+    /// What to say when it did not go on.
+    fn over(&self, call: &Call, so_far: &str) -> Stop {
+        if self.stage.cancelled() {
+            return Stop::Halt;
+        }
+        Diagnostic::error(code::NO_WAY, format!("no plan within the timeout: {so_far}"))
+            .label(call.span, "it was still going on")
+            .hint("a greater `timeout`, or a smaller `budget`, which ends with a plan")
+            .into()
+    }
+}
+
 /// A truss before a planner.
 struct Task {
     design: Rc<super::design::Design>,
@@ -235,12 +282,14 @@ struct Task {
 }
 
 impl Task {
-    fn of(call: &Call) -> Eval<Option<Task>> {
+    /// `limits`: where the parameters of those are.
+    fn of(call: &Call, limits: usize) -> Eval<Option<Task>> {
         let design = call.instance(0)?.design.clone();
         let DesignKind::Truss(truss) = &design.kind else { return Ok(None) };
         let Some(strut) = truss.strut_kind().cloned() else { return Ok(None) };
         let start: Vec<Vec3> = truss.nodes.iter().map(|node| node.place).collect();
-        let structure = Structure::new(&strut, &start, &truss.struts);
+        let limits = truss_limits::of(call, limits, truss)?;
+        let structure = Structure::new(&strut, &start, &truss.struts).limited(&start, limits);
         Ok(Some(Task { strut, start, structure, design }))
     }
 
@@ -271,8 +320,14 @@ impl Task {
             Stuck::Infeasible(bounds) => ("no step keeps all limits", bounds),
             Stuck::Unsettled(bounds) => ("no step was found that keeps all limits", bounds),
         };
-        let told: Vec<String> = bounds.iter().take(BOUNDS_TOLD).map(|bound| self.bound(*bound)).collect();
-        let more = bounds.len().saturating_sub(BOUNDS_TOLD);
+        let mut told: Vec<String> = Vec::new();
+        for bound in bounds.iter().map(|bound| self.bound(*bound)) {
+            if !told.contains(&bound) {
+                told.push(bound);
+            }
+        }
+        let more = told.len().saturating_sub(BOUNDS_TOLD);
+        told.truncate(BOUNDS_TOLD);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         if told.is_empty() { why.to_string() } else { format!("{why}: {}{more}", told.join(", ")) }
     }
@@ -284,6 +339,9 @@ impl Task {
             Bound::Longest(k) => format!("{} is at its greatest length", strut(k)),
             Bound::Apart(i, j) | Bound::EndApart(i, _, j) => format!("{} is near {}", strut(i), strut(j)),
             Bound::Above(node) => format!("{} is on the ground", self.truss().nodes[node].name),
+            Bound::Angle(i, j) => format!("{} is near {} in angle", strut(i), strut(j)),
+            Bound::Least(k) | Bound::Most(k) => format!("the sum of perimeter {} changes", k + 1),
+            Bound::Rigid(..) => "its rigidity is at its least".to_string(),
         }
     }
 
@@ -340,6 +398,7 @@ impl Task {
             node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
             struts: truss.struts.clone(),
             knots,
+            limits: truss_limits::planned(&self.structure),
         };
         let library = Arc::new(Library { struts: vec![self.strut], ..Library::default() });
         let plan = interpreter.bare_plan(planner, Body::NodePaths(paths), library, world, &causes);

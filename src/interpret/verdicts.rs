@@ -42,6 +42,8 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
         line("torque margin", &verdict.torque_margin, &number),
         line("bond margin", &verdict.bond_margin, &number),
         line("speed margin", &verdict.speed_margin, &number),
+        line("angle", &verdict.angle, &|v| quantity(v, Dimension::ANGLE)),
+        line("rigidity", &verdict.rigidity, &number),
         line("slip", &verdict.slip, &length),
     ]
     .into_iter()

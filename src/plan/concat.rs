@@ -5,7 +5,8 @@ use super::carry::Carrier;
 use super::seam::join_stages;
 use super::time::{DURATION_MAX, tick_after};
 use super::{
-    Body, Change, Knot, Node, NodePaths, Plan, Program, Settings, Stability, Tracks, Unfit, WorldFrom,
+    Body, Change, Knot, Node, NodePaths, Plan, Program, Settings, Stability, Tracks, TrussLimits, Unfit,
+    WorldFrom,
 };
 use crate::robot::matching;
 use std::sync::Arc;
@@ -119,6 +120,10 @@ fn join_paths(a: &NodePaths, b: &NodePaths, causes: u32) -> Result<NodePaths, Un
         return Err(Unfit::Trusses { node: Some(a.node_names[node].clone()) });
     }
     let mut new = a.clone();
+    // Each part keeps its own; the whole keeps what both do.
+    if a.limits != b.limits {
+        new.limits = TrussLimits::default();
+    }
     new.knots.extend(b.knots.iter().skip(1).map(|k| Knot {
         time: k.time + seam,
         cause: super::CauseId(k.cause.0 + causes),

@@ -15,6 +15,41 @@ pub struct NodePaths {
     pub struts: Vec<(usize, usize)>,
     /// In order of time; the first at 0.
     pub knots: Vec<Knot>,
+    /// What it keeps beside the limits of its struts.
+    #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
+    pub limits: TrussLimits,
+}
+
+/// Limits of a truss beside those that every strut has.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TrussLimits {
+    /// The least angle between struts that share a node, rad; of 0 there is none.
+    #[serde(default)]
+    pub angle: f64,
+    /// What the singular values of the rigidity matrix (rows of unit vectors) that belong to no rigid motion
+    /// stay above at the knots; of 0 there is nothing.
+    #[serde(default)]
+    pub rigidity: f64,
+    /// Struts whose lengths stay, and sums of lengths that do.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sums: Vec<LengthSum>,
+}
+
+/// Struts whose lengths add up to something that stays: one that failed, or those of one tube.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LengthSum {
+    /// Indices of struts.
+    pub struts: Vec<usize>,
+    /// The least and the greatest sum, m.
+    pub range: (f64, f64),
+}
+
+impl TrussLimits {
+    pub fn is_none(&self) -> bool {
+        *self == TrussLimits::default()
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

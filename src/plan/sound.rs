@@ -48,6 +48,7 @@ fn numbers(plan: &Plan) -> Result<(), String> {
 fn trusses(paths: &NodePaths) -> Result<(), String> {
     let finite = |what: &str, checked: Result<(), finite::Fault>| checked.map_err(|e| format!("{what}: {e}"));
     finite("the knots", finite::check(&paths.knots))?;
+    finite("the limits", finite::check(&paths.limits))?;
     need(paths.struts.iter().all(|(a, b)| a != b), || "a strut begins and ends at one node".to_owned())?;
     paths.knots.iter().try_for_each(|knot| match knot.way {
         Way::Roll { edge: (a, b), .. } => need(knot.nodes[a] != knot.nodes[b], || {

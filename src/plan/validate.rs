@@ -313,6 +313,8 @@ fn paths(body: &NodePaths, library: &Library, causes: usize) -> Result<(), Strin
     let count = body.node_names.len();
     let node = |i| index(i, count, "node");
     body.struts.iter().try_for_each(|&(a, b)| node(a).and(node(b)))?;
+    let strut = |i: &usize| index(*i, body.struts.len(), "strut");
+    body.limits.sums.iter().flat_map(|sum| &sum.struts).try_for_each(strut)?;
     let times: Vec<f64> = body.knots.iter().map(|k| k.time).collect();
     need(times.first() == Some(&0.0), || "the first knot must be at 0".into())?;
     ascending(&times, "the knots")?;

@@ -188,6 +188,12 @@ pub struct Verdict {
     pub torque_margin: Option<Worst>,
     pub bond_margin: Option<Worst>,
     pub speed_margin: Option<Worst>,
+    /// Of a truss: the least angle between struts that share a node, rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle: Option<Worst>,
+    /// Of a truss: the least singular value of its rigidity matrix (rows of unit vectors).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigidity: Option<Worst>,
     /// Displacement of the base over the plan, m.
     pub travel: [f64; 3],
     /// Change of the base's heading, rad.

@@ -99,6 +99,8 @@ fn worst(verdict: &Verdict) -> Vec<Value> {
         line("torque margin", &verdict.torque_margin, &percent),
         line("bond margin", &verdict.bond_margin, &percent),
         line("speed margin", &verdict.speed_margin, &percent),
+        line("angle", &verdict.angle, &|v| quantity(v, Dimension::ANGLE)),
+        line("rigidity", &verdict.rigidity, &|v| display::number(v)),
     ];
     lines.into_iter().flatten().collect()
 }

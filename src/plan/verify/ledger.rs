@@ -90,6 +90,8 @@ impl<'a> Ledger<'a> {
             &mut verdict.torque_margin,
             &mut verdict.bond_margin,
             &mut verdict.speed_margin,
+            &mut verdict.angle,
+            &mut verdict.rigidity,
             &mut verdict.slip,
         ];
         let values = worst.into_iter().flatten().map(|w| &mut w.value);

@@ -63,6 +63,7 @@ mod lattice_window;
 pub mod truss;
 mod truss_distance;
 mod truss_lengths;
+mod truss_shape;
 mod truss_standing;
 
 pub use area::area;

@@ -8,7 +8,7 @@
 
 use super::ledger::{Ledger, lower};
 use super::truss_standing::Standing;
-use super::{truss_distance, truss_lengths, truss_standing};
+use super::{truss_distance, truss_lengths, truss_shape, truss_standing};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::{CheckKind, Failure, Ground, NodePaths, Plan, Status, Verdict, Way, World, Worst};
@@ -30,12 +30,15 @@ pub struct Leg {
 
 pub struct Judged<'a> {
     pub paths: &'a NodePaths,
+    /// Where struts share a node, if the plan keeps an angle.
+    pub corners: Vec<truss_shape::Corner>,
     pub strut: &'a Strut,
 }
 
 pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, paths.duration());
-    let judged = Judged { paths, strut: &plan.library.struts[paths.strut] };
+    let corners = if paths.limits.angle > 0.0 { truss_shape::corners(paths) } else { Vec::new() };
+    let judged = Judged { paths, corners, strut: &plan.library.struts[paths.strut] };
     let places: Vec<Vec<Vec3>> =
         paths.knots.iter().map(|knot| knot.nodes.iter().map(|p| Vec3::from(*p)).collect()).collect();
     let world_at = |t: f64| {
@@ -57,6 +60,7 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         let world = world_at(begins);
         judged.lengths(&leg, &mut ledger);
         judged.distances(&leg, &mut ledger);
+        judged.shape(&leg, &mut ledger);
         if world.ground != Ground::Off {
             judged.ground(&leg, &mut ledger);
             if world.gravity > 0.0 {
@@ -91,6 +95,7 @@ impl Judged<'_> {
         if self.paths.knots.len() == 1 {
             self.lengths(&leg, ledger);
             self.distances(&leg, ledger);
+            self.shape(&leg, ledger);
         }
         if world.ground != Ground::Off && self.paths.knots.len() == 1 {
             self.ground(&leg, ledger);

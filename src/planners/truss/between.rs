@@ -2,7 +2,7 @@
 //! samples. Distances of struts change no faster than their ends move against each other, so from a
 //! distance it is known for how long it lasts (conservative advancement).
 
-use super::bound::Bound;
+use super::bound::{self, Bound};
 use super::segment;
 use super::structure::Structure;
 use crate::geometry::Vec3;
@@ -18,14 +18,62 @@ pub fn shortfalls(
     cushion: f64,
 ) -> Vec<(Bound, f64)> {
     let lengths = (0..truss.struts.len()).filter_map(|strut| {
-        let lack = truss.length.0 - shortest(truss.segment(x, strut), truss.segment(y, strut));
+        let lack = truss.lengths[strut].0 - shortest(truss.segment(x, strut), truss.segment(y, strut));
         (lack > 0.0).then_some((Bound::Shortest(strut), lack))
     });
     let apart = pairs.iter().filter_map(|&(i, j)| {
         let lack = closest(truss, x, y, (i, j), cushion)?;
         Some((Bound::Apart(i, j), lack))
     });
-    lengths.chain(apart).collect()
+    let angles = truss.corners.iter().filter_map(|&(i, j)| {
+        let lack = narrowest(truss, x, y, (i, j), cushion / truss.unit)?;
+        Some((Bound::Angle(i, j), lack))
+    });
+    let sums = (0..truss.limits.loops.len()).filter_map(|index| {
+        let lack = truss.limits.loops[index].range.0 - least_sum(truss, x, y, index);
+        (lack > 0.0).then_some((Bound::Least(index), lack))
+    });
+    lengths.chain(apart).chain(angles).chain(sums).collect()
+}
+
+/// By how much (in units) two struts that share a node come too near in angle, if they do. The direction of
+/// an arm turns no faster than its end goes, over its least length.
+fn narrowest(truss: &Structure, x: &[Vec3], y: &[Vec3], (i, j): (usize, usize), cushion: f64) -> Option<f64> {
+    let (node, p, q) = truss.corner(i, j);
+    let arm = |end: usize| (x[end] - x[node], y[end] - y[node]);
+    let (u, v) = (arm(p), arm(q));
+    let turns = |(from, to): (Vec3, Vec3)| {
+        (to - from).norm() / shortest((from, Vec3::zeros()), (to, Vec3::zeros())).max(f64::MIN_POSITIVE)
+    };
+    let speed = turns(u) + turns(v);
+    let mut t = 0.0;
+    while t < 1.0 {
+        let at = |(from, to): (Vec3, Vec3)| from + (to - from) * t;
+        let spare = bound::angle(at(u), at(v)) - truss.limits.angle;
+        if spare < -cushion / 2.0 {
+            return Some(-spare * truss.unit);
+        }
+        t += (spare + cushion) / speed.max(f64::MIN_POSITIVE);
+    }
+    None
+}
+
+/// What a sum of lengths is at least: it is convex, so it stays above its slopes at both ends.
+fn least_sum(truss: &Structure, x: &[Vec3], y: &[Vec3], index: usize) -> f64 {
+    let slope = |z: &[Vec3], strut: usize| {
+        let (a, b) = truss.struts[strut];
+        (z[a] - z[b]).normalize().dot(&((y[a] - y[b]) - (x[a] - x[b])))
+    };
+    let slopes =
+        |z: &[Vec3]| truss.limits.loops[index].struts.iter().map(|&strut| slope(z, strut)).sum::<f64>();
+    let (from, to) = (truss.around(x, index), truss.around(y, index));
+    let (falls, rises) = (slopes(x), slopes(y));
+    // Where the two lines meet.
+    if falls >= 0.0 || rises <= 0.0 {
+        return from.min(to);
+    }
+    let t = ((to - rises - from) / (falls - rises)).clamp(0.0, 1.0);
+    from + falls * t
 }
 
 /// The least length of a strut on the way.

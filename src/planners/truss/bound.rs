@@ -1,7 +1,8 @@
-//! What must not fall below zero: lengths, distances between struts, heights. Each has a value and a
-//! gradient over the nodes.
+//! What must not fall below zero: lengths, distances between struts, heights, angles, sums of lengths,
+//! rigidity. Each has a value and a gradient over the nodes.
 
 use super::segment::{self, Witness};
+use super::stiffness;
 use super::structure::Structure;
 use crate::geometry::Vec3;
 
@@ -17,16 +18,34 @@ pub enum Bound {
     EndApart(usize, usize, usize),
     /// A node above the ground.
     Above(usize),
+    /// Two struts that share a node, the lower first: the angle between them, in units.
+    Angle(usize, usize),
+    /// The sum of a loop's lengths.
+    Least(usize),
+    Most(usize),
+    /// Singular values of the rigidity matrix, counted from the least, in units: one and itself, or two,
+    /// the lower first for the sum of their vectors and last for the difference.
+    Rigid(usize, usize),
 }
 
 impl Bound {
     /// Metres; not below zero.
     pub fn value(self, truss: &Structure, x: &[Vec3]) -> f64 {
         match self {
-            Bound::Shortest(strut) => truss.length(x, strut) - truss.length.0,
-            Bound::Longest(strut) => truss.length.1 - truss.length(x, strut),
+            Bound::Shortest(strut) => truss.length(x, strut) - truss.lengths[strut].0,
+            Bound::Longest(strut) => truss.lengths[strut].1 - truss.length(x, strut),
             Bound::Apart(..) | Bound::EndApart(..) => self.witness(truss, x).distance - truss.clearance,
             Bound::Above(node) => x[node].z,
+            Bound::Angle(i, j) => {
+                let (u, v) = arms(truss, x, i, j);
+                (angle(u, v) - truss.limits.angle) * truss.unit
+            }
+            Bound::Least(index) => truss.around(x, index) - truss.limits.loops[index].range.0,
+            Bound::Most(index) => truss.limits.loops[index].range.1 - truss.around(x, index),
+            Bound::Rigid(i, j) => {
+                let modes = stiffness::weakest(truss, x, i.max(j) + 1);
+                stiffness::joined(&modes, i, j).spare(truss)
+            }
         }
     }
 
@@ -45,6 +64,28 @@ impl Bound {
                 vec![(a, normal * (1.0 - s)), (b, normal * s), (c, -normal * (1.0 - t)), (d, -normal * t)]
             }
             Bound::Above(node) => vec![(node, Vec3::z())],
+            Bound::Angle(i, j) => {
+                let (node, p, q) = truss.corner(i, j);
+                let (u, v) = arms(truss, x, i, j);
+                let (a, b) = (u.normalize(), v.normalize());
+                let (cosine, sine) = (a.dot(&b), a.cross(&b).norm().max(f64::EPSILON));
+                let at_p = (a * cosine - b) * (truss.unit / (u.norm() * sine));
+                let at_q = (b * cosine - a) * (truss.unit / (v.norm() * sine));
+                vec![(p, at_p), (q, at_q), (node, -at_p - at_q)]
+            }
+            Bound::Least(index) | Bound::Most(index) => {
+                let sign = if matches!(self, Bound::Least(_)) { 1.0 } else { -1.0 };
+                let ends = |&strut: &usize| {
+                    let (a, b) = truss.struts[strut];
+                    let along = (x[a] - x[b]).normalize() * sign;
+                    [(a, along), (b, -along)]
+                };
+                truss.limits.loops[index].struts.iter().flat_map(ends).collect()
+            }
+            Bound::Rigid(i, j) => {
+                let modes = stiffness::weakest(truss, x, i.max(j) + 1);
+                stiffness::joined(&modes, i, j).gradient(truss, x)
+            }
         }
     }
 
@@ -57,4 +98,15 @@ impl Bound {
             _ => unreachable!("only distances have witnesses"),
         }
     }
+}
+
+/// From the node that two struts share to their others.
+fn arms(truss: &Structure, x: &[Vec3], i: usize, j: usize) -> (Vec3, Vec3) {
+    let (node, p, q) = truss.corner(i, j);
+    (x[p] - x[node], x[q] - x[node])
+}
+
+/// Between two directions, rad.
+pub fn angle(u: Vec3, v: Vec3) -> f64 {
+    libm::atan2(u.cross(&v).norm(), u.dot(&v))
 }

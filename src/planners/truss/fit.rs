@@ -188,6 +188,7 @@ impl Sums {
                 hessian.extend(entries.filter(|(_, _, value)| *value != 0.0));
             }
         }
-        Objective { hessian, linear: self.linear.iter().flat_map(|v| [v.x, v.y, v.z]).collect() }
+        let linear = self.linear.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
+        Objective { hessian, linear, sizes: Vec::new() }
     }
 }

@@ -94,7 +94,7 @@ const RUNGS: [Rung; 8] = [
 
 /// Moves a truss that stands on the ground at height 0. `going` is asked before every step.
 pub fn locomote(truss: &Structure, start: &[Vec3], wish: &Wish, going: &dyn Fn(usize) -> bool) -> Travel {
-    let truss = &Structure { clearance: truss.clearance + CUSHION * truss.unit, ..truss.clone() };
+    let truss = &truss.cautious(CUSHION);
     let mut walk = Walk {
         truss,
         wish,

@@ -14,12 +14,15 @@ pub enum Aim {
     Lengths { still: f64 },
     /// (14) towards the first lengths: rates as of springs, with the same weight.
     Restoring { still: f64 },
+    /// The rates' sizes add up to as little as possible, so that few struts move; `still` as before.
+    Fewest { still: f64 },
 }
 
 /// For a step in which a speed of one unit a second means `pace` seconds.
 pub fn objective(aim: Aim, truss: &Structure, x: &[Vec3], pace: f64) -> Objective {
     match aim {
         Aim::Springs => springs(truss, x, pace),
+        Aim::Fewest { still } => fewest(truss, x, still),
         Aim::Lengths { still } => lengths(truss, x, still, |_| 0.0),
         Aim::Restoring { still } => lengths(truss, x, still, |length| (truss.unit - length) * pace),
     }
@@ -37,6 +40,7 @@ fn springs(truss: &Structure, x: &[Vec3], pace: f64) -> Objective {
     Objective {
         hessian: (0..3 * truss.nodes).map(|i| (i, i, 1.0)).collect(),
         linear: pull.iter().flat_map(|v| (0..3).map(move |k| -pace * v[k])).collect(),
+        sizes: Vec::new(),
     }
 }
 
@@ -47,10 +51,7 @@ fn lengths(truss: &Structure, x: &[Vec3], still: f64, wanted: impl Fn(f64) -> f6
     for &(a, b) in &truss.struts {
         let d = x[a] - x[b];
         let (along, length) = (d.normalize(), d.norm());
-        let row: Vec<(usize, f64)> = [(a, 1.0), (b, -1.0)]
-            .iter()
-            .flat_map(|&(node, sign)| (0..3).map(move |k| (3 * node + k, sign * along[k])))
-            .collect();
+        let row = row((a, b), along);
         for &(i, p) in &row {
             linear[i] -= p * wanted(length);
             for &(j, q) in row.iter().filter(|(j, _)| *j >= i) {
@@ -58,5 +59,21 @@ fn lengths(truss: &Structure, x: &[Vec3], still: f64, wanted: impl Fn(f64) -> f6
             }
         }
     }
-    Objective { hessian, linear }
+    Objective { hessian, linear, sizes: Vec::new() }
+}
+
+/// `Σ |rate| + ½ still |u|²`.
+fn fewest(truss: &Structure, x: &[Vec3], still: f64) -> Objective {
+    let sizes = truss.struts.iter().map(|&(a, b)| row((a, b), (x[a] - x[b]).normalize()));
+    Objective {
+        hessian: (0..3 * truss.nodes).map(|i| (i, i, still)).filter(|(_, _, v)| *v > 0.0).collect(),
+        linear: vec![0.0; 3 * truss.nodes],
+        sizes: sizes.collect(),
+    }
+}
+
+/// A row of the rigidity matrix: what a strut's length changes by.
+fn row((a, b): (usize, usize), along: Vec3) -> Vec<(usize, f64)> {
+    let end = |(node, sign): (usize, f64)| (0..3).map(move |k| (3 * node + k, sign * along[k]));
+    [(a, 1.0), (b, -1.0)].into_iter().flat_map(end).collect()
 }

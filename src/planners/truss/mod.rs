@@ -4,7 +4,9 @@
 //! certificate between the ends of steps ([`between`]).
 
 mod segment;
-mod structure;
+pub mod structure;
+
+mod stiffness;
 
 pub mod bound;
 mod nearby;
@@ -28,4 +30,4 @@ pub mod fit;
 
 pub mod morph;
 
-pub use structure::Structure;
+pub use structure::{Limits, Loop, Structure};

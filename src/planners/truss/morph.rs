@@ -61,7 +61,7 @@ pub fn morph(
     wish: &Wish,
     going: &dyn Fn(usize, &Distance) -> bool,
 ) -> Result<Morph, surface::Open> {
-    let truss = &Structure { clearance: truss.clearance + CUSHION * truss.unit, ..truss.clone() };
+    let truss = &truss.cautious(CUSHION);
     let faces = surface::outer(truss, start)?;
     let middle = start.iter().sum::<Vec3>() / start.len() as f64;
     let centre = goal.centre();

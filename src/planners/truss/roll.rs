@@ -8,6 +8,10 @@ use std::f64::consts::TAU;
 
 /// Nodes this near to the edge (parts of the unit) stay where they are.
 const ON_EDGE: f64 = 1e-9;
+/// Falls from edge to edge until it rests.
+const FALLS_MAX: usize = 50;
+/// It rests if its centre of mass is farther inside its support than this part of the unit.
+const RESTS: f64 = 1e-9;
 /// Turns smaller than this are none, rad.
 const TURN_MIN: f64 = 1e-9;
 
@@ -38,6 +42,37 @@ pub fn over(truss: &Structure, x: &[Vec3], edge: (usize, usize)) -> Option<Roll>
     };
     let angle = x.iter().filter_map(landing).min_by(f64::total_cmp)?;
     Some(Roll { edge, angle })
+}
+
+/// The truss as it comes to rest on the ground when it is let go with its lowest nodes there. Where it falls
+/// on from is the one that is nearest to the centre of mass; `None` if it never rests.
+pub fn rested(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
+    let mut x = x.to_vec();
+    for _ in 0..FALLS_MAX {
+        let lowest = x.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+        x.iter_mut().for_each(|p| p.z -= lowest);
+        let contacts = support::contacts(truss, &x);
+        x = match standing(truss, &x, &contacts) {
+            Some((inside, _)) if inside > RESTS * truss.unit => return Some(x),
+            Some((_, edge)) => rolled(&x, over(truss, &x, edge)?),
+            None => tipped(truss, &x, contacts[0])?,
+        };
+    }
+    None
+}
+
+/// Over one node, towards where the centre of mass is.
+fn tipped(truss: &Structure, x: &[Vec3], node: usize) -> Option<Vec<Vec3>> {
+    let arm = truss.centre(x) - x[node];
+    let aside = Vec3::new(-arm.y, arm.x, 0.0);
+    let along = aside.try_normalize(ON_EDGE * truss.unit).unwrap_or_else(Vec3::y);
+    let mut with_axis = x.to_vec();
+    with_axis.push(x[node] + along * truss.unit);
+    // Turned about the axis by the right hand, what is ahead comes down.
+    let roll = over(truss, &with_axis, (node, x.len()))?;
+    let mut found = rolled(&with_axis, roll);
+    found.pop();
+    Some(found)
 }
 
 pub fn rolled(x: &[Vec3], roll: Roll) -> Vec<Vec3> {

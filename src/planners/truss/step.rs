@@ -8,11 +8,13 @@
 use super::between;
 use super::bound::Bound;
 use super::nearby::Nearby;
+use super::stiffness::{self, Mode};
 use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::linear::Unsolved;
 use crate::optimize::quadratic::{Programme, Row};
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// Programmes of one step.
@@ -27,17 +29,22 @@ const NEAR: f64 = 0.02;
 pub const CUSHION: f64 = 2e-4;
 /// How far, of the unit, a row of the programme may be off: less than it is asked to be inside.
 const SOLVED: f64 = 1e-9;
+/// A step that is shortened by more than this part is no reason to ask for more.
+const PART_MIN: f64 = 0.02;
+/// Singular values that are looked at: the least often come several together.
+const MODES: usize = 4;
 /// A value is below zero if it is by more than this part of the unit.
 const ROUNDING: f64 = 1e-10;
 /// Struts whose angle has a smaller sine are nearly parallel.
 const PARALLEL: f64 = 0.1;
 
-/// `½ uᵀ H u + c·u` over the displacements u, three for each node; of H what is on and above the
+/// `½ uᵀ H u + c·u + Σ |a·u|` over the displacements u, three for each node; of H what is on and above the
 /// diagonal.
 #[derive(Clone, Debug, Default)]
 pub struct Objective {
     pub hessian: Vec<(usize, usize, f64)>,
     pub linear: Vec<f64>,
+    pub sizes: Vec<Vec<(usize, f64)>>,
 }
 
 pub struct Task<'a> {
@@ -72,7 +79,7 @@ pub struct Memory {
 
 /// Where the nodes are after the step. Every bound holds there and on the way.
 pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
-    let Task { truss, x, .. } = *task;
+    let Task { truss, .. } = *task;
     let columns = columns(task);
     let mut rows = Rows::new(task, &columns);
     for bound in &memory.near {
@@ -80,34 +87,25 @@ pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
     }
     for _ in 0..ROUNDS_MAX {
         interrupt::checkpoint();
-        let y = match rows.programme.solve() {
+        let (y, part) = match rows.programme.solve() {
             Ok(u) => moved(task, &columns, &u),
             Err(Unsolved::Infeasible | Unsolved::Unbounded) => return Err(Stuck::Infeasible(rows.asked())),
             Err(Unsolved::Numerical) => return Err(Stuck::Unsettled(rows.asked())),
         };
         let broken = broken(task, &y, &mut memory.pairs);
         if broken.is_empty() {
-            let near = |bound: &Bound| bound.value(truss, &y) < NEAR * truss.unit;
+            let near = |bound: &Bound| {
+                matches!(bound, Bound::Rigid(..)) || bound.value(truss, &y) < NEAR * truss.unit
+            };
             memory.near = rows.asked().into_iter().filter(near).collect();
             memory.pairs.iter_mut().for_each(|pairs| pairs.moved(truss, &y));
             return Ok(y);
         }
         for (bound, lack) in broken {
+            // Rows are of the whole step.
+            let lack = lack / part.max(PART_MIN);
             rows.ask(bound, lack);
-            if let Bound::Apart(i, j) = bound
-                && parallel(truss, x, i, j)
-            {
-                for end in [
-                    Bound::EndApart(i, 0, j),
-                    Bound::EndApart(i, 1, j),
-                    Bound::EndApart(j, 0, i),
-                    Bound::EndApart(j, 1, i),
-                ] {
-                    if end.value(truss, x) < NEAR * truss.unit {
-                        rows.ask(end, 0.0);
-                    }
-                }
-            }
+            rows.ask_beside(bound, lack);
         }
     }
     Err(Stuck::Unsettled(rows.asked()))
@@ -120,6 +118,7 @@ struct Rows<'a> {
     programme: Programme,
     /// The number of the bound's row, if it has one, and what is asked for, m.
     known: BTreeMap<Bound, (Option<usize>, f64)>,
+    modes: OnceCell<Vec<Mode>>,
 }
 
 impl<'a> Rows<'a> {
@@ -134,35 +133,93 @@ impl<'a> Rows<'a> {
                 linear[column] = *value;
             }
         }
+        // Each size is a variable of its own, above what it is the size of.
+        let free = linear.len();
+        linear.resize(free + objective.sizes.len(), 1.0);
         let mut programme = Programme::new(hessian, linear, SOLVED * truss.unit);
+        for (i, terms) in objective.sizes.iter().enumerate() {
+            for sign in [1.0, -1.0] {
+                let signed = |&(at, value): &(usize, f64)| Some((place(at)?, sign * value));
+                let terms = terms.iter().filter_map(signed).chain([(free + i, -1.0)]);
+                programme.at_most((terms.collect(), 0.0));
+            }
+        }
         for &(axis, wanted) in task.centre {
             let shares = columns.iter().zip(&truss.shares);
             let terms = shares.filter_map(|(column, share)| Some((column.as_ref()? + axis, *share)));
             programme.equal((terms.collect(), wanted));
         }
-        Rows { task, columns, programme, known: BTreeMap::new() }
+        Rows { task, columns, programme, known: BTreeMap::new(), modes: OnceCell::new() }
     }
 
     /// Asks for a bound; if it was asked for before, for more than it fell short by.
     fn ask(&mut self, bound: Bound, lack: f64) {
-        let Task { truss, x, .. } = *self.task;
+        let truss = self.task.truss;
+        let (value, gradient) = self.slope(bound);
         if let Some((row, wanted)) = self.known.get_mut(&bound) {
             *wanted += INSIST * lack;
             if let Some(row) = row {
-                self.programme.set(*row, bound.value(truss, x) - *wanted);
+                self.programme.set(*row, value - *wanted);
             }
             return;
         }
         let wanted = INSIDE * truss.unit;
-        let gradient = bound.gradient(truss, x);
         let terms = gradient.iter().filter_map(|(node, g)| Some((self.columns[*node]?, g)));
         let terms: Row = (
             terms.flat_map(|(column, g)| (0..3).map(move |k| (column + k, -g[k]))).collect(),
-            bound.value(truss, x) - wanted,
+            value - wanted,
         );
         // Between nodes that stay nothing changes.
         let row = (!terms.0.is_empty()).then(|| self.programme.at_most(terms));
         self.known.insert(bound, (row, wanted));
+    }
+
+    /// Of a bound at the step's start, the singular values found once.
+    fn slope(&self, bound: Bound) -> (f64, Vec<(usize, Vec3)>) {
+        let Task { truss, x, .. } = *self.task;
+        let Bound::Rigid(i, j) = bound else { return (bound.value(truss, x), bound.gradient(truss, x)) };
+        let modes = self.modes.get_or_init(|| stiffness::weakest(truss, x, MODES));
+        let mode = stiffness::joined(modes, i, j);
+        (mode.spare(truss), mode.gradient(truss, x))
+    }
+
+    /// Asks for what comes with a bound that was broken.
+    fn ask_beside(&mut self, bound: Bound, lack: f64) {
+        let Task { truss, x, .. } = *self.task;
+        match bound {
+            Bound::Apart(i, j) if parallel(truss, x, i, j) => {
+                for end in [
+                    Bound::EndApart(i, 0, j),
+                    Bound::EndApart(i, 1, j),
+                    Bound::EndApart(j, 0, i),
+                    Bound::EndApart(j, 1, i),
+                ] {
+                    if end.value(truss, x) < NEAR * truss.unit {
+                        self.ask(end, 0.0);
+                    }
+                }
+            }
+            Bound::Rigid(i, _) => {
+                for j in (0..MODES).filter(|j| *j != i) {
+                    self.ask(Bound::Rigid(i, j), lack);
+                    self.ask(Bound::Rigid(j, i), lack);
+                }
+            }
+            // Lengths are convex: what made this one longer than its row foresaw also keeps it from
+            // getting as short as the other row fears.
+            Bound::Longest(strut) if truss.limits.still.contains(&strut) => {
+                self.ease(Bound::Shortest(strut), lack);
+            }
+            Bound::Most(index) => self.ease(Bound::Least(index), lack),
+            _ => {}
+        }
+    }
+
+    fn ease(&mut self, bound: Bound, lack: f64) {
+        if !self.known.contains_key(&bound) {
+            self.ask(bound, 0.0);
+        }
+        self.ask(bound, -lack);
     }
 
     fn asked(&self) -> Vec<Bound> {
@@ -189,12 +246,13 @@ fn columns(task: &Task) -> Vec<Option<usize>> {
     (0..task.truss.nodes).map(&mut column).collect()
 }
 
-fn moved(task: &Task, columns: &[Option<usize>], u: &[f64]) -> Vec<Vec3> {
+/// Where the nodes get to, and by what part the step was shortened for it.
+fn moved(task: &Task, columns: &[Option<usize>], u: &[f64]) -> (Vec<Vec3>, f64) {
     let displacement =
         |column: &Option<usize>| column.map_or_else(Vec3::zeros, |c| Vec3::new(u[c], u[c + 1], u[c + 2]));
     let farthest = columns.iter().map(|c| displacement(c).norm()).fold(0.0, f64::max);
     let part = (task.cap / farthest.max(f64::MIN_POSITIVE)).min(1.0);
-    task.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * part).collect()
+    (task.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * part).collect(), part)
 }
 
 /// Bounds that do not hold at y or on the way there, with by how much, m.
@@ -205,11 +263,20 @@ fn broken(task: &Task, y: &[Vec3], pairs: &mut Option<Nearby>) -> Vec<(Bound, f6
     let lengths = (0..truss.struts.len()).flat_map(|strut| [Bound::Shortest(strut), Bound::Longest(strut)]);
     let apart = pairs.iter().map(|&(i, j)| Bound::Apart(i, j));
     let above = (0..truss.nodes).filter(|_| task.ground).map(Bound::Above);
+    let angles = truss.corners.iter().map(|&(i, j)| Bound::Angle(i, j));
+    let sums = (0..truss.limits.loops.len()).flat_map(|index| [Bound::Least(index), Bound::Most(index)]);
     let mut broken: BTreeMap<Bound, f64> = BTreeMap::new();
-    for bound in lengths.chain(apart).chain(above) {
-        let value = bound.value(truss, y);
+    let mut look = |bound: Bound, value: f64| {
         if value < -ROUNDING * truss.unit {
             broken.insert(bound, -value);
+        }
+    };
+    for bound in lengths.chain(apart).chain(above).chain(angles).chain(sums) {
+        look(bound, bound.value(truss, y));
+    }
+    if truss.limits.rigidity > 0.0 {
+        for (i, mode) in stiffness::weakest(truss, y, MODES).iter().enumerate() {
+            look(Bound::Rigid(i, i), mode.spare(truss));
         }
     }
     for (bound, lack) in between::shortfalls(truss, x, y, &pairs, cushion) {

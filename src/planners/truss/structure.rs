@@ -8,8 +8,8 @@ use crate::robot::Strut;
 pub struct Structure {
     pub nodes: usize,
     pub struts: Vec<(usize, usize)>,
-    /// Of each strut.
-    pub length: (f64, f64),
+    /// The range of each.
+    pub lengths: Vec<(f64, f64)>,
     /// Of each strut, m/s.
     pub speed: f64,
     /// Between struts that share no node.
@@ -17,7 +17,35 @@ pub struct Structure {
     /// The part of the whole mass that each node carries: half of each of its struts.
     pub shares: Vec<f64>,
     pub unit: f64,
+    pub limits: Limits,
+    /// Struts that share a node, where their angles have a limit.
+    pub corners: Vec<(usize, usize)>,
 }
+
+/// Limits beside those that every strut has.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Between struts that share a node, rad; of 0 there is none.
+    pub angle: f64,
+    /// The least singular value of the rigidity matrix (rows of unit vectors) that is not one of a rigid
+    /// motion, after every step; of 0 there is none.
+    pub rigidity: f64,
+    /// Struts that keep the length they have at the start: they failed, or have no motor.
+    pub still: Vec<usize>,
+    /// Struts of one tube or cable: the sum of their lengths stays.
+    pub loops: Vec<Loop>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loop {
+    pub struts: Vec<usize>,
+    /// What their lengths add up to, m.
+    pub range: (f64, f64),
+}
+
+/// Lengths that stay may be off by this part of the unit: nodes go straight on, and what turns meanwhile
+/// gets shorter in between.
+pub const SLACK: f64 = 2e-3;
 
 impl Structure {
     pub fn new(strut: &Strut, start: &[Vec3], struts: &[(usize, usize)]) -> Structure {
@@ -30,11 +58,57 @@ impl Structure {
         Structure {
             nodes: start.len(),
             struts: struts.to_vec(),
-            length: strut.length,
+            lengths: vec![strut.length; struts.len()],
             speed: strut.speed,
             clearance: strut.clearance,
             shares,
             unit: struts.iter().map(length).sum::<f64>() / struts.len().max(1) as f64,
+            limits: Limits::default(),
+            corners: Vec::new(),
+        }
+    }
+
+    /// Under more limits; loops are of struts, and keep the sum that they have at the start.
+    pub fn limited(mut self, start: &[Vec3], limits: Limits) -> Structure {
+        let slack = SLACK * self.unit;
+        for &strut in &limits.still {
+            let length = self.length(start, strut);
+            self.lengths[strut] = (length - slack, length + slack);
+        }
+        if limits.angle > 0.0 {
+            let count = self.struts.len();
+            let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
+            self.corners = pairs.filter(|&(i, j)| self.share_node(i, j)).collect();
+        }
+        self.limits = limits;
+        for i in 0..self.limits.loops.len() {
+            let sum = self.around(start, i);
+            self.limits.loops[i].range = (sum - slack, sum + slack);
+        }
+        self
+    }
+
+    /// With distances and angles that are greater by a little, in units and rad, so that certificates end.
+    pub fn cautious(&self, cushion: f64) -> Structure {
+        let mut truss = self.clone();
+        truss.clearance += cushion * self.unit;
+        truss.limits.angle += if self.limits.angle > 0.0 { cushion } else { 0.0 };
+        truss
+    }
+
+    /// What the lengths of a loop add up to.
+    pub fn around(&self, x: &[Vec3], index: usize) -> f64 {
+        self.limits.loops[index].struts.iter().map(|&strut| self.length(x, strut)).sum()
+    }
+
+    /// The node of two struts that share one, and their others.
+    pub fn corner(&self, i: usize, j: usize) -> (usize, usize, usize) {
+        let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
+        match (a == c, a == d, b == c) {
+            (true, _, _) => (a, b, d),
+            (_, true, _) => (a, b, c),
+            (_, _, true) => (b, a, d),
+            _ => (b, a, c),
         }
     }
 

@@ -13,39 +13,85 @@ pub struct Open {
     pub edges: Vec<(usize, usize)>,
 }
 
-/// The triangles of struts that have all nodes on one side, counter-clockwise as seen from outside: the
-/// boundary of the hull, where struts triangulate it.
+/// The outer triangles of struts, counter-clockwise as seen from outside: the boundary of the hull, where
+/// struts triangulate it, else that of the tetrahedra that struts make up.
 pub fn outer(truss: &Structure, x: &[Vec3]) -> Result<Vec<[usize; 3]>, Open> {
     let mut after: Vec<Vec<usize>> = vec![Vec::new(); truss.nodes];
     for &(a, b) in &truss.struts {
         after[a.min(b)].push(a.max(b));
     }
     after.iter_mut().for_each(|list| list.sort_unstable());
+    let hull = hull(truss, x, &after);
+    let open = open_edges(&hull);
+    if open.is_empty() && !hull.is_empty() {
+        return Ok(hull);
+    }
+    let solid = solid(truss, x, &after);
+    if open_edges(&solid).is_empty() && !solid.is_empty() { Ok(solid) } else { Err(Open { edges: open }) }
+}
+
+/// Triangles of struts that have all nodes on one side.
+fn hull(truss: &Structure, x: &[Vec3], after: &[Vec<usize>]) -> Vec<[usize; 3]> {
     let mut triangles = Vec::new();
-    for a in 0..truss.nodes {
-        for (i, &b) in after[a].iter().enumerate() {
-            for &c in after[a][i + 1..].iter().filter(|c| after[b].contains(c)) {
-                let normal = (x[b] - x[a]).cross(&(x[c] - x[a])).normalize();
-                let sides = x.iter().map(|p| normal.dot(&(p - x[a])));
-                let (low, high) = sides.fold((0.0f64, 0.0f64), |(low, high), s| (low.min(s), high.max(s)));
-                let tolerance = ON_PLANE * truss.unit;
-                if high <= tolerance {
-                    triangles.push([a, b, c]);
-                } else if low >= -tolerance {
-                    triangles.push([a, c, b]);
+    for [a, b, c] in cliques(after) {
+        let normal = (x[b] - x[a]).cross(&(x[c] - x[a])).normalize();
+        let sides = x.iter().map(|p| normal.dot(&(p - x[a])));
+        let (low, high) = sides.fold((0.0f64, 0.0f64), |(low, high), s| (low.min(s), high.max(s)));
+        let tolerance = ON_PLANE * truss.unit;
+        if high <= tolerance {
+            triangles.push([a, b, c]);
+        } else if low >= -tolerance {
+            triangles.push([a, c, b]);
+        }
+    }
+    triangles
+}
+
+/// Triangles of exactly one of the tetrahedra whose edges are all struts.
+fn solid(truss: &Structure, x: &[Vec3], after: &[Vec<usize>]) -> Vec<[usize; 3]> {
+    let mut sides: BTreeMap<[usize; 3], (usize, [usize; 3])> = BTreeMap::new();
+    for [a, b, c] in cliques(after) {
+        let all = |d: &&usize| after[a].contains(d) && after[b].contains(d);
+        for &d in after[c].iter().filter(all) {
+            let volume = (x[b] - x[a]).cross(&(x[c] - x[a])).dot(&(x[d] - x[a]));
+            if volume.abs() <= ON_PLANE * truss.unit * truss.unit * truss.unit {
+                continue;
+            }
+            for (mut side, across) in [([a, b, c], d), ([a, b, d], c), ([a, c, d], b), ([b, c, d], a)] {
+                let key = side;
+                let normal = (x[side[1]] - x[side[0]]).cross(&(x[side[2]] - x[side[0]]));
+                if normal.dot(&(x[across] - x[side[0]])) > 0.0 {
+                    side.swap(1, 2);
                 }
+                sides.entry(key).or_insert((0, side)).0 += 1;
             }
         }
     }
+    sides.into_values().filter(|(uses, _)| *uses == 1).map(|(_, side)| side).collect()
+}
+
+/// Three nodes with struts between all of them, in order.
+fn cliques(after: &[Vec<usize>]) -> Vec<[usize; 3]> {
+    let mut found = Vec::new();
+    for (a, others) in after.iter().enumerate() {
+        for (i, &b) in others.iter().enumerate() {
+            let both = others[i + 1..].iter().filter(|c| after[b].contains(c));
+            found.extend(both.map(|&c| [a, b, c]));
+        }
+    }
+    found
+}
+
+/// Edges that are not between two triangles.
+fn open_edges(triangles: &[[usize; 3]]) -> Vec<(usize, usize)> {
     let mut uses: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-    for t in &triangles {
+    for t in triangles {
         for k in 0..3 {
             let (a, b) = (t[k], t[(k + 1) % 3]);
             *uses.entry((a.min(b), a.max(b))).or_default() += 1;
         }
     }
-    let edges: Vec<(usize, usize)> = uses.iter().filter(|(_, n)| **n != 2).map(|(edge, _)| *edge).collect();
-    if edges.is_empty() && !triangles.is_empty() { Ok(triangles) } else { Err(Open { edges }) }
+    uses.into_iter().filter(|(_, n)| *n != 2).map(|(edge, _)| edge).collect()
 }
 
 /// A point of a triangle, by its weights.

@@ -1,0 +1,28 @@
+//! Clouds of points from XYZ files: a point a line, its coordinates first.
+//!
+//! A reader of our own, for the format is no more than that. What else is on a line, a colour or a
+//! normal, is left out; so is what follows a `#`.
+
+use super::mesh_file::{Fault, Read};
+
+pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_string())?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut read = Read::default();
+    for (i, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or("");
+        let words: Vec<&str> = line
+            .split(|c: char| c.is_whitespace() || c == ',' || c == ';')
+            .filter(|w| !w.is_empty())
+            .collect();
+        if words.is_empty() {
+            continue;
+        }
+        let number = |k: usize| words.get(k).and_then(|word| word.parse::<f64>().ok());
+        let (Some(x), Some(y), Some(z)) = (number(0), number(1), number(2)) else {
+            return Err(format!("line {}: three numbers are wanted", i + 1));
+        };
+        read.vertices.push([x, y, z]);
+    }
+    Ok(read)
+}
