@@ -1,6 +1,8 @@
 //! Steps of trusses: `locomote` along the S of the paper, `morph` to its two targets, and both on octet
 //! trusses of growing size; milliseconds a step, and what came of it.
 //!
+//! Beside it, the paper's method in Python: `benches/peers/truss.py` says how to run it.
+//!
 //! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions.
 
 #[path = "../tests/trusses.rs"]
@@ -20,19 +22,24 @@ use trusses::{actuator, cube, ell, robot};
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-const DIVISIONS: [i64; 4] = [4, 6, 8, 10];
+const DIVISIONS: [i64; 6] = [4, 6, 8, 10, 13, 16];
 
 fn each(time: Duration, steps: usize) -> f64 {
     time.as_secs_f64() * 1e3 / steps.max(1) as f64
 }
 
 fn main() {
-    let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(8);
+    let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(16);
     let (truss, start) = robot();
     println!("| 34 nodes, 108 struts | steps | ms a step | rolls, or distances there and back |");
     println!("|---|---|---|---|");
     let corners = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
-    for aim in [Aim::Springs, Aim::Lengths { still: 1.0 }, Aim::Restoring { still: 1.0 }] {
+    for aim in [
+        Aim::Springs,
+        Aim::Lengths { still: 1.0 },
+        Aim::Restoring { still: 1.0 },
+        Aim::Fewest { still: 1e-3 },
+    ] {
         let (travel, time) = travelled(&truss, &start, &corners, aim, usize::MAX);
         println!(
             "| S, {aim:?} | {} | {:.2} | {} rolls |",
@@ -69,7 +76,16 @@ fn travelled(
 ) -> (Travel, Duration) {
     let from = truss.centre(start);
     let path = corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect();
-    let wish = Wish { path, near: 0.25, stride: 0.05, aim, hold: Hold::Three, ladder: true, steps_max };
+    let wish = Wish {
+        path,
+        near: 0.25,
+        stride: 0.05,
+        aim,
+        hold: Hold::Three,
+        ladder: true,
+        impact: true,
+        steps_max,
+    };
     let clock = Instant::now();
     let travel = locomote(truss, start, &wish, &|_| true);
     (travel, clock.elapsed())

@@ -1802,6 +1802,8 @@ extern type Travel is Plan {
   distance: Length
   /// How often the truss has rolled on.
   rolls: Int
+  /// How often a node was put down beyond the edge of the support before the truss went there.
+  footholds: Int
   /// How many places of the path were reached.
   reached: Int
   /// How far nodes slid over the ground, all together.
@@ -1824,7 +1826,8 @@ extern type Travel is Plan {
 /// rates' sizes; slower to plan). `hold` says which nodes on the ground stay
 /// where they are: `three` around the centre of mass, or `all`. Where no step is found, easier ones are
 /// tried, unless `ladder` is false: slower, with the centre free to sink, with the other hold, with the
-/// other objective. `budget` is in steps. `angle`, `rigidity`, `failed`, `perimeters` and `timeout` are
+/// other objective. Without `impact` it does not fall over an edge where it can put a node down beyond it
+/// first, and takes about twice as many steps. `budget` is in steps. `angle`, `rigidity`, `failed`, `perimeters` and `timeout` are
 /// those of `morph`.
 ///
 /// Gravity is taken to be slow: nothing swings, and a roll is a rigid turn. Where it ends short of its
@@ -1849,4 +1852,5 @@ extern fn locomote(
   failed: List<Text> = [],
   perimeters: List<List<Text>> = [],
   timeout: Time?,
+  impact: Bool = true,
 ) -> Travel

@@ -19,7 +19,16 @@ fn s_path(turned: f64, aim: Aim) -> Wish {
         serde_json::from_value(truth()["locomotion"]["path"].clone()).expect("places");
     let place = |[x, y]: [f64; 2]| [c * x - s * y + from.x, s * x + c * y + from.y];
     let path = corners.into_iter().map(place).collect();
-    Wish { path, near: 0.25, stride: 0.05, aim, hold: Hold::Three, ladder: true, steps_max: 3000 }
+    Wish {
+        path,
+        near: 0.25,
+        stride: 0.05,
+        aim,
+        hold: Hold::Three,
+        ladder: true,
+        impact: true,
+        steps_max: 3000,
+    }
 }
 
 fn travelled(wish: &Wish) -> Travel {
@@ -65,6 +74,22 @@ fn nothing_comes_too_near_between_the_samples() {
         };
     }
     assert!(travel.rolls > 2);
+}
+
+/// A node is put down before the centre of mass crosses an edge: nothing falls on the whole way.
+#[test]
+fn it_rolls_without_impact() {
+    let travel = travelled(&Wish { impact: false, ..s_path(25.0, Aim::Springs) });
+    assert_eq!(travel.end, End::Arrived);
+    assert_eq!(travel.rolls, 0);
+    assert!(travel.footholds > 10);
+    let (truss, mut x) = robot();
+    for step in &travel.moves {
+        let Move::Step(y) = step else { panic!("it fell") };
+        let (apart, height, _) = looked_at(&truss, &x, y, 20);
+        assert!(apart > 0.1 - 1e-9 && height > -1e-9, "{apart} {height}");
+        x.clone_from(y);
+    }
 }
 
 /// The least change of lengths that moves the centre of mass at unit speed, with nodes held: what each

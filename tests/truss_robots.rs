@@ -64,7 +64,9 @@ fn other_trusses_walk_and_their_plans_pass() {
         program += &format!("let w{i} = locomote({robot}, path: [[4m, 1m, 0m]])\n");
         program += &format!("print(w{i}.ended, w{i}.distance > 1m, verify(w{i}).ok)\n");
     }
-    assert_eq!(run(&program), "arrived true true\n".repeat(4));
+    program += "let soft = locomote(Ball, path: [[4m, 1m, 0m]], impact: false)\n";
+    program += "print(soft.ended, soft.footholds > 0, verify(soft).ok)\n";
+    assert_eq!(run(&program), "arrived true true\n".repeat(5));
 }
 
 /// Half as far from the target as at the start is what the coarsest of them gets to.
@@ -120,7 +122,7 @@ fn limits_are_asked_for_by_name() {
         let (_, ran) = with(options);
         assert!(ran.code != 0 && ran.err.contains(wanted), "{options}: {}", ran.err);
     }
-    let options = "angle: 15deg, rigidity: 0.1, failed: [\"1 -- 0\"], perimeters: [[\"0 -- 2\", \"0 -- 3\"]]";
+    let options = "angle: 15deg, rigidity: 0.1, failed: [\"1 -- 0\"], perimeters: [[\"0 -- 3\", \"0 -- 6\"]]";
     let (sandbox, ran) = with(options);
     assert_eq!((ran.code, ran.out.lines().next()), (0, Some("true true true")), "{}", ran.err);
     let judged = sandbox.run(&["verify", "m.plan.json"]);

@@ -27,7 +27,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("morph", 11, morph), on_run("locomote", 11, locomote)];
+pub const TABLE: &[Native] = &[on_run("morph", 11, morph), on_run("locomote", 12, locomote)];
 
 /// Points of a target lie about so far apart, in struts.
 const APART: f64 = 0.125;
@@ -51,13 +51,25 @@ const BOUNDS_TOLD: usize = 4;
 
 /// What the planner says of its plan.
 pub enum Trussed {
-    Morphed { distance: Distance, start: Distance, ended: String },
-    Travelled { rolls: usize, eased: usize, distance: f64, slip: f64, reached: usize, ended: String },
+    Morphed {
+        distance: Distance,
+        start: Distance,
+        ended: String,
+    },
+    Travelled {
+        rolls: usize,
+        footholds: usize,
+        eased: usize,
+        distance: f64,
+        slip: f64,
+        reached: usize,
+        ended: String,
+    },
 }
 
 /// The fields of a `Morphing` and a `Travel` beside those of a plan.
 pub const MORPHING: &[&str] = &["rms", "rms_back", "worst", "start_rms", "clearance", "ended"];
-pub const TRAVEL: &[&str] = &["distance", "rolls", "reached", "slip", "eased", "ended"];
+pub const TRAVEL: &[&str] = &["distance", "rolls", "footholds", "reached", "slip", "eased", "ended"];
 
 impl Trussed {
     pub fn has(&self, field: &str) -> bool {
@@ -82,6 +94,7 @@ impl Interpreter<'_> {
             }
             (Trussed::Travelled { distance, .. }, "distance") => Value::length(*distance),
             (Trussed::Travelled { rolls, .. }, "rolls") => Value::count(*rolls),
+            (Trussed::Travelled { footholds, .. }, "footholds") => Value::count(*footholds),
             (Trussed::Travelled { reached, .. }, "reached") => Value::count(*reached),
             (Trussed::Travelled { slip, .. }, "slip") => Value::length(*slip),
             (Trussed::Travelled { eased, .. }, "eased") => Value::count(*eased),
@@ -163,6 +176,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             _ => Aim::Springs,
         },
         hold: if call.word(3) == Some("all") { Hold::All } else { Hold::Three },
+        impact: call.truth(11)?,
         ladder: call.truth(4)?,
         steps_max: call.count(5, "a budget")?,
     };
@@ -199,8 +213,8 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         );
     }
     let distance = task.way_of_centre(&travel);
-    let Travel { moves, rolls, eased, slip, reached, .. } = travel;
-    let trussed = Trussed::Travelled { rolls, eased, distance, slip, reached, ended };
+    let Travel { moves, rolls, footholds, eased, slip, reached, .. } = travel;
+    let trussed = Trussed::Travelled { rolls, footholds, eased, distance, slip, reached, ended };
     Ok(task.planned(interpreter, call, "locomote", World::default(), moves, trussed))
 }
 

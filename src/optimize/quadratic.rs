@@ -11,7 +11,7 @@ pub use super::sparse::Row;
 use clarabel::algebra::CscMatrix;
 
 /// Multiplications to factor H up to which the active-set method was measured to be the faster.
-const WORK_MAX: usize = 20_000_000;
+const WORK_MAX: usize = 400_000_000;
 
 /// `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`. Rows are lists of (column, coefficient).
 pub struct Programme {

@@ -13,6 +13,12 @@ use crate::geometry::Vec3;
 const ROLLS_MAX: usize = 50;
 /// Rungs of the ladder that are taken one after another without the next step being an ordinary one.
 const EASED_MAX: usize = 60;
+/// A node is put down beyond an edge when the centre of mass comes so near to it, in units; how far beyond;
+/// how much its way down weighs beside everything else; steps until another is taken.
+const FOOTHOLD_AT: f64 = 0.1;
+const FOOTHOLD_BEYOND: f64 = 0.2;
+const FOOTHOLD_WEIGHT: f64 = 100.0;
+const FOOTHOLD_STEPS: usize = 60;
 /// Halvings of a step in which the centre of mass leaves the support.
 const HALVINGS: usize = 60;
 
@@ -34,6 +40,9 @@ pub struct Wish {
     pub stride: f64,
     pub aim: Aim,
     pub hold: Hold,
+    /// Whether it may fall over an edge onto other nodes; else it puts one down beyond the edge first, where
+    /// it can (as variable topology trusses roll without impact).
+    pub impact: bool,
     /// Whether the ladder of easier steps is gone down where a step is not found.
     pub ladder: bool,
     pub steps_max: usize,
@@ -68,6 +77,8 @@ pub struct Travel {
     pub rolls: usize,
     /// Steps from further down the ladder.
     pub eased: usize,
+    /// Nodes put down beyond an edge before the centre of mass went there.
+    pub footholds: usize,
     /// How far nodes slid over the ground, all together, m.
     pub slip: f64,
 }
@@ -101,6 +112,8 @@ pub fn locomote(truss: &Structure, start: &[Vec3], wish: &Wish, going: &dyn Fn(u
         x: start.to_vec(),
         memory: Memory::default(),
         eased_in_a_row: 0,
+        reaching: None,
+        out_of_reach: Vec::new(),
         travel: Travel::new(),
     };
     walk.travel.end = walk.settle().err().unwrap_or_else(|| walk.go(going));
@@ -109,7 +122,16 @@ pub fn locomote(truss: &Structure, start: &[Vec3], wish: &Wish, going: &dyn Fn(u
 
 impl Travel {
     fn new() -> Travel {
-        Travel { moves: Vec::new(), end: End::Arrived, reached: 0, steps: 0, rolls: 0, eased: 0, slip: 0.0 }
+        Travel {
+            moves: Vec::new(),
+            end: End::Arrived,
+            reached: 0,
+            steps: 0,
+            rolls: 0,
+            eased: 0,
+            footholds: 0,
+            slip: 0.0,
+        }
     }
 }
 
@@ -119,6 +141,10 @@ struct Walk<'a> {
     x: Vec<Vec3>,
     memory: Memory,
     eased_in_a_row: usize,
+    /// The node that is being put down, for so many steps.
+    reaching: Option<(usize, usize)>,
+    /// Nodes that could not be put down from where it stands.
+    out_of_reach: Vec<usize>,
     travel: Travel,
 }
 
@@ -139,6 +165,12 @@ impl Walk<'_> {
                 return End::Steps;
             }
             let stride = self.wish.stride.min(distance) / distance;
+            if !self.wish.impact && self.put_down([away[0] * stride, away[1] * stride]) {
+                if let Err(end) = self.settle() {
+                    return end;
+                }
+                continue;
+            }
             let y = match self.next([away[0] * stride, away[1] * stride]) {
                 Ok(y) => y,
                 Err(stuck) => return End::Stuck(stuck),
@@ -150,6 +182,68 @@ impl Walk<'_> {
             }
         }
         End::Arrived
+    }
+
+    /// Where the next step would bring the centre of mass near an edge of the support: a step that brings a
+    /// node down beyond it, while the centre of mass stays. False where there is nothing to put down.
+    fn put_down(&mut self, stride: [f64; 2]) -> bool {
+        let unit = self.truss.unit;
+        let contacts = support::contacts(self.truss, &self.x);
+        if let Some((node, _)) = self.reaching.filter(|(node, _)| contacts.contains(node)) {
+            self.travel.footholds += 1;
+            self.out_of_reach.clear();
+            self.out_of_reach.push(node);
+            self.reaching = None;
+        }
+        let hull = support::hull(&self.x, &contacts);
+        let ahead = self.truss.centre(&self.x) + Vec3::new(stride[0], stride[1], 0.0);
+        let Some((inside, (a, b))) = support::margin(&self.x, &hull, ahead) else { return false };
+        if inside > FOOTHOLD_AT * unit {
+            self.reaching = None;
+            return false;
+        }
+        let (from, along) = (self.x[a], (self.x[b] - self.x[a]).normalize());
+        let beyond = |node: &usize| (self.x[*node] - from).cross(&along).z > FOOTHOLD_BEYOND * unit;
+        let open = (0..self.truss.nodes)
+            .filter(|node| !contacts.contains(node) && !self.out_of_reach.contains(node) && beyond(node));
+        let lowest = open.min_by(|i, j| self.x[*i].z.total_cmp(&self.x[*j].z));
+        let (node, tries) = match (self.reaching, lowest) {
+            (Some(reaching), _) => reaching,
+            (None, Some(node)) => (node, 0),
+            (None, None) => return false,
+        };
+        let step = if tries < FOOTHOLD_STEPS { self.lower(node, &hull) } else { None };
+        let Some(y) = step else {
+            self.out_of_reach.push(node);
+            self.reaching = None;
+            return self.put_down(stride);
+        };
+        self.reaching = Some((node, tries + 1));
+        self.travel.steps += 1;
+        self.advance(y);
+        true
+    }
+
+    fn lower(&mut self, node: usize, hull: &[usize]) -> Option<Vec<Vec3>> {
+        let down = self.x[node].z.min(self.wish.stride);
+        let pace = self.wish.stride / self.truss.unit;
+        let mut objective = locomotion::objective(self.wish.aim, self.truss, &self.x, pace);
+        objective.hessian.push((3 * node + 2, 3 * node + 2, FOOTHOLD_WEIGHT));
+        objective.linear[3 * node + 2] += FOOTHOLD_WEIGHT * down;
+        let task = Task {
+            truss: self.truss,
+            x: &self.x,
+            objective: &objective,
+            held: &support::feet(&self.x, hull, self.truss.centre(&self.x)),
+            centre: &[(0, 0.0), (1, 0.0)],
+            ground: true,
+            cap: f64::INFINITY,
+        };
+        let mut memory = self.memory.clone();
+        let y = step(&task, &mut memory).ok()?;
+        self.memory = memory;
+        // Nothing is gained where other limits hold it up.
+        (self.x[node].z - y[node].z > 0.1 * down).then_some(y)
     }
 
     /// The next step, from the first rung of the ladder that holds.
@@ -252,6 +346,8 @@ impl Walk<'_> {
             self.x = roll::rolled(&self.x, roll);
             self.memory.near.retain(|bound| !matches!(bound, Bound::Above(_)));
             self.travel.rolls += 1;
+            self.reaching = None;
+            self.out_of_reach.clear();
             self.travel.moves.push(Move::Roll(roll));
         }
         Err(End::Falls)
