@@ -1,6 +1,7 @@
 //! Other trusses than the paper's, and other targets: every plan passes the judge.
 
 use crate::cli::Sandbox;
+use modl::geometry::Vec3;
 use std::fmt::Write;
 
 const HEAD: &str = "use std.truss.PneumaticReel\nuse std.shapes.{cube, geodesic}\n";
@@ -17,7 +18,7 @@ fn written(name: &str, of: &str, places: &[[f64; 3]], centre: bool) -> String {
     }
     for i in 0..places.len() {
         for j in i + 1..places.len() {
-            let apart = (0..3).map(|k| (places[i][k] - places[j][k]).powi(2)).sum::<f64>();
+            let apart = (Vec3::from(places[i]) - Vec3::from(places[j])).norm_squared();
             if (apart - 1.0).abs() < 1e-6 {
                 writeln!(text, "  strut p[{i}] -- p[{j}]").expect("it is a string");
             }
