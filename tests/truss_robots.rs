@@ -126,7 +126,7 @@ fn limits_are_asked_for_by_name() {
     let options = "angle: 15deg, rigidity: 0.1, failed: [\"1 -- 0\"], perimeters: [[\"0 -- 3\", \"0 -- 6\"]]";
     let (sandbox, ran) = with(options);
     assert_eq!((ran.code, ran.out.lines().next()), (0, Some("true true true")), "{}", ran.err);
-    let judged = sandbox.run(&["verify", "m.plan.json"]);
+    let judged = sandbox.run(&["verify", "out/m.plan.json"]);
     assert_eq!(judged.code, 0, "{}{}", judged.out, judged.err);
     assert!(judged.out.contains("angle") && judged.out.contains("rigidity"), "{}", judged.out);
 }
