@@ -48,6 +48,27 @@ const measure = page => page.evaluate(() => {
   return times.map(list => Number(list.sort((a, b) => a - b)[2].toFixed(1)));
 });
 
+/** Frames a second while it plays at 1200 x 720, one pixel for one, once the page has found its pace. */
+async function pace(browser, name) {
+  const { context, page } = await opened(browser, folder, name, { viewport: { width: 1200, height: 720 }, deviceScaleFactor: 1 });
+  const rate = await page.evaluate(async () => {
+    const played = async wanted => {
+      const start = performance.now();
+      let frames = 0;
+      while (performance.now() - start < wanted) {
+        if (!window.modl.state.playing) document.getElementById("play").click();
+        await new Promise(requestAnimationFrame);
+        frames++;
+      }
+      return (1e3 * frames) / (performance.now() - start);
+    };
+    await played(4000);
+    return played(5000);
+  });
+  await context.close();
+  return Number(rate.toFixed(1));
+}
+
 async function checked(browser, one) {
   const { context, page, faults } = await opened(browser, folder, one.name, { reducedMotion: "reduce" });
   const fault = words => faults.push(words);
@@ -74,6 +95,7 @@ async function checked(browser, one) {
   if (one.failure) await views.failure(page, one.failure, fault);
   if (one.measured) [figures.script_ms, figures.frame_ms] = await measure(page);
   await context.close();
+  if (one.measured) figures.frames_a_second = await pace(browser, one.name);
   return { name: one.name, faults, figures };
 }
 
