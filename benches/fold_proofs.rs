@@ -201,7 +201,7 @@ const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 440.0;
 /// Faces are drawn from 3 to 400, on a scale of logarithms; decades of seconds from 1e-6 to 1e2.
 const FACES: [f64; 2] = [3.0, 400.0];
-const MARKED: [f64; 8] = [4.0, 8.0, 20.0, 40.0, 80.0, 144.0, 180.0, 320.0];
+const MARKED: [f64; 7] = [4.0, 8.0, 20.0, 40.0, 80.0, 180.0, 320.0];
 const SECONDS: [f64; 2] = [1e-6, 1e2];
 
 fn place(faces: f64, seconds: f64) -> [f64; 2] {
