@@ -42,6 +42,12 @@ struct Line {
     active: bool,
 }
 
+impl Line {
+    fn over(&self, x: &[f64]) -> f64 {
+        self.terms.iter().map(|(i, a)| a * x[*i]).sum::<f64>() - self.right
+    }
+}
+
 pub struct ActiveSet {
     factor: Factor,
     /// v₀.
@@ -102,10 +108,20 @@ impl ActiveSet {
         }
         for _ in 0..CHANGES_MAX * (self.lines.len() + 1) {
             let x = self.point();
-            let Some(line) = self.most_broken(&x) else { return Ok(x) };
+            let Some(line) = self.most_broken(&x) else {
+                return if self.active_hold(&x) { Ok(x) } else { Err(Unsolved::Numerical) };
+            };
             self.enter(line)?;
         }
         Err(Unsolved::Numerical)
+    }
+
+    /// The next solution begins anew.
+    pub fn forget(&mut self) {
+        self.active.clear();
+        self.multipliers.clear();
+        self.gram.clear();
+        self.lines.iter_mut().for_each(|line| line.active = false);
     }
 
     /// The multipliers for the right sides as they are now; rows that would pull are let go.
@@ -141,11 +157,15 @@ impl ActiveSet {
         v
     }
 
+    /// Rows whose Gram matrix is nearly singular may be lost to rounding.
+    fn active_hold(&self, x: &[f64]) -> bool {
+        self.active.iter().all(|line| self.lines[*line].over(x).abs() <= self.tolerance)
+    }
+
     fn most_broken(&self, x: &[f64]) -> Option<usize> {
-        let over = |line: &Line| line.terms.iter().map(|(i, a)| a * x[*i]).sum::<f64>() - line.right;
         let open = self.lines.iter().enumerate().filter(|(_, line)| !line.active && !line.equal);
         let worst =
-            open.map(|(i, line)| (i, over(line))).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+            open.map(|(i, line)| (i, line.over(x))).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
         worst.filter(|(_, over)| *over > self.tolerance).map(|(i, _)| i)
     }
 
@@ -161,11 +181,16 @@ impl ActiveSet {
                 .iter()
                 .map(|other| self.lines[*other].image.as_ref().expect("active").0.dot(&self.work))
                 .collect();
-            image.at.iter().for_each(|i| self.work[*i] = 0.0);
             let half = self.gram_forward(products);
-            let left = square - half.iter().map(|h| h * h).sum::<f64>();
-            let over = image.dot(&self.nearest()) - own * square - self.lines[line].right;
             let falls = self.gram_back(half.clone());
+            // What of the row is across the active ones: from itself, for a difference of squares would be
+            // nothing but rounding where it is small.
+            for (other, fall) in self.active.iter().zip(&falls) {
+                self.lines[*other].image.as_ref().expect("active").0.add_to(&mut self.work, -fall);
+            }
+            let left: f64 = self.work.iter().map(|w| w * w).sum();
+            self.work.fill(0.0);
+            let over = image.dot(&self.nearest()) - own * square - self.lines[line].right;
             let equal = self.lines[line].equal;
             // Downwards an equality pushes the other way.
             let sign = if equal && over < 0.0 { -1.0 } else { 1.0 };

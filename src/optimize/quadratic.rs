@@ -57,12 +57,15 @@ impl Programme {
     }
 
     pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
+        // Where this one fails the other decides, for rounding may hide a way here; if that can't, either,
+        // what was found first holds.
+        let mut doubt = Unsolved::Numerical;
         if let Some((active, _)) = &mut self.active {
             match active.solve() {
                 Ok(x) => return Ok(x),
-                // The other method decides: rounding may hide a way here.
-                Err(_) => self.active = None,
+                Err(why) => doubt = why,
             }
+            active.forget();
         }
         let n = self.linear.len();
         let (mut at_row, mut at_column, mut values) = (Vec::new(), Vec::new(), Vec::new());
@@ -72,6 +75,7 @@ impl Programme {
             values.push(value);
         }
         let hessian = CscMatrix::new_from_triplets(n, n, at_row, at_column, values);
-        sparse::solved(&hessian, &self.linear, &self.equal, &self.at_most).map(|solution| solution.x)
+        let solved = sparse::solved(&hessian, &self.linear, &self.equal, &self.at_most);
+        solved.map(|solution| solution.x).map_err(|why| if why == Unsolved::Numerical { doubt } else { why })
     }
 }
