@@ -3,6 +3,9 @@
 //! with that file; Ctrl-C until the prompt is back.
 
 mod generate;
+#[cfg(unix)]
+#[path = "../tests/terminal.rs"]
+mod terminal;
 
 #[cfg(unix)]
 fn main() {
@@ -17,16 +20,17 @@ fn main() {
 #[cfg(unix)]
 mod unix {
     use super::generate;
-    use rexpect::process::PtyProcess;
-    use std::fs::File;
-    use std::io::{Read, Write};
+    use super::terminal::{PROMPT, Terminal};
     use std::path::Path;
     use std::process::Command;
     use std::time::{Duration, Instant};
 
     const RUNS: usize = 30;
     const LINES: usize = 1_000;
-    const PROMPT: &str = "modl> ";
+
+    const WORM: &str = "config Worm(n: Int) { part seg[n]: Chain3  for i in 0..n - 1 { connect seg[i].tail -- \
+        seg[i + 1].head }  behavior bend(to: Angle) = Pc([move(m.tilt, to: to) for s in seg for m in s.m])  behavior crawl = \
+        repeat(Sc(bend(1deg), bend(-1deg)), 100) }";
 
     pub fn main() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -36,19 +40,19 @@ mod unix {
         report("start to prompt", &mut || {
             let begin = Instant::now();
             let mut session = start(folder.path(), &[]);
-            prompt(&mut session);
+            session.sees(PROMPT);
             begin.elapsed()
         });
         let mut session = start(folder.path(), &["long.mod"]);
-        prompt(&mut session);
+        session.sees(PROMPT);
         let mut turn = 0;
         report(":reload of 1,000 lines", &mut || {
             turn += 1;
             std::fs::write(&file, format!("{text}\nlet changed_{turn} = {turn}\n"))
                 .expect("a file can be written");
-            ask(&mut session, ":reload", "changed_")
+            session.ask(":reload", "changed_")
         });
-        report("an entry", &mut || ask(&mut session, "1 + 1", "2: Int"));
+        report("an entry", &mut || session.ask("1 + 1", "2: Int"));
         report("Tab", &mut || {
             session.types("clam");
             session.sees("clam");
@@ -57,74 +61,28 @@ mod unix {
             session.sees("clamp");
             let took = begin.elapsed();
             session.types("\x03");
-            prompt(&mut session);
+            session.sees(PROMPT);
             took
         });
-        report("Ctrl-C of a loop", &mut || stop(&mut session, "for i in 0..1000000000 { let x = i }"));
-        ask(&mut session, "use std.shapes.icosahedron", "");
-        ask(&mut session, "use std.mori.Mori", "");
+        let endless = "for i in 0..40000000 { let x = i }";
+        report("Ctrl-C of a loop", &mut || session.stop(endless, "evaluating: "));
+        session.ask("use std.shapes.icosahedron", "");
+        session.ask("use std.mori.Mori", "");
         let fold = "fold(icosahedron(edge: 80mm), Mori, method: enumerate, budget: 100000000000)";
-        report("Ctrl-C of a planner", &mut || stop(&mut session, fold));
+        report("Ctrl-C of a planner", &mut || session.stop(fold, "layouts, "));
+        session.ask("use std.smores.Chain3", "");
+        session.ask(WORM, "config Worm");
+        let judge = "verify(Worm(60).crawl())";
+        report("Ctrl-C of the judge", &mut || session.stop(judge, "walked "));
+        session.ask("use std.truss.PneumaticReel", "");
+        session.ask("truss Helix(n: Int) of PneumaticReel = tetrahelix(n, edge: 1m)", "truss Helix");
+        report("Ctrl-C of a solver", &mut || session.stop("Helix(120)", "hold each other"));
     }
 
-    /// A session at a terminal; reading waits for the next byte, and no longer.
-    struct Session {
-        _process: PtyProcess,
-        terminal: File,
-        seen: String,
-    }
-
-    impl Session {
-        fn types(&mut self, keys: &str) {
-            self.terminal.write_all(keys.as_bytes()).expect("the session takes keys");
-        }
-
-        /// Reads on until the words have come.
-        fn sees(&mut self, words: &str) {
-            let mut bytes = [0; 4096];
-            loop {
-                if let Some(at) = self.seen.find(words) {
-                    self.seen.drain(..at + words.len());
-                    return;
-                }
-                let count = self.terminal.read(&mut bytes).expect("the session is there");
-                self.seen.push_str(&String::from_utf8_lossy(&bytes[..count]));
-            }
-        }
-    }
-
-    fn start(folder: &Path, arguments: &[&str]) -> Session {
+    fn start(folder: &Path, arguments: &[&str]) -> Terminal {
         let mut command = Command::new(env!("CARGO_BIN_EXE_modl"));
-        command.arg("repl").args(arguments).current_dir(folder);
-        command.env("TERM", "xterm").env("NO_COLOR", "1").env("MODL_HISTORY", folder.join("history"));
-        let process = PtyProcess::new(command).expect("a terminal can be had");
-        let terminal = process.get_file_handle().expect("a terminal can be read");
-        Session { _process: process, terminal, seen: String::new() }
-    }
-
-    fn prompt(session: &mut Session) {
-        session.sees(PROMPT);
-    }
-
-    /// From the key that ends an entry to the next prompt.
-    fn ask(session: &mut Session, entry: &str, answer: &str) -> Duration {
-        session.types(entry);
-        session.sees(entry.get(entry.len().saturating_sub(3)..).unwrap_or_default());
-        let begin = Instant::now();
-        session.types("\r");
-        session.sees(answer);
-        prompt(session);
-        begin.elapsed()
-    }
-
-    fn stop(session: &mut Session, entry: &str) -> Duration {
-        session.types(&format!("{entry}\r"));
-        std::thread::park_timeout(Duration::from_millis(300));
-        let begin = Instant::now();
-        session.types("\x03");
-        session.sees("interrupted");
-        prompt(session);
-        begin.elapsed()
+        command.arg("repl").args(arguments).current_dir(folder).env("MODL_HISTORY", folder.join("history"));
+        Terminal::begin(command)
     }
 
     fn report(what: &str, run: &mut dyn FnMut() -> Duration) {

@@ -18,6 +18,10 @@ config Arm {
   part h[2]: Hinge(length: 60mm)
   connect h[0].front -- h[1].back
 
+  /// How far it gets.
+  let reach = 120mm
+  port hand = h[1].front
+
   /// Bends by `a`.
   behavior curl(a: Angle = 20deg) = move(h[1].bend, to: a)
 }
@@ -50,6 +54,9 @@ fn a_site_tells_of_the_project_and_the_library() {
         "<code>curl(a: Angle = 20deg)</code>",
         "<p>Bends by <code>a</code>.</p>",
         "<code>h[]: Hinge</code>",
+        "<h3>values</h3>\n<dl>\n<dt id=\"Arm.reach\"><code>reach: Length</code></dt>\n<dd><p>How far it gets.</p>",
+        "<h3>ports</h3>\n<dl>\n<dt id=\"Arm.hand\"><code>hand</code></dt>",
+        "<h3>parameters</h3>\n<dl>\n<dt id=\"Chain.n\"><code>n: Int</code></dt>",
         "<a href=\"hinge-mod.html#Hinge\"><code>Hinge</code></a>",
         "<a href=\"hinge-mod.html#Hinge.bend\">",
         "&lt;b&gt;no markup&lt;/b&gt;",
@@ -73,6 +80,8 @@ fn a_site_tells_of_the_project_and_the_library() {
     let at = |name: &str| {
         guide.find(&format!("#{name}\">")).unwrap_or_else(|| panic!("{name} is not in the guide"))
     };
+    let open = guide.find("Of a size to be given").expect("there is one");
+    assert!(at("Chain") > open, "{guide}");
     assert!(first < at("Arm") && at("Arm") < second && second < at("FourLeg17"));
     assert!(page("index.js").contains("\"Arm.curl\"") && page("index.html").contains("arm-mod.html#Arm"));
     // Every address leads to a page that is there, and to a place on it.
@@ -88,7 +97,10 @@ fn a_site_tells_of_the_project_and_the_library() {
 #[test]
 fn a_link_that_leads_nowhere_is_an_error() {
     let sandbox =
-        Sandbox::new(&[("a.mod", b"/// As [`Nothing`], [there](nowhere.md) and [a list].\nlet a = 1\n")]);
+        Sandbox::new(&[
+            ("a.mod", b"/// As [`Nothing`], [there](nowhere.md), [here](#nobody), ![see](no.png), [a note](note.md#x) and [a list].\nlet a = 1\n"),
+            ("note.md", b"x"),
+        ]);
     let ran = sandbox.run(&["doc", "--only"]);
     assert_eq!(ran.code, 1);
     assert!(ran.err.contains("a.mod, a: the link ``Nothing`` leads nowhere"), "{}", ran.err);
@@ -97,7 +109,11 @@ fn a_link_that_leads_nowhere_is_an_error() {
         "{}",
         ran.err
     );
-    assert!(sandbox.path("out/doc/a-mod.html").exists());
+    for lost in ["#nobody", "no.png"] {
+        assert!(ran.err.contains(&format!("the link `{lost}` leads nowhere")), "{}", ran.err);
+    }
+    let page = fs::read_to_string(sandbox.path("out/doc/a-mod.html")).expect("it was written");
+    assert!(page.contains("href=\"files/note.md#x\"") && sandbox.path("out/doc/files/note.md").exists());
 }
 
 #[test]

@@ -359,10 +359,39 @@ fn import_names(names: &[ast::UseName], file: usize, imports: &mut Vec<Import>) 
 
 /// Makes of an expression that ends an entry the declaration of a value.
 fn name_value(item: &mut ast::Item, name: Symbol) {
-    if let ast::ItemKind::Statement(ast::Stmt { kind: ast::StmtKind::Expr(value), .. }) = &item.kind {
+    let ast::ItemKind::Statement(statement) = &item.kind else { return };
+    if let Some(value) = value_of(statement) {
         let name = ast::Name { text: name, span: value.span };
-        item.kind = ast::ItemKind::Let(ast::Let { name, ty: None, value: value.clone() });
+        item.kind = ast::ItemKind::Let(ast::Let { name, ty: None, value });
     }
+}
+
+/// A statement as the expression that it is, too: an `if` whose branches end with one.
+fn value_of(statement: &ast::Stmt) -> Option<ast::Expr> {
+    let span = statement.span;
+    match &statement.kind {
+        ast::StmtKind::Expr(value) => Some(value.clone()),
+        ast::StmtKind::If { condition, then, otherwise } => {
+            let otherwise = match &otherwise[..] {
+                [chained @ ast::Stmt { kind: ast::StmtKind::If { .. }, .. }] => value_of(chained)?,
+                otherwise => block_of(span, otherwise)?,
+            };
+            let then = Box::new(block_of(span, then)?);
+            let kind = ast::ExprKind::If {
+                condition: Box::new(condition.clone()),
+                then,
+                otherwise: Some(Box::new(otherwise)),
+            };
+            Some(ast::Expr { span, kind })
+        }
+        _ => None,
+    }
+}
+
+fn block_of(span: Span, statements: &[ast::Stmt]) -> Option<ast::Expr> {
+    let (last, before) = statements.split_last()?;
+    let value = Some(Box::new(value_of(last)?));
+    Some(ast::Expr { span, kind: ast::ExprKind::Block { statements: before.to_vec(), value } })
 }
 
 /// The names of an import that failed are known, but nothing is known about them.

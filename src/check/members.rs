@@ -317,7 +317,13 @@ impl<'a> Checker<'a> {
                     Diagnostic::error(code::UNKNOWN_MEMBER, format!("{words} has no `{}`", field.text))
                         .label(field.span, "no such field");
                 if let Type::List(_) = other {
-                    d = d.hint("name one element: `[0]`");
+                    d = d.hint(match field.text.as_str() {
+                        "append" | "push" | "add" | "extend" | "insert" => {
+                            "lists are joined: `list ++ [element]`"
+                        }
+                        "len" | "length" | "size" | "count" => "write `len(list)`",
+                        _ => "name one element: `[0]`",
+                    });
                 } else if let Type::AnyOf(_) = other {
                     d = d.hint("which declaration it is an instance of is not known here");
                 }

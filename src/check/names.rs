@@ -4,6 +4,7 @@ use super::checker::{Checker, DefItem, Entity, Scope};
 use super::expr::{error_expr, expr_of};
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
+use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::units::is_unit;
@@ -69,7 +70,9 @@ impl<'a> Checker<'a> {
         }
         let mut d = Diagnostic::error(code::UNKNOWN_NAME, format!("`{name}` is not known here"))
             .label(span, "no such name");
-        if let Some(near) = suggest(name.as_str(), names) {
+        if let Some(instead) = foreign::instead(name.as_str()) {
+            d = d.hint(instead);
+        } else if let Some(near) = suggest(name.as_str(), names) {
             d = d.hint(format!("`{near}`?"));
         } else if is_unit(name.as_str()) {
             d = d.hint(format!("as a unit it sticks to a number: `1{name}`"));

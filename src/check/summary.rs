@@ -1,6 +1,6 @@
 //! Declarations as they are written, without their bodies: for people who look something up.
 
-use super::typed::{Def, DefId, DefKind, Param, Program};
+use super::typed::{Def, DefId, DefKind, Member, MemberKind, Param, Program};
 use super::{Checked, Type};
 use crate::source::Symbol;
 use std::sync::Arc;
@@ -17,9 +17,12 @@ pub struct Inside {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
+    /// What the signature says, too.
+    Parameter,
     Joint,
     Port,
     Part,
+    Let,
     Behavior,
     Field,
     Method,
@@ -29,9 +32,11 @@ impl Group {
     /// The word of the language, or what a record has instead.
     pub fn word(self) -> &'static str {
         match self {
+            Group::Parameter => "parameter",
             Group::Joint => "joint",
             Group::Port => "port",
             Group::Part => "part",
+            Group::Let => "let",
             Group::Behavior => "behavior",
             Group::Field => "field",
             Group::Method => "method",
@@ -104,7 +109,8 @@ pub fn params_of(program: &Program, id: DefId) -> &[Param] {
     }
 }
 
-/// Joints, ports, parts, behaviours, fields and methods, in the order of the text.
+/// Parameters, joints, ports, parts, values, behaviours, fields and methods, in the order of the text.
+/// Private names are left out.
 pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
     let program = &checked.program;
     let entry = |group, name: Symbol, head: String, doc: &Option<Arc<str>>| Inside {
@@ -115,6 +121,25 @@ pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
     };
     let params =
         |params: &[Param]| params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+    let of_params = |params: &[Param]| -> Vec<Inside> {
+        let named = params.iter().map(|p| entry(Group::Parameter, p.name, with_default(checked, p), &None));
+        named.collect()
+    };
+    // Lets and ports of a body.
+    let of_members = |members: &[Member]| -> Vec<Inside> {
+        let named = members.iter().filter_map(|m| match m.kind {
+            _ if m.name.as_str().starts_with('_') => None,
+            MemberKind::Let(_) => {
+                Some(entry(Group::Let, m.name, format!("{}: {}", m.name, program.type_name(&m.ty)), &m.doc))
+            }
+            MemberKind::Port { ref count, .. } => {
+                let many = count.as_ref().map_or("", |_| "[]");
+                Some(entry(Group::Port, m.name, format!("{}{many}", m.name), &m.doc))
+            }
+            _ => None,
+        });
+        named.collect()
+    };
     match &def.kind {
         DefKind::Module(module) => {
             let joints = module.joints.iter().map(|j| {
@@ -124,7 +149,8 @@ pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
             let ports = module.ports.iter().map(|p| {
                 entry(Group::Port, p.name, format!("{}{}", p.name, if p.array { "[]" } else { "" }), &p.doc)
             });
-            joints.chain(ports).collect()
+            let before = of_params(&module.params).into_iter().chain(joints).chain(ports);
+            before.chain(of_members(&module.members)).collect()
         }
         DefKind::Config(config) => {
             let parts = config.parts.iter().map(|part| {
@@ -135,7 +161,8 @@ pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
             let behaviors = config.behaviors.iter().map(|b| {
                 entry(Group::Behavior, b.name, format!("{}({})", b.name, params(&b.params)), &b.doc)
             });
-            parts.chain(behaviors).collect()
+            let before = of_params(&config.params).into_iter().chain(parts);
+            before.chain(of_members(&config.members)).chain(behaviors).collect()
         }
         DefKind::Record(record) => {
             let fields = record.fields.iter().map(|f| {
@@ -153,6 +180,11 @@ pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
             });
             fields.chain(methods).collect()
         }
+        DefKind::Fn(f) => of_params(&f.params),
+        DefKind::Native(f) => of_params(&f.params),
+        DefKind::Cell(d) | DefKind::Strut(d) => of_params(&d.params),
+        DefKind::Lattice(d) => of_params(&d.params).into_iter().chain(of_members(&d.members)).collect(),
+        DefKind::Truss(d) => of_params(&d.params).into_iter().chain(of_members(&d.members)).collect(),
         _ => Vec::new(),
     }
 }

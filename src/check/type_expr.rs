@@ -3,6 +3,7 @@
 use super::checker::{Bound, Checker, DefItem, Entity, Scope};
 use super::typed::DefId;
 use super::types::{Choice, Family, FnType, Type};
+use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Symbol, code};
 use crate::syntax::ast::{self, TypeKind};
@@ -115,6 +116,9 @@ impl<'a> Checker<'a> {
         let names = units::table::UNITS.iter().map(|u| u.name);
         let mut diagnostic = Diagnostic::error(code::UNKNOWN_UNIT, format!("`{}` is no unit", name.text))
             .label(name.span, "a unit sticks to its number");
+        if let Some(meant) = foreign::unit(name.text.as_str()) {
+            return self.report(diagnostic.hint(format!("write `{meant}`")));
+        }
         if let Some(near) = suggest(name.text.as_str(), names) {
             diagnostic = diagnostic.hint(format!("`{near}`?"));
         }

@@ -172,7 +172,7 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let pages = matches!(task, Task::Show);
     let verb = if pages { "show" } else { "run" };
     let command = format!("modl {verb} {name}{seed}");
-    Options { filter, seed: globals.seed, pages, command, limits: limits(globals) }
+    Options { filter, seed: globals.seed, pages, command, picture: None, limits: limits(globals) }
 }
 
 /// The limits that the user wants.

@@ -3,7 +3,9 @@
 use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, Project};
 use super::editor::{Lines, Typed};
-use super::terminal::{Terminal, interruptible, listen_for_cancel, listen_for_interrupt, print, print_error};
+use super::terminal::{
+    Terminal, begin_work, idle, listen_for_cancel, listen_for_interrupt, print, print_error, settled,
+};
 use super::{CallError, Ending, output, program, report, show};
 use crate::check::Checked;
 use crate::interpret::session::Tell;
@@ -114,7 +116,8 @@ impl<'g> Talk<'g> {
     fn converse(&mut self) -> Result<Ending, CallError> {
         let mut lines = Lines::new(self.style.color)?;
         loop {
-            match lines.read(self.session.knowledge())? {
+            let knowledge = self.session.knowledge();
+            match idle(|| lines.read(knowledge))? {
                 Typed::End => return Ok(Ending::Fine),
                 Typed::Nothing => {}
                 Typed::Entry(text) => {
@@ -166,8 +169,18 @@ impl<'g> Talk<'g> {
         print_error(&format!("{why}\n"));
     }
 
+    /// Work that Ctrl-C ends.
+    fn busy<T>(&mut self, work: impl FnOnce(&mut Session, &mut Terminal) -> T) -> T {
+        if self.session.is_left() && !settled(|| self.session.settle()) {
+            self.session.renew(&self.terminal);
+            print("what was interrupted does not end; values are worked out again when they are needed\n");
+        }
+        begin_work();
+        work(&mut self.session, &mut self.terminal)
+    }
+
     fn enter(&mut self, input: &Input) -> bool {
-        let reply = interruptible(|| self.session.enter(input, &mut self.terminal));
+        let reply = self.busy(|session, terminal| session.enter(input, terminal));
         self.tell(&reply)
     }
 
@@ -177,7 +190,7 @@ impl<'g> Talk<'g> {
     }
 
     fn load(&mut self, path: &str) {
-        let reply = interruptible(|| self.session.load(path, &mut self.terminal));
+        let reply = self.busy(|session, terminal| session.load(path, terminal));
         self.tell(&reply);
     }
 
@@ -238,11 +251,11 @@ impl<'g> Talk<'g> {
             Command::Load(path) => self.load(&path),
             Command::Reload => self.reload(),
             Command::Save(path) => self.save(&path),
-            Command::Undo => match self.session.undo(&mut self.terminal) {
+            Command::Undo => match self.busy(|session, terminal| session.undo(terminal)) {
                 Some(text) => print(&format!("took back: {}\n", text.lines().next().unwrap_or(""))),
                 None => self.complain("there is nothing to take back"),
             },
-            Command::Reset => self.session.reset(&mut self.terminal),
+            Command::Reset => self.busy(|session, terminal| session.reset(terminal)),
         }
         Next::GoOn
     }
@@ -264,7 +277,7 @@ impl<'g> Talk<'g> {
     }
 
     fn reload(&mut self) {
-        let Reloaded { reply, changes } = interruptible(|| self.session.reload(&mut self.terminal));
+        let Reloaded { reply, changes } = self.busy(|session, terminal| session.reload(terminal));
         if !self.tell(&reply) {
             return;
         }

@@ -121,7 +121,7 @@ pub fn style(globals: &Globals, folder: &str) -> Style {
     Style { width: width(), color: color(globals.color), folder: folder.to_owned(), ..Style::default() }
 }
 
-fn width() -> usize {
+pub fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok()?.parse().ok();
     match terminal_size::terminal_size_of(stderr()) {
         Some((terminal_size::Width(columns), _)) => columns.into(),

@@ -8,24 +8,33 @@ use crate::interrupt::Interrupt;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, Mutex, Once, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Whether the user wants the command to end.
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
 /// The wish that the run at hand ends; the user's, or that of a newer text.
-static INTERRUPT: LazyLock<Interrupt> = LazyLock::new(Interrupt::default);
+static INTERRUPT: LazyLock<Mutex<Interrupt>> = LazyLock::new(Mutex::default);
 
 /// A run that is asked to end gets this long to do so by itself.
 const PATIENCE: Duration = Duration::from_millis(400);
+
+/// Who presses Ctrl-C in a session waits no longer than this for work to end by itself.
+const PATIENCE_OF_SESSION: Duration = Duration::from_millis(50);
+
+/// A Ctrl-C this soon after another was meant for the same work.
+const ECHO: Duration = Duration::from_secs(1);
+
+/// How often work is asked how far it is.
+const CURIOSITY: Duration = Duration::from_millis(100);
 
 /// From here on Ctrl-C asks the run to end, and ends the process if it does not soon: files are
 /// written whole or not at all, so nothing is lost by that.
 pub fn listen_for_cancel() {
     let on_signal = || {
         CANCELLED.store(true, Ordering::Relaxed);
-        INTERRUPT.raise();
+        interrupt().raise();
         std::thread::park_timeout(PATIENCE);
         std::process::exit(130);
     };
@@ -35,31 +44,88 @@ pub fn listen_for_cancel() {
 
 /// What ends the run at hand.
 pub fn interrupt() -> Interrupt {
-    INTERRUPT.clone()
+    INTERRUPT.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-/// Whether work is going on that Ctrl-C is to end, in a session.
-static BUSY: AtomicBool = AtomicBool::new(false);
+/// Whether nobody waits for somebody to type, in a session.
+static BUSY: AtomicBool = AtomicBool::new(true);
+
+/// When somebody last typed something.
+static BEGUN: Mutex<Option<Instant>> = Mutex::new(None);
+
+/// When Ctrl-C was last pressed while a session worked.
+static PRESSED: Mutex<Option<Instant>> = Mutex::new(None);
 
 /// From here on Ctrl-C ends what a session works on; whatever else wants the process to end has its way
 /// while it waits for somebody to type.
 pub fn listen_for_interrupt() {
     let on_signal = || {
+        let mut pressed = PRESSED.lock().unwrap_or_else(PoisonError::into_inner);
         if !BUSY.load(Ordering::Relaxed) {
-            std::process::exit(130);
+            if pressed.is_none_or(|before| before.elapsed() > ECHO) {
+                std::process::exit(130);
+            }
+            return;
         }
-        INTERRUPT.raise();
+        *pressed = Some(Instant::now());
+        let interrupt = interrupt();
+        interrupt.raise();
+        std::thread::spawn(move || {
+            std::thread::park_timeout(PATIENCE_OF_SESSION);
+            interrupt.give_up();
+        });
     };
     drop(ctrlc::set_handler(on_signal));
 }
 
-/// Does work that Ctrl-C ends.
-pub fn interruptible<T>(work: impl FnOnce() -> T) -> T {
-    INTERRUPT.lower();
-    BUSY.store(true, Ordering::Relaxed);
-    let result = work();
+/// Waits for somebody to type, who may end the process by a signal.
+pub fn idle<T>(wait: impl FnOnce() -> T) -> T {
     BUSY.store(false, Ordering::Relaxed);
-    result
+    let typed = wait();
+    *BEGUN.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+    BUSY.store(true, Ordering::Relaxed);
+    typed
+}
+
+/// Begins work that Ctrl-C ends: also one that was pressed since somebody typed what is to be done.
+pub fn begin_work() {
+    let interrupt = interrupt();
+    interrupt.lower();
+    let at = |clock: &Mutex<Option<Instant>>| *clock.lock().unwrap_or_else(PoisonError::into_inner);
+    if at(&PRESSED) > at(&BEGUN) {
+        interrupt.raise();
+    }
+}
+
+/// Waits for the end of work that was interrupted, but not for long; says whether it came. If it did not,
+/// what is begun now has another interrupt.
+pub fn settled(settle: impl FnOnce() -> bool) -> bool {
+    let old = interrupt();
+    let impatient = old.clone();
+    std::thread::spawn(move || {
+        std::thread::park_timeout(PATIENCE);
+        impatient.give_up();
+    });
+    let settled = settle();
+    if !settled {
+        *INTERRUPT.lock().unwrap_or_else(PoisonError::into_inner) = Interrupt::default();
+    }
+    settled
+}
+
+/// Asks whatever work goes on how far it is, again and again.
+fn be_curious() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let asking = || {
+            loop {
+                std::thread::park_timeout(CURIOSITY);
+                interrupt().ask();
+            }
+        };
+        // Without it nothing is told, and all else is the same.
+        drop(std::thread::Builder::new().name("curiosity".into()).spawn(asking));
+    });
 }
 
 pub fn cancelled() -> bool {
@@ -92,11 +158,15 @@ pub struct Terminal {
 
 impl Terminal {
     pub fn new(globals: &Globals) -> Terminal {
+        let shows_progress = !globals.json && io::stderr().is_terminal();
+        if shows_progress {
+            be_curious();
+        }
         Terminal {
             folder: globals.out.clone(),
             printed: globals.json.then(Vec::new),
             watched: None,
-            shows_progress: !globals.json && io::stderr().is_terminal(),
+            shows_progress,
             progress_shown: false,
             begun: Instant::now(),
         }
@@ -125,7 +195,10 @@ impl Host for Terminal {
 
     fn progress(&mut self, line: &str) {
         if self.shows_progress {
-            print_error(&format!("\r{line}\x1b[K"));
+            // A line that is broken can't be taken back.
+            let wide = super::report::width().saturating_sub(1);
+            let shown: String = line.chars().take(wide).collect();
+            print_error(&format!("\r{shown}\x1b[K"));
             self.progress_shown = true;
         }
     }

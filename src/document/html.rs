@@ -63,7 +63,16 @@ fn section(entry: &Entry, doc: Doc) -> String {
     if let Some(text) = &entry.doc {
         out.push_str(&doc(text));
     }
-    let groups = [Group::Joint, Group::Port, Group::Part, Group::Behavior, Group::Field, Group::Method];
+    let groups = [
+        Group::Parameter,
+        Group::Joint,
+        Group::Port,
+        Group::Part,
+        Group::Let,
+        Group::Behavior,
+        Group::Field,
+        Group::Method,
+    ];
     for group in groups {
         let inside: Vec<&Inside> = entry.inside.iter().filter(|i| i.group == group).collect();
         if !inside.is_empty() {
@@ -74,7 +83,8 @@ fn section(entry: &Entry, doc: Doc) -> String {
 }
 
 fn list(entry: &Entry, group: Group, inside: &[&Inside], doc: Doc) -> String {
-    let mut out = format!("<h3>{}s</h3>\n<dl>\n", group.word());
+    let heading = if group == Group::Let { "value" } else { group.word() };
+    let mut out = format!("<h3>{heading}s</h3>\n<dl>\n");
     for i in inside {
         let id = format!("{}.{}", entry.name, i.name);
         let _ = writeln!(out, "<dt id=\"{id}\"><code>{}</code></dt>", escaped(&i.head), id = escaped(&id));
@@ -144,10 +154,15 @@ pub fn guide(pages: &[Page], doc: Doc) -> String {
     let mut configs: Vec<(u32, &Page, &Entry)> =
         all.filter_map(|(page, entry)| Some((entry.order?, page, entry))).collect();
     configs.sort_by_key(|(order, _, _)| *order);
+    // What has no instance by itself: nobody knows its order.
+    let sized = |(_, entry): &(&Page, &Entry)| entry.word == "config" && entry.order.is_none();
+    let all = pages.iter().flat_map(|page| page.entries.iter().map(move |entry| (page, entry)));
+    let open = all.filter(sized).map(|(page, entry)| (None, page, entry));
     let mut last = None;
-    for (order, page, entry) in configs {
+    for (order, page, entry) in configs.into_iter().map(|(order, p, e)| (Some(order), p, e)).chain(open) {
         if last != Some(order) {
-            let _ = writeln!(body, "<h2>Order {order}</h2>");
+            let title = order.map_or_else(|| "Of a size to be given".to_owned(), |n| format!("Order {n}"));
+            let _ = writeln!(body, "<h2>{title}</h2>");
             last = Some(order);
         }
         let _ = writeln!(

@@ -7,8 +7,8 @@ pub trait Targets {
     /// The address of a declaration, or of a member behind a dot, as seen from the page at hand.
     fn address(&self, name: &str) -> Option<String>;
 
-    /// Whether there is a file of the project at this path.
-    fn is_file(&self, path: &str) -> bool;
+    /// Where the file of the project at this path lies in the site, if there is one.
+    fn file(&self, path: &str) -> Option<String>;
 }
 
 /// The HTML of a text, and the links in it that lead nowhere.
@@ -40,14 +40,12 @@ fn bare(reference: &str) -> &str {
 fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> Event<'e> {
     match event {
         Event::Start(Tag::Link { link_type: link_type @ LinkType::Inline, dest_url, title, id }) => {
-            let dest_url = match destination(&dest_url, targets) {
-                Some(address) => CowStr::from(address),
-                None => {
-                    lost.push(dest_url.to_string());
-                    dest_url
-                }
-            };
+            let dest_url = found(dest_url, targets, lost);
             Event::Start(Tag::Link { link_type, dest_url, title, id })
+        }
+        Event::Start(Tag::Image { link_type: link_type @ LinkType::Inline, dest_url, title, id }) => {
+            let dest_url = found(dest_url, targets, lost);
+            Event::Start(Tag::Image { link_type, dest_url, title, id })
         }
         // Nobody's markup becomes part of the site.
         Event::Html(text) | Event::InlineHtml(text) => Event::Text(text),
@@ -55,13 +53,24 @@ fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>)
     }
 }
 
+fn found<'e>(to: CowStr<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> CowStr<'e> {
+    match destination(&to, targets) {
+        Some(address) => CowStr::from(address),
+        None => {
+            lost.push(to.to_string());
+            to
+        }
+    }
+}
+
 fn destination(to: &str, targets: &dyn Targets) -> Option<String> {
-    let outside = to.starts_with("https://") || to.starts_with("http://") || to.starts_with("mailto:");
-    if outside || to.starts_with('#') {
+    if to.starts_with("https://") || to.starts_with("http://") || to.starts_with("mailto:") {
         return Some(to.to_owned());
     }
-    if let Some(address) = targets.address(bare(to)) {
+    if let Some(address) = targets.address(bare(to.trim_start_matches('#'))) {
         return Some(address);
     }
-    targets.is_file(to.split('#').next().unwrap_or(to)).then(|| to.to_owned())
+    let (path, place) = to.split_once('#').map_or((to, None), |(path, place)| (path, Some(place)));
+    let file = targets.file(path)?;
+    Some(place.map_or_else(|| file.clone(), |place| format!("{file}#{place}")))
 }

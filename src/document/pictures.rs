@@ -7,6 +7,9 @@ use crate::interpret::{self, Host, Mode, Options, WriteError};
 use crate::interrupt::Interrupt;
 use crate::source::Files;
 
+/// Width and height of a picture: it stands beside words.
+const SIZE: (usize, usize) = (480, 300);
+
 /// What the asking program prints and writes.
 struct Answers {
     lines: Vec<String>,
@@ -74,6 +77,7 @@ fn asked(entry: &Entry, import: &str, files: &dyn Files, interrupt: &Interrupt) 
     }
     let mut answers = Answers { lines: Vec::new(), picture: None, interrupt: interrupt.clone() };
     // A robot that does not stand is drawn all the same, and nobody said that it stands.
-    interpret::run(&checked, Mode::Run, files, &mut answers, &Options::default());
+    let options = Options { picture: Some(SIZE), ..Options::default() };
+    interpret::run(&checked, Mode::Run, files, &mut answers, &options);
     Some(answers)
 }

@@ -8,6 +8,7 @@ use crate::check::{self, Checked, Entry as Cell};
 use crate::interrupt::Interrupt;
 use crate::source::{Diagnostic, FileId, Files, library};
 use crate::syntax;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// What to document.
@@ -80,11 +81,12 @@ fn library_pages(files: &dyn Files) -> Vec<Page> {
 
 fn write(pages: &[Page], request: &Request, site: &mut Site) {
     let addresses = addresses(pages);
+    let taken = RefCell::default();
     let mut add = |name: &str, text: String| site.files.push((name.to_owned(), text.into_bytes()));
     let mut faults = Vec::new();
     let mut texts = Vec::new();
     for page in pages {
-        let links = Links { addresses: &addresses, page, files: request.files };
+        let links = Links { addresses: &addresses, page, files: request.files, taken: &taken };
         let mut doc = |text: &str| {
             let (html, lost) = to_html(text, &links);
             let entry = page.entries.iter().find(|entry| stands_in(entry, text));
@@ -102,13 +104,14 @@ fn write(pages: &[Page], request: &Request, site: &mut Site) {
         add(&name, text);
     }
     let home = Page { title: String::new(), file: String::new(), doc: None, entries: Vec::new() };
-    let links = Links { addresses: &addresses, page: &home, files: request.files };
+    let links = Links { addresses: &addresses, page: &home, files: request.files, taken: &taken };
     // What is wrong there was said where it stands.
     add("guide.html", html::guide(pages, &mut |text| to_html(text, &links).0));
     add("index.html", html::index(pages));
     add("index.js", html::search_index(pages));
     add("search.js", html::SCRIPT.to_owned());
     add("site.css", html::STYLE.to_owned());
+    site.files.extend(taken.into_inner());
     site.faults = faults;
 }
 
@@ -135,6 +138,8 @@ struct Links<'l> {
     addresses: &'l BTreeMap<String, Vec<(String, String)>>,
     page: &'l Page,
     files: &'l dyn Files,
+    /// Files of the project that pages lead to, by their names in the site.
+    taken: &'l RefCell<BTreeMap<String, Vec<u8>>>,
 }
 
 impl Targets for Links<'_> {
@@ -145,7 +150,14 @@ impl Targets for Links<'_> {
         own.or(found.first()).map(|(_, address)| address.clone())
     }
 
-    fn is_file(&self, path: &str) -> bool {
-        self.files.read(path).is_ok()
+    /// The site takes it along.
+    fn file(&self, path: &str) -> Option<String> {
+        if path.is_empty() || path.split('/').any(|part| part == "..") {
+            return None;
+        }
+        let bytes = self.files.read(path).ok()?;
+        let name = format!("files/{path}");
+        self.taken.borrow_mut().insert(name.clone(), bytes);
+        Some(name)
     }
 }

@@ -60,6 +60,7 @@ impl Cells {
             let mut frontier = VecDeque::from([start]);
             let mut size = 0;
             while let Some(cell) = frontier.pop_front() {
+                crate::interrupt::checkpoint();
                 size += 1;
                 for place in neighbours(self.places[cell]) {
                     if let Some(&next) = index.get(&place)

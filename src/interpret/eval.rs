@@ -313,6 +313,9 @@ impl Interpreter<'_> {
             .label(span, format!("index {at} of {elements}"));
             if !list_is_empty(&list) {
                 diagnostic = diagnostic.hint("elements are counted from 0");
+                if at.sign() == num_bigint::Sign::Minus {
+                    diagnostic = diagnostic.hint(format!("the last one is `{name}[len({name}) - 1]`"));
+                }
             }
             Stop::from(diagnostic)
         })

@@ -56,6 +56,8 @@ pub struct Options {
     pub pages: bool,
     /// The command that runs the program again, for the pages that it draws.
     pub command: String,
+    /// Width and height of still pictures; `None`: as large as they are by themselves.
+    pub picture: Option<(usize, usize)>,
     pub limits: Limits,
 }
 

@@ -11,6 +11,7 @@ use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, Program};
+use crate::interrupt;
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
@@ -138,7 +139,16 @@ impl<'a> Interpreter<'a> {
         if self.stage.cancelled() {
             return Err(Stop::Halt);
         }
+        if self.stage.interrupt.asked() {
+            self.tell_steps();
+        }
         Ok(())
+    }
+
+    fn tell_steps(&self) {
+        interrupt::begin(String::new());
+        let (steps, most) = (self.steps, self.limits().steps);
+        interrupt::progress(|| format!("evaluating: {steps} steps of at most {most}"));
     }
 
     /// Runs `body` one level of evaluation deeper; refuses where the stack would not bear it.

@@ -24,7 +24,7 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let target = fold_panel::target(call, TARGET, MODULE, &panel)?;
     let (panels, target) = fold_panel::panels(interpreter, call, [PASSIVE, PASSIVE_MODULE], &panel, target)?;
     let options = Options::of(call, &panel, &target)?;
-    interpreter.stage.progress(format!("folding {} panels", target.faces.len()));
+    crate::interrupt::begin(format!("folding {} panels", target.faces.len()));
     let objective = Objective::new(&target, panels.masses.clone(), options.conventions, options.minimise);
     let question =
         Question { call, target: &target, objective: &objective, options: &options, panel: &panel };
@@ -32,7 +32,7 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Task { question, panels }.plan(interpreter, &found)
 }
 
-fn random_orders(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Value::Record(record) = call.arg(0) else { return Ok(Value::Unknown) };
     let Record::Plan(planned) = &**record else { return Ok(Value::Unknown) };
     let Some(folded) = &planned.folded else { return Ok(Value::Unknown) };
@@ -41,7 +41,7 @@ fn random_orders(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         return Err(call.refuse(1, format!("from 1 to {ORDERS_MAX} orders are compared")));
     }
     let seed = call.count(2, "a seed")? as u64;
-    interpreter.stage.progress(format!("comparing {orders} orders"));
+    crate::interrupt::begin(format!("comparing {orders} orders"));
     let pattern = &folded.pattern;
     let objective =
         Objective::new(&pattern.target, folded.masses.clone(), folded.conventions, folded.minimise);

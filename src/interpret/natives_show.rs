@@ -123,7 +123,11 @@ impl Interpreter<'_> {
         match form {
             Form::Page => view::page(&showing).into_bytes(),
             Form::Svg => view::svg(&showing).into_bytes(),
-            Form::Png { time, side } => view::png(&showing, &Still { time, side, ..Still::default() }),
+            Form::Png { time, side } => {
+                let own = Still::default();
+                let (width, height) = self.options.picture.unwrap_or((own.width, own.height));
+                view::png(&showing, &Still { time, side, width, height })
+            }
         }
     }
 

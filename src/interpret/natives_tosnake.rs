@@ -11,6 +11,7 @@ use super::unwindings::Sought;
 use super::value::Value;
 use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
+use crate::interrupt;
 use crate::plan::{self, CauseId, Ground, World};
 use crate::planners::tosnake::assembly::{NoRofi, translated};
 use crate::planners::tosnake::{self, Collisions, Found, Progress, Refusal, Settings, Step, Unsound};
@@ -166,16 +167,12 @@ fn unwound(
     } else {
         let stage = &interpreter.stage;
         let begun = stage.elapsed();
-        let mut told = None;
+        interrupt::begin(format!("unwinding {}", design.name));
         let mut watch = |progress: &Progress| {
-            if told != Some(progress.made) {
-                told = Some(progress.made);
-                let Progress { needed, made, tried, .. } = progress;
-                stage.progress(format!(
-                    "unwinding {}: {made} of {needed} connections made, {tried} pairs of ends tried",
-                    design.name
-                ));
-            }
+            let Progress { needed, made, tried, .. } = progress;
+            interrupt::progress(|| {
+                format!("{made} of {needed} connections made, {tried} pairs of ends tried")
+            });
             !stage.cancelled() && options.timeout.is_none_or(|most| stage.elapsed() - begun <= most)
         };
         let settings = Settings { seed, budget, collisions, ..Settings::default() };

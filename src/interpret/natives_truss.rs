@@ -12,6 +12,7 @@ use super::truss::TrussDesign;
 use super::truss_limits;
 use super::value::{Mesh, Value};
 use crate::geometry::Vec3;
+use crate::interrupt;
 use crate::plan::{Body, CauseId, Knot, NodePaths, Way, World};
 use crate::planners::truss::bound::Bound;
 use crate::planners::truss::fit::Distance;
@@ -24,6 +25,7 @@ use crate::planners::truss::{Structure, roll};
 use crate::robot::{Library, Strut};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
+use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -44,8 +46,6 @@ const STILL_FEWEST: f64 = 1e-3;
 const FALL: f64 = 1.0;
 /// No step is shorter, s.
 const STEP_MIN: f64 = 1e-3;
-/// Progress is told every so many steps.
-const TELL: usize = 20;
 /// Bounds that are named where they stopped a planner.
 const BOUNDS_TOLD: usize = 4;
 
@@ -119,11 +119,14 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let name = task.design.name.clone();
     let stage = &interpreter.stage;
     let clock = Clock::new(stage, timeout);
+    interrupt::begin(format!("morphing {name}"));
+    let least = Cell::new(f64::INFINITY);
     let going = |step: usize, distance: &Distance| {
-        if step.is_multiple_of(TELL) {
-            let apart = quantity(distance.there, Dimension::LENGTH);
-            stage.progress(format!("morphing {name}: step {step}, {apart} apart"));
-        }
+        least.set(least.get().min(distance.there));
+        interrupt::progress(|| {
+            let [apart, least] = [distance.there, least.get()].map(|d| quantity(d, Dimension::LENGTH));
+            format!("step {step} of at most {}, {apart} apart, {least} at best", wish.steps_max)
+        });
         clock.goes_on()
     };
     let found = morph::morph(&task.structure, &task.start, &goal, &wish, &going);
@@ -184,13 +187,15 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let places = wish.path.len();
     let stage = &interpreter.stage;
     let clock = Clock::new(stage, call.positive_if(10, "a timeout")?);
-    let told = std::cell::Cell::new(0usize);
+    interrupt::begin(format!("moving {name}"));
+    let told = Cell::new(0usize);
     let going = |reached: usize| {
         let step = told.get();
         told.set(step + 1);
-        if step.is_multiple_of(TELL) {
-            stage.progress(format!("moving {name}: step {step}, {reached} of {places} places"));
-        }
+        let most = wish.steps_max;
+        interrupt::progress(|| {
+            format!("step {step} of at most {most}, {reached} of {places} places reached")
+        });
         clock.goes_on()
     };
     let travel = locomote::locomote(&task.structure, &task.start, &wish, &going);

@@ -24,7 +24,8 @@ pub fn run(
         let mut interpreter = Interpreter::new(checked, mode, options, stage);
         // What halts a run has been reported, and nothing needs to be said of what the user halts.
         let interrupt = interpreter.stage.interrupt.clone();
-        let _ = interrupt::catch(&interrupt, || interpreter.drive());
+        let hear = interpreter.stage.hear();
+        let _ = interrupt::catch(&interrupt, hear, || interpreter.drive());
         interpreter.report_unneeded();
         Outcome {
             diagnostics: in_order(std::mem::take(&mut interpreter.reports)),

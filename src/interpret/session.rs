@@ -78,6 +78,8 @@ pub struct Answer {
     pub interrupted: bool,
     /// Whether the evaluator itself broke down, which a person's session outlives.
     pub defect: bool,
+    /// Whether the memory is another now, so that there is something to take back.
+    pub kept: bool,
 }
 
 impl Evaluator {
@@ -88,8 +90,21 @@ impl Evaluator {
         }))
     }
 
+    /// The task before is settled. An interrupted one is waited for no longer than whoever wished its
+    /// end does.
     pub fn run(&self, task: Task, files: &dyn Files, host: &mut dyn Host) -> Answer {
-        self.0.run(task, files, host)
+        self.0.run(task, files, host).unwrap_or(Answer { interrupted: true, ..Answer::default() })
+    }
+
+    /// Whether a task is still being done that nobody waits for any more.
+    pub fn is_left(&self) -> bool {
+        self.0.is_left()
+    }
+
+    /// Waits for a task that was left; says whether it went well after all and changed the memory. `None`:
+    /// nobody is to wait any longer.
+    pub fn settle(&self) -> Option<bool> {
+        self.0.settle().map(|answer| answer.kept)
     }
 }
 
@@ -112,8 +127,9 @@ fn work(task: &Task, stage: &Stage, memory: &mut Memory, before: &mut Vec<Memory
                 interpreter.check_all(&entered.check)?;
                 interpreter.enter(entered)
             };
-            let (answer, after) = evaluate(task, &entered.stale, stage, memory, enter);
+            let (mut answer, after) = evaluate(task, &entered.stale, stage, memory, enter);
             if let Some(after) = after.filter(|_| answer.ok && entered.keep) {
+                answer.kept = true;
                 before.push(std::mem::replace(memory, after));
                 let too_many = before.len().saturating_sub(UNDO_MAX);
                 before.drain(..too_many);
@@ -144,8 +160,9 @@ fn evaluate(
 ) -> (Answer, Option<Memory>) {
     let mut interpreter = Interpreter::new(&task.checked, Mode::Run, &task.options, stage.clone());
     interpreter.resume(memory.clone(), stale);
-    let caught =
-        catch_unwind(AssertUnwindSafe(|| interrupt::catch(&stage.interrupt, || work(&mut interpreter))));
+    let caught = catch_unwind(AssertUnwindSafe(|| {
+        interrupt::catch(&stage.interrupt, stage.hear(), || work(&mut interpreter))
+    }));
     let defect = caught.is_err();
     let ended = caught.ok().flatten();
     let interrupted = !defect && (ended.is_none() || stage.interrupt.raised());
@@ -159,6 +176,7 @@ fn evaluate(
         ok,
         interrupted,
         defect,
+        kept: false,
     };
     (answer, ok.then(|| interpreter.memory()))
 }

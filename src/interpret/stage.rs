@@ -4,27 +4,33 @@
 //! made. The outside (files and host) stays on the thread of the caller, which serves requests.
 
 use super::host::{Host, WriteError};
-use crate::interrupt::Interrupt;
+use crate::interrupt::{self, Interrupt};
 use crate::source::{Files, ReadError};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::cell::Cell;
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 
 /// Room for the evaluator's recursion; pages that are never touched cost nothing.
 const STACK_BYTES: usize = 1 << 30;
+
+/// Requests that wait to be served: who prints faster than a terminal takes it has to wait, too.
+const WAITING_MAX: usize = 256;
 
 enum Request {
     Print(String),
     Progress(String),
     Write(String, Vec<u8>, Sender<Result<String, WriteError>>),
     Read(String, Sender<Result<Vec<u8>, ReadError>>),
+    Elapsed(Sender<f64>),
     /// The job at hand is done, and its result waits.
     Done,
-    Elapsed(Sender<f64>),
+    /// Nobody is to wait for the job at hand any longer.
+    GivenUp,
 }
 
 /// The evaluator's end of the way to the outside.
 #[derive(Clone)]
 pub struct Stage {
-    requests: Sender<Request>,
+    requests: SyncSender<Request>,
     pub interrupt: Interrupt,
 }
 
@@ -33,8 +39,10 @@ impl Stage {
         self.send(Request::Print(line));
     }
 
-    pub fn progress(&self, line: String) {
-        self.send(Request::Progress(line));
+    /// What is told of how far the work is goes this way to the host.
+    pub fn hear(&self) -> impl Fn(String) + 'static {
+        let stage = self.clone();
+        move |line| stage.send(Request::Progress(line))
     }
 
     pub fn write(&self, path: &str, bytes: Vec<u8>) -> Result<String, WriteError> {
@@ -58,17 +66,21 @@ impl Stage {
     fn ask<T>(&self, request: impl FnOnce(Sender<T>) -> Request) -> T {
         let (sender, receiver) = channel();
         self.send(request(sender));
-        receiver.recv().expect("the outside serves until the evaluator ends")
+        receiver.recv().unwrap_or_else(|_| interrupt::leave())
     }
 
+    /// Where the outside is gone, so is who wanted the work.
     fn send(&self, request: Request) {
-        self.requests.send(request).expect("the outside serves until the evaluator ends");
+        interrupt::checkpoint();
+        if self.requests.send(request).is_err() {
+            interrupt::leave();
+        }
     }
 }
 
 /// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
 pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnce(Stage) -> T + Send) -> T {
-    let (sender, requests) = channel();
+    let (sender, requests) = sync_channel(WAITING_MAX);
     let stage = Stage { requests: sender, interrupt: host.interrupt() };
     std::thread::scope(|scope| {
         let evaluator = std::thread::Builder::new()
@@ -86,6 +98,11 @@ pub struct Standing<J, R> {
     jobs: Sender<J>,
     requests: Receiver<Request>,
     results: Receiver<R>,
+    interrupt: Interrupt,
+    /// Puts a request of the outside's own among those of the evaluator.
+    waker: SyncSender<Request>,
+    /// Whether a job is still being done that nobody waits for any more.
+    left: Cell<bool>,
 }
 
 impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
@@ -95,13 +112,14 @@ impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
         begin: impl FnOnce(Stage) -> W + Send + 'static,
     ) -> Standing<J, R> {
         let (jobs, to_do) = channel::<J>();
-        let (requests, asked) = channel();
+        let (requests, asked) = sync_channel(WAITING_MAX);
         let (done, results) = channel();
+        let (waker, obeyed) = (requests.clone(), interrupt.clone());
         std::thread::Builder::new()
             .name("evaluator".into())
             .stack_size(STACK_BYTES)
             .spawn(move || {
-                let mut work = begin(Stage { requests: requests.clone(), interrupt });
+                let mut work = begin(Stage { requests: requests.clone(), interrupt: obeyed });
                 for job in to_do {
                     let result = work(job);
                     // Whoever does not wait for the result any more has dropped the other end.
@@ -111,26 +129,60 @@ impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
                 }
             })
             .expect("the system can start a thread");
-        Standing { jobs, requests: asked, results }
+        Standing { jobs, requests: asked, results, interrupt, waker, left: Cell::new(false) }
     }
 
-    /// Has a job done, and serves its requests here until it is.
-    pub fn run(&self, job: J, files: &dyn Files, host: &mut dyn Host) -> R {
+    /// Has a job done, and serves its requests here until it is, or until nobody is to wait any longer:
+    /// then it gives `None`, and the job ends by itself at its next checkpoint. The job before is settled.
+    pub fn run(&self, job: J, files: &dyn Files, host: &mut dyn Host) -> Option<R> {
+        assert!(!self.left.get(), "the job before was settled");
+        let waker = self.waker.clone();
+        // Where so many requests wait, who serves them is awake.
+        self.interrupt.on_give_up(move || drop(waker.try_send(Request::GivenUp)));
         self.jobs.send(job).expect("the evaluator waits for jobs");
         for request in &self.requests {
             match request {
                 Request::Done => break,
+                // Nobody wants to read on.
+                Request::Print(_) | Request::Progress(_) if self.interrupt.raised() => {}
                 request => answer(request, files, host),
             }
+            if self.interrupt.given_up() {
+                self.left.set(true);
+                return None;
+            }
         }
-        self.results.recv().expect("a job that is done has a result")
+        Some(self.results.recv().expect("a job that is done has a result"))
+    }
+
+    /// Whether a job is still being done that nobody waits for any more.
+    pub fn is_left(&self) -> bool {
+        self.left.get()
+    }
+
+    /// Waits for a job that was left, and gives what came of it after all; `None` where nobody is to wait
+    /// any longer. The wish that it ends still stands.
+    pub fn settle(&self) -> Option<R> {
+        self.interrupt.wait_again();
+        for request in &self.requests {
+            match request {
+                Request::Done => {
+                    self.left.set(false);
+                    return Some(self.results.recv().expect("a job that is done has a result"));
+                }
+                _ if self.interrupt.given_up() => return None,
+                // Who asks for anything is not answered, and ends.
+                _ => {}
+            }
+        }
+        None
     }
 }
 
 /// An answer that nobody waits for any more is dropped.
 fn answer(request: Request, files: &dyn Files, host: &mut dyn Host) {
     match request {
-        Request::Done => {}
+        Request::Done | Request::GivenUp => {}
         Request::Print(line) => host.print(&line),
         Request::Progress(line) => host.progress(&line),
         Request::Write(path, bytes, reply) => drop(reply.send(host.write(&path, &bytes))),

@@ -9,6 +9,7 @@ use super::stop::{Eval, fault};
 use super::value::Value;
 use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
 use crate::geometry::Vec3;
+use crate::interrupt;
 use crate::robot::Strut;
 use crate::robot::truss::{self, Rigidity};
 use crate::source::{Diagnostic, Span, Symbol, code};
@@ -21,6 +22,8 @@ const NODE_DISTANCE_MIN: f64 = 1e-9;
 const LENGTH_TOLERANCE: f64 = 1e-9;
 /// More nodes make the rigidity matrix too large to decompose in a few seconds.
 const NODES_MAX: usize = 1000;
+/// Of more nodes it takes a while to find out whether they hold each other.
+const NODES_AT_ONCE: usize = 100;
 
 pub struct TrussDesign {
     /// The strut.
@@ -96,6 +99,9 @@ impl Interpreter<'_> {
         }
         let places: Vec<Vec3> = draft.nodes.iter().map(|n| n.place).collect();
         let struts: Vec<(usize, usize)> = draft.struts.iter().map(|(a, b, _)| (*a, *b)).collect();
+        if places.len() > NODES_AT_ONCE {
+            interrupt::begin(format!("finding out how {} nodes hold each other", places.len()));
+        }
         let rigidity = truss::rigidity(&places, &struts);
         let design = TrussDesign { of, nodes: draft.nodes, struts, rigidity };
         if !design.rigidity.rigid() {

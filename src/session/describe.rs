@@ -110,9 +110,9 @@ impl Session {
         if let Some(doc) = &def.doc {
             out.push_str(&format!("\n{}\n", doc.trim()));
         }
-        let inside = summary::inside(&self.checked, def);
+        let inside = lines(&summary::inside(&self.checked, def));
         if !inside.is_empty() {
-            out.push_str(&format!("\n{}", lines(&inside)));
+            out.push_str(&format!("\n{inside}"));
         }
         out
     }
@@ -149,7 +149,8 @@ fn lines(inside: &[Inside]) -> String {
         let doc = inside.doc.as_deref().map(|doc| format!("      {}\n", first_paragraph(doc)));
         format!("  {}\n{}", head(inside), doc.unwrap_or_default())
     };
-    inside.iter().map(line).collect()
+    // Parameters stand in the signature.
+    inside.iter().filter(|inside| inside.group != Group::Parameter).map(line).collect()
 }
 
 /// With the word of the language before it, where it has one.

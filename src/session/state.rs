@@ -3,12 +3,13 @@
 use super::changes::{Change, changes};
 use super::dependencies::{Dependencies, meant};
 use super::kept::{Kept, Project};
-use crate::check::typed::{DefId, DefKind, StmtKind};
+use crate::check::typed::{DefId, DefKind, Stmt, StmtKind};
 use crate::check::{self, Checked, Entry, Type};
 use crate::interpret::session::{Entered, Evaluator, Task, Tell, UNDO_MAX, Work};
 use crate::interpret::{Host, Options};
 use crate::source::{Diagnostic, FileId, Files, Symbol, code};
 use crate::syntax::{self, ast};
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -26,6 +27,8 @@ pub struct Session {
     before: Vec<Before>,
     /// Entries so far, failed ones included.
     count: usize,
+    /// Whether the evaluator keeps the outcome of an entry that was given up.
+    to_take_back: Cell<bool>,
 }
 
 struct Before {
@@ -101,11 +104,32 @@ impl Session {
             options,
             before: Vec::new(),
             count: 0,
+            to_take_back: Cell::new(false),
         }
     }
 
     pub fn checked(&self) -> &Checked {
         &self.checked
+    }
+
+    /// Whether interrupted work goes on that nobody waits for any more.
+    pub fn is_left(&self) -> bool {
+        self.evaluator.is_left()
+    }
+
+    /// Waits for the end of work that was left, which is still wished; says whether it has come.
+    pub fn settle(&mut self) -> bool {
+        let Some(kept) = self.evaluator.settle() else { return false };
+        // It ended well after all, just then: but it was said that it did not.
+        self.to_take_back.set(kept);
+        true
+    }
+
+    /// Leaves work that does not end to itself. All values are worked out again when they are needed.
+    /// `host` has another interrupt now.
+    pub fn renew(&mut self, host: &dyn Host) {
+        self.evaluator = Evaluator::new(host.interrupt());
+        self.to_take_back.set(false);
     }
 
     /// Checks and evaluates a text. What it declares anew takes the place of what had its name.
@@ -166,8 +190,11 @@ impl Session {
         work: Work,
         host: &mut dyn Host,
     ) -> crate::interpret::session::Answer {
-        let task = Task { checked: checked.clone(), options: self.options.clone(), work };
-        self.evaluator.run(task, &*self.files, host)
+        let task = |work| Task { checked: checked.clone(), options: self.options.clone(), work };
+        if self.to_take_back.take() {
+            self.evaluator.run(task(Work::Undo), &*self.files, host);
+        }
+        self.evaluator.run(task(work), &*self.files, host)
     }
 
     fn remember(&mut self) {
@@ -367,11 +394,24 @@ pub(super) fn is_given(name: Symbol) -> bool {
 /// The type of the expression that ends the newest entry, if it has a value.
 pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
     let program = &checked.program;
-    let StmtKind::Expr(value) = &program.statements.statements.last()?.kind else { return None };
+    let value = program.statements.statements.last()?;
     let own = program.own.iter().map(|id| program.def(*id)).filter(|def| def.file == file);
     let declared = own.map(|def| def.whole.start).chain(program.tests.iter().map(|test| test.span.start));
     let is_last = declared.max().is_none_or(|start| start < value.span.start);
-    (is_last && !matches!(value.ty, Type::Nothing | Type::Error)).then(|| value.ty.clone())
+    is_last.then(|| type_of(value))?
+}
+
+/// The type of a statement that is an expression, too, and has a value.
+fn type_of(statement: &Stmt) -> Option<Type> {
+    match &statement.kind {
+        StmtKind::Expr(value) => (!matches!(value.ty, Type::Nothing | Type::Error)).then(|| value.ty.clone()),
+        StmtKind::If { then, otherwise, .. } => {
+            let (then, otherwise) = (type_of(then.last()?)?, type_of(otherwise.last()?)?);
+            // Where they differ it is a statement, as in a file.
+            (then == otherwise).then_some(then)
+        }
+        _ => None,
+    }
 }
 
 /// The name of entries that stand for a loaded file.

@@ -6,6 +6,7 @@ pub mod code;
 pub mod diagnostic;
 pub mod excerpt;
 pub mod files;
+pub mod foreign;
 pub mod json;
 pub mod library;
 pub mod render;

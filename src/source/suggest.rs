@@ -7,6 +7,8 @@ pub fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .into_iter()
         .filter(|candidate| *candidate != name && !candidate.starts_with('_'))
         .map(|candidate| (distance(name, candidate), candidate))
+        // One letter is like any other.
+        .filter(|(d, candidate)| *d < name.len() || name.eq_ignore_ascii_case(candidate))
         .filter(|(d, candidate)| *d <= 1 + name.len().min(candidate.len()) / 4)
         .min()
         .map(|(_, candidate)| candidate)

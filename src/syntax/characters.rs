@@ -25,7 +25,7 @@ pub(super) fn meant(c: char) -> Meant {
         '…' => (None, "a range is written `a..b`"),
         '°' => (None, "degrees are written `deg`: `90deg`"),
         'µ' | 'μ' => (Some('u'), "the prefix micro is written `u`: `5um`"),
-        'π' => (None, "write `180deg` or `pi`"),
+        'π' => (None, "a half turn is `180deg`"),
         '²' | '³' => (None, "powers are written with `^`: `m^2`"),
         '&' => (None, "write `and`"),
         '#' => (Some(' '), "a comment begins with `//`"),

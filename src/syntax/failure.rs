@@ -5,6 +5,7 @@ use super::lex::{Token, TokenKind};
 use super::parse::Failure;
 use super::split::tokens;
 use super::words;
+use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Code, Diagnostic, FileId, Span, code};
 
@@ -126,6 +127,7 @@ impl Mistake<'_> {
             .or_else(|| self.inner_word())
             .or_else(|| self.connection())
             .or_else(|| self.reserved_name())
+            .or_else(|| self.foreign_mark())
             .or_else(|| self.wrong_mark())
             .or_else(|| self.brace_literal())
             .or_else(|| self.line_start())
@@ -222,6 +224,9 @@ impl Mistake<'_> {
             None => format!("`{first}` does not begin {}", self.place.name()),
         };
         let diagnostic = Diagnostic::error(code::SYNTAX, message).label(self.span_of(0), "");
+        if let Some(instead) = foreign::instead(first) {
+            return Some(diagnostic.hint(instead));
+        }
         let meant = suggest(first, self.place.keywords().iter().copied());
         Some(match meant {
             Some(meant) if elsewhere(first).is_none() => diagnostic.hint(format!("`{meant}`?")),
@@ -298,6 +303,27 @@ impl Mistake<'_> {
                 .expect("an error was made")
                 .hint(format!("the reserved words are {}", listed(words::RESERVED)))
         })
+    }
+
+    /// What other languages write.
+    fn foreign_mark(&self) -> Option<Diagnostic> {
+        let follows = self.found > 0 && self.span_of(self.found - 1).end == self.span_of(self.found).start;
+        let hint = match (self.before(), self.found()) {
+            (_, ":") if self.wants("{") => "a body stands in braces: `{ ... }`",
+            ("+" | "-" | "*" | "/", "=") if follows => {
+                "a value never changes: `let name = ...` gives a new one"
+            }
+            ("*", "*") if follows => "a power is written `x^2`",
+            (_, ":") if self.wants("]") => "a part of a list is `slice(list, 1..3)`",
+            ("f", text) if follows && text.starts_with('"') => {
+                "every text takes values in: `\"... {value}\"`, without `f`"
+            }
+            (word, _) if self.found == 1 && !self.begins_line() && !self.wants_expression() => {
+                foreign::instead(word).filter(|_| self.kind_of(0) == Some(TokenKind::Word))?
+            }
+            _ => return None,
+        };
+        self.error(format!("`{}` cannot stand here", self.found())).map(|diagnostic| diagnostic.hint(hint))
     }
 
     /// One mark in the place of another.
@@ -421,11 +447,8 @@ impl Mistake<'_> {
         };
         let diagnostic = Diagnostic::error(code::SYNTAX, message).label(span, "");
         if unit {
-            return diagnostic.hint(format!(
-                "a unit sticks to its number: `{}{}`",
-                self.before(),
-                self.found()
-            ));
+            let unit = foreign::unit(self.found()).unwrap_or(self.found());
+            return diagnostic.hint(format!("a unit sticks to its number: `{}{unit}`", self.before()));
         }
         // Within an expression the form of the whole is no help.
         match words::form(self.token_text(0)).filter(|_| !self.wants_expression() && !self.wants_operator()) {

@@ -198,7 +198,8 @@ impl Judgement<'_> {
         let mut earlier: Vec<Cube> = Vec::new();
         let mut after = before.clone();
         for (index, stage) in self.stages.stages.iter().enumerate() {
-            crate::interrupt::checkpoint();
+            let stages = self.stages.stages.len();
+            crate::interrupt::progress(|| format!("stage {} of {stages}", index + 1));
             after.clone_from(&before);
             grid.place(&stage.end, &mut after)?;
             if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {

@@ -7,8 +7,10 @@ use super::levels::{self, Levels};
 use super::pairs::{self, BodyPair, ModulePair, View};
 use super::swing::Swings;
 use crate::geometry::Vec3;
+use crate::interrupt;
 use crate::plan::{Exemption, Status, Tracks, Worst};
 use crate::robot::{Assembly, Kinematics};
+use crate::units::{Dimension, quantity};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Balls of modules nearly meet where they are this part of their radii apart.
@@ -201,7 +203,13 @@ impl<'a> Search<'a> {
 
     /// Tells apart what can be over `from..to`, and goes on with the rest in two parts.
     fn examine(&mut self, region: &Region, from: f64, to: f64, open: Open) {
-        crate::interrupt::checkpoint();
+        interrupt::progress(|| {
+            let least = self.clearance.as_ref().map_or_else(String::new, |nearest| {
+                format!(", clearance {} so far", quantity(nearest.distance, Dimension::LENGTH))
+            });
+            let at = quantity(from, Dimension::TIME);
+            format!("looked for collisions up to {at}, {} stretches{least}", self.samples)
+        });
         if self.samples >= self.samples_max {
             return;
         }

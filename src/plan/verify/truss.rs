@@ -48,7 +48,7 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut standing = Standing::new(&judged);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
     for (i, knot) in paths.knots.iter().enumerate().skip(1) {
-        interrupt::checkpoint();
+        interrupt::progress(|| format!("step {i} of {}", paths.knots.len() - 1));
         let begins = paths.knots[i - 1].time;
         let leg = Leg {
             from: places[i - 1].clone(),

@@ -9,7 +9,9 @@ use super::model::{Model, Posture};
 use super::sample;
 use super::stance::{Judged, Kept, Stance};
 use crate::geometry::Pose;
+use crate::interrupt;
 use crate::plan::{DockKind, Exemption, ExemptionKind, Ground, Settings, Tracks, World, WorldFrom};
+use crate::units::{Dimension, quantity};
 
 /// What is walked through, and how strictly.
 #[derive(Clone, Copy)]
@@ -111,6 +113,10 @@ pub fn walk(
     let first = walker.now;
     let instants = sample::instants(course.tracks, course.worlds, course.exemptions);
     for &instant in instants.iter().filter(|t| **t > first) {
+        interrupt::progress(|| {
+            let [now, until] = [walker.now, until].map(|t| quantity(t, Dimension::TIME));
+            format!("walked {now} of {until}, {} samples", walker.samples)
+        });
         let target = instant.min(until);
         if target > walker.now {
             match walker.stretch(target, watch) {

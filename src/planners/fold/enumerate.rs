@@ -5,11 +5,14 @@
 //! them: when the root crosses a hinge, the faces before it are carried by the hinge and those behind
 //! it no longer are.
 
+use super::count;
 use super::exact::TOL_TIE;
 use super::layout::Layout;
 use super::spectrum::Spectrum;
 use super::target::Target;
 use super::weights::Weights;
+use super::words;
+use crate::interrupt;
 
 /// Sets of faces are bits of a word.
 pub const FACES_MAX: usize = 64;
@@ -61,7 +64,11 @@ pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result
     let mut by_root = vec![f64::INFINITY; n];
     let mut spectrum: Option<Spectrum> = None;
     let mut tree = Tree::new(target);
+    let (mut looked_at, all) = (0u64, count::layouts(target));
     let walked = each(target, settings.budget, |hinges| {
+        looked_at += 1;
+        let least = best.as_ref().map(|(least, ..)| *least);
+        interrupt::progress(|| words::counted(looked_at, &all, "layouts", least));
         tree.hang(hinges);
         tree.energies(&sums, &mut energies);
         for (root, &energy) in energies.iter().enumerate() {

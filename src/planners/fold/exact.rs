@@ -277,7 +277,9 @@ struct Bounds<'s> {
 impl<'s> Search<'s, '_> {
     fn run(&mut self, bounds: &mut Bounds<'s>) {
         while let Some(node) = self.waiting.pop() {
-            crate::interrupt::checkpoint();
+            let least = self.best.as_ref().map(|best| best.energy);
+            let (nodes, wait) = (self.nodes, self.waiting.len());
+            crate::interrupt::progress(|| super::words::searched(nodes, wait, least, node.bound));
             self.held -= node.size();
             if node.bound >= self.cutoff(node.root) {
                 continue;

@@ -53,6 +53,8 @@ pub mod plane;
 pub mod rearrange;
 pub mod refold;
 
+mod words;
+
 pub use exact::{Optimum, Proof};
 pub use layout::Layout;
 pub use net::Net;

@@ -2,6 +2,8 @@
 
 use super::layout::Layout;
 use super::steps;
+use super::words;
+use crate::interrupt;
 use crate::planners::random::Dice;
 
 /// Random orders are worse where they take more by this part.
@@ -30,8 +32,9 @@ pub fn sample(
     let mut order: Vec<usize> = layout.order[1..].to_vec();
     order.sort_unstable();
     let mut found = Sample { orders, worse: 0, least: f64::INFINITY, mean: 0.0, greatest: f64::NEG_INFINITY };
-    for _ in 0..orders {
-        crate::interrupt::checkpoint();
+    for done in 0..orders {
+        let least = (done > 0).then_some(found.least);
+        interrupt::progress(|| words::counted(done, &orders, "orders", least));
         dice.shuffle(&mut order);
         let taken = takes(&steps::of_order(layout, &order));
         found.worse += u64::from(taken > reference * (1.0 + TOL_EQUAL));

@@ -10,6 +10,8 @@ use super::routes::Routes;
 use super::symmetry;
 use super::target::Target;
 use super::weights::Weights;
+use crate::interrupt;
+use crate::units::display::number;
 use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
@@ -101,7 +103,6 @@ fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn 
     starts.sort_by(|a, b| order(&a.1, &b.1));
     for (mut layout, mut best) in starts {
         while let Some((better, value)) = exchanged(target, &layout, best, &mut left, kept, value) {
-            crate::interrupt::checkpoint();
             (layout, best) = (better, value);
         }
         if left == 0 {
@@ -124,6 +125,11 @@ fn exchanged(
         let [a, b] = target.hinges[added].faces;
         for dropped in local::path(layout, a, b) {
             *left = left.checked_sub(1)?;
+            // An energy, a torque or a number of steps.
+            let least = kept.least;
+            interrupt::progress(|| {
+                format!("{left} layouts may still be measured, {} at best", number(least))
+            });
             let hinges: Vec<usize> = folding.iter().map(|&h| if h == dropped { added } else { h }).collect();
             let other = Layout::of_hinges(target, &hinges, layout.root).expect("a cycle lost a hinge");
             let found = value(&other);

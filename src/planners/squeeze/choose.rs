@@ -5,9 +5,11 @@ use super::shape::Shape;
 use super::way::{Frame, Terms, Way};
 use super::ways::{Candidate, MELT_MAX, ways};
 use super::{Demand, Found, Method, Refusal, Task};
+use crate::interrupt;
 use crate::plan::verify::lattice::{ends, least_time};
 use crate::plan::{CellLimits, Model, Ratio, Stages};
 use crate::robot::Cell;
+use crate::units::{Dimension, quantity};
 
 /// How far limits may be rounded, relative, so that they are short rational numbers.
 const ROUNDING: f64 = 1e-12;
@@ -54,6 +56,12 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     candidates.sort_by(|a, b| a.way.duration().total_cmp(&b.way.duration()));
     let mut best: Option<(Method, bool, Stages)> = None;
     for candidate in candidates {
+        interrupt::progress(|| match &best {
+            Some((method, _, stages)) => {
+                format!("{} takes {}", method.name(), quantity(stages.duration(), Dimension::TIME))
+            }
+            None => format!("trying {}", candidate.method.name()),
+        });
         let time = |stages: &Stages| stages.duration() / time_unit;
         // A bound on forces only slows a plan down.
         if best.as_ref().is_some_and(|(_, _, stages)| time(stages) <= candidate.way.duration()) {

@@ -1,0 +1,82 @@
+//! Words of other languages, and what takes their place here: for people who come from there.
+
+/// What to write instead of a word that means nothing here but does in another language.
+pub fn instead(word: &str) -> Option<&'static str> {
+    INSTEAD.iter().find(|(words, _)| words.contains(&word)).map(|(_, instead)| *instead)
+}
+
+/// The unit that is meant by a longer name.
+pub fn unit(name: &str) -> Option<&'static str> {
+    UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
+}
+
+const INSTEAD: &[(&[&str], &str)] = &[
+    (&["def", "func", "function", "fun"], "a function is written `fn name(x: Length) -> Length = 2 * x`"),
+    (&["lambda"], "a function without a name is written `x => 2 * x`, where one is wanted"),
+    (&["return"], "what a function gives stands behind its `=`, or last in its `{ }`"),
+    (
+        &["import", "from", "include", "using"],
+        "names are brought in by `use std.smores.{Smores}`, or `use \"file.mod\".{Name}`",
+    ),
+    (
+        &["class", "struct", "type"],
+        "a `module` is made of links, joints and ports; a `config` is made of modules",
+    ),
+    (&["var", "const", "mut", "val"], "a name is given its value by `let name = ...`"),
+    (
+        &["while", "loop", "do"],
+        "there is no such loop: `for i in 0..4 { ... }` goes through a list or a range",
+    ),
+    (&["elif", "elsif", "elseif"], "write `else if c { ... }`"),
+    (&["switch", "match", "case"], "write `if c { ... } else if d { ... } else { ... }`"),
+    (
+        &["try", "except", "catch", "throw", "raise", "with", "async", "await", "yield"],
+        "nothing is thrown: what is wrong is told where it stands",
+    ),
+    (&["assert"], "write `expect condition` in a `test`, `require condition, \"why\"` in a body"),
+    (&["pass"], "a body without clauses is `{ }`"),
+    (
+        &["del", "delete", "global", "nonlocal", "break", "continue"],
+        "a value never changes, and a loop goes to its end: a list is made by `[e for x in list if c]`",
+    ),
+    (&["echo", "printf", "println", "console"], "write `print(value)`"),
+    (&["True", "TRUE"], "write `true`"),
+    (&["False", "FALSE"], "write `false`"),
+    (
+        &["None", "null", "nil", "undefined"],
+        "what is not given is left out; `x else y` takes `y` where `x` is missing",
+    ),
+    (&["range", "xrange"], "`0..n` are the whole numbers from 0 up to, but without, `n`"),
+    (&["enumerate"], "write `for i in 0..len(list) { ... list[i] ... }`"),
+    (&["zip", "map", "filter"], "a list is made by `[e for x in list if c]`"),
+    (&["str", "repr", "format", "to_string"], "a text takes a value in: `\"{value}\"`"),
+    (&["int", "float"], "`floor(x)`, `ceil(x)` and `round(x)` give whole numbers; every `Int` is a `Number`"),
+    (&["radians", "degrees"], "units stick to numbers: `90deg`, `1.5rad`"),
+    (&["pi", "PI"], "a half turn is `180deg`, or `0.5turn`"),
+    (&["pow"], "write `x^2`"),
+    (&["self", "this"], "members are named as they are: `a`, not `self.a`"),
+    (&["help", "quit", "exit", "dir", "vars", "doc"], "in a session: `:help`, `:vars`, `:doc NAME`, `:quit`"),
+    (
+        &["input", "open", "eval", "exec"],
+        "a program reads nothing but what it names with `use`, `load` and `mesh`",
+    ),
+];
+
+const UNITS: &[(&[&str], &str)] = &[
+    (&["degree", "degrees", "degs", "°"], "deg"),
+    (&["radian", "radians", "rads"], "rad"),
+    (&["turns", "rev", "revs"], "turn"),
+    (&["second", "seconds", "sec", "secs"], "s"),
+    (&["millisecond", "milliseconds", "msec"], "ms"),
+    (&["minute", "minutes", "mins"], "min"),
+    (&["hour", "hours"], "h"),
+    (&["meter", "meters", "metre", "metres"], "m"),
+    (&["millimeter", "millimeters", "millimetre", "millimetres"], "mm"),
+    (&["centimeter", "centimeters", "centimetre", "centimetres"], "cm"),
+    (&["gram", "grams"], "g"),
+    (&["kilogram", "kilograms", "kgs"], "kg"),
+    (&["newton", "newtons"], "N"),
+    (&["Nm"], "N*m"),
+    (&["joule", "joules"], "J"),
+    (&["hz"], "Hz"),
+];
