@@ -64,6 +64,17 @@ mod unix {
             session.sees(PROMPT);
             took
         });
+        report("Tab behind a dot", &mut || {
+            session.types("Arm0().cu");
+            session.sees("cu");
+            let begin = Instant::now();
+            session.types("\t");
+            session.sees("rl");
+            let took = begin.elapsed();
+            session.types("\x03");
+            session.sees(PROMPT);
+            took
+        });
         let endless = "for i in 0..40000000 { let x = i }";
         report("Ctrl-C of a loop", &mut || session.stop(endless, "evaluating: "));
         session.ask("use std.shapes.icosahedron", "");
@@ -76,7 +87,25 @@ mod unix {
         report("Ctrl-C of the judge", &mut || session.stop(judge, "walked "));
         session.ask("use std.truss.PneumaticReel", "");
         session.ask("truss Helix(n: Int) of PneumaticReel = tetrahelix(n, edge: 1m)", "truss Helix");
+        watch(folder.path(), &file, &text);
         report("Ctrl-C of a solver", &mut || session.stop("Helix(120)", "hold each other"));
+    }
+
+    /// `modl watch` of the long file: from a save to the report.
+    fn watch(folder: &Path, file: &Path, text: &str) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_modl"));
+        command.args(["watch", "long.mod"]).current_dir(folder);
+        let mut terminal = Terminal::begin(command);
+        terminal.sees("watching 1 file");
+        let mut turn = 0;
+        report("watch: save to report", &mut || {
+            turn += 1;
+            let text = format!("{text}\nlet changed_{turn} = {turn}\n");
+            let begin = Instant::now();
+            std::fs::write(file, text).expect("a file can be written");
+            terminal.sees("watching 1 file");
+            begin.elapsed()
+        });
     }
 
     fn start(folder: &Path, arguments: &[&str]) -> Terminal {

@@ -2,14 +2,13 @@
 #![cfg(unix)]
 
 use super::cli::Sandbox;
+use super::terminal::{PROMPT, Terminal};
 use crate::transcripts::HINGE;
 use rexpect::session::{PtySession, spawn_command};
 use std::time::{Duration, Instant};
 
 /// How long a session may take to say what it is to say, ms: machines are loaded.
 const PATIENCE: u64 = 60_000;
-
-const PROMPT: &str = "modl> ";
 
 /// A session at a terminal.
 struct Talk(PtySession);
@@ -94,6 +93,74 @@ fn tab_completes_with_types() {
     talk.types(":doc Hin\t\r");
     talk.sees("A single hinge.");
     talk.ends();
+}
+
+/// What is offered behind a text that is being typed, in a session with `HINGE`.
+fn offered(terminal: &mut Terminal, text: &str, wanted: &[&str]) {
+    terminal.types(text);
+    terminal.types("\t");
+    for words in wanted {
+        terminal.sees(words);
+    }
+    terminal.types("\x03");
+    // The line is left; what is typed before that goes with it.
+    terminal.sees("\x1b[?2004l");
+    terminal.sees(PROMPT);
+}
+
+#[test]
+fn tab_knows_what_an_unfinished_body_declares() {
+    let sandbox = Sandbox::new(&[("hinge.mod", HINGE.as_bytes())]);
+    let mut command = sandbox.command(&["repl", "hinge.mod"]);
+    command.env("MODL_HISTORY", sandbox.path("history"));
+    let mut terminal = Terminal::begin(command);
+    terminal.sees(PROMPT);
+    let body = "config Q(size: Length = 4mm) { part a[2]: Hinge  let b = a[1]  behavior go(to: Angle) = ";
+    let offered = |terminal: &mut Terminal, end: &str, wanted: &[&str]| {
+        offered(terminal, &format!("{body}{end}"), wanted);
+    };
+    offered(&mut terminal, "move(a[0].be", &["a[0].bend"]);
+    offered(&mut terminal, "move(b.be", &["b.bend"]);
+    offered(&mut terminal, "s", &["size  Length", "sqrt  "]);
+    // The binder of a loop stands before its body.
+    offered(&mut terminal, "1 for h in a { move(h.be", &["h.bend"]);
+    offered_elsewhere(&mut terminal);
+}
+
+/// Of functions, modules, and at the top.
+fn offered_elsewhere(terminal: &mut Terminal) {
+    offered(terminal, "fn f(hinge: Hinge, n: Int) = hin", &["fn f(hinge: Hinge, n: Int) = hinge"]);
+    offered(terminal, "fn f(hinge: Hinge, n: Int) = hinge.be", &["hinge.bend"]);
+    offered(
+        terminal,
+        "module M { link foot = box(1mm, 1mm, 1mm)  link food = box(1mm, 1mm, 1mm)  joint j: fo",
+        &["food  link", "foot  link"],
+    );
+    offered(terminal, "fn g() = { let far = 2 * 30mm\rfa", &["far"]);
+}
+
+#[test]
+fn reload_keeps_what_does_not_depend_on_the_change() {
+    let sandbox = Sandbox::new(&[("main.mod", b"let side = 80mm\nlet other = 1\n")]);
+    let mut command = sandbox.command(&["repl", "main.mod"]);
+    command.env("MODL_HISTORY", sandbox.path("history"));
+    let mut terminal = Terminal::begin(command);
+    terminal.sees(PROMPT);
+    terminal.ask("use std.mori.Mori", "");
+    terminal.ask("use std.shapes.octahedron", "");
+    terminal.ask("let p = fold(octahedron(edge: 80mm), Mori)", "p: Folding");
+    terminal.ask("let q = fold(octahedron(edge: side), Mori)", "q: Folding");
+    std::fs::write(sandbox.path("main.mod"), "let side = 0.08m\nlet other = 1\nlet third = 3\n")
+        .expect("a file can be written");
+    terminal.types(":reload\r");
+    terminal.sees("main.mod: side is changed; needed by q");
+    terminal.sees(PROMPT);
+    // A planner at work says so.
+    let mut planned_again = |name: &str| {
+        terminal.types(&format!("[1, {name}.layouts][0]\r"));
+        terminal.sees("1: Int").contains("folding 8 panels")
+    };
+    assert!(!planned_again("p") && planned_again("q"));
 }
 
 #[test]
@@ -189,6 +256,7 @@ fn reload_says_what_changed_and_who_needs_it() {
     let mut talk = Talk::begin(&sandbox, &["repl", "main.mod"]);
     talk.sees("loaded main.mod: c, gone");
     talk.asks("let d = c", "d: Int");
+    talk.asks("use std.smores.Smores", "");
     talk.asks(":reload", "nothing changed");
     std::fs::write(sandbox.path("part.mod"), "let a = 10\nlet b = 2\n").expect("a file can be written");
     std::fs::write(sandbox.path("main.mod"), "use \"part.mod\".{a}\nlet c = a + 1\n")
@@ -197,6 +265,19 @@ fn reload_says_what_changed_and_who_needs_it() {
     talk.sees("part.mod: a is changed; needed by c, d");
     talk.sees("main.mod: gone is gone");
     talk.asks("d", "11: Int");
+    // What does not depend on it stays: it is not worked out again.
+    talk.asks("let kept = [i for i in 0..2]", "kept: List<Int>");
+    talk.asks("let robot = Smores()", "robot: Smores");
+    std::fs::write(sandbox.path("part.mod"), "let a = 20\nlet b = 2\nlet more = [i for i in 0..100]\n")
+        .expect("a file can be written");
+    talk.types(":reload\r");
+    talk.sees("part.mod: a is changed; needed by c, d");
+    talk.sees("part.mod: more is new");
+    talk.asks("c + d + len(kept)", "44: Int");
+    talk.asks("robot.tilt", "Smores.tilt");
+    std::fs::write(sandbox.path("part.mod"), "let a = 10\nlet b = 2\n").expect("a file can be written");
+    talk.types(":reload\r");
+    talk.sees("part.mod: more is gone");
     // What is wrong now leaves all as it was.
     std::fs::write(sandbox.path("part.mod"), "let a = \n").expect("a file can be written");
     talk.asks(":reload", "E0001");

@@ -41,6 +41,8 @@ pub enum DefItem<'a> {
     Config(&'a ast::Config),
     Lattice(&'a ast::Lattice),
     Truss(&'a ast::Truss),
+    /// Nothing: the place of a declaration that may come.
+    Gap,
 }
 
 pub struct DefInfo<'a> {
@@ -379,6 +381,7 @@ impl<'a> Checker<'a> {
     /// Fills the scopes: the items of every file, then what each imports.
     pub fn declare(&mut self) {
         let mut of_entries = Vec::new();
+        let in_session = self.loaded.files.iter().any(|file| file.entry);
         for (index, file) in self.loaded.files.iter().enumerate() {
             self.scopes.push(HashMap::new());
             for item in &file.ast.items {
@@ -388,6 +391,9 @@ impl<'a> Checker<'a> {
                     Some((name, id)) => self.enter(index, name, id),
                     None => {}
                 }
+            }
+            if in_session && !file.entry && !self.sources.file(file.ast.id).library {
+                self.leave_gaps(index, file.ast.id);
             }
         }
         let mut of_entries = of_entries.into_iter().peekable();
@@ -557,7 +563,7 @@ impl<'a> Checker<'a> {
         let mut defs = Vec::with_capacity(self.defs.len());
         for (index, info) in self.defs.into_iter().enumerate() {
             let file: FileId = self.loaded.files[info.file].ast.id;
-            if !self.sources.file(file).library {
+            if !self.sources.file(file).library && !matches!(info.item, DefItem::Gap) {
                 own.push(DefId(index as u32));
             }
             let kind = info.typed.unwrap_or(DefKind::Error);

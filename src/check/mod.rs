@@ -13,6 +13,7 @@ mod config;
 mod describe;
 mod expr;
 mod families;
+mod gaps;
 mod items;
 mod lint;
 mod lists;

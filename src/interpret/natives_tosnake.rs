@@ -168,11 +168,15 @@ fn unwound(
         let stage = &interpreter.stage;
         let begun = stage.elapsed();
         interrupt::begin(format!("unwinding {}", design.name));
+        let mut told = None;
         let mut watch = |progress: &Progress| {
             let Progress { needed, made, tried, .. } = progress;
-            interrupt::progress(|| {
-                format!("{made} of {needed} connections made, {tried} pairs of ends tried")
-            });
+            let words = || format!("{made} of {needed} connections made, {tried} pairs of ends tried");
+            if told.replace(*made) == Some(*made) {
+                interrupt::progress(words)
+            } else {
+                interrupt::tell(words())
+            }
             !stage.cancelled() && options.timeout.is_none_or(|most| stage.elapsed() - begun <= most)
         };
         let settings = Settings { seed, budget, collisions, ..Settings::default() };

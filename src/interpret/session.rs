@@ -41,8 +41,9 @@ pub enum Work {
     Enter(Entered),
     /// Take back the last entry that was kept.
     Undo,
-    /// Elaborate declarations with their defaults, and keep nothing.
-    Check(Vec<DefId>),
+    /// Texts changed: elaborate declarations with their defaults, and forget values that do not hold any
+    /// more. Entries before can't be taken back.
+    Reload { check: Vec<DefId>, stale: Vec<DefId> },
     /// Forget all values; entries can't be taken back any more.
     Forget,
 }
@@ -136,9 +137,14 @@ fn work(task: &Task, stage: &Stage, memory: &mut Memory, before: &mut Vec<Memory
             }
             answer
         }
-        Work::Check(defs) => {
-            let nothing = Memory::default();
-            evaluate(task, &[], stage, &nothing, |interpreter| interpreter.check_all(defs)).0
+        Work::Reload { check, stale } => {
+            let again = |interpreter: &mut Interpreter| interpreter.check_all(check);
+            let (mut answer, after) = evaluate(task, stale, stage, memory, again);
+            if let Some(after) = after.filter(|_| answer.ok) {
+                answer.kept = true;
+                (*memory, *before) = (after, Vec::new());
+            }
+            answer
         }
         Work::Undo => {
             *memory = before.pop().unwrap_or_default();
@@ -197,6 +203,9 @@ impl<'a> Interpreter<'a> {
         self.globals.resize(count, Lazy::Waiting);
         self.designs.resize(count, Vec::new());
         self.connectors.resize(count, None);
+        if stale.len() == count {
+            (self.plans, self.causes, self.exemptions) = Default::default();
+        }
         for def in stale.iter().map(|def| def.0 as usize) {
             self.globals[def] = Lazy::Waiting;
             self.designs[def].clear();

@@ -147,11 +147,18 @@ pub fn begin(about: String) {
 /// somebody asked.
 pub fn progress(how_far: impl FnOnce() -> String) {
     checkpoint();
-    let asked = |work: &Work| work.interrupt.0.asked.swap(false, Ordering::Relaxed);
-    let is_asked =
-        WORK.with_borrow(|work| work.as_ref().is_some_and(|work| work.interrupt.asked() && asked(work)));
-    if is_asked && let Some(work) = WORK.with_borrow(Clone::clone) {
-        let how_far = how_far();
+    let asked = WORK.with_borrow(|work| {
+        let asked = work.as_ref().map(|work| &work.interrupt.0.asked);
+        asked.is_some_and(|asked| asked.load(Ordering::Relaxed) && asked.swap(false, Ordering::Relaxed))
+    });
+    if asked {
+        tell(how_far());
+    }
+}
+
+/// Tells how far the work is, whether or not somebody asked: for what happens seldom.
+pub fn tell(how_far: String) {
+    if let Some(work) = WORK.with_borrow(Clone::clone) {
         let both = if work.about.is_empty() { how_far } else { format!("{}: {how_far}", work.about) };
         (work.hear)(both);
     }

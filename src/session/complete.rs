@@ -6,6 +6,7 @@
 use super::command::COMMANDS;
 use super::dependencies::meant;
 use super::kept::Kept;
+use super::locals::{Is, Local, locals};
 pub use super::members::Named;
 use super::members::{about, members, params_of_member};
 use super::state::{Session, is_given, value_type};
@@ -249,7 +250,7 @@ fn behind_dot(knowledge: &Knowledge, before: &str) -> Vec<Named> {
         let program = &knowledge.checked.program;
         return items.iter().map(|(name, id)| Named::new(name.as_str(), about(program, *id))).collect();
     }
-    let (checked, ty) = type_of(knowledge, &in_place_of_part(receiver, before));
+    let (checked, ty) = type_of(knowledge, &told(receiver, before));
     ty.map_or_else(Vec::new, |ty| members(&checked, &ty))
 }
 
@@ -267,33 +268,28 @@ fn type_of(knowledge: &Knowledge, text: &str) -> (Checked, Option<Type>) {
     (checked, ty)
 }
 
-/// A part that the text declares further up, by an instance of its type: `leg[0].m` where `leg` is a
-/// part of a body that is being typed.
-fn in_place_of_part(receiver: &str, before: &str) -> String {
-    let end = receiver.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(receiver.len());
-    let (head, rest) = receiver.split_at(end);
-    let Some(ty) = declared_part(head, before) else { return receiver.to_owned() };
-    let rest = match rest.strip_prefix('[').and_then(|r| r.split_once(']')) {
-        Some((_, after)) => after,
-        None => rest,
-    };
-    format!("{ty}(){rest}")
-}
+/// Names that are told by others, in turn, at most so often.
+const TURNS_MAX: usize = 8;
 
-/// The type in `part NAME: Type` or `part NAME[4]: Type`.
-fn declared_part(name: &str, before: &str) -> Option<String> {
-    let mut found = None;
-    for clause in before.split("part ").skip(1) {
-        let Some(rest) = clause.trim_start().strip_prefix(name) else { continue };
-        let rest = rest.trim_start();
-        let rest = if rest.starts_with('[') { rest.split_once(']')?.1.trim_start() } else { rest };
-        if let Some(ty) = rest.strip_prefix(':') {
-            let ty = ty.trim_start();
-            let end = ty.find(|c: char| !c.is_alphanumeric() && c != '_' && c != '.').unwrap_or(ty.len());
-            found = Some(ty[..end].to_owned());
-        }
+/// An expression with the names that the text declares further up in the words of what is known without it:
+/// `leg[0].m` by an instance of the type of `leg`, a part of a body that is being typed.
+fn told(expr: &str, before: &str) -> String {
+    let locals = locals(before);
+    let mut told = expr.to_owned();
+    for _ in 0..TURNS_MAX {
+        let end = told.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(told.len());
+        let (head, rest) = told.split_at(end);
+        let Some(local) = locals.iter().rev().find(|local| local.name == head) else { break };
+        told = match &local.is {
+            Is::Typed(ty) => format!("{ty}(){rest}"),
+            Is::Listed(ty) => format!("[{ty}()]{rest}"),
+            Is::Value(value) if !value.starts_with(head) => format!("{}{rest}", value.trim()),
+            // One of the elements; what they are is the same for all.
+            Is::Each(list) if !list.starts_with(head) && !list.contains("..") => format!("{list}[0]{rest}"),
+            _ => break,
+        };
     }
-    found
+    told
 }
 
 /// Where the innermost bracket of a call stands that is open at the end of a text.
@@ -340,7 +336,7 @@ fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<P
         let params = params_of(&knowledge.checked.program, id).to_vec();
         return Some(((*knowledge.checked).clone(), params, inside));
     };
-    let (checked, ty) = type_of(knowledge, &in_place_of_part(object, before));
+    let (checked, ty) = type_of(knowledge, &told(object, before));
     let params = params_of_member(&checked, &ty?, Symbol::new(name));
     Some((checked, params, inside))
 }
@@ -393,7 +389,9 @@ fn global_names(knowledge: &Knowledge) -> Vec<Named> {
 /// Names that can be seen, those that the text itself declares, and words of the language.
 fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
     let mut found = global_names(knowledge);
-    found.extend(own_names(&before[..word]).into_iter().map(|name| Named::new(name, "declared above")));
+    let typed = &before[word..];
+    let own = locals(&before[..word]).into_iter().filter(|local| local.name.starts_with(typed));
+    found.splice(0..0, own.map(|local| own_name(knowledge, &before[..word], local)));
     let begins = before[line_start(before)..word].trim().is_empty();
     let clauses = if begins { &[ITEMS, STATEMENTS, MODULE, CONFIG, TRUSS][..] } else { &[] };
     let words = clauses.iter().copied().flatten().chain(RESERVED);
@@ -401,29 +399,18 @@ fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
     found
 }
 
-/// Names that the text declares further up.
-fn own_names(text: &str) -> Vec<String> {
-    const DECLARING: &[&str] = &[
-        "let",
-        "part",
-        "port",
-        "link",
-        "joint",
-        "behavior",
-        "node",
-        "for",
-        "fn",
-        "config",
-        "module",
-        "lattice",
-        "truss",
-        "cell",
-        "strut",
-        "connector",
-    ];
-    let words: Vec<&str> =
-        text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty()).collect();
-    let declared =
-        words.windows(2).filter(|pair| DECLARING.contains(&pair[0]) && !DECLARING.contains(&pair[1]));
-    declared.map(|pair| pair[1].to_owned()).collect()
+/// A name that the text declares further up, with its type.
+fn own_name(knowledge: &Knowledge, before: &str, local: Local) -> Named {
+    let inferred = || {
+        let (checked, ty) = type_of(knowledge, &told(&local.name, before));
+        ty.map_or_else(|| "declared above".to_owned(), |ty| checked.program.type_name(&ty))
+    };
+    let about = match &local.is {
+        Is::Typed(ty) => ty.clone(),
+        Is::Listed(ty) => format!("List<{ty}>"),
+        Is::Each(list) if list.contains("..") => "Int".to_owned(),
+        Is::Value(_) | Is::Each(_) => inferred(),
+        Is::Word(word) => word.clone(),
+    };
+    Named::new(local.name, about)
 }

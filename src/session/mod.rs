@@ -16,7 +16,9 @@ pub mod complete;
 mod describe;
 pub mod entry;
 pub mod highlight;
+mod locals;
 mod members;
+mod reload;
 mod save;
 
 pub use changes::{Change, ChangeKind};

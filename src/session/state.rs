@@ -3,6 +3,7 @@
 use super::changes::{Change, changes};
 use super::dependencies::{Dependencies, meant};
 use super::kept::{Kept, Project};
+use super::reload::stale;
 use crate::check::typed::{DefId, DefKind, Stmt, StmtKind};
 use crate::check::{self, Checked, Entry, Type};
 use crate::interpret::session::{Entered, Evaluator, Task, Tell, UNDO_MAX, Work};
@@ -344,17 +345,16 @@ impl Session {
         if changes.is_empty() && entries.len() == self.entries.len() {
             return nothing;
         }
-        // Another evaluator, so that nothing is lost if what is declared now makes no sense.
-        let evaluator = Evaluator::new(host.interrupt());
-        let task = Task {
-            checked: checked.clone(),
-            options: self.options.clone(),
-            work: Work::Check(elaborated(&checked).collect()),
-        };
-        let answer = evaluator.run(task, &*files, host);
+        let check: Vec<DefId> = elaborated(&checked).collect();
+        // Where no identity holds, everything is stale.
+        let all = || (0..checked.program.defs.len()).map(|index| DefId(index as u32)).collect();
+        let stale = stale(&self.checked, &checked).unwrap_or_else(all);
+        let before = std::mem::replace(&mut self.files, files);
+        let answer = self.run(&checked, Work::Reload { check, stale }, host);
         if answer.ok {
-            (self.files, self.entries, self.checked) = (files, entries, checked.clone());
-            (self.evaluator, self.before) = (evaluator, Vec::new());
+            (self.entries, self.checked, self.before) = (entries, checked.clone(), Vec::new());
+        } else {
+            self.files = before;
         }
         let reply = Reply {
             diagnostics: answer.diagnostics,

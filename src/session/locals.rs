@@ -1,0 +1,157 @@
+//! Names that a text declares which is still being typed: parameters, parts, lets, binders, and what else
+//! has a name in a body. The text need not make sense yet.
+
+/// A name of an unfinished text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Local {
+    pub name: String,
+    pub is: Is,
+}
+
+/// What is known of it, as it is written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Is {
+    /// Of this type.
+    Typed(String),
+    /// As many of this type as are given.
+    Listed(String),
+    /// The value of this expression.
+    Value(String),
+    /// Each of this list or range.
+    Each(String),
+    /// What this word declares.
+    Word(String),
+}
+
+/// Words behind which a name is declared.
+const DECLARING: &[&str] = &[
+    "let",
+    "part",
+    "port",
+    "link",
+    "joint",
+    "motor",
+    "behavior",
+    "node",
+    "for",
+    "fn",
+    "config",
+    "module",
+    "lattice",
+    "truss",
+    "cell",
+    "strut",
+    "connector",
+];
+
+/// Words that begin a clause and declare nothing.
+const CLAUSES: &[&str] = &["connect", "set", "base", "require", "expect", "touching", "alias"];
+
+/// The names that a text declares, the latest last.
+pub fn locals(text: &str) -> Vec<Local> {
+    let mut found = Vec::new();
+    let mut rest = text;
+    while let Some((word, after)) = next_word(rest) {
+        rest = after;
+        if !DECLARING.contains(&word) {
+            continue;
+        }
+        let Some((name, behind)) = next_word(after).filter(|_| after.starts_with([' ', '\t', '\n'])) else {
+            continue;
+        };
+        if DECLARING.contains(&name) || after.len() - behind.len() > name.len() + blanks(after) {
+            continue;
+        }
+        found.extend(parameters(behind).into_iter().map(|(name, ty)| Local { name, is: Is::Typed(ty) }));
+        found.push(Local { name: name.to_owned(), is: what(word, behind) });
+    }
+    found
+}
+
+fn blanks(text: &str) -> usize {
+    text.len() - text.trim_start().len()
+}
+
+/// The next word of a text, and what follows it.
+fn next_word(text: &str) -> Option<(&str, &str)> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let start = text.find(is_word)?;
+    let end = text[start..].find(|c| !is_word(c)).map_or(text.len(), |at| start + at);
+    Some((&text[start..end], &text[end..]))
+}
+
+/// What a name is, from the word before it and the text behind it.
+fn what(word: &str, behind: &str) -> Is {
+    let after = |text: &str, mark: char| text.trim_start().strip_prefix(mark).map(str::to_owned);
+    match word {
+        "let" => {
+            let value = after(behind, '=').map(|value| up_to_clause(&up_to(&value, &['\n'])));
+            value.filter(|value| !value.is_empty()).map_or_else(|| Is::Word(word.into()), Is::Value)
+        }
+        "for" => {
+            let list = behind.trim_start().strip_prefix("in ").map(|list| up_to(list, &['{', ']', '\n']));
+            list.filter(|list| !list.is_empty()).map_or_else(|| Is::Word(word.into()), Is::Each)
+        }
+        "part" => {
+            let many = behind.trim_start().starts_with('[');
+            let behind = if many { behind.split_once(']').map_or("", |(_, rest)| rest) } else { behind };
+            let ty = after(behind, ':').map(|ty| type_name(&ty));
+            match ty.filter(|ty| !ty.is_empty()) {
+                Some(ty) if many => Is::Listed(ty),
+                Some(ty) => Is::Typed(ty),
+                None => Is::Word(word.into()),
+            }
+        }
+        _ => Is::Word(word.into()),
+    }
+}
+
+/// `name: Type` between the brackets that a text begins with.
+fn parameters(text: &str) -> Vec<(String, String)> {
+    let Some(inside) = text.strip_prefix('(') else { return Vec::new() };
+    let inside = up_to(inside, &[')']);
+    let mut found = Vec::new();
+    let mut rest = inside.as_str();
+    while !rest.is_empty() {
+        let one = up_to(rest, &[',']);
+        rest = rest[one.len()..].trim_start_matches(|c: char| c != ',').strip_prefix(',').unwrap_or("");
+        if let Some((name, ty)) = one.split_once(':') {
+            let ty = up_to(ty, &['=']);
+            found.push((name.trim().to_owned(), ty));
+        }
+    }
+    found
+}
+
+/// The beginning of a text up to one of these marks that stands in no brackets of its own.
+fn up_to(text: &str, marks: &[char]) -> String {
+    let mut depth = 0usize;
+    for (at, c) in text.char_indices() {
+        match c {
+            c if depth == 0 && marks.contains(&c) => return text[..at].trim().to_owned(),
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' if depth == 0 => return text[..at].trim().to_owned(),
+            ')' | ']' | '}' => depth -= 1,
+            _ => {}
+        }
+    }
+    text.trim().to_owned()
+}
+
+/// The beginning of a line up to the next clause on it.
+fn up_to_clause(line: &str) -> String {
+    let begins = |at: &usize| {
+        let closed =
+            line[..*at].matches(['(', '[', '{']).count() == line[..*at].matches([')', ']', '}']).count();
+        let word = next_word(&line[*at..]).map_or("", |(word, _)| word);
+        closed && line[..*at].ends_with([' ', '\t']) && CLAUSES.iter().chain(DECLARING).any(|w| *w == word)
+    };
+    let end = line.char_indices().map(|(at, _)| at).find(begins).unwrap_or(line.len());
+    line[..end].trim().to_owned()
+}
+
+fn type_name(text: &str) -> String {
+    let text = text.trim_start();
+    let end = text.find(|c: char| !c.is_alphanumeric() && c != '_' && c != '.').unwrap_or(text.len());
+    text[..end].to_owned()
+}
