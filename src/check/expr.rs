@@ -3,7 +3,7 @@
 use super::checker::{Checker, Scope};
 use super::describe::{dimension_with_unit, dimension_words};
 use super::literals::direction;
-use super::typed::{Expr, ExprKind, StmtKind};
+use super::typed::{BinaryOp, Expr, ExprKind, StmtKind};
 use super::types::{Family, FnType, Type};
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast;
@@ -63,8 +63,9 @@ impl<'a> Checker<'a> {
 
     fn mismatch(&mut self, got: &Expr, want: &Type, role: Role) {
         let written = self.quoted(got.span).map_or("this".to_string(), |t| format!("`{t}`"));
+        let whole = alternatives(want).contains(&&Type::Int);
         let diagnostic = match (got.ty.dimension(), inner_quantity(want)) {
-            (Some(have), Some(need)) => {
+            (Some(have), Some(need)) if !(whole && have == need) => {
                 let message = format!(
                     "{role} wants {}; {written} is {}",
                     dimension_with_unit(need),
@@ -100,6 +101,14 @@ impl<'a> Checker<'a> {
             (Type::Port, Type::Joint(_)) => Some(format!("the joint of its connection is `{written}.joint`")),
             (Type::Optional(_), _) => {
                 Some(format!("say what stands in when it is missing: `{written} else ...`"))
+            }
+            (Type::Quantity(_), Type::Int)
+                if matches!(&got.kind, ExprKind::Binary { op: BinaryOp::Div, .. }) =>
+            {
+                Some("`/` gives any number; the whole quotient is `div(a, b)`".into())
+            }
+            (Type::Quantity(_), Type::Int) => {
+                Some(format!("`floor({written})` and `round({written})` are whole; so is `div(a, b)`"))
             }
             (Type::Condition, Type::Bool) => {
                 Some("a condition is watched while the robot moves; it has no value yet".into())
@@ -355,7 +364,8 @@ pub fn has_params(ty: &Type) -> bool {
 /// A mend for a quantity of the wrong dimension, if one is likely.
 fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimension) -> Option<String> {
     let written = written?;
-    let literal = written.starts_with(|c: char| c.is_ascii_digit());
+    let literal = written.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())
+        && !written.contains(char::is_whitespace);
     if have.over(Dimension::TIME) == Some(need) {
         return Some(if literal {
             format!("per second? `{written}/s`")
@@ -363,12 +373,12 @@ fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimension) -> Op
             format!("per second? `{written} / 1s`")
         });
     }
+    let unit = crate::units::display::usual_unit(need);
     if have == Dimension::NUMBER && literal {
-        let unit = crate::units::display::usual_unit(need);
         return (!unit.is_empty()).then(|| format!("with a unit? `{written}{unit}`"));
     }
     if need == Dimension::NUMBER && have == Dimension::ANGLE {
         return Some(format!("angles are no plain numbers; divide by a unit to get one: `{written} / 1rad`"));
     }
-    None
+    (literal && !unit.is_empty()).then(|| format!("{} has a unit such as `{unit}`", dimension_words(need)))
 }

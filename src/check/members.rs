@@ -404,7 +404,7 @@ impl<'a> Checker<'a> {
         let near = suggest(field.text.as_str(), names);
         let name = self.def(id).name;
         let mut d = Diagnostic::error(code::UNKNOWN_MEMBER, format!("no {what} `{}` in {name}", field.text))
-            .label(field.span, format!("{name} has no such {}", what.rsplit(' ').next().unwrap_or(what)));
+            .label(field.span, format!("{name} has none of this name"));
         if let Some(near) = near {
             d = d.hint(format!("`{near}`?"));
         }

@@ -4,9 +4,9 @@ use super::checker::{Checker, DefItem, Entity, Scope};
 use super::expr::{error_expr, expr_of};
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
-use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::source::{foreign, library};
 use crate::units::is_unit;
 use std::sync::Arc;
 
@@ -72,6 +72,8 @@ impl<'a> Checker<'a> {
             .label(span, "no such name");
         if let Some(instead) = foreign::instead(name.as_str()) {
             d = d.hint(instead);
+        } else if let Some(file) = library::declares(name.as_str()) {
+            d = d.hint(format!("the library has it: `use std.{file}.{name}`"));
         } else if let Some(near) = suggest(name.as_str(), names) {
             d = d.hint(format!("`{near}`?"));
         } else if is_unit(name.as_str()) {

@@ -179,6 +179,22 @@ impl<'a> Checker<'a> {
         )
     }
 
+    /// A plain number that is written out, with the unit of what it stands beside.
+    fn with_unit(&self, number: &Expr, beside: &Expr) -> Option<String> {
+        let (plain, needed) = (number.ty.dimension()?, beside.ty.dimension()?);
+        let written = self.quoted(number.span)?;
+        let literal = written.starts_with(|c: char| c.is_ascii_digit());
+        if !literal || plain != Dimension::NUMBER || needed == Dimension::NUMBER {
+            return None;
+        }
+        // As the other one is written, if it is a number with a unit itself.
+        let other = self.quoted(beside.span).unwrap_or_default();
+        let digits = other.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '_'));
+        let same = digits.len() < other.len() && crate::units::is_unit(digits);
+        let unit = if same { digits.to_owned() } else { crate::units::display::usual_unit(needed) };
+        (!unit.is_empty()).then(|| format!("{written}{unit}"))
+    }
+
     fn bad_operands(&mut self, op: BinaryOp, op_span: Span, left: &Expr, right: &Expr) {
         let (a, b) = (self.words(&left.ty), self.words(&right.ty));
         let sign = op_text(op);
@@ -196,6 +212,10 @@ impl<'a> Checker<'a> {
             d = d.hint("texts are joined by `++`, and values put into them by `\"... {value}\"`");
         } else if op == BinaryOp::Add && matches!(left.ty, Type::List(_)) {
             d = d.hint("lists are joined by `++`");
+        } else if op == BinaryOp::Mul && matches!((&left.ty, &right.ty), (Type::List(_), Type::Int)) {
+            d = d.hint("a list of equal elements is made by `[0 for i in 0..3]`");
+        } else if let Some(with_unit) = self.with_unit(left, right).or_else(|| self.with_unit(right, left)) {
+            d = d.hint(format!("a unit sticks to its number: `{with_unit}`?"));
         } else if matches!(
             (&left.ty, &right.ty),
             (Type::Bool, Type::Condition) | (Type::Condition, Type::Bool)

@@ -3,9 +3,9 @@
 use super::checker::{Bound, Checker, DefItem, Entity, Scope};
 use super::typed::DefId;
 use super::types::{Choice, Family, FnType, Type};
-use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Symbol, code};
+use crate::source::{foreign, library};
 use crate::syntax::ast::{self, TypeKind};
 use crate::units::{self, Dimension, dimension};
 use std::sync::Arc;
@@ -164,7 +164,11 @@ impl<'a> Checker<'a> {
         let types = known.into_iter().filter(|n| n.starts_with(|c: char| c.is_ascii_uppercase()));
         let mut diagnostic = Diagnostic::error(code::NOT_A_TYPE, format!("`{}` {why}", last.text))
             .label(span, "a type is wanted here");
-        if let Some(near) = suggest(last.text.as_str(), types) {
+        if let Some(here) = foreign::of_type(last.text.as_str()) {
+            diagnostic = diagnostic.hint(format!("write {here}"));
+        } else if let Some(file) = library::declares(last.text.as_str()).filter(|_| path.len() == 1) {
+            diagnostic = diagnostic.hint(format!("the library has it: `use std.{file}.{}`", last.text));
+        } else if let Some(near) = suggest(last.text.as_str(), types) {
             diagnostic = diagnostic.hint(format!("`{near}`?"));
         }
         self.report(diagnostic);

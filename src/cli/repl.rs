@@ -80,7 +80,7 @@ pub fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallEr
     listen_for_cancel();
     let mut talk = Talk::new(project, globals);
     for text in texts {
-        let input = Input { text, name: Some("<-e>"), first_line: 1, tell: Tell::Values, keep: true };
+        let input = Input { text, name: "<-e>", first_line: 1, tell: Tell::Values, keep: true };
         talk.enter(&input);
         if talk.wrong {
             break;
@@ -115,6 +115,7 @@ impl<'g> Talk<'g> {
     /// Until the person leaves.
     fn converse(&mut self) -> Result<Ending, CallError> {
         let mut lines = Lines::new(self.style.color)?;
+        let mut typed = 0;
         loop {
             let knowledge = self.session.knowledge();
             match idle(|| lines.read(knowledge))? {
@@ -122,9 +123,10 @@ impl<'g> Talk<'g> {
                 Typed::Nothing => {}
                 Typed::Entry(text) => {
                     self.style.width = report::style(self.globals, "").width;
-                    if self.act(&text, None, 1) == Next::Quit {
+                    if self.act(&text, typed + 1) == Next::Quit {
                         return Ok(Ending::Fine);
                     }
+                    typed += text.lines().count();
                 }
             }
         }
@@ -145,20 +147,21 @@ impl<'g> Talk<'g> {
                 entry.push_str(next);
                 lines.next();
             }
-            if self.act(&entry, Some("<stdin>"), number + 1) == Next::Quit || self.interrupted {
+            if self.act(&entry, number + 1) == Next::Quit || self.interrupted {
                 return;
             }
         }
     }
 
-    fn act(&mut self, text: &str, name: Option<&str>, first_line: usize) -> Next {
+    /// `first_line` counts what was typed or piped in so far: diagnostics name it.
+    fn act(&mut self, text: &str, first_line: usize) -> Next {
         match command::parse(text) {
             Some(Ok(command)) => return self.obey(command),
             Some(Err(why)) => self.complain(&why),
             None if text.trim().is_empty() => {}
             None => {
                 let text = text.trim_end();
-                self.enter(&Input { text, name, first_line, tell: Tell::All, keep: true });
+                self.enter(&Input { text, name: "<stdin>", first_line, tell: Tell::All, keep: true });
             }
         }
         Next::GoOn
@@ -186,7 +189,7 @@ impl<'g> Talk<'g> {
 
     /// Evaluates what a command makes of its expression, and keeps nothing of it.
     fn ask(&mut self, text: &str, tell: Tell) -> bool {
-        self.enter(&Input { text, name: Some("<command>"), first_line: 1, tell, keep: false })
+        self.enter(&Input { text, name: "<command>", first_line: 1, tell, keep: false })
     }
 
     fn load(&mut self, path: &str) {
@@ -240,7 +243,13 @@ impl<'g> Talk<'g> {
             Command::View(text) => self.view(&text),
             Command::Time(text) => {
                 let begin = Instant::now();
-                self.enter(&Input { text: &text, name: None, first_line: 1, tell: Tell::All, keep: true });
+                self.enter(&Input {
+                    text: &text,
+                    name: "<command>",
+                    first_line: 1,
+                    tell: Tell::All,
+                    keep: true,
+                });
                 print(&format!("{:.1} ms\n", begin.elapsed().as_secs_f64() * 1e3));
             }
             Command::Vars => {

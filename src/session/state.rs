@@ -42,8 +42,8 @@ struct Before {
 #[derive(Clone, Debug)]
 pub struct Input<'t> {
     pub text: &'t str,
-    /// As diagnostics name it; `None`: by its number.
-    pub name: Option<&'t str>,
+    /// As diagnostics name it.
+    pub name: &'t str,
     /// The line of a longer input at which it begins; else 1.
     pub first_line: usize,
     pub tell: Tell,
@@ -136,9 +136,8 @@ impl Session {
     /// Checks and evaluates a text. What it declares anew takes the place of what had its name.
     pub fn enter(&mut self, input: &Input, host: &mut dyn Host) -> Reply {
         self.count += 1;
-        let name = input.name.map_or_else(|| format!("<entry {}>", self.count), str::to_owned);
         let entry = Entry {
-            name,
+            name: input.name.to_owned(),
             text: input.text.to_owned(),
             first_line: input.first_line,
             value: None,
@@ -302,7 +301,7 @@ impl Session {
             }
         };
         let known = self.checked.sources.files().count();
-        let input = Input { text: "", name: None, first_line: 1, tell: Tell::Nothing, keep: true };
+        let input = Input { text: "", name: "", first_line: 1, tell: Tell::Nothing, keep: true };
         let mut reply = self.take(entry, &input, host);
         if reply.ok {
             let names = self.names_since(known);

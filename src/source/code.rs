@@ -114,5 +114,6 @@ codes! {
     JOINT_OVERLAP = "W0005", "links that overlap within the range of their joint";
     OPEN_LOOP = "W0006", "a connection in a file whose docks do not meet";
     SHORT_OF_GOAL = "W0007", "a plan that ends short of its goal";
+    COMMENT_DIVIDES = "W0008", "a comment where a quotient may be meant";
     START_SETTLES = "N0001", "the robot settles at the start";
 }

@@ -5,6 +5,11 @@ pub fn instead(word: &str) -> Option<&'static str> {
     INSTEAD.iter().find(|(words, _)| words.contains(&word)).map(|(_, instead)| *instead)
 }
 
+/// The type that is meant by its name in another language.
+pub fn of_type(name: &str) -> Option<&'static str> {
+    TYPES.iter().find(|(names, _)| names.contains(&name)).map(|(_, ty)| *ty)
+}
+
 /// The unit that is meant by a longer name.
 pub fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
@@ -51,6 +56,8 @@ const INSTEAD: &[(&[&str], &str)] = &[
     (&["zip", "map", "filter"], "a list is made by `[e for x in list if c]`"),
     (&["str", "repr", "format", "to_string"], "a text takes a value in: `\"{value}\"`"),
     (&["int", "float"], "`floor(x)`, `ceil(x)` and `round(x)` give whole numbers; every `Int` is a `Number`"),
+    (&["is"], "`==` compares, `!=` tells what differs"),
+    (&["math", "np", "numpy"], "`sqrt`, `sin`, `atan2` and the rest are there without an import"),
     (&["radians", "degrees"], "units stick to numbers: `90deg`, `1.5rad`"),
     (&["pi", "PI"], "a half turn is `180deg`, or `0.5turn`"),
     (&["pow"], "write `x^2`"),
@@ -60,6 +67,15 @@ const INSTEAD: &[(&[&str], &str)] = &[
         &["input", "open", "eval", "exec"],
         "a program reads nothing but what it names with `use`, `load` and `mesh`",
     ),
+];
+
+const TYPES: &[(&[&str], &str)] = &[
+    (&["int", "integer", "i32", "i64", "u32", "usize"], "`Int`"),
+    (&["float", "double", "f32", "f64", "real"], "`Number`, or a quantity such as `Length` or `Angle`"),
+    (&["str", "string", "String"], "`Text`"),
+    (&["bool", "boolean", "Boolean"], "`Bool`"),
+    (&["list", "array", "Array", "Vec"], "`List<Length>`, or of another type"),
+    (&["dict", "tuple", "object", "Dict", "Tuple"], "`List<Length>`, or a parameter for each value"),
 ];
 
 const UNITS: &[(&[&str], &str)] = &[

@@ -23,3 +23,17 @@ pub const FILES: &[(&str, &str)] = embed![
 pub fn text(name: &str) -> Option<&'static str> {
     FILES.iter().find(|(file, _)| *file == name).map(|(_, text)| *text)
 }
+
+/// The library file that declares a public name, without its ending: `smores` for `Smores`.
+pub fn declares(name: &str) -> Option<&'static str> {
+    let keywords =
+        ["module", "config", "connector", "cell", "strut", "lattice", "truss", "fn", "let", "extern fn"];
+    let begins = |line: &str| {
+        let named = keywords.iter().find_map(|word| line.strip_prefix(word)?.strip_prefix(' '));
+        let rest = named.and_then(|named| named.strip_prefix(name));
+        rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    let files = FILES.iter().filter(|(file, _)| *file != "prelude.mod" && !name.starts_with('_'));
+    let found = files.clone().find(|(_, text)| text.lines().any(begins));
+    found.and_then(|(file, _)| file.strip_suffix(".mod"))
+}

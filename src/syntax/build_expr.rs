@@ -110,7 +110,7 @@ impl Builder<'_> {
             }
             nodes.next();
             let op_span = self.span(&node);
-            self.check_infix(op, node.as_str(), op_span, previous, &left.expr);
+            let chained = self.check_infix(op, node.as_str(), op_span, previous, &left.expr);
             // `^` alone groups to the right.
             let right_min = if strength == power::POWER { strength } else { strength + 1 };
             let right = self.right_operand(nodes, right_min, op_span);
@@ -119,6 +119,10 @@ impl Builder<'_> {
                 self.check_path(&right.expr);
             }
             left = self.joined(op, op_span, left, right);
+            if chained {
+                // That its operands do not fit is no second mistake.
+                left.expr.kind = ExprKind::Error;
+            }
             previous = Some((strength, op_span));
         }
         left
@@ -146,13 +150,22 @@ impl Builder<'_> {
     }
 
     /// Mistakes that the grammar lets pass, so that they can be told in words.
-    fn check_infix(&mut self, op: Infix, text: &str, span: Span, previous: Option<(u8, Span)>, left: &Expr) {
+    /// Gives whether two of a kind stand in a row that can't.
+    fn check_infix(
+        &mut self,
+        op: Infix,
+        text: &str,
+        span: Span,
+        previous: Option<(u8, Span)>,
+        left: &Expr,
+    ) -> bool {
         match text {
             "&&" => drop(self.error(code::SYNTAX, "modl writes `and` for `&&`", span)),
             "||" => drop(self.error(code::SYNTAX, "modl writes `or` for `||`", span)),
             _ => {}
         }
         let strength = infix(text).1;
+        let mut chained = false;
         if let Some((before, before_span)) = previous
             && before == strength
             && matches!(strength, power::COMPARISON | power::RANGE | power::MATED)
@@ -167,12 +180,14 @@ impl Builder<'_> {
                 _ => ("`<->` joins two ports", "join two conditions with `and`".to_string()),
             };
             self.error(code::SYNTAX, message, span).hints.push(hint);
+            chained = true;
         }
         if op == Infix::Otherwise && matches!(left.kind, ExprKind::If { otherwise: None, .. }) {
             self.error(code::SYNTAX, "a branch of `if` stands in `{ }`", span)
                 .hints
                 .push("write `if c { a } else { b }`".into());
         }
+        chained
     }
 
     fn check_path(&mut self, expr: &Expr) {

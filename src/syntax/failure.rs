@@ -128,6 +128,7 @@ impl Mistake<'_> {
             .or_else(|| self.connection())
             .or_else(|| self.reserved_name())
             .or_else(|| self.foreign_mark())
+            .or_else(|| self.turned_condition())
             .or_else(|| self.wrong_mark())
             .or_else(|| self.brace_literal())
             .or_else(|| self.line_start())
@@ -227,6 +228,14 @@ impl Mistake<'_> {
         if let Some(instead) = foreign::instead(first) {
             return Some(diagnostic.hint(instead));
         }
+        if may_be_expression && matches!(first, "print" | "emit" | "show" | "save") {
+            return Some(diagnostic.hint(format!("what it takes stands in brackets: `{first}(...)`")));
+        }
+        if self.place == Place::Config && self.token_text(1) == "=" {
+            return Some(diagnostic.hint(format!(
+                "a part is declared by `part {first}: Type`, any other value by `let {first} = ...`"
+            )));
+        }
         let meant = suggest(first, self.place.keywords().iter().copied());
         Some(match meant {
             Some(meant) if elsewhere(first).is_none() => diagnostic.hint(format!("`{meant}`?")),
@@ -241,6 +250,10 @@ impl Mistake<'_> {
         let is_word = self.kind_of(self.found) == Some(TokenKind::Word);
         if !is_word || !self.wants_operator() || self.in_text || words::is_reserved(found) {
             return None;
+        }
+        if let Some(instead) = foreign::instead(found).or_else(|| foreign::instead(self.before())) {
+            let diagnostic = self.error(format!("`{found}` cannot stand here"));
+            return diagnostic.map(|diagnostic| diagnostic.hint(instead));
         }
         let meant = suggest(found, self.place.keywords().iter().copied())?;
         let message = format!("`{found}` does not begin {}", self.place.name());
@@ -309,7 +322,11 @@ impl Mistake<'_> {
     fn foreign_mark(&self) -> Option<Diagnostic> {
         let follows = self.found > 0 && self.span_of(self.found - 1).end == self.span_of(self.found).start;
         let hint = match (self.before(), self.found()) {
+            (_, ":") if self.wants("{") && self.token_text(0) == "for" => return self.loop_with_colon(),
             (_, ":") if self.wants("{") => "a body stands in braces: `{ ... }`",
+            (_, "in") if self.wants_operator() && self.token_text(0) != "for" => {
+                "whether a list holds something is `contains(list, item)`"
+            }
             ("+" | "-" | "*" | "/", "=") if follows => {
                 "a value never changes: `let name = ...` gives a new one"
             }
@@ -324,6 +341,34 @@ impl Mistake<'_> {
             _ => return None,
         };
         self.error(format!("`{}` cannot stand here", self.found())).map(|diagnostic| diagnostic.hint(hint))
+    }
+
+    /// `for i in range(3):`
+    fn loop_with_colon(&self) -> Option<Diagnostic> {
+        let words: Vec<&str> = (1..self.found).map(|i| self.token_text(i)).collect();
+        let each = match words.as_slice() {
+            [name, "in", "range", "(", end, ")"] => format!("{name} in 0..{end}"),
+            [name, "in", "range", "(", from, ",", to, ")"] => format!("{name} in {from}..{to}"),
+            _ => "i in 0..4".to_owned(),
+        };
+        self.error("`:` cannot stand here")
+            .map(|diagnostic| diagnostic.hint(format!("a body stands in braces: `for {each} {{ ... }}`")))
+    }
+
+    /// `a if c else b`
+    fn turned_condition(&self) -> Option<Diagnostic> {
+        let behind = (1..self.found).rev().find(|&i| self.token_text(i) == "if")?;
+        let value = matches!(
+            self.kind_of(behind - 1),
+            Some(TokenKind::Word | TokenKind::Number | TokenKind::Text { .. } | TokenKind::Close)
+        );
+        let branches = (behind..self.found).any(|i| self.token_text(i) == "else");
+        let named = words::is_reserved(self.token_text(behind - 1));
+        (value && branches && !named && self.wants("{")).then(|| {
+            Diagnostic::error(code::SYNTAX, "the value of a condition stands behind it, in `{ }`")
+                .label(self.span_of(behind), "")
+                .hint("write `if c { a } else { b }`")
+        })
     }
 
     /// One mark in the place of another.
@@ -451,6 +496,10 @@ impl Mistake<'_> {
             return diagnostic.hint(format!("a unit sticks to its number: `{}{unit}`", self.before()));
         }
         // Within an expression the form of the whole is no help.
+        if self.in_text && self.found() == "}" {
+            return diagnostic
+                .hint("a text takes values in: `\"{value}\"`; a brace of its own is written `\\{`");
+        }
         match words::form(self.token_text(0)).filter(|_| !self.wants_expression() && !self.wants_operator()) {
             Some(form) => diagnostic.hint(format!("it is written `{form}`")),
             None => diagnostic,

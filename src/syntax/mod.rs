@@ -16,6 +16,7 @@ mod failure;
 mod lex;
 mod outline;
 mod parse;
+mod quotient;
 mod recover;
 mod scan;
 mod split;

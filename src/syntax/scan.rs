@@ -9,6 +9,7 @@ use super::characters;
 use super::explain;
 use super::lex::{Lexer, Token, TokenKind};
 use super::parse::{DIAGNOSTICS_MAX, NESTING_MAX};
+use super::quotient;
 use super::words;
 use crate::source::{Diagnostic, FileId, Span};
 use std::borrow::Cow;
@@ -80,6 +81,8 @@ struct Scanner<'t> {
     stray: Option<usize>,
     /// All such characters of the line.
     strays: Vec<char>,
+    /// Where to go on behind what was meant as a comment.
+    skip_to: Option<usize>,
 }
 
 impl<'t> Scanner<'t> {
@@ -104,6 +107,7 @@ impl<'t> Scanner<'t> {
             previous: None,
             stray: None,
             strays: Vec::new(),
+            skip_to: None,
         }
     }
 
@@ -113,6 +117,9 @@ impl<'t> Scanner<'t> {
         let mut lexer = Lexer::new(self.source, start);
         while let Some(token) = lexer.next() {
             self.token(token, &lexer);
+            if let Some(end) = self.skip_to.take() {
+                lexer = Lexer::new(self.source, end);
+            }
         }
         self.close_all(self.source.len());
         if let Some(bytes) = self.masked {
@@ -190,6 +197,12 @@ impl<'t> Scanner<'t> {
         let end = token.start + text.trim_end_matches('\r').len();
         self.scan.comments.push(Comment { span: self.span(token.start, end), kind });
         self.hidden_characters(token);
+        let after = self.previous.filter(|_| kind == CommentKind::Line);
+        let quotient = after.and_then(|before| {
+            let mark = self.span(token.start, token.end);
+            quotient::meant(self.source, before, token, mark)
+        });
+        quotient.into_iter().for_each(|warning| self.report(warning));
         self.replace(token.start, token.end, ' ');
     }
 
@@ -352,6 +365,12 @@ impl<'t> Scanner<'t> {
         self.stray = Some(token.start);
         self.strays.push(c);
         self.replace(token.start, token.end, meant.replacement.unwrap_or(' '));
+        if c == '#' {
+            // What follows is words, not code.
+            let end = self.source[token.start..].find('\n').map_or(self.source.len(), |at| token.start + at);
+            self.replace(token.start, end, ' ');
+            self.skip_to = Some(end);
+        }
     }
 
     /// Puts `with` and spaces (or a word of `_`) in the place of some bytes.

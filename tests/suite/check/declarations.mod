@@ -35,7 +35,7 @@ module M {
 --- clauses and their units
 connector Face { mates Fase, turns 1.5, holds 3m, capture 4deg 5mm }
 //                     ^^^^ E0101 `Face`?
-//                                 ^^^ E0201 `turns` wants
+//                                 ^^^ E0202 `turns` wants
 //                                            ^^ E0201 `holds` wants a force
 //                                                        ^^^^ E0201 `capture` wants a length
 //                                                             ^^^ E0201

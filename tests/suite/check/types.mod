@@ -213,3 +213,40 @@ print(plan(wait(1s), wolrd: settle), nothing(off, 1mm + 1s))
 //                   ^^^^^ E0205 no parameter `wolrd`
 //                                   ^^^^^^^ E0101 no such name
 //                                                    ^ E0201 a length and a time
+
+--- a plain number beside a quantity
+let a = 30deg + 2
+//            ^ E0201 an angle | `2deg`
+//      ~~~~~ this is an angle
+
+--- a plain number where a quantity is wanted, with its sign
+use std.smores.Smores
+config C {
+  part m: Smores
+  behavior b = move(m.tilt, to: -50)
+//                              ^^^ E0201 `to` wants an angle (deg) | `-50deg`
+}
+
+--- a length where an angle is wanted
+fn g(a: Angle) = a * 2
+let y = g(2mm)
+//        ^^^ E0201 `a` wants an angle (deg); `2mm` is a length | `deg`
+
+--- a quotient where a whole number is wanted
+let l = [1, 2, 3]
+let half = l[4 / 2]
+//           ^^^^^ E0202 a whole number | `div(a, b)`
+
+--- types of other languages
+let x: float = 2.0
+//     ^^^^^ E0209 `float` | `Number`
+let z: str = "a"
+//     ^^^ E0209 `str` | `Text`
+
+--- a name of the library that is not imported
+let m = Smores
+//      ^^^^^^ E0101 `Smores` | `use std.smores.Smores`
+
+--- equal elements of a list
+let l = [0] * 3
+//          ^ E0207 `*` | `[0 for i in 0..3]`

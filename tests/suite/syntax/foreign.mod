@@ -26,3 +26,48 @@
 --- a text with a letter before it
     let t = f"x"
 //           ^^^ E0001 `"x"` cannot stand here | without `f`
+--- a loop with a colon is told as it is written here
+    for i in range(3):
+//                   ^ E0001 `:` cannot stand here | `for i in 0..3 { ... }`
+--- a call without brackets
+    print x
+//  ^^^^^ E0001 `print` does not begin an item of a file | `print(...)`
+--- a comment of a shell or of Python: what it says is no code
+    let x = 3 # (the "length
+//            ^ E0003 `#` | `//`
+    let y = 4
+--- a condition behind its value
+    let a = 1 if true else 0
+//            ^^ E0001 stands behind it | `if c { a } else { b }`
+--- whether a list holds something
+    if 3 in [1, 2] { }
+//       ^^ E0001 `in` cannot stand here | `contains(list, item)`
+--- identity
+    if 3 is 3 { }
+//       ^^ E0001 `is` cannot stand here | `==` compares
+--- braces of a format
+    print("{} of")
+//          ^ E0001 an expression is missing before `}` | {value}
+--- a chain of comparisons is one mistake
+    let b = 1 < 2 < 3
+//                ^ E0001 comparisons do not chain | `a < b and b < c`
+--- whole quotients of Python are comments here
+    let n = 7
+    let half = n // 2
+//               ^^^^ W0008 `//` begins a comment | `div(a, 2)`
+    let more = f(n) // 2 + n
+//                  ^^^^^^^^ W0008 `//` begins a comment | `div(a, 2)`
+--- a divisor whose bracket is swallowed
+    let k = (n // m)
+//             ^^^^^ W0008 `//` begins a comment | `div(a, m)`
+//          ^ E0004 this `(` is never closed
+--- ordinary comments stay what they are
+    let a = 3 // metres
+    let b = 7 // 7 modules
+    let c = 40mm // 40
+    let d = [
+      1, // 2
+      g(2), // 3
+    ]
+    let e = 3  // (about 2)
+    let f = 3  // 1.5 of its width
