@@ -7,7 +7,8 @@
 //! the processor; `--replay=K` replays every K-th plan in steps of a degree. `--seed=N` and `--budget=N`
 //! are the planner's. `--out=FILE` keeps what was found, and goes on where it was ended; `--peer=FILE`
 //! prints another planner's times beside, from a table with `instance`, `success` and `cpu_s`.
-//! `--memory` tells the most memory that was taken.
+//! `--memory` tells the most memory that was taken. `--modules=50,100` instead: tangles of so many modules,
+//! of `--actions=1000` actions, one for each; the seed is `--seed` there, too.
 
 #[path = "../tests/replay.rs"]
 mod replay;
@@ -79,6 +80,11 @@ fn main() {
     let mut files = Vec::new();
     args.iter().filter(|a| !a.starts_with("--")).for_each(|a| collect(Path::new(a), &mut files));
     let mut instances: Vec<Instance> = files.iter().filter_map(|path| instance(path)).collect();
+    if let Some(sizes) = word("--modules=") {
+        let actions = number("--actions=", 1_000) as usize;
+        let sizes = sizes.split(',').map(|size| size.parse().expect("numbers of modules"));
+        instances.extend(sizes.map(|modules| tangle(modules, actions, asked.seed as usize)));
+    }
     if instances.is_empty() {
         instances = tangles(number("--tangles=", 20) as usize);
     }
@@ -126,11 +132,14 @@ fn tangles(count: usize) -> Vec<Instance> {
     let one = |index: usize| {
         let [low, high] = TANGLED[index / each];
         let modules = low + index % each * (high - low) / each;
-        let actions = [1_000, 6_000][index % 2];
-        let expression = format!("tangle({modules}, {actions}, seed: {index})");
-        Instance { name: format!("{modules}-{actions}-{index}"), modules, expression, text: String::new() }
+        tangle(modules, [1_000, 6_000][index % 2], index)
     };
     (0..each * TANGLED.len()).map(one).collect()
+}
+
+fn tangle(modules: usize, actions: usize, seed: usize) -> Instance {
+    let expression = format!("tangle({modules}, {actions}, seed: {seed})");
+    Instance { name: format!("{modules}-{actions}-{seed}"), modules, expression, text: String::new() }
 }
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) {

@@ -8,7 +8,7 @@
 use modl::planners::random::Dice;
 use modl::planners::tosnake::closing::{self, Manner};
 use modl::planners::tosnake::fabrik::{self, Chain, TOUCHING};
-use modl::planners::tosnake::merging::{self, Attempt, Pair};
+use modl::planners::tosnake::merging::{self, Attempt, Pair, Side};
 use modl::planners::tosnake::state::State;
 use modl::planners::tosnake::{near, opening, tangle};
 use std::time::Instant;
@@ -86,7 +86,7 @@ fn opened(modules: usize, seed: u64) -> State {
 
 fn least_squares(state: &State, pair: &Pair, times: &mut Times) {
     let closing = closing::Settings::default();
-    let attempt = Attempt { pair, manner: Manner::Leap, size: 0.02, closing: &closing };
+    let attempt = Attempt { pair, manner: Manner::Leap, size: 0.02, side: Side::Both, closing: &closing };
     let (scene, mut work) = (state.scene(), 0);
     let start = Instant::now();
     let closed = attempt.leap(&scene, &state.robot.joints, &mut Dice(1), &mut work).is_some();

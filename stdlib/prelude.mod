@@ -1277,7 +1277,7 @@ extern fn table(
 extern type World {
   /// Downwards; zero where gravity is off.
   gravity: Acceleration
-  /// `settle`, `fixed` or `off`.
+  /// `settle`, `fixed`, `held` or `off`.
   ground: Text
   /// A factor on the friction of every link.
   friction: Number
@@ -1286,7 +1286,9 @@ extern type World {
 /// Surroundings for `plan` and `verify`.
 ///
 /// On ground that is `settle`, the robot rests on what it touches, rolls, travels and tips. `fixed`
-/// holds the base where it is. `off` lets the robot float.
+/// keeps the base where it is, on the ground, which carries what stands on it. With `held` the base
+/// module's body is held fast where it is drawn, as if bolted down: that alone carries the robot, and
+/// there is nothing else around it. `off` lets the robot float.
 ///
 /// Example:
 /// ```modl
@@ -1294,7 +1296,7 @@ extern type World {
 /// print(verify(Chain3(), world: world(ground: off, gravity: off)).ok)
 /// ```
 extern fn world(
-  ground: settle | fixed | off = settle,
+  ground: settle | fixed | held | off = settle,
   gravity: off | Acceleration = 9.80665m/s^2,
   friction: Number = 1,
 ) -> World
@@ -1694,9 +1696,10 @@ extern type Unwinding is Plan {
 /// search that takes longer than `timeout` is refused, too. Both refusals say how far it got; another
 /// seed may get farther.
 ///
-/// Without gravity the robot floats. With it, the plan is made in the same way, and then judged with the
-/// base kept where it is: it is refused where a joint would have to hold more than it can, where the robot
-/// would not stand on what it touches, and where it would go into the ground.
+/// Without gravity the robot floats. With `gravity: on`, or with an acceleration, its base module is held
+/// fast where it is drawn, as if bolted down, and no joint ever has to hold more than its `max_torque`: ways
+/// that are too heavy are not taken. What can't be done so is refused, with the joint, the torque, its limit
+/// and what was to be done. Another `base` is held elsewhere.
 ///
 /// `collisions` other than `motion` choose the paper's own method, to compare with: FABRIK over two
 /// tentacles, and going back over pairs. Collisions are then looked for nowhere (`none`), in the states in
@@ -1711,7 +1714,7 @@ extern type Unwinding is Plan {
 /// ```
 extern fn tosnake(
   robot: Config,
-  gravity: off | Acceleration = off,
+  gravity: off | on | Acceleration = off,
   seed: Int = 0,
   budget: Int = 5_000_000,
   timeout: Time?,
@@ -1733,7 +1736,7 @@ extern fn tosnake(
 extern fn reconfigure(
   from: Config,
   to: Config,
-  gravity: off | Acceleration = off,
+  gravity: off | on | Acceleration = off,
   seed: Int = 0,
   budget: Int = 5_000_000,
   timeout: Time?,

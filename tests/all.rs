@@ -58,6 +58,7 @@ mod terminal;
 mod tidy;
 mod tosnake;
 mod tosnake_search;
+mod tosnake_weight;
 mod tour;
 mod transcripts;
 mod tree;

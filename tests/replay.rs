@@ -18,10 +18,10 @@ pub struct Replay<'a> {
     track_of: Vec<Option<usize>>,
 }
 
-type Matrix = [[f64; 4]; 4];
+pub type Matrix = [[f64; 4]; 4];
 
 /// How a shoe is found from one that is known.
-enum Hop {
+pub enum Hop {
     /// It is the other of its module.
     Module(usize),
     Mate(Matrix),
@@ -34,7 +34,7 @@ impl<'a> Replay<'a> {
     }
 
     /// Position of a joint, by de Casteljau's construction.
-    fn position(&self, joint: usize, t: f64) -> f64 {
+    pub fn position(&self, joint: usize, t: f64) -> f64 {
         let start = self.tracks.start.joints[joint];
         let Some(track) = self.track_of[joint] else { return start };
         let segments = &self.tracks.tracks[track].segments;
@@ -48,7 +48,7 @@ impl<'a> Replay<'a> {
         points[0]
     }
 
-    fn bonds(&self, t: f64, inclusive: bool) -> Vec<bool> {
+    pub fn bonds(&self, t: f64, inclusive: bool) -> Vec<bool> {
         let mut bonds = self.tracks.start.bonds.clone();
         for dock in self.tracks.docks.iter().filter(|d| d.time < t || (inclusive && d.time == t)) {
             bonds[dock.bond] = dock.kind == DockKind::Dock;
@@ -58,7 +58,7 @@ impl<'a> Replay<'a> {
 
     /// From the first shoe on, by which hop each other is found; an error where the modules do not hang
     /// together.
-    fn hops(&self, bonds: &[bool], t: f64) -> Result<Vec<(usize, usize, Hop)>, String> {
+    pub fn hops(&self, bonds: &[bool], t: f64) -> Result<Vec<(usize, usize, Hop)>, String> {
         let shoes = 2 * self.tracks.robot.modules.len();
         let mut beside: Vec<Vec<(usize, Matrix)>> = vec![Vec::new(); shoes];
         for (bond, _) in self.tracks.robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds) {
@@ -91,7 +91,7 @@ impl<'a> Replay<'a> {
     }
 
     /// Poses of both shoes of every module in units of the pitch, the first at the origin.
-    fn shoes(&self, t: f64, hops: &[(usize, usize, Hop)]) -> Vec<Matrix> {
+    pub fn shoes(&self, t: f64, hops: &[(usize, usize, Hop)]) -> Vec<Matrix> {
         let mut shoes = vec![[[0.0; 4]; 4]; 2 * self.tracks.robot.modules.len()];
         shoes[0] = shift(0.0);
         for (from, to, hop) in hops {

@@ -88,7 +88,7 @@ fn what_can_not_be_unwound_is_refused_with_the_reason() {
         ("tosnake(load(\"x.rofi\"))", code::NO_WAY, "in each other"),
         ("reconfigure(Snake(n: 3), Snake(n: 4))", code::NO_WAY, "3 modules can't become one of 4"),
         ("tosnake(Mixed)", code::NOT_COVERED, "another pitch"),
-        ("tosnake(Star, gravity: 50m/s^2)", code::NO_WAY, "under gravity"),
+        ("tosnake(Star, gravity: 200m/s^2)", code::NO_WAY, "too heavy: "),
     ] {
         let text = format!(
             "{SHAPES}\nuse std.smores.Smores\nconfig Mixed {{\n  part a: Rofi\n  part b: Rofi(pitch: 50mm)\n  \

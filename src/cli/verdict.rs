@@ -14,7 +14,8 @@ pub fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     for world in &plan.worlds {
         let ground = match world.world.ground {
             Ground::Settle => "settling on the ground",
-            Ground::Fixed => "with its base held",
+            Ground::Fixed => "with its base kept on the ground",
+            Ground::Held => "with its base held fast, and no ground",
             Ground::Off => "without a ground",
         };
         let (from, gravity) = (quantity(world.from, Dimension::TIME), number(world.world.gravity));

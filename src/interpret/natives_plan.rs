@@ -36,6 +36,7 @@ fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let ground = match call.word(0) {
         Some("fixed") => Ground::Fixed,
+        Some("held") => Ground::Held,
         Some("off") => Ground::Off,
         _ => Ground::Settle,
     };
@@ -48,7 +49,9 @@ fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
         return Err(call.refuse(2, "friction must not be negative"));
     }
     if ground == Ground::Settle && gravity == 0.0 {
-        return Err(call.refuse(1, "without gravity nothing rests on the ground: `ground: off` or `fixed`"));
+        return Err(
+            call.refuse(1, "without gravity nothing rests on the ground: `ground: off`, `held` or `fixed`")
+        );
     }
     Ok(Value::Record(Rc::new(Record::World(World { gravity, ground, friction }))))
 }

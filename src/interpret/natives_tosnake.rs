@@ -1,6 +1,7 @@
 //! `tosnake` and `reconfigure`: the planners of RoFI modules, as they are called.
 
 use super::call::Call;
+use super::design::Design;
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run};
 use super::planning::Planned;
@@ -13,10 +14,14 @@ use super::verdicts::failure_line;
 use crate::behavior::{self, Problem};
 use crate::interrupt;
 use crate::plan::{self, CauseId, Ground, World};
-use crate::planners::tosnake::assembly::{NoRofi, translated};
-use crate::planners::tosnake::{self, Collisions, Found, Progress, Refusal, Settings, Step, Unsound};
+use crate::planners::tosnake::assembly::{JOINTS, NoRofi, port_name, translated};
+use crate::planners::tosnake::scales::weighed;
+use crate::planners::tosnake::sweep::LOAD_SPARE;
+use crate::planners::tosnake::{
+    self, Collisions, Dock, Doing, Found, Heavy, Progress, Refusal, Settings, Step, Unsound, Weight,
+};
 use crate::source::{Diagnostic, Span, code};
-use crate::units::Dimension;
+use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
 pub const TABLE: &[Native] = &[on_run("tosnake", 6, unwind), on_run("reconfigure", 7, reconfigure)];
@@ -49,6 +54,7 @@ pub fn unwinding_field(unwound: &Unwound, field: &str) -> Value {
 }
 
 /// The options that both calls have, by where they begin.
+#[derive(Clone, Copy)]
 struct Options {
     world: World,
     seed: u64,
@@ -63,12 +69,12 @@ impl Options {
         let world = match call.word(first) {
             Some("off") => World::FREE,
             _ => {
-                let gravity = call.number(first)?;
+                let stated = if call.word(first) == Some("on") { None } else { Some(call.number(first)?) };
+                let gravity = stated.unwrap_or(World::default().gravity);
                 if gravity < 0.0 {
                     return Err(call.refuse(first, "gravity acts downwards, so it can't be negative"));
                 }
-                // The base is held: nothing is known of a ground.
-                World { gravity, ground: Ground::Fixed, ..World::default() }
+                World { gravity, ground: Ground::Held, ..World::default() }
             }
         };
         let timeout = call.positive_if(first + 3, "a timeout")?;
@@ -80,16 +86,19 @@ impl Options {
             Some("avoidance") => Collisions::Avoidance,
             _ => Collisions::Motion,
         };
+        if world.gravity > 0.0 && collisions != Collisions::Motion {
+            let why = "the paper's own method knows no weight: leave out `gravity` or `collisions`";
+            return Err(call.refuse(first, why));
+        }
         Ok(Options { world, seed, budget, timeout, collisions })
     }
 }
 
 fn unwind(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let options = Options::of(call, 1)?;
-    match unwound(interpreter, call, 0, &options)? {
-        Some(planned) => judged(interpreter, call, planned, &options),
-        None => Ok(Value::Unknown),
-    }
+    let Some(wild) = Wild::of(interpreter, call, 0, &options)? else { return Ok(Value::Unknown) };
+    let unwinding = wild.unwound(interpreter, call, &options)?;
+    judged(interpreter, call, unwinding.planned, &options)
 }
 
 fn reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
@@ -104,15 +113,27 @@ fn reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             .hint("modules are neither added nor taken away")
             .into());
     }
-    let Some(there) = unwound(interpreter, call, 0, &options)? else { return Ok(Value::Unknown) };
-    let Some(back) = unwound(interpreter, call, 1, &options)? else { return Ok(Value::Unknown) };
-    let second = plan::reversed(&back.plan);
-    let mut plan = plan::joined(&there.plan, &second).map_err(|unfit| {
+    let Some(first) = Wild::of(interpreter, call, 0, &options)? else { return Ok(Value::Unknown) };
+    let Some(second) = Wild::of(interpreter, call, 1, &options)? else { return Ok(Value::Unknown) };
+    let there = first.unwound(interpreter, call, &options)?;
+    if let Some(weight) = &first.weight {
+        return reconfigure_held(interpreter, call, (&there, weight), second, &options);
+    }
+    let back = second.unwound(interpreter, call, &options)?;
+    let planned = there_and_back(call, &there, &back)?;
+    judged(interpreter, call, planned, &options)
+}
+
+/// The one plan, and then the other backwards.
+fn there_and_back(call: &Call, there: &Unwinding, back: &Unwinding) -> Eval<Planned> {
+    let second = plan::reversed(&back.planned.plan);
+    let mut plan = plan::joined(&there.planned.plan, &second).map_err(|unfit| {
         let message = format!("both unwind to a snake, but not to the same one: {unfit}");
         fault(code::NOT_COVERED, call.span, message, "some modules lie in it the other way round")
     })?;
     plan.provenance.planner = "reconfigure".into();
-    let both = [&there, &back].map(|planned| planned.unwound.unwrap_or_default());
+    let (there, back) = (&there.planned, &back.planned);
+    let both = [there, back].map(|planned| planned.unwound.unwrap_or_default());
     let unwound = Unwound {
         docks: both[0].docks + both[1].undocks,
         undocks: both[0].undocks + both[1].docks,
@@ -122,8 +143,60 @@ fn reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let causes = there.causes.iter().chain(&back.causes).copied().collect();
     let actions = there.actions + back.actions;
-    let planned = Planned::new(there.robot, there.body, plan, causes, actions).with_unwound(unwound);
-    judged(interpreter, call, planned, &options)
+    Ok(Planned::new(there.robot.clone(), there.body.clone(), plan, causes, actions).with_unwound(unwound))
+}
+
+/// Both halves under weight: one module is held all the time, so the second robot has to be held by a
+/// shoe that comes to the same place of the snake. Which one does is only known when it is unwound.
+fn reconfigure_held(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    (there, weight): (&Unwinding, &Weight),
+    second: Wild,
+    options: &Options,
+) -> Eval<Value> {
+    let place = there.found.robot.beyond(weight.held);
+    let own = second.weight.clone().expect("both are weighed");
+    let (shoes, modules) = (own.shoes.len(), own.limits.len());
+    let (mut work, mut unwound, mut nearest) = (there.found.progress.work, 0, None);
+    // Held by each shoe, and with loops opened in each place: first far from where it is held.
+    for (held, root) in (0..modules).flat_map(|turn| (0..shoes).map(move |held| (held, held / 2 + turn))) {
+        let weight = Weight { held, root: root % modules, down: weight.down, ..own.clone() };
+        let wild = Wild { weight: Some(weight), ..second.clone() };
+        match wild.search(interpreter, options)? {
+            Err(Refusal::Stopped(progress)) => {
+                return Err(refused(call, second.index, &second.robot, &Refusal::Stopped(progress)));
+            }
+            Err(refusal) => nearest = Some(refusal),
+            Ok(found) => {
+                (work, unwound) = (work + found.progress.work, unwound + 1);
+                if found.robot.beyond(held) == place {
+                    let back = wild.assembled(interpreter, call, found, options)?;
+                    let planned = there_and_back(call, there, &back)?;
+                    let settings = interpreter.judge_settings();
+                    if interpreter.judge(&planned, settings, None).ok() {
+                        return judged(interpreter, call, planned, options);
+                    }
+                }
+            }
+        }
+        if work > options.budget {
+            break;
+        }
+    }
+    match nearest.filter(|_| unwound == 0) {
+        Some(refusal) => Err(refused(call, second.index, &second.robot, &refusal)),
+        None => {
+            let message = format!(
+                "no way under gravity: of {unwound} ways in which the second robot unwinds, none is held where the \
+                 first one's snake is"
+            );
+            Err(Diagnostic::error(code::NO_WAY, message)
+                .label(call.at(1), "one module is held all the time")
+                .hint("another `seed`, or another `base` of the first robot, may do")
+                .into())
+        }
+    }
 }
 
 /// The plan, if the judge lets it through; of the paper's method whatever he would say of it.
@@ -136,11 +209,12 @@ fn judged(interpreter: &mut Interpreter, call: &Call, planned: Planned, options:
     if !verdict.ok() {
         let first = verdict.failures.iter().min_by(|a, b| a.time.total_cmp(&b.time));
         let why = first.map_or_else(|| "it was not judged to its end".to_string(), failure_line);
-        if planned.plan.worlds.iter().any(|world| world.world.gravity > 0.0) {
+        if options.world.gravity > 0.0 {
+            // The planner weighs links at the middles of the balls; other modules may differ.
             let message = format!("no plan was found that holds under gravity: {why}");
             return Err(Diagnostic::error(code::NO_WAY, message)
-                .label(call.span, "planned without regard to weight, and then judged under it")
-                .hint("`gravity: off` is the world that this planner knows")
+                .label(call.span, "what was found does not pass the judge")
+                .hint("the search takes links for masses in the middle of the balls, as the library's are")
                 .into());
         }
         return Err(defect(call, &format!("its plan does not pass the judge: {why}")));
@@ -148,26 +222,54 @@ fn judged(interpreter: &mut Interpreter, call: &Call, planned: Planned, options:
     Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))))
 }
 
-/// The way of a robot to the snake, not yet judged; `None` where the robot is not sound.
-fn unwound(
-    interpreter: &mut Interpreter,
-    call: &Call,
+/// A robot that is to be unwound, as the planner sees it.
+#[derive(Clone)]
+struct Wild {
+    /// Its place among the arguments.
     index: usize,
-    options: &Options,
-) -> Eval<Option<Planned>> {
-    let design = call.instance(index)?.design.clone();
-    let Some(robot) = interpreter.robot_at(&design, call.at(index))? else { return Ok(None) };
-    let translated =
-        translated(&robot.assembly, &robot.start).map_err(|no| not_rofi(call, index, &robot, &no))?;
-    let Options { seed, budget, collisions, .. } = *options;
-    let sought = Sought { robot: translated.robot.clone(), seed, budget, collisions };
-    let known = interpreter.unwindings.get(&sought);
-    let found = if let Some(found) = known {
-        found
-    } else {
+    design: Rc<Design>,
+    robot: Rc<Robot>,
+    start: tosnake::Robot,
+    /// Under gravity.
+    weight: Option<Weight>,
+}
+
+/// A way to the snake, not yet judged.
+struct Unwinding {
+    planned: Planned,
+    found: Rc<Found>,
+}
+
+impl Wild {
+    /// `None` where the robot is not sound.
+    fn of(interpreter: &mut Interpreter, call: &Call, index: usize, options: &Options) -> Eval<Option<Wild>> {
+        let design = call.instance(index)?.design.clone();
+        let Some(robot) = interpreter.robot_at(&design, call.at(index))? else { return Ok(None) };
+        let no_rofi = |no: NoRofi| not_rofi(call, index, &robot, &no);
+        let start = translated(&robot.assembly, &robot.start).map_err(no_rofi)?.robot;
+        let gravity = options.world.gravity;
+        let weighed = || weighed(&robot.assembly, &robot.start.base, gravity).map_err(no_rofi);
+        let weight = if gravity > 0.0 { Some(weighed()?) } else { None };
+        Ok(Some(Wild { index, design, robot, start, weight }))
+    }
+
+    fn unwound(&self, interpreter: &mut Interpreter, call: &Call, options: &Options) -> Eval<Unwinding> {
+        let no_way = |refusal| refused(call, self.index, &self.robot, &refusal);
+        let found = self.search(interpreter, options)?.map_err(no_way)?;
+        self.assembled(interpreter, call, found, options)
+    }
+
+    /// Looks for a way, unless one was found before.
+    fn search(&self, interpreter: &mut Interpreter, options: &Options) -> Eval<Result<Rc<Found>, Refusal>> {
+        let Options { seed, budget, collisions, .. } = *options;
+        let (robot, weight) = (self.start.clone(), self.weight.clone());
+        let sought = Sought { robot, seed, budget, collisions, weight };
+        if let Some(found) = interpreter.unwindings.get(&sought) {
+            return Ok(Ok(found));
+        }
         let stage = &interpreter.stage;
         let begun = stage.elapsed();
-        interrupt::begin(format!("unwinding {}", design.name));
+        interrupt::begin(format!("unwinding {}", self.design.name));
         let mut told = None;
         let mut watch = |progress: &Progress| {
             let Progress { needed, made, tried, .. } = progress;
@@ -180,39 +282,53 @@ fn unwound(
             !stage.cancelled() && options.timeout.is_none_or(|most| stage.elapsed() - begun <= most)
         };
         let settings = Settings { seed, budget, collisions, ..Settings::default() };
-        let found = tosnake::unwind(&translated.robot, &settings, &mut watch);
+        let found = tosnake::unwind_under(&self.start, self.weight.as_ref(), &settings, &mut watch);
         if matches!(found, Err(Refusal::Stopped(_))) && stage.cancelled() {
             return Err(Stop::Halt);
         }
-        let found = Rc::new(found.map_err(|refusal| refused(call, index, &robot, &refusal))?);
-        interpreter.unwindings.keep(sought, found.clone());
-        found
-    };
-    let program = translated.program(&found.steps, &found.robot.bonds, CauseId(0));
-    let causes = interpreter.planner_causes(call.span);
-    let problem = Problem {
-        robot: robot.assembly.as_ref().clone(),
-        start: robot.start.clone(),
-        program,
-        start_causes: Vec::new(),
-        bond_causes: (0..robot.assembly.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),
-        settings: behavior::Settings::default(),
-    };
-    let scheduled = behavior::schedule(problem)
-        .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, call.span))?;
-    let told = told(&translated.robot, &found);
-    let (mut planned, _) =
-        interpreter.assemble_plan(design, robot.clone(), scheduled, &causes, options.world);
-    planned.plan.provenance.planner = match options.collisions {
-        Collisions::Motion => "tosnake",
-        Collisions::None => "tosnake, collisions: none",
-        Collisions::Detection => "tosnake, collisions: detection",
-        Collisions::Avoidance => "tosnake, collisions: avoidance",
+        Ok(found.map(|found| {
+            let found = Rc::new(found);
+            interpreter.unwindings.keep(sought, found.clone());
+            found
+        }))
     }
-    .into();
-    planned.plan.provenance.seed = Some(options.seed);
-    planned.plan.provenance.budget = Some(options.budget);
-    Ok(Some(planned.with_unwound(told)))
+
+    /// The way as a plan.
+    fn assembled(
+        &self,
+        interpreter: &mut Interpreter,
+        call: &Call,
+        found: Rc<Found>,
+        options: &Options,
+    ) -> Eval<Unwinding> {
+        let robot = &self.robot;
+        let translated = translated(&robot.assembly, &robot.start).expect("it was translated before");
+        let program = translated.program(&found.steps, &found.robot.bonds, CauseId(0));
+        let causes = interpreter.planner_causes(call.span);
+        let problem = Problem {
+            robot: robot.assembly.as_ref().clone(),
+            start: robot.start.clone(),
+            program,
+            start_causes: Vec::new(),
+            bond_causes: (0..robot.assembly.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),
+            settings: behavior::Settings::default(),
+        };
+        let scheduled = behavior::schedule(problem)
+            .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, call.span))?;
+        let told = told(&self.start, &found);
+        let (mut planned, _) =
+            interpreter.assemble_plan(self.design.clone(), robot.clone(), scheduled, &causes, options.world);
+        planned.plan.provenance.planner = match options.collisions {
+            Collisions::Motion => "tosnake",
+            Collisions::None => "tosnake, collisions: none",
+            Collisions::Detection => "tosnake, collisions: detection",
+            Collisions::Avoidance => "tosnake, collisions: avoidance",
+        }
+        .into();
+        planned.plan.provenance.seed = Some(options.seed);
+        planned.plan.provenance.budget = Some(options.budget);
+        Ok(Unwinding { planned: planned.with_unwound(told), found })
+    }
 }
 
 fn told(start: &tosnake::Robot, found: &Found) -> Unwound {
@@ -278,11 +394,51 @@ fn refused(call: &Call, index: usize, robot: &Robot, refusal: &Refusal) -> Stop 
             let hint = "the default, `collisions: motion`, does not give up so";
             fell_short(at, "no order of pairs of tentacles leads to the snake", progress, hint)
         }
+        Refusal::Heavy(heavy) => too_heavy(at, robot, heavy),
         Refusal::NoTips(progress) => {
             let hint = "a tip is a free dock -Z; connections that take one can be left out";
             fell_short(at, "no two tentacles have a free tip", progress, hint)
         }
     }
+}
+
+/// Which joint would have to hold what, when doing what.
+fn too_heavy(at: Span, robot: &Robot, heavy: &Heavy) -> Stop {
+    let Heavy { load, doing, progress } = heavy;
+    let assembly = &robot.assembly;
+    let kind = assembly.module_type(load.module);
+    let joint = kind.joints.iter().find(|joint| joint.name == JOINTS[load.joint]);
+    let limit = joint.and_then(|joint| joint.limits.effort).unwrap_or(f64::INFINITY);
+    let words = |torque: f64| quantity(torque, Dimension::TORQUE);
+    let dock =
+        |dock: &Dock| format!("{}.{}", assembly.modules[dock.module].name, port_name(dock.module, dock.dock));
+    let (name, short) = (&assembly.modules[load.module].name, JOINTS[load.joint]);
+    let when = match doing {
+        Doing::Standing => "before anything moves".to_string(),
+        Doing::Opening => "once its loops are opened".to_string(),
+        Doing::Joining(a, b) => format!("when {} and {} are brought together", dock(a), dock(b)),
+        Doing::Straightening => "when the snake is straightened".to_string(),
+        Doing::Ending => "in the straight snake".to_string(),
+    };
+    let (would, limit) = (words(load.ratio * limit), words(limit));
+    let spare = match load.ratio > 1.0 {
+        true => String::new(),
+        false => format!(", of which the search leaves {}%", 100.0 * LOAD_SPARE),
+    };
+    let message =
+        format!("too heavy: {when} {name}.{short} would have to hold {would}; it holds {limit}{spare}");
+    let Progress { needed, made, tried, .. } = progress;
+    let held = &assembly.modules[assembly.base].name;
+    let label = match doing {
+        Doing::Standing | Doing::Opening => format!("held by {held}"),
+        _ => format!(
+            "held by {held}; {made} of {needed} connections were made, {tried} pairs of ends tried, and nothing was less heavy"
+        ),
+    };
+    Diagnostic::error(code::NO_WAY, message)
+        .label(at, label)
+        .hint("another `base` is held elsewhere, another `seed` may find a lighter way; `gravity: off` is weightless")
+        .into()
 }
 
 /// How far a search came that did not come to its end.

@@ -302,6 +302,7 @@ fn world_field(world: &World, field: &str) -> Value {
         "ground" => Value::text(match world.ground {
             Ground::Settle => "settle",
             Ground::Fixed => "fixed",
+            Ground::Held => "held",
             Ground::Off => "off",
         }),
         "friction" => Value::number(world.friction),

@@ -1,6 +1,6 @@
 //! Ways to the snake that were found: for a library of n shapes n of them make all n² reconfigurations.
 
-use crate::planners::tosnake::{Collisions, Found, Robot};
+use crate::planners::tosnake::{Collisions, Found, Robot, Weight};
 use std::rc::Rc;
 
 /// Ways that are kept.
@@ -13,6 +13,7 @@ pub struct Sought {
     pub seed: u64,
     pub budget: u64,
     pub collisions: Collisions,
+    pub weight: Option<Weight>,
 }
 
 /// The last ways; copies share them.

@@ -1,7 +1,7 @@
 //! Whether a plan can be judged at all: what [`validate`] asks, and that all numbers mean something.
 
 use super::validate::validate;
-use super::{Body, NodePaths, Plan, Tracks, Way, finite};
+use super::{Body, Ground, NodePaths, Plan, Tracks, Way, finite};
 use crate::geometry::{Placed, soundness};
 use crate::robot::{Assembly, JointKind, JointOwner, Library, Link, ModuleType};
 
@@ -67,7 +67,11 @@ fn options(plan: &Plan) -> Result<(), String> {
     need(settings.sample > 0.0, || format!("a sample every {} s is none", settings.sample))?;
     need(settings.unstable_for >= 0.0, || "`unstable_for` is negative".to_owned())?;
     need(settings.samples_max >= 1, || "no samples are allowed".to_owned())?;
+    let has_base = matches!(plan.body, Body::Tracks(_));
     plan.worlds.iter().try_for_each(|w| {
+        need(has_base || w.world.ground != Ground::Held, || {
+            "only a robot of modules has a base to hold".to_owned()
+        })?;
         need(w.world.gravity >= 0.0, || "gravity points upwards".to_owned())?;
         need(w.world.friction >= 0.0, || "friction is negative".to_owned())
     })

@@ -11,6 +11,9 @@ pub enum Ground {
     Settle,
     /// The base keeps its pose.
     Fixed,
+    /// The base module's body is held fast, as if bolted down: whatever holds it takes any force and
+    /// moment, and nothing else touches the robot.
+    Held,
     /// The robot floats.
     Off,
 }
@@ -28,6 +31,11 @@ pub struct World {
 impl World {
     /// Nothing pulls, and there is no ground.
     pub const FREE: World = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
+
+    /// Whether there is something under the robot.
+    pub fn has_floor(&self) -> bool {
+        matches!(self.ground, Ground::Settle | Ground::Fixed)
+    }
 }
 
 impl Default for World {

@@ -34,7 +34,7 @@ pub fn data(showing: &Showing) -> Value {
         notes.push(format!("of the contacts with the ground {CONTACTS_MAX} at most are marked"));
     }
     let clearance = clearance(plan, end, &mut notes);
-    let ground = plan.worlds.first().is_none_or(|world| world.world.ground != Ground::Off);
+    let ground = plan.worlds.first().is_none_or(|world| world.world.has_floor());
     json!({
         "title": showing.title,
         "summary": findings::summary(showing),
@@ -98,7 +98,8 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
         let world = from.world;
         let ground = match world.ground {
             Ground::Settle => "rests on the ground",
-            Ground::Fixed => "base held",
+            Ground::Fixed => "base kept on the ground",
+            Ground::Held => "base held fast",
             Ground::Off => "no ground",
         };
         let words = format!(

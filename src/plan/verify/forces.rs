@@ -73,6 +73,9 @@ pub struct Question<'a> {
     /// Weight, N; and the factor on friction.
     pub weight: f64,
     pub friction: f64,
+    /// Whether the base is bolted down: then nothing of the ground pushes, and what holds the base
+    /// balances the rest.
+    pub bolted: bool,
     pub tolerances: &'a Tolerances,
 }
 
@@ -114,6 +117,9 @@ impl Question<'_> {
     /// Touches that carry weight, reduced to the corners of each link's hull: other points of it push
     /// no differently than their mean.
     fn contacts(&self) -> Vec<Touch> {
+        if self.bolted {
+            return vec![];
+        }
         let near: Vec<&Touch> =
             self.stance.touches.iter().filter(|t| t.gap <= self.tolerances.gap_loaded).collect();
         let mut links: Vec<usize> = near.iter().map(|t| t.link).collect();
@@ -185,6 +191,10 @@ impl Question<'_> {
     /// The nearest sizes that balance, measured by the sizes themselves; `None` where one would have
     /// to pull.
     fn balanced(&self, columns: &[Column], sizes: &[f64]) -> Option<Vec<f64>> {
+        if self.bolted {
+            // Loops alone: what they transmit balances itself.
+            return Some(sizes.to_vec());
+        }
         let clipped: Vec<f64> =
             columns.iter().zip(sizes).map(|(c, s)| if c.free { *s } else { s.max(0.0) }).collect();
         let balances: Vec<_> = columns.iter().map(|c| self.balance(c)).collect();

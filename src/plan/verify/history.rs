@@ -7,7 +7,7 @@ use super::torque::Gauge;
 use super::walk::{Course, Sample, walk};
 use super::{Tolerances, contact};
 use crate::geometry::{Pose, Vec3};
-use crate::plan::{Body, Plan, sound};
+use crate::plan::{Body, Ground, Plan, sound};
 
 /// Moments of one history; of a longer walk every second, fourth, ... is kept.
 pub const MOMENTS_MAX: usize = 4096;
@@ -98,7 +98,7 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
 fn moment(sample: &Sample) -> Moment {
     let stance = sample.stance;
     let place = stance.place;
-    let grounded = sample.world.gravity > 0.0;
+    let grounded = sample.world.gravity > 0.0 && sample.world.ground != Ground::Held;
     let (s, c) = libm::sincos(place.yaw);
     let touching = stance.touches.iter().filter(|touch| contact::counts(sample.model, touch));
     let points: Vec<[f64; 2]> = touching

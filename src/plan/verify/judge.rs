@@ -3,7 +3,7 @@
 use super::ledger::Ledger;
 use super::thinned::Thinned;
 use super::walk::{Course, Ended, Waypoint, walk};
-use super::{Tolerances, blame, docking, limits, meeting, sample, stability, torque, travel};
+use super::{Tolerances, blame, bolted, docking, limits, meeting, sample, stability, torque, travel};
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 
@@ -65,6 +65,7 @@ fn on_the_way(course: &Course, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<W
         ledger.fail(limit_reached(course.settings.samples_max, time));
     }
     ledger.verdict.samples = waypoints.seen();
+    torque.between(&bolted::between(course), course);
     torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
     torque.finish(ledger);
     standing.finish(ledger);

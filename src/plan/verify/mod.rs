@@ -24,6 +24,7 @@ mod stance;
 mod sample;
 mod walk;
 
+mod bolted;
 mod forces;
 mod programme;
 mod stability;

@@ -56,6 +56,10 @@ impl Programme {
         let mut problem = Problem { costs: vec![0.0; last + 1], ..Problem::default() };
         problem.costs[last] = 1.0;
         problem.equal = balances(question, columns, &nodes, &node_of);
+        if question.bolted {
+            // What holds the root gives whatever it needs.
+            problem.equal.drain(..6);
+        }
         for row in &rows {
             let mut terms = vec![(last, -1.0)];
             for (link, g) in &row.terms {
@@ -91,7 +95,10 @@ impl Programme {
             let inherited = field[step.parent];
             field[step.link] += inherited;
         }
-        let y = Vector6::from_iterator((0..6).map(|i| solution.y[i] / total));
+        let y = match question.bolted {
+            true => Vector6::zeros(),
+            false => Vector6::from_iterator((0..6).map(|i| solution.y[i] / total)),
+        };
         // The last node's equations are those of the root, about the centre of mass.
         let mut least = f64::INFINITY;
         for column in columns {
@@ -103,7 +110,8 @@ impl Programme {
                 return f64::NEG_INFINITY;
             }
         }
-        constant - y[2] + least
+        // Where nothing pushes there is no sum of sizes to bound.
+        if question.bolted { constant } else { constant - y[2] + least }
     }
 }
 

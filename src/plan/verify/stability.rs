@@ -18,8 +18,9 @@ pub struct Watch<'a> {
     /// Whether every step so far was proved to be free of tips.
     proved: bool,
     standing: bool,
-    /// Whether any part of the plan has a ground.
+    /// Whether any part of the plan has a ground, and whether the base is bolted down in any.
     ground: bool,
+    bolted: bool,
 }
 
 /// A stretch of time without support.
@@ -38,12 +39,22 @@ pub struct Lack {
 
 impl<'a> Watch<'a> {
     pub fn new(settings: &'a Settings, tolerances: &'a Tolerances) -> Watch<'a> {
-        Watch { settings, tolerances, lack: None, samples: 0, proved: true, standing: false, ground: false }
+        Watch {
+            settings,
+            tolerances,
+            lack: None,
+            samples: 0,
+            proved: true,
+            standing: false,
+            ground: false,
+            bolted: false,
+        }
     }
 
     /// Judges a sample. Returns a lack of support that lasted longer than is allowed, where it ends.
     pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<Lack> {
-        if sample.world.ground == Ground::Off || sample.world.gravity == 0.0 {
+        self.bolted |= sample.world.ground == Ground::Held;
+        if matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0 {
             self.standing = false;
             return self.ended(sample.time);
         }
@@ -86,7 +97,8 @@ impl<'a> Watch<'a> {
     }
 
     pub fn finish(&self, ledger: &mut Ledger) {
-        let none = || Status::NotChecked("there is no ground".to_owned());
+        let why = if self.bolted { "what is held fast does not fall" } else { "there is no ground" };
+        let none = || Status::NotChecked(why.to_owned());
         let status = match (self.ground, self.proved) {
             (false, _) => none(),
             (true, true) => Status::Proved,

@@ -301,7 +301,8 @@ fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
     (least(a.holds_force, b.holds_force), least(a.holds_moment, b.holds_moment))
 }
 
-fn moves(step: &Step) -> bool {
+/// Whether a joint drives a step.
+pub fn moves(step: &Step) -> bool {
     step.motion != Motion::Fixed && !step.terms().is_empty()
 }
 

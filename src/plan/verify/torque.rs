@@ -5,10 +5,13 @@
 //! Only for others, and only where the first answer is no, the best contact forces are sought.
 
 use super::Tolerances;
+use super::bolted::Between;
+use super::contact::Touch;
 use super::forces::{Best, Question, Recipe};
 use super::ledger::{Ledger, lower};
+use super::model::Model;
 use super::statics::{LoadKind, Push, Section, Structure, effects};
-use super::walk::Sample;
+use super::walk::{Course, Sample, bonds_at};
 use crate::geometry::Vec3;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
 use crate::units::{Dimension, quantity};
@@ -32,6 +35,8 @@ pub struct Watch<'a> {
     undecided: usize,
     uneven: Option<Uneven>,
     energy: f64,
+    /// Whether loads were bounded between the samples, too.
+    proved: bool,
 }
 
 struct Compiled {
@@ -94,6 +99,7 @@ impl<'a> Watch<'a> {
             undecided: 0,
             uneven: None,
             energy: 0.0,
+            proved: false,
         }
     }
 
@@ -154,6 +160,7 @@ impl<'a> Watch<'a> {
                 loads: &judged,
                 weight: sample.model.mass * sample.world.gravity,
                 friction: sample.world.friction,
+                bolted: sample.world.ground == Ground::Held,
                 tolerances: self.tolerances,
             };
             let sure = settled_loads(structure, sample, &judged, true, self.tolerances);
@@ -255,6 +262,18 @@ impl<'a> Watch<'a> {
         }
     }
 
+    /// What is known of the time between the samples.
+    pub fn between(&mut self, between: &Between, course: &Course) {
+        self.proved = *between == Between::Proved;
+        if let (Between::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
+            let model = Model::new(&course.tracks.robot, &bonds_at(course.tracks, *time));
+            let load = &Structure::new(&model).loads[*load];
+            let (since, until) = (*time, *time);
+            let (name, value) = (load.name.clone(), ratio * load.limit);
+            self.failures.push(Overload { name, kind: load.kind, since, until, value, limit: load.limit });
+        }
+    }
+
     /// The overloads found, in order of time.
     pub fn overloaded(&self) -> &[Overload] {
         &self.failures
@@ -293,6 +312,7 @@ impl<'a> Watch<'a> {
                 "at {} of {samples} samples it was not decided whether contact forces exist that overload nothing",
                 self.undecided
             )),
+            (_, true) if self.proved => Status::Proved,
             (samples, true) => Status::Sampled(samples),
         };
         if self.compiled.as_ref().is_some_and(|c| c.structure.motors_open) {
@@ -402,12 +422,18 @@ fn weights(sample: &Sample) -> Vec<Push> {
     model.attached.iter().map(push).collect()
 }
 
+/// What the ground may push at.
+fn pushing<'s>(sample: &Sample<'s>) -> impl Iterator<Item = &'s Touch> {
+    let bolted = sample.world.ground == Ground::Held;
+    sample.stance.touches.iter().filter(move |_| !bolted)
+}
+
 /// Loads without friction, with the ground's pushes as they spread.
 fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerances: &Tolerances) -> Loads {
     let weight = sample.model.mass * sample.world.gravity;
     let mut pushes = weights(sample);
     let (mut x, mut y, mut size) = (0.0, 0.0, 1e-3_f64);
-    for touch in sample.stance.touches.iter().filter(|t| t.load > 0.0) {
+    for touch in pushing(sample).filter(|t| t.load > 0.0) {
         let f = Vec3::new(0.0, 0.0, touch.load * weight);
         pushes.push(Push { link: touch.link, p: touch.p, f, m: Vec3::zeros() });
         (x, y) = (x + touch.load * touch.p.x, y + touch.load * touch.p.y);
@@ -416,7 +442,11 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
     let held = structure.held(sample.model, sections, &pushes);
     let ratios = structure.loads.iter().map(|load| structure.size(load, &held) / load.limit).collect();
     let all: Vec<usize> = (0..structure.loads.len()).collect();
-    let balanced = libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held;
+    // What is bolted down is balanced by what holds it, whatever loops carry.
+    let balanced = match sample.world.ground {
+        Ground::Held => true,
+        _ => libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held,
+    };
     let judged = if balanced { all } else { settled_loads(structure, sample, &all, false, tolerances) };
     Loads { ratios, held, judged }
 }
@@ -431,7 +461,7 @@ fn settled_loads(
     tolerances: &Tolerances,
 ) -> Vec<usize> {
     let near: Vec<usize> =
-        sample.stance.touches.iter().filter(|t| t.gap <= tolerances.gap_loaded).map(|t| t.link).collect();
+        pushing(sample).filter(|t| t.gap <= tolerances.gap_loaded).map(|t| t.link).collect();
     let settled = |cut: usize| {
         let at = structure.cut_link(cut);
         let beyond = near.iter().filter(|&&link| structure.beyond(at, link)).count();

@@ -145,7 +145,7 @@ impl<'a> Walker<'a> {
         let stance = match from {
             Some(waypoint) => waypoint.stance.clone(),
             None => {
-                Stance::start(&model, posture, &tracks.start.base, Kept::Orientation, course.tolerances).0
+                Stance::start(&model, posture, &tracks.start.base, unsettled(&world), course.tolerances).0
             }
         };
         let held_since = from.and_then(|w| w.held_since);
@@ -155,7 +155,7 @@ impl<'a> Walker<'a> {
     /// The first sample.
     fn begin(&mut self, watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool) -> bool {
         let pose = self.course.tracks.start.base;
-        let kept = if self.on_ground() { Kept::Nothing } else { Kept::Orientation };
+        let kept = if self.on_ground() { Kept::Nothing } else { unsettled(&self.world) };
         let (settling, fall) = self.stand(&pose, kept);
         self.show(watch, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
     }
@@ -364,6 +364,11 @@ impl<'a> Walker<'a> {
             || Waypoint { time: self.now, stance: self.stance.clone(), held_since: self.held_since };
         watch(&sample, &waypoint)
     }
+}
+
+/// What is kept of the pose that a robot is drawn in, where it does not settle.
+fn unsettled(world: &World) -> Kept {
+    if world.ground == Ground::Held { Kept::Pose } else { Kept::Orientation }
 }
 
 #[derive(Clone, Copy)]

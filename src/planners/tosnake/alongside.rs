@@ -2,7 +2,7 @@
 //! and no bond with its own, in the same turn.
 
 use super::closing::{self, Manner};
-use super::merging::{Attempt, Pair};
+use super::merging::{Attempt, Pair, Side};
 use super::robot::Dock;
 use super::state::{Joints, State};
 use crate::planners::random::Dice;
@@ -44,7 +44,7 @@ impl Party {
                 continue;
             }
             *tried += 1;
-            let attempt = Attempt { pair, manner: Manner::Leap, size: SIZE, closing };
+            let attempt = Attempt { pair, manner: Manner::Leap, size: SIZE, side: Side::Both, closing };
             let next = attempt.leap(&scene, &self.joints, dice, work);
             match next.filter(|next| scene.is_free(here, next, work)) {
                 Some(next) => {

@@ -9,7 +9,7 @@ use crate::robot::{Assembly, JointId, Kinematics, PortRef, State};
 use std::sync::Arc;
 
 /// The names of alpha, beta and gamma.
-const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
+pub const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
 /// Pitches that differ by less than this part are the same.
 const TOL_PITCH: f64 = 1e-9;
@@ -110,7 +110,7 @@ fn dock_of(assembly: &Assembly, port: PortRef) -> Option<Dock> {
 }
 
 /// The name of a dock's port in the library's module.
-fn port_name(module: usize, dock: usize) -> &'static str {
+pub fn port_name(module: usize, dock: usize) -> &'static str {
     let sides = [rofi::Side::A, rofi::Side::B];
     let faces = [rofi::Face::PlusX, rofi::Face::MinusX, rofi::Face::MinusZ];
     rofi::Dock { module, side: sides[dock / faces.len()], face: faces[dock % faces.len()] }.port()

@@ -121,13 +121,16 @@ impl Closing<'_> {
         let mut way = vec![start.to_vec()];
         let mut joints = start.to_vec();
         let mut poses = Vec::new();
+        tree.poses(&joints, &mut poses);
+        let bends = |module| lp.joints.iter().any(|(joint, _)| joint.module == module);
+        let carried = tree.carried(|module| manner == Manner::Flow || bends(module));
         // Long loops have a long way to go.
         let long = 1.0 + lp.joints.len() as f64 / 3.0 * settings.long;
         let drifting = if drift.is_empty() { 0 } else { settings.drifting };
         let (mut best, mut since) = (f64::INFINITY, 0);
         for iteration in 0..(settings.iterations_max as f64 * long) as usize {
             crate::interrupt::checkpoint();
-            tree.poses(&joints, &mut poses);
+            tree.poses_of(&carried, &joints, &mut poses);
             *work += STEP_WORK;
             let error = lp.error(&poses);
             let size = error.norm();

@@ -4,6 +4,7 @@ use super::closing::{self, Loop, Manner};
 use super::robot::{Bond, Dock, FACES, GAMMA, RED};
 use super::state::{Joints, State};
 use super::sweep::Scene;
+use super::tree::Tree;
 use crate::planners::random::Dice;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -78,7 +79,16 @@ pub struct Attempt<'a> {
     pub manner: Manner,
     /// How far from where it is the loop sets out: 0 to 1.
     pub size: f64,
+    pub side: Side,
     pub closing: &'a closing::Settings,
+}
+
+/// Whose joints bend: those on the way from either dock, or from one to where their ways meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Both,
+    First,
+    Second,
 }
 
 impl Attempt<'_> {
@@ -91,7 +101,7 @@ impl Attempt<'_> {
             let there = self.leap(&scene, here, dice, work)?;
             return scene.is_free(here, &there, work).then(|| vec![there]);
         }
-        let lp = Loop::new(&state.tree, self.pair.a, self.pair.b);
+        let lp = self.bending(&state.tree);
         let mut drift = vec![0.0; 3 * here.len()];
         for (joint, _) in &lp.joints {
             drift[3 * joint.module + joint.joint] = DRIFT * self.size * dice.signed();
@@ -108,7 +118,7 @@ impl Attempt<'_> {
     /// Where the loop's joints bring the docks together, set out from near given positions; whatever is
     /// on the way there.
     pub fn leap(&self, scene: &Scene, from: &Joints, dice: &mut Dice, work: &mut u64) -> Option<Joints> {
-        let lp = Loop::new(scene.tree, self.pair.a, self.pair.b);
+        let lp = self.bending(scene.tree);
         let mut start = from.clone();
         for (joint, _) in &lp.joints {
             let q = &mut start[joint.module][joint.joint];
@@ -118,19 +128,47 @@ impl Attempt<'_> {
         self.closing(scene, &lp).close(&start, &[], work)?.pop()
     }
 
+    fn bending(&self, tree: &Tree) -> Loop {
+        let mut lp = Loop::new(tree, self.pair.a, self.pair.b);
+        match self.side {
+            Side::Both => {}
+            Side::First => lp.joints.retain(|(_, sign)| *sign < 0.0),
+            Side::Second => lp.joints.retain(|(_, sign)| *sign > 0.0),
+        }
+        lp
+    }
+
     fn closing<'a>(&'a self, scene: &'a Scene<'a>, lp: &'a Loop) -> closing::Closing<'a> {
         closing::Closing { scene, lp, manner: self.manner, settings: self.closing }
     }
 }
 
-/// The ends of pairs that were brought together dock, and for each of them another bond is let go.
+/// The ends of pairs that were brought together dock, and for each of them another bond is let go:
+/// the best one.
 pub fn make(state: &mut State, pairs: &[Pair]) {
-    let cuts: Vec<usize> = pairs.iter().map(|pair| cut(state, pair)).collect();
+    let cuts: Vec<usize> = pairs.iter().map(|pair| cuts(state, pair)[0]).collect();
     for (pair, cut) in pairs.iter().zip(cuts) {
         state.dock(Bond { a: pair.a, b: pair.b, turn: 0 });
         state.undock(cut);
     }
     state.regrow();
+}
+
+/// The ends of a pair dock, and the best of those bonds is let go without which the joints hold what
+/// hangs on them. `None` where that is true of none; then the state knows what was too much.
+pub fn made_within_limits(state: &State, pair: &Pair) -> Option<State> {
+    cuts(state, pair).into_iter().find_map(|cut| {
+        let mut after = state.clone();
+        after.dock(Bond { a: pair.a, b: pair.b, turn: 0 });
+        after.undock(cut);
+        after.regrow();
+        let load = after.load()?;
+        if load.ratio <= after.share {
+            return Some(after);
+        }
+        state.refuse(load);
+        None
+    })
 }
 
 /// How far a joint drifts in one step of a flow at most, rad.
@@ -156,8 +194,9 @@ fn connect(
     connect(scene, way, from, middle, work, stops) && connect(scene, way, middle, to, work, stops)
 }
 
-/// Which bond of the loop is let go: one that is none of a snake, and of these one that frees a red dock.
-fn cut(state: &State, pair: &Pair) -> usize {
+/// Which bonds of the loop may be let go: those that are none of a snake. What frees a red dock comes
+/// first; there is at least one.
+fn cuts(state: &State, pair: &Pair) -> Vec<usize> {
     let tree = &state.tree;
     let path = tree.path(tree.place[pair.a.shoe()], tree.place[pair.b.shoe()]);
     let bonds = path.places.windows(2).filter_map(|step| tree.bond(step[0].max(step[1])));
@@ -166,5 +205,9 @@ fn cut(state: &State, pair: &Pair) -> usize {
         let Bond { a, b, .. } = state.robot.bonds[*bond];
         [a, b].iter().filter(|dock| dock.dock % FACES == RED).count()
     };
-    bad.max_by_key(freed).expect("between two chains there is a bond that is none of a snake")
+    let mut bad: Vec<usize> = bad.collect();
+    assert!(!bad.is_empty(), "between two chains there is a bond that is none of a snake");
+    bad.sort_by_key(freed);
+    bad.reverse();
+    bad
 }

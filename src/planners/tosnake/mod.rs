@@ -42,14 +42,18 @@ mod paper;
 mod search;
 mod shortening;
 
+pub mod weight;
+
 pub mod assembly;
+pub mod scales;
 
 pub mod tangle;
 
 pub use robot::{Bond, Dock, Robot};
-pub use search::unwind;
+pub use search::{unwind, unwind_under};
 pub use sound::Unsound;
 pub use state::Step;
+pub use weight::{Load, Weight};
 
 use state::State;
 
@@ -151,4 +155,29 @@ pub enum Refusal {
     Exhausted(Progress),
     /// There are not two free ends of different chains.
     NoTips(Progress),
+    /// Joints would have to hold more than they can.
+    Heavy(Heavy),
+}
+
+/// What was too heavy; of all that was tried, and came as far, what was least so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heavy {
+    pub load: Load,
+    pub doing: Doing,
+    pub progress: Progress,
+}
+
+/// What a robot that is held was to do when a joint would have had to hold too much.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doing {
+    /// Nothing yet.
+    Standing,
+    /// Letting go the bonds that close loops.
+    Opening,
+    /// Bringing these docks together, and letting go what they stand in for.
+    Joining(Dock, Dock),
+    /// Straightening the snake.
+    Straightening,
+    /// Being the straight snake.
+    Ending,
 }

@@ -28,7 +28,7 @@ pub fn straighten(state: &mut State, dice: &mut Dice) -> usize {
         dice.shuffle(&mut joints);
         for joint in joints {
             let q = state.robot.joints[joint.module][joint.joint];
-            if free(state, joint, -q) {
+            if free(state, joint, -q) && bears(state, joint, 0.0) {
                 state.turn(joint.module, joint.joint, 0.0);
             }
         }
@@ -75,6 +75,19 @@ fn free(state: &mut State, joint: JointRef, angle: f64) -> bool {
     turn::free(&state.tree, joint, &state.poses, angle, TURN_APART) == angle
 }
 
+/// Whether all joints hold what hangs on them while one of them turns.
+fn bears(state: &mut State, joint: JointRef, to: f64) -> bool {
+    if state.weight.is_none() {
+        return true;
+    }
+    let mut joints = state.robot.joints.clone();
+    joints[joint.module][joint.joint] = to;
+    let mut work = 0;
+    let bears = state.scene().is_free(&state.robot.joints, &joints, &mut work);
+    state.work += work;
+    bears
+}
+
 /// Random turns that spread the robot, or do not draw it together much. Gives how many were made.
 pub fn shake(state: &mut State, dice: &mut Dice, turns: usize, slack: f64) -> usize {
     let joints = state.tree.all_joints();
@@ -87,7 +100,7 @@ pub fn shake(state: &mut State, dice: &mut Dice, turns: usize, slack: f64) -> us
         } else {
             FRAC_PI_4 * (dice.below(5) as f64 - 2.0)
         };
-        if target == q || !free(state, joint, target - q) {
+        if target == q || !free(state, joint, target - q) || !bears(state, joint, target) {
             continue;
         }
         let before = state.spread();

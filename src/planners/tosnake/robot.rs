@@ -88,6 +88,21 @@ impl Robot {
         at
     }
 
+    /// How many balls of a chain are beyond the end of a shoe.
+    pub fn beyond(&self, shoe: usize) -> usize {
+        let at = self.bond_at();
+        let (mut shoe, mut count) = (shoe, 0);
+        while let Some(bond) = at[shoe / 2][Dock::red(shoe).dock].map(|bond| self.bonds[bond]) {
+            let far = if bond.a == Dock::red(shoe) { bond.b } else { bond.a };
+            shoe = far.shoe() ^ 1;
+            count += 2;
+            if count > 2 * self.modules() {
+                break; // a ring
+            }
+        }
+        count
+    }
+
     /// The bond of a number is let go.
     pub fn undock(&mut self, bond: usize) {
         self.holds[bond] = false;

@@ -1,18 +1,20 @@
 //! The whole way to the snake.
 
 use super::alongside::Party;
-use super::closing::Manner;
+use super::closing::{Loop, Manner};
 use super::lattice;
-use super::merging::{self, Pair};
+use super::merging::{self, Pair, Side};
 use super::opening;
 use super::paper;
-use super::robot::{GAMMA, Robot};
+use super::robot::{ALPHA, BETA, GAMMA, Robot};
 use super::shortening::shortened;
 use super::sound;
 use super::state::{Joints, State};
-use super::{Collisions, Found, Progress, Refusal, Settings};
+use super::weight::{Load, Weight};
+use super::{Collisions, Doing, Found, Heavy, Progress, Refusal, Settings};
 use crate::planners::random::Dice;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// How pairs of ends are tried: in which manner, from how far a posture of their own, and how many of
 /// them. What is cheap comes first.
@@ -24,6 +26,9 @@ const ATTEMPTS: [(Manner, f64, usize); 5] = [
     (Manner::Flow, 0.5, 10),
 ];
 
+/// Under weight it matters which tentacle moves: all of them, and each alone, are tried.
+const SIDES: [Side; 3] = [Side::Both, Side::First, Side::Second];
+
 /// By how much the order of pairs is shuffled for every round in which none was brought together.
 const NOISE: f64 = 0.4;
 
@@ -34,28 +39,77 @@ pub fn unwind(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Found, Refusal> {
+    unwind_under(robot, None, settings, watch)
+}
+
+/// The same where something pulls, so that joints hold what hangs on them all the way.
+pub fn unwind_under(
+    robot: &Robot,
+    weight: Option<&Weight>,
+    settings: &Settings,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Found, Refusal> {
     if settings.collisions != Collisions::Motion {
         return paper::unwind(robot, settings, watch);
     }
     sound::check(robot)?;
-    let mut state = State::new(robot.clone());
+    let Some(weight) = weight else {
+        let state = opened(robot, None);
+        return Search::new(state, Dice(settings.seed), settings, watch).found(robot);
+    };
+    let weight = Arc::new(weight.clone());
+    let mut dice = Dice(settings.seed);
+    let mut spent = Progress::default();
+    let mut nearest: Option<Heavy> = None;
+    for _ in 0..FRESH_STARTS {
+        let mut search = Search::new(opened(robot, Some(&weight)), dice, settings, watch);
+        (search.progress.tried, search.state.work) = (spent.tried, spent.work);
+        let found = search.try_found(robot);
+        (dice, spent) = (search.dice, search.progress);
+        let (heavy, over) = match found {
+            Err(Refusal::Heavy(heavy)) => (heavy, matches!(heavy.doing, Doing::Standing | Doing::Opening)),
+            // The budget is spent because everything was too heavy.
+            Err(Refusal::Budget(progress)) if search.heavy.is_some() || nearest.is_some() => {
+                let own = search.heavy.map(|(load, doing)| Heavy { load, doing, progress });
+                (own.or(nearest).expect("one of them is"), true)
+            }
+            other => return other,
+        };
+        let rank = |h: &Heavy| (h.progress.made, -h.load.ratio);
+        if nearest.is_none_or(|known| rank(&heavy) > rank(&known)) {
+            nearest = Some(heavy);
+        }
+        if over {
+            break;
+        }
+    }
+    let mut heavy = nearest.expect("every start ended so");
+    (heavy.progress.tried, heavy.progress.work) = (spent.tried, spent.work);
+    Err(Refusal::Heavy(heavy))
+}
+
+/// The robot with all loops open.
+fn opened(robot: &Robot, weight: Option<&Arc<Weight>>) -> State {
+    let mut state = State::with_weight(robot.clone(), weight.cloned());
     for bond in state.tree.closing.clone() {
         state.undock(bond);
     }
     state.regrow();
-    let needed = state.bad_bonds();
-    let mut progress = Progress { needed, ..Progress::default() };
-    progress.see(&state);
-    let mut search = Search { state, dice: Dice(settings.seed), settings, watch, progress };
-    search.snake()?;
-    search.report()?;
-    let State { robot: end, steps, mut work, .. } = search.state;
-    let holds = (0..end.bonds.len()).map(|bond| robot.holds.get(bond).copied().unwrap_or(false)).collect();
-    let start = Robot { joints: robot.joints.clone(), bonds: end.bonds.clone(), holds };
-    let steps = shortened(start, &steps, &mut work);
-    search.progress.work = work;
-    Ok(Found { robot: end, steps, progress: search.progress })
+    state
 }
+
+/// How often a search under weight begins again where what it came to is too heavy.
+const FRESH_STARTS: usize = 20;
+
+/// Rounds in which a search under weight gets no farther before it begins again.
+const IDLE_MAX: usize = 4;
+
+/// Between merges joints turn straight as long as no load is greater than this part of its limit, so
+/// that something is left for what has to be held next.
+const EASY: f64 = 0.6;
+
+/// By so much, in modules on the way, a pair is less promising whose joints hold all that they can.
+const HEAVY_COST: f64 = 8.0;
 
 struct Search<'a> {
     state: State,
@@ -63,11 +117,42 @@ struct Search<'a> {
     settings: &'a Settings,
     watch: &'a mut dyn FnMut(&Progress) -> bool,
     progress: Progress,
+    /// Of all that was too heavy what was least so.
+    heavy: Option<(Load, Doing)>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(
+        state: State,
+        dice: Dice,
+        settings: &'a Settings,
+        watch: &'a mut dyn FnMut(&Progress) -> bool,
+    ) -> Search<'a> {
+        let mut progress = Progress { needed: state.bad_bonds(), ..Progress::default() };
+        progress.see(&state);
+        Search { state, dice, settings, watch, progress, heavy: None }
+    }
+
+    fn found(mut self, robot: &Robot) -> Result<Found, Refusal> {
+        self.try_found(robot)
+    }
+
+    fn try_found(&mut self, robot: &Robot) -> Result<Found, Refusal> {
+        self.snake()?;
+        self.report()?;
+        let end = self.state.robot.clone();
+        let held = |bond| robot.holds.get(bond).copied().unwrap_or(false);
+        let holds = (0..end.bonds.len()).map(held).collect();
+        let start = Robot { joints: robot.joints.clone(), bonds: end.bonds.clone(), holds };
+        let weight = self.state.weight.clone();
+        let steps = shortened(start, weight, &self.state.steps, &mut self.state.work);
+        self.progress.work = self.state.work;
+        Ok(Found { robot: end, steps, progress: self.progress })
+    }
+
     fn snake(&mut self) -> Result<(), Refusal> {
-        let mut tilted = opening::straighten(&mut self.state, &mut self.dice);
+        self.stands()?;
+        let mut tilted = self.straighten();
         let mut idle = 0;
         while self.state.bad_bonds() > 0 {
             self.report()?;
@@ -75,34 +160,99 @@ impl Search<'_> {
                 idle = 0;
             } else {
                 idle += 1;
+                self.tire(idle)?;
                 self.shake();
             }
-            tilted = opening::straighten(&mut self.state, &mut self.dice);
+            tilted = self.straighten();
         }
+        self.ends_light()?;
+        (self.heavy, idle) = (None, 0);
         while tilted > 0 {
             self.report()?;
+            idle += 1;
+            self.tire(idle)?;
             self.shake();
-            tilted = opening::straighten(&mut self.state, &mut self.dice);
+            tilted = self.straighten();
         }
         self.untwist();
         Ok(())
     }
 
+    /// Whether joints hold what hangs on them before anything moves.
+    fn stands(&self) -> Result<(), Refusal> {
+        match self.state.load() {
+            Some(load) if load.ratio > 1.0 => {
+                let whole = self.state.steps.is_empty();
+                Err(self.heavy(load, if whole { Doing::Standing } else { Doing::Opening }))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether they will hold the straight snake.
+    fn ends_light(&self) -> Result<(), Refusal> {
+        let mut end = self.state.clone();
+        end.robot.joints.iter_mut().for_each(|q| (q[ALPHA], q[BETA]) = (0.0, 0.0));
+        end.place();
+        match end.load() {
+            Some(load) if load.ratio > 1.0 => Err(self.heavy(load, Doing::Ending)),
+            _ => Ok(()),
+        }
+    }
+
+    /// After many rounds without progress, because something was too heavy, it is given up.
+    fn tire(&mut self, idle: usize) -> Result<(), Refusal> {
+        match self.heavy {
+            Some((load, doing)) if idle > IDLE_MAX => Err(self.heavy(load, doing)),
+            _ => Ok(()),
+        }
+    }
+
+    fn heavy(&self, load: Load, doing: Doing) -> Refusal {
+        Refusal::Heavy(Heavy { load, doing, progress: self.progress })
+    }
+
+    /// What was too heavy just now, if anything was, was so in doing this.
+    fn blame(&mut self, doing: Doing) {
+        let Some(load) = self.state.refused.take() else { return };
+        if self.heavy.is_none_or(|(known, _)| load.ratio < known.ratio) {
+            self.heavy = Some((load, doing));
+        }
+    }
+
+    /// Tilts turn to zero; gives how many are left.
+    fn straighten(&mut self) -> usize {
+        let last = self.state.bad_bonds() == 0;
+        let now = self.state.load().map_or(0.0, |load| load.ratio);
+        self.state.share = if last { 1.0 } else { f64::max(EASY, now) };
+        let tilted = opening::straighten(&mut self.state, &mut self.dice);
+        self.state.share = 1.0;
+        if last {
+            self.blame(Doing::Straightening);
+        }
+        self.state.refused.take();
+        tilted
+    }
+
     /// Brings the ends of two chains together, whichever first. `idle` rounds before found none.
     fn merge(&mut self, idle: usize) -> Result<bool, Refusal> {
         let pairs = self.pairs(idle);
+        let sides = if self.state.weight.is_some() { &SIDES[..] } else { &SIDES[..1] };
         for (manner, size, many) in ATTEMPTS {
             for pair in pairs.iter().take(many) {
-                self.progress.tried += 1;
-                let attempt = merging::Attempt { pair, manner, size, closing: &self.settings.closing };
-                let mut work = 0;
-                let way = attempt.way(&self.state, &mut self.dice, &mut work);
-                self.state.work += work;
-                if let Some(way) = way {
-                    self.take(pair, way, &pairs);
-                    return Ok(true);
+                for &side in sides {
+                    self.progress.tried += 1;
+                    let closing = &self.settings.closing;
+                    let attempt = merging::Attempt { pair, manner, size, side, closing };
+                    let mut work = 0;
+                    let way = attempt.way(&self.state, &mut self.dice, &mut work);
+                    self.state.work += work;
+                    if way.is_some_and(|way| self.take(pair, way, &pairs)) {
+                        return Ok(true);
+                    }
+                    self.blame(Doing::Joining(pair.a, pair.b));
+                    self.report()?;
                 }
-                self.report()?;
             }
         }
         self.merge_on_lattice(idle, &pairs)
@@ -118,17 +268,29 @@ impl Search<'_> {
             let mut work = 0;
             let there = lattice::leap(&self.state, pair, &mut work);
             self.state.work += work;
-            if let Some(there) = there {
-                self.take(pair, vec![there], pairs);
+            if there.is_some_and(|there| self.take(pair, vec![there], pairs)) {
                 return Ok(true);
             }
+            self.blame(Doing::Joining(pair.a, pair.b));
             self.report()?;
         }
         Ok(false)
     }
 
-    /// Goes a way that brings a pair together, and others with it where one turn does that.
-    fn take(&mut self, pair: &Pair, mut way: Vec<Joints>, pairs: &[Pair]) {
+    /// Goes a way that brings a pair together, and others with it where one turn does that. Says no
+    /// where joints would not hold what hangs on them afterwards.
+    fn take(&mut self, pair: &Pair, mut way: Vec<Joints>, pairs: &[Pair]) -> bool {
+        if self.state.weight.is_some() {
+            let mut there = self.state.clone();
+            way.iter().for_each(|joints| there.go(joints));
+            let after = merging::made_within_limits(&there, pair);
+            self.state.refused.set(there.refused.get());
+            let Some(after) = after else { return false };
+            self.state = after;
+            self.progress.made += 1;
+            self.progress.see(&self.state);
+            return true;
+        }
         let mut together = vec![*pair];
         if let [joints] = &mut way[..] {
             let mut work = 0;
@@ -143,10 +305,22 @@ impl Search<'_> {
         merging::make(&mut self.state, &together);
         self.progress.made += together.len();
         self.progress.see(&self.state);
+        true
     }
 
     fn pairs(&mut self, idle: usize) -> Vec<Pair> {
         let mut pairs = merging::pairs(&self.state);
+        if let Some(weight) = &self.state.weight {
+            let loads = weight.loads(&self.state.tree, &self.state.poses);
+            for pair in &mut pairs {
+                let lp = Loop::new(&self.state.tree, pair.a, pair.b);
+                let bends = |load: &&Load| {
+                    lp.joints.iter().any(|(j, _)| (j.module, j.joint) == (load.module, load.joint))
+                };
+                let most = loads.iter().filter(bends).fold(0.0, |most: f64, load| most.max(load.ratio));
+                pair.cost += HEAVY_COST * most;
+            }
+        }
         for pair in &mut pairs {
             pair.cost *= 1.0 + 0.5 * NOISE * idle as f64 * (1.0 + self.dice.signed());
         }
@@ -156,7 +330,11 @@ impl Search<'_> {
 
     fn shake(&mut self) {
         let Settings { shake_turns, shake_slack, .. } = *self.settings;
+        let now = self.state.load().map_or(0.0, |load| load.ratio);
+        self.state.share = f64::max(EASY, now);
         opening::shake(&mut self.state, &mut self.dice, shake_turns, shake_slack);
+        self.state.share = 1.0;
+        self.state.refused.take();
     }
 
     /// A straight snake turns its modules about its own line, which moves no ball.

@@ -4,11 +4,13 @@
 use super::robot::Robot;
 use super::state::{Joints, State, Step};
 use super::sweep::Scene;
+use super::weight::Weight;
+use std::sync::Arc;
 
 /// The same docks and undocks, in as few turns between them as halving finds. `robot` is as it was at the
 /// start, with all bonds that the steps number. `work` counts poses.
-pub fn shortened(robot: Robot, steps: &[Step], work: &mut u64) -> Vec<Step> {
-    let mut state = State::new(robot);
+pub fn shortened(robot: Robot, weight: Option<Arc<Weight>>, steps: &[Step], work: &mut u64) -> Vec<Step> {
+    let mut state = State::with_weight(robot, weight);
     let mut postures = vec![state.robot.joints.clone()];
     for step in steps {
         match step {

@@ -3,8 +3,11 @@
 use super::near;
 use super::rigid::Rigid;
 use super::robot::{Bond, Robot};
-use super::sweep::Scene;
+use super::sweep::{self, Burden, Scene};
 use super::tree::Tree;
+use super::weight::{Load, Weight};
+use std::cell::Cell;
+use std::sync::Arc;
 
 /// Positions of all joints: alpha, beta and gamma of each module, rad.
 pub type Joints = Vec<[f64; 3]>;
@@ -30,16 +33,49 @@ pub struct State {
     pub steps: Vec<Step>,
     /// Poses of the whole robot that were worked out.
     pub work: u64,
+    /// Where something pulls.
+    pub weight: Option<Arc<Weight>>,
+    /// What joints may have to hold, in parts of their limits.
+    pub share: f64,
+    /// See [`Burden::refused`].
+    pub refused: Cell<Option<Load>>,
 }
 
 impl State {
     /// The modules must hang together.
     pub fn new(robot: Robot) -> State {
         let tree = Tree::grow(&robot, 0).expect("a robot that was checked hangs together");
-        let mut state =
-            State { robot, tree, poses: Vec::new(), docked: Vec::new(), steps: Vec::new(), work: 0 };
+        let mut state = State {
+            robot,
+            tree,
+            poses: Vec::new(),
+            docked: Vec::new(),
+            steps: Vec::new(),
+            work: 0,
+            weight: None,
+            share: 1.0,
+            refused: Cell::new(None),
+        };
         state.regrow();
         state
+    }
+
+    /// With the weight of the robot, where something pulls. The tree is grown from the weight's root, the
+    /// module that is held or another: what is let go first leaves short arms there.
+    pub fn with_weight(robot: Robot, weight: Option<Arc<Weight>>) -> State {
+        let mut state = State::new(robot);
+        if let Some(weight) = &weight {
+            state.tree = Tree::grow(&state.robot, weight.root).expect("it hangs together");
+            state.docked = near::docked(&state.robot, &state.tree);
+            state.place();
+        }
+        state.weight = weight;
+        state
+    }
+
+    /// The load that is greatest by its limit; none where nothing pulls.
+    pub fn load(&self) -> Option<Load> {
+        self.weight.as_ref().map(|weight| weight.greatest(&self.tree, &self.poses))
     }
 
     /// After bonds changed. The root is in the middle of the tree, so that little moves far.
@@ -56,7 +92,14 @@ impl State {
     }
 
     pub fn scene(&self) -> Scene<'_> {
-        Scene { tree: &self.tree, docked: self.docked.clone() }
+        let burden =
+            self.weight.as_deref().map(|weight| Burden { weight, share: self.share, refused: &self.refused });
+        Scene { tree: &self.tree, docked: self.docked.clone(), burden }
+    }
+
+    /// Remembers a load that was too great.
+    pub fn refuse(&self, load: Load) {
+        sweep::lessened(&self.refused, load);
     }
 
     /// All joints go where they are to be, at once.

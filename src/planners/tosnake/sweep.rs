@@ -7,6 +7,8 @@ use super::near::{self, touch_always};
 use super::rigid::{Rigid, Vec3};
 use super::robot::Robot;
 use super::tree::Tree;
+use super::weight::{Load, Weight};
+use std::cell::Cell;
 
 /// Balls are never nearer than this; the judge's limit is 0.999.
 pub const APART: f64 = 1.0 - 6e-4;
@@ -25,17 +27,52 @@ pub struct Scene<'a> {
     pub tree: &'a Tree,
     /// Pairs of places that are docked; see [`near::docked`].
     pub docked: Vec<(usize, usize)>,
+    pub burden: Option<Burden<'a>>,
+}
+
+/// What joints may have to hold on the way.
+#[derive(Clone, Copy)]
+pub struct Burden<'a> {
+    pub weight: &'a Weight,
+    /// Of their limits.
+    pub share: f64,
+    /// The least of the loads that were too great: of each way the greatest that was seen.
+    pub refused: &'a Cell<Option<Load>>,
+}
+
+/// By so much a load may grow, in parts of it, between instants at which no ball is off its straight way
+/// by more than [`BEND_MAX`]: an axis turns as a ball does that is a pitch away.
+pub const LOAD_SPARE: f64 = 2e-3;
+
+/// Instants of a way that is too heavy at which its greatest load is looked for.
+const PARTS: u32 = 16;
+
+impl Burden<'_> {
+    /// Whether joints hold their loads in a posture.
+    fn is_borne(&self, tree: &Tree, poses: &[Rigid]) -> bool {
+        let load = self.weight.greatest(tree, poses);
+        load.ratio <= self.share * (1.0 - LOAD_SPARE)
+    }
+}
+
+/// Remembers a load that was too great, if it is less than the one that is remembered.
+pub fn lessened(refused: &Cell<Option<Load>>, load: Load) {
+    if refused.get().is_none_or(|known| load.ratio < known.ratio) {
+        refused.set(Some(load));
+    }
 }
 
 impl<'a> Scene<'a> {
     pub fn new(robot: &Robot, tree: &'a Tree) -> Scene<'a> {
-        Scene { tree, docked: near::docked(robot, tree) }
+        Scene { tree, docked: near::docked(robot, tree), burden: None }
     }
 
-    /// Whether the straight way between two positions of the joints is free. `work` counts poses.
+    /// Whether the straight way between two positions of the joints is free, and no load on it too
+    /// great. `work` counts poses.
     pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
         let rigid = self.rigid_parts(from, to);
-        let mut walk = Walk { scene: self, from, to, rigid, joints: from.to_vec(), work };
+        let carried = self.tree.carried(|module| from[module] != to[module]);
+        let mut walk = Walk { scene: self, from, to, rigid, carried, joints: from.to_vec(), work };
         walk.is_free()
     }
 
@@ -56,25 +93,30 @@ struct Walk<'a> {
     from: &'a [[f64; 3]],
     to: &'a [[f64; 3]],
     rigid: Vec<usize>,
+    /// The places that move.
+    carried: Vec<usize>,
     joints: Vec<[f64; 3]>,
     work: &'a mut u64,
 }
 
 impl Walk<'_> {
-    fn at(&mut self, t: f64, poses: &mut Vec<Rigid>) {
+    /// `poses` are those of any instant before.
+    fn at(&mut self, t: f64, poses: &mut [Rigid]) {
         for (joint, (from, to)) in self.joints.iter_mut().zip(self.from.iter().zip(self.to)) {
             for k in 0..3 {
                 joint[k] = from[k] + t * (to[k] - from[k]);
             }
         }
         *self.work += 1;
-        self.scene.tree.poses(&self.joints, poses);
+        self.scene.tree.poses_of(&self.carried, &self.joints, poses);
     }
 
     fn is_free(&mut self) -> bool {
-        let (mut here, mut middle, mut there) = (Vec::new(), Vec::new(), Vec::new());
+        let mut here = Vec::new();
+        *self.work += 1;
+        self.scene.tree.poses(self.from, &mut here);
+        let (mut middle, mut there) = (here.clone(), here.clone());
         let (mut t, mut step) = (0.0, 1.0 / 16.0);
-        self.at(0.0, &mut here);
         let mut list = self.list(&here);
         let mut gone = 0.0;
         while t < 1.0 {
@@ -82,7 +124,7 @@ impl Walk<'_> {
             let until = f64::min(1.0, t + step);
             self.at(0.5 * (t + until), &mut middle);
             self.at(until, &mut there);
-            let (bend, far) = bent(&here, &middle, &there);
+            let (bend, far) = bent(&self.carried, &here, &middle, &there);
             if bend > BEND_MAX || far > STEP_MAX {
                 step = 0.5 * (until - t);
                 if step < PART_MIN {
@@ -95,6 +137,12 @@ impl Walk<'_> {
                 gone = 0.0;
             }
             gone += far;
+            if let Some(burden) = self.scene.burden
+                && !(burden.is_borne(self.scene.tree, &middle) && burden.is_borne(self.scene.tree, &there))
+            {
+                self.refuse(burden, &middle, &there);
+                return false;
+            }
             let apart = APART + 0.75 * bend;
             if meets(&list, &here, &middle, apart) || meets(&list, &middle, &there, apart) {
                 return false;
@@ -106,6 +154,18 @@ impl Walk<'_> {
             std::mem::swap(&mut here, &mut there);
         }
         true
+    }
+
+    /// Remembers the greatest load of the whole way.
+    fn refuse(&mut self, burden: Burden, middle: &[Rigid], there: &[Rigid]) {
+        let greatest = |poses: &[Rigid]| burden.weight.greatest(self.scene.tree, poses);
+        let mut most = greatest(middle).greater(greatest(there));
+        let mut poses = middle.to_vec();
+        for part in 1..=PARTS {
+            self.at(f64::from(part) / f64::from(PARTS), &mut poses);
+            most = most.greater(burden.weight.greatest(self.scene.tree, &poses));
+        }
+        lessened(burden.refused, most);
     }
 
     /// Pairs that may meet within a while.
@@ -121,9 +181,10 @@ impl Walk<'_> {
 }
 
 /// How far balls are off the straight way in the middle, and how far they go, at most.
-fn bent(here: &[Rigid], middle: &[Rigid], there: &[Rigid]) -> (f64, f64) {
+fn bent(carried: &[usize], here: &[Rigid], middle: &[Rigid], there: &[Rigid]) -> (f64, f64) {
     let (mut bend, mut far) = (0.0f64, 0.0f64);
-    for ((h, m), t) in here.iter().zip(middle).zip(there) {
+    for &place in carried {
+        let (h, m, t) = (&here[place], &middle[place], &there[place]);
         bend = bend.max((m.place - (h.place + t.place) * 0.5).norm_squared());
         far = far.max((t.place - h.place).norm_squared());
     }

@@ -98,18 +98,38 @@ impl Tree {
     pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<Rigid>) {
         poses.clear();
         for place in 0..self.shoes() {
-            let pose = match &self.link[place] {
-                Link::Root => Rigid::identity(),
-                Link::Mate { pose, .. } => poses[self.parent[place]].then(pose),
-                Link::Module => {
-                    let shoe = self.shoe[place];
-                    let [near, far] = if shoe % 2 == 1 { [ALPHA, BETA] } else { [BETA, ALPHA] };
-                    let q = &joints[shoe / 2];
-                    poses[self.parent[place]].then(&across(q[near], q[far], q[GAMMA]))
-                }
-            };
-            poses.push(pose);
+            poses.push(self.pose(place, joints, poses));
         }
+    }
+
+    /// Of some shoes, in order of place; the others are where they were.
+    pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [Rigid]) {
+        for &place in moved {
+            poses[place] = self.pose(place, joints, poses);
+        }
+    }
+
+    fn pose(&self, place: usize, joints: &[[f64; 3]], poses: &[Rigid]) -> Rigid {
+        match &self.link[place] {
+            Link::Root => Rigid::identity(),
+            Link::Mate { pose, .. } => poses[self.parent[place]].then(pose),
+            Link::Module => {
+                let shoe = self.shoe[place];
+                let [near, far] = if shoe % 2 == 1 { [ALPHA, BETA] } else { [BETA, ALPHA] };
+                let q = &joints[shoe / 2];
+                poses[self.parent[place]].then(&across(q[near], q[far], q[GAMMA]))
+            }
+        }
+    }
+
+    /// The places that modules carry whose joints turn, in order; the others stay where the root is.
+    pub fn carried(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
+        let mut carried = vec![false; self.shoes()];
+        for place in 1..self.shoes() {
+            let own = matches!(self.link[place], Link::Module) && turns(self.shoe[place] / 2);
+            carried[place] = own || carried[self.parent[place]];
+        }
+        (0..self.shoes()).filter(|&place| carried[place]).collect()
     }
 
     /// The bond by which a shoe hangs on its parent.
