@@ -3,20 +3,23 @@
 //!
 //! Beside it, the paper's method in Python: `benches/peers/truss.py` says how to run it.
 //!
-//! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions.
+//! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions, with `around`
+//! only walks with and without looking ahead: on flat ground, through gates, over hills.
 
 #[path = "../tests/trusses.rs"]
 #[allow(dead_code)]
 mod trusses;
 
-use modl::geometry::Vec3;
-use modl::planners::truss::Structure;
+use modl::geometry::pose::shifted;
+use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3};
 use modl::planners::truss::goal::Goal;
-use modl::planners::truss::locomote::{Hold, Travel, Wish, locomote};
+use modl::planners::truss::locomote::{End, Travel, Wish, locomote};
 use modl::planners::truss::locomotion::Aim;
 use modl::planners::truss::morph::{self, morph};
+use modl::planners::truss::roll::rested;
+use modl::planners::truss::{Structure, Surroundings};
 use std::time::{Duration, Instant};
-use trusses::{actuator, cube, ell, robot};
+use trusses::{actuator, along, cube, ell, robot};
 
 /// The allocator that the tool has.
 #[global_allocator]
@@ -29,6 +32,9 @@ fn each(time: Duration, steps: usize) -> f64 {
 }
 
 fn main() {
+    if std::env::args().any(|arg| arg == "around") {
+        return around();
+    }
     let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(16);
     let (truss, start) = robot();
     println!("| 34 nodes, 108 struts | steps | ms a step | rolls, or distances there and back |");
@@ -76,16 +82,7 @@ fn travelled(
 ) -> (Travel, Duration) {
     let from = truss.centre(start);
     let path = corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect();
-    let wish = Wish {
-        path,
-        near: 0.25,
-        stride: 0.05,
-        aim,
-        hold: Hold::Three,
-        ladder: true,
-        impact: true,
-        steps_max,
-    };
+    let wish = along(path, aim, steps_max);
     let clock = Instant::now();
     let travel = locomote(truss, start, &wish, &|_| true);
     (travel, clock.elapsed())
@@ -101,6 +98,58 @@ fn morphed(truss: &Structure, start: &[Vec3], goal: &Goal, steps: usize) -> (mor
     };
     let found = morph(truss, start, goal, &wish, &going).expect("it has a surface");
     (found, made.get(), clock.elapsed())
+}
+
+/// The robot with nothing around, before gates of some widths, and on hills of some heights.
+fn around() {
+    let (truss, start) = robot();
+    let from = truss.centre(&start);
+    println!("| | ends | steps | rolls | nodes put down | slid, all nodes | plan, s | ms a step |");
+    println!("|---|---|---|---|---|---|---|---|");
+    let s = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
+    for turned in [0.0f64, 25.0, 90.0, 200.0] {
+        let (sin, cos) = libm::sincos(turned.to_radians());
+        let path = s.iter().map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect::<Vec<_>>();
+        both(&format!("S at {turned} degrees"), &truss, &start, &path);
+    }
+    for gap in [4.0, 3.0, 2.0, 1.5] {
+        let post = |side: f64| {
+            let at = Vec3::new(from.x + 6.0, from.y + side * (gap / 2.0 + 4.0), 3.0);
+            let shape = Shape::Box { size: Vec3::new(1.0, 8.0, 6.0) };
+            Solid::new(&[Placed { pose: shifted(at), shape }]).expect("a solid")
+        };
+        let truss = truss.clone().amid(Surroundings::new(&[post(1.0), post(-1.0)], None, 0.05));
+        both(&format!("gate of {gap}"), &truss, &start, &[[12.0, 0.0]]);
+    }
+    for high in [0.1, 0.2, 0.3] {
+        let count = 80;
+        let at = |i: usize| -10.0 + i as f64 * 0.5;
+        let height = |x: f64, y: f64| {
+            high * (libm::sin(0.9 * x) * libm::sin(0.9 * y) + 0.3 * libm::sin(2.3 * x + 1.7 * y))
+        };
+        let heights = (0..count * count).map(|i| height(at(i % count), at(i / count))).collect();
+        let field = HeightField { corner: [-10.0; 2], spacing: 0.5, columns: count, heights };
+        let steepest = libm::atan(field.steepest()).to_degrees();
+        let truss = truss.clone().amid(Surroundings::new(&[], Some(field), 0.05));
+        both(&format!("S, slopes of up to {steepest:.0} degrees"), &truss, &start, &s);
+    }
+}
+
+fn both(name: &str, truss: &Structure, start: &[Vec3], path: &[[f64; 2]]) {
+    let start = rested(truss, start).expect("it rests");
+    let from = truss.centre(&start);
+    let path: Vec<[f64; 2]> = path.iter().map(|[x, y]| [from.x + x, from.y + y]).collect();
+    for ahead in [0, 40] {
+        let wish = Wish { ahead, ..along(path.clone(), Aim::Springs, 4000) };
+        let clock = Instant::now();
+        let travel = locomote(truss, &start, &wish, &|_| true);
+        let time = each(clock.elapsed(), travel.steps);
+        let ends = if travel.end == End::Arrived { "arrived" } else { "stuck" };
+        let Travel { steps, rolls, footholds, slip, lasts, .. } = travel;
+        println!(
+            "| {name}, {ahead} ahead | {ends} | {steps} | {rolls} | {footholds} | {slip:.1} | {lasts:.1} | {time:.1} |"
+        );
+    }
 }
 
 /// The boundary of a tetrahedron of so many divisions with what is inside, edges of 1.

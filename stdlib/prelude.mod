@@ -974,6 +974,22 @@ extern fn subdivided(mesh: Mesh, parts: Int) -> Mesh
 /// ```
 extern fn on_sphere(mesh: Mesh, radius: Length) -> Mesh
 
+/// Uneven ground for `locomote`: heights over the corners of squares with sides of `spacing`, in rows along
+/// x, the first row at the least y.
+///
+/// The middle of the grid is at `centre`, whose height is added to all. Each square is two flat triangles
+/// with a side from its corner of the least x and y; beyond the rim heights are those of the rim.
+///
+/// Example:
+/// ```modl
+/// let waves = terrain([[50mm * sin(x * 60deg) for x in 0..24] for y in 0..24], spacing: 500mm)
+/// ```
+extern fn terrain(
+  heights: List<List<Length>>,
+  spacing: Length,
+  centre: Vec3<Length> = [0mm, 0mm, 0mm],
+) -> Terrain
+
 /// A cloud of points, a target for `morph`.
 ///
 /// Example:
@@ -982,8 +998,8 @@ extern fn on_sphere(mesh: Mesh, radius: Length) -> Mesh
 /// ```
 extern fn cloud(points: List<Vec3<Length>>) -> Cloud
 
-/// A cloud of points from a file of this project, by the end of its name: PLY (its vertices), or XYZ, which
-/// has a point a line. `scale` is the length of one of the file's units. The path is relative to the
+/// A cloud of points from a file of this project, by the end of its name: PLY (its vertices), or XYZ,
+/// which has a point a line. `scale` is the length of one of the file's units. The path is relative to the
 /// program's.
 ///
 /// Example:
@@ -1763,19 +1779,21 @@ extern type Morphing is Plan {
 /// Morphs a truss into a shape: its outer surface comes near the target, and the target near it.
 ///
 /// The target is moved so that its middle is the middle of the nodes; it is not scaled. The outer surface
-/// is that of the truss's hull, if triangles of struts make it up, else that of its tetrahedra of struts. Each step is a quadratic
-/// programme (Gauss and Newton's step for the distances both ways, with springs in all struts that
-/// vanish) under the limits of the struts: length, and clearance between struts that share no node, which
-/// hold between the steps, too. It is done when both distances, as root mean squares, are within
-/// `tolerance`; after `budget` steps the best so far is given, with a warning.
+/// is that of the truss's hull, if triangles of struts make it up, else that of its tetrahedra of struts.
+/// Each step is a quadratic programme (Gauss and Newton's step for the distances both ways, with springs
+/// in all struts that vanish) under the limits of the struts: length, and clearance between struts that
+/// share no node, which hold between the steps, too. It is done when both distances, as root mean squares,
+/// are within `tolerance`; after `budget` steps the best so far is given, with a warning.
 ///
 /// The target keeps its orientation; with `orientations`, as many random ones are tried for some steps
 /// each, and the best is taken. Limits beside those of the struts are kept, too, and the verdict says how
 /// nearly: `angle` between struts that share a node; `rigidity`, below which no singular value of the
-/// rigidity matrix (rows of unit vectors) falls that belongs to no rigid motion, after every step; `failed`
-/// struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists of struts
-/// whose lengths keep their sum, as those of one tube do. After `timeout` there is no plan. There is neither gravity nor ground, as in the paper; struts move as fast
-/// as their speed allows.
+/// rigidity matrix (rows of unit vectors) falls that belongs to no rigid motion, after every step;
+/// `failed` struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists
+/// of struts whose lengths keep their sum, as those of one tube do. After `timeout` there is no plan.
+/// There is neither gravity nor ground, as in the paper; struts move as fast as their speed allows.
+/// `obstacles` are solids in the world, in which the truss begins where its nodes were declared: struts keep
+/// their clearance from them.
 ///
 /// Example:
 /// ```modl
@@ -1797,6 +1815,7 @@ extern fn morph(
   failed: List<Text> = [],
   perimeters: List<List<Text>> = [],
   timeout: Time?,
+  obstacles: List<Shape> = [],
 ) -> Morphing
 
 /// What `locomote` found.
@@ -1821,17 +1840,23 @@ extern type Travel is Plan {
 /// of its support where the centre of mass gets there.
 ///
 /// The places of the path are in the world, in which the truss begins where its nodes were declared, put
-/// down on the ground at height 0 and fallen to where it rests; heights of the path mean nothing. A place is reached within a quarter of a
-/// strut. Each step is a quadratic programme under the limits of the struts, with the `objective` of the
-/// linear-actuator-robots paper: `springs` keeps all struts near their first length (17), `lengths`
-/// changes lengths as little as possible (14, with the motion of nodes beside it, without which it gets
-/// stuck), `restoring` is `lengths` towards the first lengths, `fewest` moves few struts (the sum of the
-/// rates' sizes; slower to plan). `hold` says which nodes on the ground stay
+/// down on the ground at height 0 and fallen to where it rests; heights of the path mean nothing. A place
+/// is reached within a quarter of a strut. Each step is a quadratic programme under the limits of the
+/// struts, with the `objective` of the linear-actuator-robots paper: `springs` keeps all struts near their
+/// first length (17), `lengths` changes lengths as little as possible (14, with the motion of nodes beside
+/// it, without which it gets stuck), `restoring` is `lengths` towards the first lengths, `fewest` moves
+/// few struts (the sum of the rates' sizes; slower to plan). `hold` says which nodes on the ground stay
 /// where they are: `three` around the centre of mass, or `all`. Where no step is found, easier ones are
 /// tried, unless `ladder` is false: slower, with the centre free to sink, with the other hold, with the
 /// other objective. Without `impact` it does not fall over an edge where it can put a node down beyond it
-/// first, and takes about twice as many steps. `budget` is in steps. `angle`, `rigidity`, `failed`, `perimeters` and `timeout` are
-/// those of `morph`.
+/// first, and takes about twice as many steps. `budget` is in steps. `angle`, `rigidity`, `failed`,
+/// `perimeters`, `timeout` and `obstacles` are those of `morph`.
+///
+/// With a `terrain` the ground is not flat: nodes stand on it, and between its nodes a strut may be half
+/// its clearance below, because nodes are thicker. Where it would fall into an obstacle, or with a strut on
+/// uneven ground, it puts a node down first. With `lookahead`, a number of steps, the objectives and putting
+/// nodes down are each tried for so many steps, the one that comes farthest in its time is taken, and where
+/// all get stuck it goes back to an earlier choice: plans of two thirds of the time, for five times the work.
 ///
 /// Gravity is taken to be slow: nothing swings, and a roll is a rigid turn. Where it ends short of its
 /// path, the plan so far is given, with a warning.
@@ -1856,4 +1881,7 @@ extern fn locomote(
   perimeters: List<List<Text>> = [],
   timeout: Time?,
   impact: Bool = true,
+  obstacles: List<Shape> = [],
+  terrain: Terrain?,
+  lookahead: Int = 0,
 ) -> Travel

@@ -52,6 +52,7 @@ mod rofi;
 mod squeeze;
 mod squeeze_judge;
 mod suite;
+mod surroundings;
 mod syntax;
 mod syntax_random;
 mod terminal;

@@ -125,11 +125,18 @@ fn truss() -> Plan {
             }
         }
     }
-    let knot = |time, way, nodes| Knot { time, way, nodes, cause: CauseId(0) };
+    let knot = |time, way, nodes| Knot {
+        time,
+        way,
+        nodes,
+        cause: CauseId(0),
+        margins: modl::plan::Margins::default(),
+    };
     let (edge, angle) = ((0, 1), -0.3);
     let leaning = knot(2.0, Way::Straight, nodes(0.3));
     let mut paths = NodePaths {
         limits: TrussLimits::default(),
+        surroundings: modl::plan::Surroundings::default(),
         strut: 0,
         node_names: (0..300).map(|i| format!("ring[{}][{}]", i / 3, i % 3)).collect(),
         struts,

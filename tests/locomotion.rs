@@ -1,10 +1,10 @@
 //! `locomote`: one step against known optima, gradients against differences, the S of the paper in many
 //! directions, and that nothing comes too near between the samples.
 
-use crate::trusses::{actuator, looked_at, robot, truth};
+use crate::trusses::{actuator, along, looked_at, robot, truth};
 use modl::geometry::Vec3;
 use modl::planners::truss::bound::Bound;
-use modl::planners::truss::locomote::{End, Hold, Move, Travel, Wish, locomote};
+use modl::planners::truss::locomote::{End, Move, Travel, Wish, locomote};
 use modl::planners::truss::locomotion::{Aim, objective};
 use modl::planners::truss::roll::rolled;
 use modl::planners::truss::step::{Memory, Objective, Task, step};
@@ -18,17 +18,7 @@ fn s_path(turned: f64, aim: Aim) -> Wish {
     let corners: Vec<[f64; 2]> =
         serde_json::from_value(truth()["locomotion"]["path"].clone()).expect("places");
     let place = |[x, y]: [f64; 2]| [c * x - s * y + from.x, s * x + c * y + from.y];
-    let path = corners.into_iter().map(place).collect();
-    Wish {
-        path,
-        near: 0.25,
-        stride: 0.05,
-        aim,
-        hold: Hold::Three,
-        ladder: true,
-        impact: true,
-        steps_max: 3000,
-    }
+    along(corners.into_iter().map(place).collect(), aim, 3000)
 }
 
 fn travelled(wish: &Wish) -> Travel {

@@ -353,12 +353,19 @@ fn lattice_stages_follow_their_closed_form_and_run_backwards() {
 
 /// A triangle that stretches and then rolls over one of its edges.
 pub fn rolling() -> NodePaths {
-    let knot = |time, way, nodes| Knot { time, way, nodes, cause: CauseId(0) };
+    let knot = |time, way, nodes| Knot {
+        time,
+        way,
+        nodes,
+        cause: CauseId(0),
+        margins: modl::plan::Margins::default(),
+    };
     let flat = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.5, 0.0]];
     let long = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.5, 0.0]];
     let over = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, -2.0]];
     NodePaths {
         limits: TrussLimits::default(),
+        surroundings: modl::plan::Surroundings::default(),
         strut: 0,
         node_names: ["a", "b", "c"].map(String::from).to_vec(),
         struts: vec![(0, 1), (1, 2), (2, 0)],

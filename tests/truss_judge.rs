@@ -5,8 +5,8 @@ use crate::plan_operations::plan_of;
 use crate::programs::*;
 use crate::robots::{chain, reel};
 use modl::plan::{
-    Body, CauseId, CheckKind, Ground, Knot, LengthSum, NodePaths, Plan, TrussLimits, Verdict, Way, World,
-    WorldFrom, verify,
+    Body, CauseId, CheckKind, Ground, Knot, LengthSum, Margins, NodePaths, Plan, TrussLimits, Verdict, Way,
+    World, WorldFrom, verify,
 };
 use modl::robot::Library;
 use std::fs;
@@ -25,7 +25,7 @@ const FREE: World = World::FREE;
 const STANDING: World = World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0 };
 
 fn knot(time: f64, way: Way, nodes: &[Place]) -> Knot {
-    Knot { time, way, nodes: nodes.to_vec(), cause: CauseId(0) }
+    Knot { time, way, nodes: nodes.to_vec(), cause: CauseId(0), margins: Margins::default() }
 }
 
 fn straight(time: f64, nodes: &[Place]) -> Knot {
@@ -40,6 +40,7 @@ fn plan_in(world: World, struts: &[(usize, usize)], knots: Vec<Knot>) -> Plan {
         struts: struts.to_vec(),
         knots,
         limits: TrussLimits::default(),
+        surroundings: modl::plan::Surroundings::default(),
     };
     let plan = plan_of(plan(chain(1), wait(1.0)).expect("it can be scheduled"));
     Plan {

@@ -3,6 +3,8 @@
 use modl::geometry::Vec3;
 use modl::planners::truss::Structure;
 use modl::planners::truss::goal::Goal;
+use modl::planners::truss::locomote::{Hold, Wish};
+use modl::planners::truss::locomotion::Aim;
 use modl::planners::truss::surface::Surface;
 use modl::robot::Strut;
 use serde_json::Value;
@@ -16,6 +18,21 @@ pub fn truth() -> Value {
 pub fn actuator() -> Strut {
     let name = "Actuator".to_owned();
     Strut { name, length: (0.3, 3.0), speed: 1.0, force: 1.0, mass: 1.0, clearance: 0.1 }
+}
+
+/// Along places by the steps of the paper, with easier ones where they are needed.
+pub fn along(path: Vec<[f64; 2]>, aim: Aim, steps_max: usize) -> Wish {
+    Wish {
+        path,
+        near: 0.25,
+        stride: 0.05,
+        aim,
+        hold: Hold::Three,
+        ladder: true,
+        impact: true,
+        ahead: 0,
+        steps_max,
+    }
 }
 
 pub fn robot() -> (Structure, Vec<Vec3>) {

@@ -106,6 +106,7 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
         Type::Cells => "Cells".into(),
         Type::Mesh => "Mesh".into(),
         Type::Cloud => "Cloud".into(),
+        Type::Terrain => "Terrain".into(),
         Type::Instance(id) | Type::Record(id) => def_name(*id).to_string(),
         Type::AnyOf(family) => family_name(*family).into(),
         Type::Param(_) => "any type".into(),

@@ -25,6 +25,7 @@ const PLAIN: &[(&str, Type)] = &[
     ("Cells", Type::Cells),
     ("Mesh", Type::Mesh),
     ("Cloud", Type::Cloud),
+    ("Terrain", Type::Terrain),
     ("Module", Type::AnyOf(Family::Module)),
     ("Config", Type::AnyOf(Family::Config)),
     ("Cell", Type::AnyOf(Family::Cell)),

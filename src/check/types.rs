@@ -41,6 +41,7 @@ pub enum Type {
     Cells,
     Mesh,
     Cloud,
+    Terrain,
     /// The instances of a `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
     Instance(DefId),
     /// The supertypes: `Module`, `Config` (a module is the smallest one), `Lattice`, ...

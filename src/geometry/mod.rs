@@ -2,6 +2,7 @@
 #![allow(non_snake_case)]
 
 pub mod angle;
+pub mod height_field;
 pub mod json;
 pub mod polygon;
 pub mod pose;
@@ -21,6 +22,7 @@ mod approach;
 pub mod hull;
 
 pub use distance::Nearness;
+pub use height_field::HeightField;
 pub use part::Part;
 pub use pose::{Pose, Vec3};
 pub use shape::{Placed, Shape};

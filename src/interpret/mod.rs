@@ -32,6 +32,7 @@ mod lattice;
 mod module;
 mod sweep;
 mod truss;
+mod truss_around;
 mod truss_limits;
 
 mod mesh_file;

@@ -9,7 +9,7 @@ use super::natives_shape::points;
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Mesh, Value};
-use crate::geometry::{Vec3, subdivide};
+use crate::geometry::{HeightField, Vec3, subdivide};
 use crate::source::{Span, code};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -32,6 +32,7 @@ pub const TABLE: &[Native] = &[
     pure("load_cloud", 2, load_cloud),
     pure("subdivided", 2, subdivided),
     pure("on_sphere", 2, on_sphere),
+    pure("terrain", 3, terrain),
     pure("cloud", 1, |_, call| Ok(Value::Cloud(Rc::new(points(call, 0)?)))),
 ];
 
@@ -240,6 +241,32 @@ fn load_mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn load_cloud(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let scale = call.positive(1, "the scale of a cloud")?;
     Ok(Value::Cloud(Rc::new(mesh_file::read_cloud(interpreter, call, 0, scale)?)))
+}
+
+fn terrain(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mut heights = Vec::new();
+    let mut columns = None;
+    let centre = call.vec3(2)?;
+    for (row, list) in call.list(0)?.iter().enumerate() {
+        let Value::List(list) = list else { return Err(call.refuse(0, "rows of heights are wanted")) };
+        if *columns.get_or_insert(list.len()) != list.len() {
+            let wanted = columns.unwrap_or(0);
+            let message = format!("row {row} has {} heights, the rows before have {wanted}", list.len());
+            return Err(call.refuse(0, message));
+        }
+        heights.extend(list.iter().filter_map(|height| Some(height.as_number()? + centre.z)));
+    }
+    interpreter.check_list(heights.len(), call.span)?;
+    let spacing = call.positive(1, "the spacing of heights")?;
+    let columns = columns.unwrap_or(0);
+    let rows = heights.len().checked_div(columns).unwrap_or(0);
+    let from = |count: usize, middle: f64| middle - spacing * (count.max(1) - 1) as f64 / 2.0;
+    let corner = [from(columns, centre.x), from(rows, centre.y)];
+    let field = HeightField { corner, spacing, columns, heights };
+    match field.fault() {
+        Some(fault) => Err(call.refuse(0, fault)),
+        None => Ok(Value::Terrain(Rc::new(field))),
+    }
 }
 
 fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -268,7 +268,7 @@ impl Wild {
             return Ok(Ok(found));
         }
         let stage = &interpreter.stage;
-        let begun = stage.elapsed();
+        let goes_on = stage.until(options.timeout);
         interrupt::begin(format!("unwinding {}", self.design.name));
         let mut told = None;
         let mut watch = |progress: &Progress| {
@@ -279,7 +279,7 @@ impl Wild {
             } else {
                 interrupt::tell(words())
             }
-            !stage.cancelled() && options.timeout.is_none_or(|most| stage.elapsed() - begun <= most)
+            goes_on()
         };
         let settings = Settings { seed, budget, collisions, ..Settings::default() };
         let found = tosnake::unwind_under(&self.start, self.weight.as_ref(), &settings, &mut watch);

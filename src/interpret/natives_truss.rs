@@ -9,6 +9,7 @@ use super::record::Record;
 use super::stage::Stage;
 use super::stop::{Eval, Stop};
 use super::truss::TrussDesign;
+use super::truss_around::Around;
 use super::truss_limits;
 use super::value::{Mesh, Value};
 use crate::geometry::Vec3;
@@ -21,7 +22,7 @@ use crate::planners::truss::locomote::{self, Hold, Move, Travel};
 use crate::planners::truss::locomotion::Aim;
 use crate::planners::truss::morph;
 use crate::planners::truss::step::Stuck;
-use crate::planners::truss::{Structure, roll};
+use crate::planners::truss::{Structure, margins, roll};
 use crate::robot::{Library, Strut};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
@@ -29,7 +30,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("morph", 11, morph), on_run("locomote", 12, locomote)];
+pub const TABLE: &[Native] = &[on_run("morph", 12, morph), on_run("locomote", 15, locomote)];
 
 /// Points of a target lie about so far apart, in struts.
 const APART: f64 = 0.125;
@@ -107,7 +108,8 @@ impl Interpreter<'_> {
 }
 
 fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Some(task) = Task::of(call, 6)? else { return Ok(Value::Unknown) };
+    let Some(task) = Task::of(call, 6, Around::of(call, 11, None)?)? else { return Ok(Value::Unknown) };
+    task.around.free(call, task.truss(), &task.structure, &task.start)?;
     let goal = goal(call, &task)?;
     let timeout = call.positive_if(10, "a timeout")?;
     let wish = morph::Wish {
@@ -117,8 +119,8 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         seed: call.count(5, "a seed")? as u64,
     };
     let name = task.design.name.clone();
-    let stage = &interpreter.stage;
-    let clock = Clock::new(stage, timeout);
+    let stage = interpreter.stage.clone();
+    let goes_on = stage.until(timeout);
     interrupt::begin(format!("morphing {name}"));
     let least = Cell::new(f64::INFINITY);
     let going = |step: usize, distance: &Distance| {
@@ -127,7 +129,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             let [apart, least] = [distance.there, least.get()].map(|d| quantity(d, Dimension::LENGTH));
             format!("step {step} of at most {}, {apart} apart, {least} at best", wish.steps_max)
         });
-        clock.goes_on()
+        goes_on()
     };
     let found = morph::morph(&task.structure, &task.start, &goal, &wish, &going);
     let found = found.map_err(|open| task.no_surface(call, &open.edges))?;
@@ -138,9 +140,11 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         morph::End::Cancelled => {
             let [there, back] =
                 [found.distance.there, found.distance.back].map(|x| quantity(x, Dimension::LENGTH));
-            return Err(
-                clock.over(call, &format!("the truss was within {there} of the target ({back} back)"))
-            );
+            return Err(over(
+                &stage,
+                call,
+                &format!("the truss was within {there} of the target ({back} back)"),
+            ));
         }
     };
     if found.end != morph::End::Done {
@@ -160,12 +164,14 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Some(mut task) = Task::of(call, 6)? else { return Ok(Value::Unknown) };
+    let around = Around::of(call, 12, Some(13))?;
+    let Some(mut task) = Task::of(call, 6, around)? else { return Ok(Value::Unknown) };
     // It rests on the ground, however it was declared.
     let Some(rested) = roll::rested(&task.structure, &task.start) else {
         return Err(call.refuse(0, "the truss does not come to rest on the ground"));
     };
     task.start = rested;
+    task.around.free(call, task.truss(), &task.structure, &task.start)?;
     let path = path(call)?;
     let unit = task.structure.unit;
     let wish = locomote::Wish {
@@ -180,13 +186,14 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         },
         hold: if call.word(3) == Some("all") { Hold::All } else { Hold::Three },
         impact: call.truth(11)?,
+        ahead: call.count(14, "a number of steps")?,
         ladder: call.truth(4)?,
         steps_max: call.count(5, "a budget")?,
     };
     let name = task.design.name.clone();
     let places = wish.path.len();
-    let stage = &interpreter.stage;
-    let clock = Clock::new(stage, call.positive_if(10, "a timeout")?);
+    let stage = interpreter.stage.clone();
+    let goes_on = stage.until(call.positive_if(10, "a timeout")?);
     interrupt::begin(format!("moving {name}"));
     let told = Cell::new(0usize);
     let going = |reached: usize| {
@@ -196,7 +203,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         interrupt::progress(|| {
             format!("step {step} of at most {most}, {reached} of {places} places reached")
         });
-        clock.goes_on()
+        goes_on()
     };
     let travel = locomote::locomote(&task.structure, &task.start, &wish, &going);
     let ended = match &travel.end {
@@ -204,9 +211,10 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         locomote::End::Steps => format!("{} steps were not enough", wish.steps_max),
         locomote::End::Falls => "it does not come to rest on three nodes".to_string(),
         locomote::End::Stuck(stuck) => task.stuck(stuck),
+        locomote::End::Blocked(bound) => format!("it would fall over an edge: {}", task.bound(*bound)),
         locomote::End::Cancelled => {
             let reached = travel.reached;
-            return Err(clock.over(call, &format!("the truss reached {reached} of {places} places")));
+            return Err(over(&stage, call, &format!("the truss reached {reached} of {places} places")));
         }
     };
     if travel.end != locomote::End::Arrived {
@@ -264,32 +272,15 @@ fn triangles(mesh: &Mesh) -> Vec<[Vec3; 3]> {
     mesh.faces.iter().flat_map(fan).collect()
 }
 
-/// When a planner has to end.
-struct Clock<'a> {
-    stage: &'a Stage,
-    begun: f64,
-    timeout: Option<f64>,
-}
-
-impl Clock<'_> {
-    fn new(stage: &Stage, timeout: Option<f64>) -> Clock<'_> {
-        Clock { begun: stage.elapsed(), stage, timeout }
+/// What to say when a planner did not go on.
+fn over(stage: &Stage, call: &Call, so_far: &str) -> Stop {
+    if stage.cancelled() {
+        return Stop::Halt;
     }
-
-    fn goes_on(&self) -> bool {
-        !self.stage.cancelled() && self.timeout.is_none_or(|most| self.stage.elapsed() - self.begun <= most)
-    }
-
-    /// What to say when it did not go on.
-    fn over(&self, call: &Call, so_far: &str) -> Stop {
-        if self.stage.cancelled() {
-            return Stop::Halt;
-        }
-        Diagnostic::error(code::NO_WAY, format!("no plan within the timeout: {so_far}"))
-            .label(call.span, "it was still going on")
-            .hint("a greater `timeout`, or a smaller `budget`, which ends with a plan")
-            .into()
-    }
+    Diagnostic::error(code::NO_WAY, format!("no plan within the timeout: {so_far}"))
+        .label(call.span, "it was still going on")
+        .hint("a greater `timeout`, or a smaller `budget`, which ends with a plan")
+        .into()
 }
 
 /// A truss before a planner.
@@ -298,18 +289,20 @@ struct Task {
     strut: Strut,
     start: Vec<Vec3>,
     structure: Structure,
+    around: Around,
 }
 
 impl Task {
     /// `limits`: where the parameters of those are.
-    fn of(call: &Call, limits: usize) -> Eval<Option<Task>> {
+    fn of(call: &Call, limits: usize, around: Around) -> Eval<Option<Task>> {
         let design = call.instance(0)?.design.clone();
         let DesignKind::Truss(truss) = &design.kind else { return Ok(None) };
         let Some(strut) = truss.strut_kind().cloned() else { return Ok(None) };
         let start: Vec<Vec3> = truss.nodes.iter().map(|node| node.place).collect();
         let limits = truss_limits::of(call, limits, truss)?;
         let structure = Structure::new(&strut, &start, &truss.struts).limited(&start, limits);
-        Ok(Some(Task { strut, start, structure, design }))
+        let structure = structure.amid(around.compiled(&strut));
+        Ok(Some(Task { strut, start, structure, around, design }))
     }
 
     fn truss(&self) -> &TrussDesign {
@@ -358,6 +351,11 @@ impl Task {
             Bound::Longest(k) => format!("{} is at its greatest length", strut(k)),
             Bound::Apart(i, j) | Bound::EndApart(i, _, j) => format!("{} is near {}", strut(i), strut(j)),
             Bound::Above(node) => format!("{} is on the ground", self.truss().nodes[node].name),
+            Bound::Over(k, _) => format!("{} is on the ground", strut(k)),
+            Bound::Clear(k, part, _) => {
+                let obstacle = self.structure.around.parts[part].0 + 1;
+                format!("{} is near obstacle {obstacle}", strut(k))
+            }
             Bound::Angle(i, j) => format!("{} is near {} in angle", strut(i), strut(j)),
             Bound::Least(k) | Bound::Most(k) => format!("the sum of perimeter {} changes", k + 1),
             Bound::Rigid(..) => "its rigidity is at its least".to_string(),
@@ -393,7 +391,10 @@ impl Task {
         let causes = interpreter.planner_causes(call.span);
         let places = |x: &[Vec3]| x.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>();
         let cause = CauseId(0);
-        let mut knots = vec![Knot { time: 0.0, way: Way::Straight, nodes: places(&self.start), cause }];
+        let stands = world.gravity > 0.0;
+        let margins = |x: &[Vec3]| margins::margins(&self.structure, x, stands);
+        let (way, nodes, at_start) = (Way::Straight, places(&self.start), margins(&self.start));
+        let mut knots = vec![Knot { time: 0.0, way, nodes, cause, margins: at_start }];
         let (mut time, mut x) = (0.0, self.start.clone());
         for step in moves {
             let (y, way, lasts) = match step {
@@ -409,7 +410,7 @@ impl Task {
             };
             time += lasts.max(STEP_MIN);
             x = y;
-            knots.push(Knot { time, way, nodes: places(&x), cause });
+            knots.push(Knot { time, way, nodes: places(&x), cause, margins: margins(&x) });
         }
         let truss = self.truss();
         let paths = NodePaths {
@@ -418,6 +419,7 @@ impl Task {
             struts: truss.struts.clone(),
             knots,
             limits: truss_limits::planned(&self.structure),
+            surroundings: self.around.planned(),
         };
         let library = Arc::new(Library { struts: vec![self.strut], ..Library::default() });
         let plan = interpreter.bare_plan(planner, Body::NodePaths(paths), library, world, &causes);

@@ -63,6 +63,12 @@ impl Stage {
         self.ask(Request::Elapsed)
     }
 
+    /// Asked again and again by a search: whether it may go on, for so many seconds from now at most.
+    pub fn until(&self, timeout: Option<f64>) -> impl Fn() -> bool {
+        let begun = self.elapsed();
+        move || !self.cancelled() && timeout.is_none_or(|most| self.elapsed() - begun <= most)
+    }
+
     fn ask<T>(&self, request: impl FnOnce(Sender<T>) -> Request) -> T {
         let (sender, receiver) = channel();
         self.send(request(sender));

@@ -7,7 +7,7 @@ use super::cells::Cells;
 use super::design::{Design, Instance};
 use super::record::Record;
 use crate::check::typed::{DefId, Expr, Local};
-use crate::geometry::{Placed, Pose, Vec3};
+use crate::geometry::{HeightField, Placed, Pose, Vec3};
 use crate::plan;
 use crate::robot::{JointKind, JointOwner, Limits};
 use crate::source::Symbol;
@@ -51,6 +51,7 @@ pub enum Value {
     Cells(Rc<Cells>),
     Mesh(Rc<Mesh>),
     Cloud(Rc<Vec<Vec3>>),
+    Terrain(Rc<HeightField>),
     Record(Rc<Record>),
 }
 
@@ -234,6 +235,7 @@ impl Value {
             (Shape(a), Shape(b)) => a.parts == b.parts,
             (Mesh(a), Mesh(b)) => a.vertices == b.vertices && a.faces == b.faces,
             (Cloud(a), Cloud(b)) => a == b,
+            (Terrain(a), Terrain(b)) => a == b,
             (Record(a), Record(b)) => Rc::ptr_eq(a, b),
             (a, b) => a.as_number()? == b.as_number()?,
         })

@@ -79,19 +79,9 @@ impl ActiveSet {
         }
     }
 
-    /// Adds `a·x = b`; says its number.
-    pub fn equal(&mut self, row: Row) -> usize {
-        self.line(row, true)
-    }
-
-    /// Adds `a·x ≤ b`; says its number.
-    pub fn at_most(&mut self, row: Row) -> usize {
-        self.line(row, false)
-    }
-
-    fn line(&mut self, (terms, right): Row, equal: bool) -> usize {
+    /// Adds `a·x = b`, or `a·x ≤ b`. Rows are numbered as they come.
+    pub fn add(&mut self, (terms, right): Row, equal: bool) {
         self.lines.push(Line { terms, right, equal, image: None, active: false });
-        self.lines.len() - 1
     }
 
     /// Another right side.

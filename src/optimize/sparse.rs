@@ -21,15 +21,10 @@ pub fn solved(
 ) -> Result<Solution, Unsolved> {
     let n = costs.len();
     let rows: Vec<_> = equal.iter().chain(at_most).collect();
-    let (mut at_row, mut at_column, mut values) = (Vec::new(), Vec::new(), Vec::new());
-    for (row, (terms, _)) in rows.iter().enumerate() {
-        for &(column, value) in terms {
-            at_row.push(row);
-            at_column.push(column);
-            values.push(value);
-        }
-    }
-    let matrix = CscMatrix::new_from_triplets(rows.len(), n, at_row, at_column, values);
+    let entries = rows.iter().enumerate();
+    let entries =
+        entries.flat_map(|(row, (terms, _))| terms.iter().map(move |&(at, value)| (row, at, value)));
+    let matrix = matrix((rows.len(), n), entries);
     let right: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
     let cones = [ZeroConeT(equal.len()), NonnegativeConeT(at_most.len())];
     let settings = DefaultSettingsBuilder::default()
@@ -50,4 +45,18 @@ pub fn solved(
         SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => Err(Unsolved::Unbounded),
         _ => Err(Unsolved::Numerical),
     }
+}
+
+/// Entries (row, column, value); those at one place are summed.
+pub fn matrix(
+    (rows, columns): (usize, usize),
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+) -> CscMatrix {
+    let (mut at_row, mut at_column, mut values) = (Vec::new(), Vec::new(), Vec::new());
+    for (row, column, value) in entries {
+        at_row.push(row);
+        at_column.push(column);
+        values.push(value);
+    }
+    CscMatrix::new_from_triplets(rows, columns, at_row, at_column, values)
 }

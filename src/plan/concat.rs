@@ -5,8 +5,8 @@ use super::carry::Carrier;
 use super::seam::join_stages;
 use super::time::{DURATION_MAX, tick_after};
 use super::{
-    Body, Change, Knot, Node, NodePaths, Plan, Program, Settings, Stability, Tracks, TrussLimits, Unfit,
-    WorldFrom,
+    Body, Change, Knot, Margins, Node, NodePaths, Plan, Program, Settings, Stability, Tracks, TrussLimits,
+    Unfit, WorldFrom,
 };
 use crate::robot::matching;
 use std::sync::Arc;
@@ -119,14 +119,20 @@ fn join_paths(a: &NodePaths, b: &NodePaths, causes: u32) -> Result<NodePaths, Un
     if let Some(node) = apart {
         return Err(Unfit::Trusses { node: Some(a.node_names[node].clone()) });
     }
+    if a.surroundings != b.surroundings {
+        return Err(Unfit::Surroundings);
+    }
     let mut new = a.clone();
     // Each part keeps its own; the whole keeps what both do.
     if a.limits != b.limits {
         new.limits = TrussLimits::default();
     }
+    let margins = |margins: Margins| if a.limits == b.limits { margins } else { Margins::default() };
+    new.knots.iter_mut().for_each(|knot| knot.margins = margins(knot.margins));
     new.knots.extend(b.knots.iter().skip(1).map(|k| Knot {
         time: k.time + seam,
         cause: super::CauseId(k.cause.0 + causes),
+        margins: margins(k.margins),
         ..k.clone()
     }));
     Ok(new)

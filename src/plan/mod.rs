@@ -41,7 +41,7 @@ use std::sync::Arc;
 pub use body::{Body, Snapshot};
 pub use carry::Carrier;
 pub use concat::joined;
-pub use node_paths::{Knot, LengthSum, NodePaths, TrussLimits, Way};
+pub use node_paths::{Knot, LengthSum, Margins, NodePaths, Surroundings, TrussLimits, Way};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
 pub use ratio::Ratio;
 pub use reverse::reversed;

@@ -1,6 +1,7 @@
 //! The body of plans of trusses: paths of the nodes; strut lengths follow.
 
 use super::CauseId;
+use crate::geometry::{HeightField, Placed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +19,33 @@ pub struct NodePaths {
     /// What it keeps beside the limits of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
+    #[serde(default, skip_serializing_if = "Surroundings::is_none")]
+    pub surroundings: Surroundings,
+}
+
+/// What is around a truss, in the world's frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Surroundings {
+    /// Solids that struts keep their clearance from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacles: Vec<Vec<Placed>>,
+    /// The ground that nodes stand on, where it is not flat at height 0. Nodes are taken to be balls as
+    /// thick as the clearance on each side, struts as half of it: between its nodes a strut may be half a
+    /// clearance below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<HeightField>,
+}
+
+impl Surroundings {
+    pub fn is_none(&self) -> bool {
+        *self == Surroundings::default()
+    }
+
+    /// How far a place is above the ground, m.
+    pub fn above(&self, p: crate::geometry::Vec3) -> f64 {
+        self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
+    }
 }
 
 /// Limits of a truss beside those that every strut has.
@@ -62,6 +90,42 @@ pub struct Knot {
     /// World position of each node, m.
     pub nodes: Vec<[f64; 3]>,
     pub cause: CauseId,
+    #[serde(default, skip_serializing_if = "Margins::is_none")]
+    pub margins: Margins,
+}
+
+/// By how much a truss is within its limits at a knot; negative outside. Nothing of limits that it has not, nor of
+/// distances that are more than twice the clearance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Margins {
+    /// To the nearer end of the range of a strut's lengths, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
+    /// Beyond the clearance between struts that share no node, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// Beyond the clearance from obstacles, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub obstacle: Option<f64>,
+    /// Of the centre of mass inside the hull of the nodes on the ground, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<f64>,
+    /// Beyond the least angle between struts that share a node, rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+    /// Of the least singular value above its limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rigidity: Option<f64>,
+    /// To the nearer end of the range of a sum of lengths, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sum: Option<f64>,
+}
+
+impl Margins {
+    pub fn is_none(&self) -> bool {
+        *self == Margins::default()
+    }
 }
 
 /// How nodes go from one knot to the next, evenly in time.

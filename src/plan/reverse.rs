@@ -111,7 +111,13 @@ impl NodePaths {
                 Way::Roll { edge, angle } => Way::Roll { edge, angle: -angle },
                 Way::Straight => Way::Straight,
             };
-            Knot { time: d - knots[i].time, way, nodes: knots[i].nodes.clone(), cause: out.cause }
+            Knot {
+                time: d - knots[i].time,
+                way,
+                nodes: knots[i].nodes.clone(),
+                cause: out.cause,
+                margins: knots[i].margins,
+            }
         };
         NodePaths { knots: (0..knots.len()).rev().map(knot).collect(), ..self.clone() }
     }

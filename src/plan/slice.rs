@@ -2,7 +2,9 @@
 
 use super::reverse::retell;
 use super::time::tick_near;
-use super::{Body, Change, Exemption, Knot, NodePaths, Plan, Stages, Track, Tracks, Unfit, Way, WorldFrom};
+use super::{
+    Body, Change, Exemption, Knot, Margins, NodePaths, Plan, Stages, Track, Tracks, Unfit, Way, WorldFrom,
+};
 
 /// The plan between two times in seconds, each rounded to the nearest tick, clipped to the plan. The
 /// program is told anew from the tracks, or dropped with the reason in the history.
@@ -94,7 +96,9 @@ impl NodePaths {
                 way => way,
             };
             before = time;
-            Knot { time: time - from, way, nodes: self.state(time), cause: knot.cause }
+            // Where it is cut the margins are others.
+            let margins = if knot.time == time { knot.margins } else { Margins::default() };
+            Knot { time: time - from, way, nodes: self.state(time), cause: knot.cause, margins }
         };
         NodePaths { knots: times.into_iter().map(knot).collect(), ..self.clone() }
     }

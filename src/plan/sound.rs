@@ -2,7 +2,7 @@
 
 use super::validate::validate;
 use super::{Body, Ground, NodePaths, Plan, Tracks, Way, finite};
-use crate::geometry::{Placed, soundness};
+use crate::geometry::{HeightField, Placed, soundness};
 use crate::robot::{Assembly, JointKind, JointOwner, Library, Link, ModuleType};
 
 /// Farther no joint turns (rad) or moves (m): what turns that often takes the judge for ever.
@@ -49,6 +49,13 @@ fn trusses(paths: &NodePaths) -> Result<(), String> {
     let finite = |what: &str, checked: Result<(), finite::Fault>| checked.map_err(|e| format!("{what}: {e}"));
     finite("the knots", finite::check(&paths.knots))?;
     finite("the limits", finite::check(&paths.limits))?;
+    finite("the surroundings", finite::check(&paths.surroundings))?;
+    for placed in paths.surroundings.obstacles.iter().flatten() {
+        soundness::check(&placed.shape).map_err(|fault| format!("an obstacle: {fault}"))?;
+    }
+    if let Some(fault) = paths.surroundings.terrain.as_ref().and_then(HeightField::fault) {
+        return Err(fault.to_string());
+    }
     need(paths.struts.iter().all(|(a, b)| a != b), || "a strut begins and ends at one node".to_owned())?;
     paths.knots.iter().try_for_each(|knot| match knot.way {
         Way::Roll { edge: (a, b), .. } => need(knot.nodes[a] != knot.nodes[b], || {

@@ -15,6 +15,8 @@ pub enum Unfit {
     Robots(Mismatch),
     /// Two trusses that differ in their struts, or in where a node is.
     Trusses { node: Option<String> },
+    /// Two trusses among different obstacles, or on different ground.
+    Surroundings,
     /// Two lattices of different cells.
     Cells,
     /// Two lattices with other numbers of cells.
@@ -41,6 +43,9 @@ impl std::fmt::Display for Unfit {
             Unfit::Trusses { node: None } => write!(f, "the plans are of different trusses"),
             Unfit::Trusses { node: Some(node) } => {
                 write!(f, "node `{node}` is not where the second plan starts when the first ends")
+            }
+            Unfit::Surroundings => {
+                write!(f, "the plans are among different obstacles, or on different ground")
             }
             Unfit::Cells => write!(f, "the plans are of different cells"),
             Unfit::CellCounts { first, second } => {

@@ -40,7 +40,7 @@ fn is_plain(def: &Def) -> bool {
     fn plain(ty: &Type) -> bool {
         match ty {
             Type::Quantity(_) | Type::Int | Type::Bool | Type::Text | Type::Pose => true,
-            Type::Cells | Type::Mesh | Type::Cloud => true,
+            Type::Cells | Type::Mesh | Type::Cloud | Type::Terrain => true,
             Type::List(of) | Type::Vec3(of) | Type::Range(of) | Type::Optional(of) => plain(of),
             _ => false,
         }

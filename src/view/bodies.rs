@@ -1,9 +1,9 @@
 //! What there is to see of a plan at a time: coloured meshes in the world.
 
-use super::colour::{FAILED, PALETTE, Rgb, groups};
+use super::colour::{AROUND, FAILED, PALETTE, Rgb, groups};
 use super::mesh::Mesh;
 use super::primitives::along;
-use super::{Showing, findings};
+use super::{Showing, findings, surroundings};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::base_at;
@@ -93,6 +93,9 @@ fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {
         let mut mesh = Mesh::default();
         mesh.ball(&shifted(*node), 1.3 * thick);
         drawn.push(Drawn { mesh, colour: PALETTE[7] });
+    }
+    for (_, shapes) in surroundings::solids(paths) {
+        drawn.push(Drawn { mesh: Mesh::of(&shapes), colour: AROUND });
     }
     drawn
 }

@@ -20,6 +20,9 @@ pub const PALETTE: [Rgb; 8] = [
 /// Of what a failure names.
 pub const FAILED: Rgb = hex(0xd9480f);
 
+/// Of what is no part of a robot: obstacles, and ground that is not flat.
+pub const AROUND: Rgb = hex(0xb4b8b2);
+
 /// From cold to warm (after cividis).
 const RAMP: [Rgb; 5] = [hex(0x1c4a86), hex(0x4f7196), hex(0x7f8c8d), hex(0xbca94f), hex(0xfddc3b)];
 

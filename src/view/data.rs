@@ -27,14 +27,15 @@ pub fn data(showing: &Showing) -> Value {
             robot::body(tracks, base, &mut meshes, &mut notes)
         }
         Body::Stages(stages) => lattice::body(stages, &plan.library),
-        Body::NodePaths(paths) => truss::body(paths, &plan.library),
+        Body::NodePaths(paths) => truss::body(paths, &plan.library, &mut meshes),
     };
     let (contacts, in_part) = stand::contacts(&moments);
     if in_part {
         notes.push(format!("of the contacts with the ground {CONTACTS_MAX} at most are marked"));
     }
     let clearance = clearance(plan, end, &mut notes);
-    let ground = plan.worlds.first().is_none_or(|world| world.world.has_floor());
+    let uneven = matches!(&plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
+    let ground = !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor());
     json!({
         "title": showing.title,
         "summary": findings::summary(showing),

@@ -31,7 +31,8 @@ mod raster;
 
 pub mod fold_format;
 
-pub mod svg;
+pub mod surroundings;
+mod svg;
 
 mod graph;
 mod layers;

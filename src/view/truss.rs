@@ -1,11 +1,13 @@
 //! A truss in a page: its nodes at the knots of its plan.
 
 use super::number::{list, number};
+use super::solids::{Meshes, solids};
+use super::surroundings;
 use crate::plan::{Knot, NodePaths, Way};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
-pub fn body(paths: &NodePaths, library: &Library) -> Value {
+pub fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) -> Value {
     let strut = library.struts.get(paths.strut);
     let (low, high) = strut.map_or((0.0, 1.0), |strut| strut.length);
     json!({
@@ -14,6 +16,10 @@ pub fn body(paths: &NodePaths, library: &Library) -> Value {
         "range": list([low, high]),
         "nodes": paths.node_names,
         "struts": paths.struts.iter().map(|(a, b)| [a, b]).collect::<Vec<_>>(),
+        "around": surroundings::solids(paths)
+            .iter()
+            .map(|(name, shapes)| json!({ "name": name, "solids": solids(shapes, meshes) }))
+            .collect::<Vec<_>>(),
         "knots": paths.knots.iter().map(knot).collect::<Vec<_>>(),
     })
 }

@@ -62,8 +62,10 @@ mod lattice_tiles;
 mod lattice_window;
 
 pub mod truss;
+mod truss_around;
 mod truss_distance;
 mod truss_lengths;
+mod truss_margins;
 mod truss_shape;
 mod truss_standing;
 

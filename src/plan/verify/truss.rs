@@ -8,7 +8,7 @@
 
 use super::ledger::{Ledger, lower};
 use super::truss_standing::Standing;
-use super::{truss_distance, truss_lengths, truss_shape, truss_standing};
+use super::{truss_around, truss_distance, truss_lengths, truss_shape, truss_standing};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::{CheckKind, Failure, Ground, NodePaths, Plan, Status, Verdict, Way, World, Worst};
@@ -33,12 +33,18 @@ pub struct Judged<'a> {
     /// Where struts share a node, if the plan keeps an angle.
     pub corners: Vec<truss_shape::Corner>,
     pub strut: &'a Strut,
+    pub obstacles: Vec<truss_around::Obstacle>,
 }
 
 pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, paths.duration());
     let corners = if paths.limits.angle > 0.0 { truss_shape::corners(paths) } else { Vec::new() };
-    let judged = Judged { paths, corners, strut: &plan.library.struts[paths.strut] };
+    let strut = &plan.library.struts[paths.strut];
+    let mut judged = Judged { paths, corners, strut, obstacles: Vec::new() };
+    match truss_around::obstacles(paths) {
+        Ok(obstacles) => judged.obstacles = obstacles,
+        Err(why) => ledger.fail(judged.failure(CheckKind::Form, 0.0, vec![], format!("an obstacle: {why}"))),
+    }
     let places: Vec<Vec<Vec3>> =
         paths.knots.iter().map(|knot| knot.nodes.iter().map(|p| Vec3::from(*p)).collect()).collect();
     let world_at = |t: f64| {
@@ -46,6 +52,7 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         plan.worlds[last].world
     };
     let mut standing = Standing::new(&judged);
+    judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
     for (i, knot) in paths.knots.iter().enumerate().skip(1) {
         interrupt::progress(|| format!("step {i} of {}", paths.knots.len() - 1));
@@ -60,6 +67,7 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         let world = world_at(begins);
         judged.lengths(&leg, &mut ledger);
         judged.distances(&leg, &mut ledger);
+        judged.obstacles(&leg, &mut ledger);
         judged.shape(&leg, &mut ledger);
         if world.ground != Ground::Off {
             judged.ground(&leg, &mut ledger);
@@ -72,6 +80,11 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         {
             let message = "without gravity and a ground nothing makes it roll".to_string();
             ledger.fail(judged.failure(CheckKind::Ground, begins, vec![], message));
+        }
+    }
+    for (knot, x) in paths.knots.iter().zip(&places).filter(|(knot, _)| !knot.margins.is_none()) {
+        if let Some(failure) = judged.margins(&knot.margins, x, knot.time, &standing) {
+            ledger.fail(failure);
         }
     }
     judged.summary(&places, &standing, plan, &mut ledger);
@@ -95,6 +108,7 @@ impl Judged<'_> {
         if self.paths.knots.len() == 1 {
             self.lengths(&leg, ledger);
             self.distances(&leg, ledger);
+            self.obstacles(&leg, ledger);
             self.shape(&leg, ledger);
         }
         if world.ground != Ground::Off && self.paths.knots.len() == 1 {
@@ -169,6 +183,9 @@ impl Judged<'_> {
     }
 
     fn ground(&self, leg: &Leg, ledger: &mut Ledger) {
+        if let Some(terrain) = &self.paths.surroundings.terrain {
+            return self.uneven(leg, terrain, ledger);
+        }
         let lowest = (0..leg.from.len()).map(|node| (truss_standing::lowest(leg, node), node));
         let Some(((height, part), node)) = lowest.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) else { return };
         if height < -TOL_GROUND {
@@ -205,7 +222,7 @@ impl Judged<'_> {
                 time: plan.body.duration(),
                 at: vec![self.paths.node_names[node].clone()],
             });
-            ledger.check(CheckKind::Slip, Status::NotChecked("nodes may slide on the ground".into()));
+            ledger.check(CheckKind::Slip, Status::NotChecked(standing.sliding()));
             let why = "the forces in the struts are not found";
             ledger.check(CheckKind::BondLoad, Status::NotChecked(why.into()));
         }

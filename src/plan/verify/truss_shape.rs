@@ -130,22 +130,9 @@ impl Judged<'_> {
         ledger.fail(Failure { value: length, limit, ..failure });
     }
 
-    /// The least singular value but those of the motions of the whole.
     fn rigidity(&self, x: &[Vec3], time: f64, ledger: &mut Ledger) {
         let limit = self.paths.limits.rigidity;
-        let struts = &self.paths.struts;
-        let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
-        for (row, &(a, b)) in struts.iter().enumerate() {
-            let along = (x[a] - x[b]).normalize();
-            for k in 0..3 {
-                matrix[(row, 3 * a + k)] = along[k];
-                matrix[(row, 3 * b + k)] = -along[k];
-            }
-        }
-        let mut squares: Vec<f64> =
-            (matrix.transpose() * &matrix).symmetric_eigenvalues().iter().copied().collect();
-        squares.sort_by(f64::total_cmp);
-        let weakest = squares.get(MOTIONS).map_or(0.0, |square| square.max(0.0).sqrt());
+        let weakest = weakest(self.paths, x);
         lower(&mut ledger.verdict.rigidity, weakest, time, Vec::new);
         if weakest < limit - TOL_RIGIDITY {
             let message = format!(
@@ -159,12 +146,37 @@ impl Judged<'_> {
     }
 }
 
+/// The least singular value but those of the motions of the whole.
+pub fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
+    let struts = &paths.struts;
+    let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
+    for (row, &(a, b)) in struts.iter().enumerate() {
+        let along = (x[a] - x[b]).normalize();
+        for k in 0..3 {
+            matrix[(row, 3 * a + k)] = along[k];
+            matrix[(row, 3 * b + k)] = -along[k];
+        }
+    }
+    let mut squares: Vec<f64> =
+        (matrix.transpose() * &matrix).symmetric_eigenvalues().iter().copied().collect();
+    squares.sort_by(f64::total_cmp);
+    squares.get(MOTIONS).map_or(0.0, |square| square.max(0.0).sqrt())
+}
+
 /// Two struts that share a node.
 pub struct Corner {
     node: usize,
     /// Their other nodes.
     ends: (usize, usize),
     struts: (usize, usize),
+}
+
+impl Corner {
+    /// Between its struts, rad.
+    pub fn angle(&self, x: &[Vec3]) -> f64 {
+        let (p, q) = self.ends;
+        between(x[p] - x[self.node], x[q] - x[self.node])
+    }
 }
 
 /// In order.

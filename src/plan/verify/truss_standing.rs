@@ -24,6 +24,8 @@ pub struct Standing<'a> {
     contact: f64,
     /// How far each node slid over the ground, m.
     slid: Vec<f64>,
+    /// The steepest ground that a foot stood on: height by way.
+    steepest: f64,
     pub events: Vec<(f64, String)>,
 }
 
@@ -61,7 +63,13 @@ impl<'a> Standing<'a> {
         let first = &paths.knots[0].nodes;
         let length = |&(a, b): &(usize, usize)| (Vec3::from(first[a]) - Vec3::from(first[b])).norm();
         let mean = paths.struts.iter().map(length).sum::<f64>() / paths.struts.len().max(1) as f64;
-        Standing { judged, contact: CONTACT * mean, slid: vec![0.0; first.len()], events: Vec::new() }
+        Standing {
+            judged,
+            contact: CONTACT * mean,
+            slid: vec![0.0; first.len()],
+            steepest: 0.0,
+            events: Vec::new(),
+        }
     }
 
     /// The farthest that a node slid, m, and which.
@@ -72,6 +80,35 @@ impl<'a> Standing<'a> {
         self.slid.iter().enumerate().fold((0.0, 0), most)
     }
 
+    /// What is not judged of sliding.
+    pub fn sliding(&self) -> String {
+        let words = "nodes may slide on the ground";
+        if self.steepest == 0.0 {
+            return words.to_owned();
+        }
+        let slope = quantity(libm::atan(self.steepest), Dimension::ANGLE);
+        format!(
+            "{words}; feet stand on slopes of up to {slope}, which takes friction of {:.2}",
+            self.steepest
+        )
+    }
+
+    /// Whether a place is on the ground.
+    pub fn touches(&self, p: Vec3) -> bool {
+        self.judged.paths.surroundings.above(p) <= self.contact
+    }
+
+    /// Whether a node touches the ground all the way of a leg.
+    fn stays_down(&self, leg: &Leg, node: usize) -> bool {
+        let (from, to) = (leg.from[node], leg.to[node]);
+        let mut stays = self.touches(from) && self.touches(to);
+        if let Some(terrain) = self.judged.paths.surroundings.terrain.as_ref().filter(|_| stays && from != to)
+        {
+            terrain.profile(from, to, |_, height| stays &= height <= self.contact);
+        }
+        stays
+    }
+
     pub fn leg(&mut self, leg: &Leg, ledger: &mut Ledger) {
         match leg.way {
             Way::Straight => self.straight(leg, ledger),
@@ -79,12 +116,14 @@ impl<'a> Standing<'a> {
         }
     }
 
-    /// It stands on the nodes that are on the ground at both ends, and so all the way.
+    /// It stands on the nodes that are on the ground all the way: on flat ground, at both ends.
     fn straight(&mut self, leg: &Leg, ledger: &mut Ledger) {
-        let low = |x: &[Vec3], node: usize| x[node].z <= self.contact;
-        let feet: Vec<usize> =
-            (0..leg.from.len()).filter(|&n| low(&leg.from, n) && low(&leg.to, n)).collect();
+        let feet: Vec<usize> = (0..leg.from.len()).filter(|&n| self.stays_down(leg, n)).collect();
         for &node in &feet {
+            if let Some(terrain) = &self.judged.paths.surroundings.terrain {
+                let [x, y] = terrain.slope(leg.from[node].x, leg.from[node].y);
+                self.steepest = self.steepest.max(libm::hypot(x, y));
+            }
             let slid = leg.to[node] - leg.from[node];
             self.slid[node] += libm::hypot(slid.x, slid.y);
         }
@@ -159,7 +198,7 @@ impl<'a> Standing<'a> {
                 ledger,
             );
         }
-        if origin.z > self.contact || end.z > self.contact {
+        if !self.touches(origin) || !self.touches(end) {
             return refuse(format!("it rolls over {name}, which is not on the ground"), ledger);
         }
         // Turned by a positive angle, what is right of the edge goes down.
@@ -167,7 +206,7 @@ impl<'a> Standing<'a> {
             let side = (p.x - origin.x) * along.y - (p.y - origin.y) * along.x;
             side * angle.signum() / libm::hypot(along.x, along.y)
         };
-        let feet = (0..leg.from.len()).filter(|&n| leg.from[n].z <= self.contact);
+        let feet = (0..leg.from.len()).filter(|&n| self.touches(leg.from[n]));
         if let Some(foot) = feet.into_iter().find(|&n| beyond(leg.from[n]) > TOL_MARGIN) {
             let foot = &paths.node_names[foot];
             return refuse(format!("it rolls over {name}, and stands on {foot} beyond"), ledger);

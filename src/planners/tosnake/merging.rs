@@ -21,6 +21,17 @@ pub struct Pair {
 
 /// All pairs of free ends of different chains, the most promising first.
 pub fn pairs(state: &State) -> Vec<Pair> {
+    let pair = |[a, b]: [Dock; 2]| {
+        let length = bending(state, a, b);
+        Pair { a, b, length, cost: cost(length, gap(state, a, b)) }
+    };
+    let mut pairs: Vec<Pair> = free_ends(state).into_iter().map(pair).collect();
+    pairs.sort_by(|p, q| p.cost.total_cmp(&q.cost).then((p.a, p.b).cmp(&(q.a, q.b))));
+    pairs
+}
+
+/// All pairs of free ends of different chains, in order.
+pub fn free_ends(state: &State) -> Vec<[Dock; 2]> {
     let at = state.robot.bond_at();
     let chains = state.chains();
     let free: Vec<Dock> = (0..2 * state.robot.modules())
@@ -29,16 +40,8 @@ pub fn pairs(state: &State) -> Vec<Pair> {
         .collect();
     let mut pairs = Vec::new();
     for (i, &a) in free.iter().enumerate() {
-        for &b in &free[i + 1..] {
-            if chains[a.module] == chains[b.module] {
-                continue;
-            }
-            let length = bending(state, a, b);
-            let gap = gap(state, a, b);
-            pairs.push(Pair { a, b, length, cost: cost(length, gap) });
-        }
+        pairs.extend(free[i + 1..].iter().filter(|b| chains[a.module] != chains[b.module]).map(|&b| [a, b]));
     }
-    pairs.sort_by(|p, q| p.cost.total_cmp(&q.cost).then((p.a, p.b).cmp(&(q.a, q.b))));
     pairs
 }
 

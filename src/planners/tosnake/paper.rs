@@ -6,6 +6,7 @@
 //! and the search would not end; each pair is tried once, not in either order.
 
 use super::fabrik::{Chain, TOUCHING};
+use super::merging;
 use super::near;
 use super::rigid::Vec3;
 use super::robot::{Bond, Dock, Robot};
@@ -114,16 +115,7 @@ fn root(state: &mut State) {
 
 /// Pairs of free tips of different chains, the first to be tried last.
 fn pairs(state: &State) -> Vec<[Dock; 2]> {
-    let at = state.robot.bond_at();
-    let chains = state.chains();
-    let tips: Vec<Dock> = (0..2 * state.robot.modules())
-        .map(Dock::red)
-        .filter(|dock| at[dock.module][dock.dock].is_none())
-        .collect();
-    let mut pairs = Vec::new();
-    for (i, &a) in tips.iter().enumerate() {
-        pairs.extend(tips[i + 1..].iter().filter(|b| chains[a.module] != chains[b.module]).map(|&b| [a, b]));
-    }
+    let mut pairs = merging::free_ends(state);
     pairs.reverse();
     pairs
 }

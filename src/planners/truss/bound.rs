@@ -1,5 +1,5 @@
-//! What must not fall below zero: lengths, distances between struts, heights, angles, sums of lengths,
-//! rigidity. Each has a value and a gradient over the nodes.
+//! What must not fall below zero: lengths, distances between struts and from obstacles, heights, angles,
+//! sums of lengths, rigidity. Each has a value and a gradient over the nodes.
 
 use super::segment::{self, Witness};
 use super::stiffness;
@@ -18,6 +18,10 @@ pub enum Bound {
     EndApart(usize, usize, usize),
     /// A node above the ground.
     Above(usize),
+    /// A point of a strut above uneven ground, by its number of [`POINTS`].
+    Over(usize, usize),
+    /// An end (0 or 1, last) of a strut on its side of the plane between it and a part of an obstacle.
+    Clear(usize, usize, usize),
     /// Two struts that share a node, the lower first: the angle between them, in units.
     Angle(usize, usize),
     /// The sum of a loop's lengths.
@@ -28,6 +32,11 @@ pub enum Bound {
     Rigid(usize, usize),
 }
 
+/// Points of a strut that are looked at, evenly along it, are its ends and one less than this between.
+pub const POINTS: usize = 64;
+/// What planners leave of how far struts may be below the ground that nodes stand on, in units.
+pub const DIP: f64 = 1e-4;
+
 impl Bound {
     /// Metres; not below zero.
     pub fn value(self, truss: &Structure, x: &[Vec3]) -> f64 {
@@ -35,7 +44,18 @@ impl Bound {
             Bound::Shortest(strut) => truss.length(x, strut) - truss.lengths[strut].0,
             Bound::Longest(strut) => truss.lengths[strut].1 - truss.length(x, strut),
             Bound::Apart(..) | Bound::EndApart(..) => self.witness(truss, x).distance - truss.clearance,
-            Bound::Above(node) => x[node].z,
+            Bound::Above(node) => truss.around.above(x[node]),
+            Bound::Over(strut, point) => {
+                let (a, b) = truss.segment(x, strut);
+                let height = truss.around.above(a + (b - a) * (point as f64 / POINTS as f64));
+                height + truss.around.sink - DIP * truss.unit
+            }
+            Bound::Clear(strut, part, end) => {
+                let ends = truss.segment(x, strut);
+                let nearest = truss.around.nearness(ends, part, f64::MAX);
+                let ahead = [ends.0, ends.1].map(|end| end.dot(&nearest.normal));
+                nearest.distance + ahead[0].max(ahead[1]) - ahead[end] - truss.clearance
+            }
             Bound::Angle(i, j) => {
                 let (u, v) = arms(truss, x, i, j);
                 (angle(u, v) - truss.limits.angle) * truss.unit
@@ -63,7 +83,18 @@ impl Bound {
                 let ((a, b), (c, d)) = (truss.struts[i], truss.struts[j]);
                 vec![(a, normal * (1.0 - s)), (b, normal * s), (c, -normal * (1.0 - t)), (d, -normal * t)]
             }
-            Bound::Above(node) => vec![(node, Vec3::z())],
+            Bound::Above(node) => vec![(node, truss.around.upward(x[node]))],
+            Bound::Over(strut, point) => {
+                let ((a, b), (p, q)) = (truss.struts[strut], truss.segment(x, strut));
+                let part = point as f64 / POINTS as f64;
+                let up = truss.around.upward(p + (q - p) * part);
+                vec![(a, up * (1.0 - part)), (b, up * part)]
+            }
+            Bound::Clear(strut, part, end) => {
+                let (a, b) = truss.struts[strut];
+                let nearest = truss.around.nearness(truss.segment(x, strut), part, f64::MAX);
+                vec![([a, b][end], -nearest.normal)]
+            }
             Bound::Angle(i, j) => {
                 let (node, p, q) = truss.corner(i, j);
                 let (u, v) = arms(truss, x, i, j);

@@ -1,18 +1,19 @@
 //! `locomote`: the centre of mass along a path, step by step, and over the edge where it leaves the
 //! support (sections IV.A to IV.C of the paper).
 
+use super::ahead;
 use super::bound::Bound;
 use super::locomotion::{self, Aim};
-use super::roll::{self, Roll};
+use super::roll::{self, Fate, Roll};
 use super::step::{CUSHION, Memory, Stuck, Task, step};
 use super::structure::Structure;
 use super::support;
 use crate::geometry::Vec3;
 
-/// Rolls in a row: a robot that still falls is a wheel.
-const ROLLS_MAX: usize = 50;
-/// Rungs of the ladder that are taken one after another without the next step being an ordinary one.
+/// Rungs of the ladder that are taken one after another without the next step being an ordinary one, and so
+/// where other ways to go on are known.
 const EASED_MAX: usize = 60;
+const EASED_MAX_AHEAD: usize = 3;
 /// A node is put down beyond an edge when the centre of mass comes so near to it, in units; how far beyond;
 /// how much its way down weighs beside everything else; steps until another is taken.
 const FOOTHOLD_AT: f64 = 0.1;
@@ -43,6 +44,8 @@ pub struct Wish {
     /// Whether it may fall over an edge onto other nodes; else it puts one down beyond the edge first, where
     /// it can (as variable topology trusses roll without impact).
     pub impact: bool,
+    /// Steps that each way to go on is tried for before the best is taken; of 0 none is tried.
+    pub ahead: usize,
     /// Whether the ladder of easier steps is gone down where a step is not found.
     pub ladder: bool,
     pub steps_max: usize,
@@ -62,6 +65,8 @@ pub enum End {
     Stuck(Stuck),
     /// It stands on one node, or rolls for ever.
     Falls,
+    /// It would fall over an edge, and into this.
+    Blocked(Bound),
     /// The steps allowed were not enough.
     Steps,
     Cancelled,
@@ -81,6 +86,8 @@ pub struct Travel {
     pub footholds: usize,
     /// How far nodes slid over the ground, all together, m.
     pub slip: f64,
+    /// How long it all takes, s; a roll a second a radian.
+    pub lasts: f64,
 }
 
 /// An easier step.
@@ -103,20 +110,27 @@ const RUNGS: [Rung; 8] = [
     Rung { speed: 0.0, level: true, other_hold: false, springs: true },
 ];
 
-/// Moves a truss that stands on the ground at height 0. `going` is asked before every step.
+/// Moves a truss that stands on the ground. `going` is asked before every step, with the places reached.
 pub fn locomote(truss: &Structure, start: &[Vec3], wish: &Wish, going: &dyn Fn(usize) -> bool) -> Travel {
     let truss = &truss.cautious(CUSHION);
     let mut walk = Walk {
         truss,
         wish,
+        manner: Manner { aim: wish.aim, impact: wish.impact },
         x: start.to_vec(),
         memory: Memory::default(),
         eased_in_a_row: 0,
+        patient: wish.ahead == 0,
+        careful: false,
         reaching: None,
         out_of_reach: Vec::new(),
         travel: Travel::new(),
     };
-    walk.travel.end = walk.settle().err().unwrap_or_else(|| walk.go(going));
+    walk.travel.end = match walk.settle() {
+        Err(end) => end,
+        Ok(()) if wish.ahead > 0 => return ahead::best(walk, going).travel,
+        Ok(()) => walk.go(usize::MAX, going).unwrap_or(End::Steps),
+    };
     walk.travel
 }
 
@@ -131,25 +145,41 @@ impl Travel {
             eased: 0,
             footholds: 0,
             slip: 0.0,
+            lasts: 0.0,
         }
     }
 }
 
-struct Walk<'a> {
-    truss: &'a Structure,
-    wish: &'a Wish,
-    x: Vec<Vec3>,
+/// How a truss walks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Manner {
+    pub aim: Aim,
+    pub impact: bool,
+}
+
+#[derive(Clone)]
+pub struct Walk<'a> {
+    pub truss: &'a Structure,
+    pub wish: &'a Wish,
+    pub manner: Manner,
+    pub x: Vec<Vec3>,
     memory: Memory,
     eased_in_a_row: usize,
+    /// Whether it goes on as long as it can with easier steps.
+    pub patient: bool,
+    /// Whether something is in the way of the next roll, so that a node has to be put down first.
+    careful: bool,
     /// The node that is being put down, for so many steps.
     reaching: Option<(usize, usize)>,
     /// Nodes that could not be put down from where it stands.
     out_of_reach: Vec<usize>,
-    travel: Travel,
+    pub travel: Travel,
 }
 
 impl Walk<'_> {
-    fn go(&mut self, going: &dyn Fn(usize) -> bool) -> End {
+    /// Goes on for some steps at most; `None` if that is all there is to say.
+    pub fn go(&mut self, steps: usize, going: &dyn Fn(usize) -> bool) -> Option<End> {
+        let first = self.travel.steps;
         while let Some(place) = self.wish.path.get(self.travel.reached) {
             let centre = self.truss.centre(&self.x);
             let away = [place[0] - centre.x, place[1] - centre.y];
@@ -158,30 +188,51 @@ impl Walk<'_> {
                 self.travel.reached += 1;
                 continue;
             }
-            if !going(self.travel.reached) {
-                return End::Cancelled;
-            }
             if self.travel.steps >= self.wish.steps_max {
-                return End::Steps;
+                return Some(End::Steps);
+            }
+            if self.travel.steps - first >= steps {
+                return None;
+            }
+            if !going(self.travel.reached) {
+                return Some(End::Cancelled);
             }
             let stride = self.wish.stride.min(distance) / distance;
-            if !self.wish.impact && self.put_down([away[0] * stride, away[1] * stride]) {
-                if let Err(end) = self.settle() {
-                    return end;
-                }
-                continue;
-            }
-            let y = match self.next([away[0] * stride, away[1] * stride]) {
-                Ok(y) => y,
-                Err(stuck) => return End::Stuck(stuck),
-            };
-            self.travel.steps += 1;
-            self.advance(y);
-            if let Err(end) = self.settle() {
-                return end;
+            if let Err(end) = self.one([away[0] * stride, away[1] * stride]) {
+                return Some(end);
             }
         }
-        End::Arrived
+        Some(End::Arrived)
+    }
+
+    /// One step, with the rolls that follow.
+    fn one(&mut self, stride: [f64; 2]) -> Result<(), End> {
+        if (!self.manner.impact || self.careful) && self.put_down(stride) {
+            return self.settle();
+        }
+        let before = (self.x.clone(), self.travel.moves.len(), self.travel.lasts, self.travel.slip);
+        let y = self.next(stride).map_err(End::Stuck)?;
+        self.travel.steps += 1;
+        self.advance(y);
+        let settled = self.settle();
+        if matches!(settled, Err(End::Blocked(_))) && !self.careful {
+            // As if it had not gone there: a node is put down first.
+            self.careful = true;
+            self.memory = Memory::default();
+            self.x = before.0;
+            self.travel.moves.truncate(before.1);
+            (self.travel.lasts, self.travel.slip) = (before.2, before.3);
+            return Ok(());
+        }
+        settled
+    }
+
+    /// How far there is still to go, straight from place to place, m.
+    pub fn left(&self) -> f64 {
+        let centre = self.truss.centre(&self.x);
+        let rest = &self.wish.path[self.travel.reached.min(self.wish.path.len())..];
+        let places: Vec<[f64; 2]> = [[centre.x, centre.y]].into_iter().chain(rest.iter().copied()).collect();
+        places.windows(2).map(|p| libm::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum()
     }
 
     /// Where the next step would bring the centre of mass near an edge of the support: a step that brings a
@@ -206,7 +257,8 @@ impl Walk<'_> {
         let beyond = |node: &usize| (self.x[*node] - from).cross(&along).z > FOOTHOLD_BEYOND * unit;
         let open = (0..self.truss.nodes)
             .filter(|node| !contacts.contains(node) && !self.out_of_reach.contains(node) && beyond(node));
-        let lowest = open.min_by(|i, j| self.x[*i].z.total_cmp(&self.x[*j].z));
+        let height = |node: &usize| self.truss.around.above(self.x[*node]);
+        let lowest = open.min_by(|i, j| height(i).total_cmp(&height(j)));
         let (node, tries) = match (self.reaching, lowest) {
             (Some(reaching), _) => reaching,
             (None, Some(node)) => (node, 0),
@@ -225,9 +277,9 @@ impl Walk<'_> {
     }
 
     fn lower(&mut self, node: usize, hull: &[usize]) -> Option<Vec<Vec3>> {
-        let down = self.x[node].z.min(self.wish.stride);
+        let down = self.truss.around.above(self.x[node]).min(self.wish.stride);
         let pace = self.wish.stride / self.truss.unit;
-        let mut objective = locomotion::objective(self.wish.aim, self.truss, &self.x, pace);
+        let mut objective = locomotion::objective(self.manner.aim, self.truss, &self.x, pace);
         objective.hessian.push((3 * node + 2, 3 * node + 2, FOOTHOLD_WEIGHT));
         objective.linear[3 * node + 2] += FOOTHOLD_WEIGHT * down;
         let task = Task {
@@ -257,7 +309,8 @@ impl Walk<'_> {
                     let eased = index > 0;
                     self.travel.eased += usize::from(eased);
                     self.eased_in_a_row = if eased { self.eased_in_a_row + 1 } else { 0 };
-                    if self.eased_in_a_row <= EASED_MAX {
+                    let most = if self.patient { EASED_MAX } else { EASED_MAX_AHEAD };
+                    if self.eased_in_a_row <= most {
                         return Ok(y);
                     }
                 }
@@ -280,10 +333,12 @@ impl Walk<'_> {
             }
             Hold::All => contacts.to_vec(),
         };
-        let aim = if rung.springs { Aim::Springs } else { self.wish.aim };
+        let aim = if rung.springs { Aim::Springs } else { self.manner.aim };
         let mut centre = vec![(0, stride[0] * rung.speed), (1, stride[1] * rung.speed)];
         if rung.level {
-            centre.push((2, 0.0));
+            let from = self.truss.centre(&self.x);
+            let to = [from.x + centre[0].1, from.y + centre[1].1];
+            centre.push((2, self.truss.around.rise([from.x, from.y], to, self.truss.unit)));
         }
         let objective = locomotion::objective(aim, self.truss, &self.x, self.wish.stride / self.truss.unit);
         let task = Task {
@@ -308,7 +363,9 @@ impl Walk<'_> {
         let before = support::contacts(self.truss, &self.x);
         let feet = |x: &[Vec3]| {
             let now = support::contacts(self.truss, x);
-            before.iter().copied().filter(|node| now.contains(node)).collect::<Vec<_>>()
+            let stays =
+                |node: &usize| now.contains(node) && support::stays_down(self.truss, self.x[*node], x[*node]);
+            before.iter().copied().filter(stays).collect::<Vec<_>>()
         };
         let stands =
             |x: &[Vec3]| roll::standing(self.truss, x, &feet(x)).is_some_and(|(inside, _)| inside >= 0.0);
@@ -327,6 +384,8 @@ impl Walk<'_> {
             self.travel.slip += libm::hypot(slid.x, slid.y);
         }
         if next != self.x {
+            let rate = self.truss.rates(&self.x, &next).fold(0.0, f64::max);
+            self.travel.lasts += rate / self.truss.speed;
             self.x.clone_from(&next);
             self.travel.moves.push(Move::Step(next));
         }
@@ -334,18 +393,21 @@ impl Walk<'_> {
 
     /// Rolls until it stands.
     fn settle(&mut self) -> Result<(), End> {
-        for _ in 0..ROLLS_MAX {
-            let contacts = support::contacts(self.truss, &self.x);
-            let Some((inside, edge)) = roll::standing(self.truss, &self.x, &contacts) else {
-                return Err(End::Falls);
+        for _ in 0..roll::FALLS_MAX {
+            let roll = match roll::fate(self.truss, &self.x) {
+                Some(Fate::Rests) => return Ok(()),
+                Some(Fate::Rolls(roll)) => roll,
+                Some(Fate::Tips(_)) | None => return Err(End::Falls),
             };
-            if inside > SAFE * self.truss.unit {
-                return Ok(());
+            if let Some(bound) = roll::blocked(self.truss, &self.x, roll) {
+                return Err(End::Blocked(bound));
             }
-            let Some(roll) = roll::over(self.truss, &self.x, edge) else { return Err(End::Falls) };
             self.x = roll::rolled(&self.x, roll);
-            self.memory.near.retain(|bound| !matches!(bound, Bound::Above(_)));
+            let moved = |bound: &Bound| matches!(bound, Bound::Above(_) | Bound::Over(..) | Bound::Clear(..));
+            self.memory.near.retain(|bound| !moved(bound));
             self.travel.rolls += 1;
+            self.travel.lasts += roll.angle.abs();
+            self.careful = false;
             self.reaching = None;
             self.out_of_reach.clear();
             self.travel.moves.push(Move::Roll(roll));
@@ -353,6 +415,3 @@ impl Walk<'_> {
         Err(End::Falls)
     }
 }
-
-/// A centre of mass that is less inside the support than this part of the unit falls over the edge.
-const SAFE: f64 = 1e-9;

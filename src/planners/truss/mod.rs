@@ -5,13 +5,17 @@
 
 mod segment;
 pub mod structure;
+pub mod surroundings;
 
 mod stiffness;
+
+pub mod margins;
 
 pub mod bound;
 mod nearby;
 
 pub mod between;
+mod passing;
 
 pub mod step;
 
@@ -19,8 +23,11 @@ pub mod locomotion;
 mod support;
 
 pub mod roll;
+mod turning;
 
 pub mod locomote;
+
+mod ahead;
 
 pub mod surface;
 
@@ -31,3 +38,4 @@ pub mod fit;
 pub mod morph;
 
 pub use structure::{Limits, Loop, Structure};
+pub use surroundings::Surroundings;

@@ -8,6 +8,7 @@
 use super::between;
 use super::bound::Bound;
 use super::nearby::Nearby;
+use super::passing;
 use super::stiffness::{self, Mode};
 use super::structure::Structure;
 use crate::geometry::Vec3;
@@ -116,9 +117,17 @@ struct Rows<'a> {
     task: &'a Task<'a>,
     columns: &'a [Option<usize>],
     programme: Programme,
-    /// The number of the bound's row, if it has one, and what is asked for, m.
-    known: BTreeMap<Bound, (Option<usize>, f64)>,
+    known: BTreeMap<Bound, Asked>,
     modes: OnceCell<Vec<Mode>>,
+}
+
+/// What a bound is asked for in a step, m.
+struct Asked {
+    /// The number of its row, if it has one.
+    row: Option<usize>,
+    /// What it is at the step's start.
+    value: f64,
+    wanted: f64,
 }
 
 impl<'a> Rows<'a> {
@@ -154,16 +163,15 @@ impl<'a> Rows<'a> {
 
     /// Asks for a bound; if it was asked for before, for more than it fell short by.
     fn ask(&mut self, bound: Bound, lack: f64) {
-        let truss = self.task.truss;
-        let (value, gradient) = self.slope(bound);
-        if let Some((row, wanted)) = self.known.get_mut(&bound) {
-            *wanted += INSIST * lack;
-            if let Some(row) = row {
-                self.programme.set(*row, value - *wanted);
+        if let Some(asked) = self.known.get_mut(&bound) {
+            asked.wanted += INSIST * lack;
+            if let Some(row) = asked.row {
+                self.programme.set(row, asked.value - asked.wanted);
             }
             return;
         }
-        let wanted = INSIDE * truss.unit;
+        let (value, gradient) = self.slope(bound);
+        let wanted = INSIDE * self.task.truss.unit;
         let terms = gradient.iter().filter_map(|(node, g)| Some((self.columns[*node]?, g)));
         let terms: Row = (
             terms.flat_map(|(column, g)| (0..3).map(move |k| (column + k, -g[k]))).collect(),
@@ -171,7 +179,7 @@ impl<'a> Rows<'a> {
         );
         // Between nodes that stay nothing changes.
         let row = (!terms.0.is_empty()).then(|| self.programme.at_most(terms));
-        self.known.insert(bound, (row, wanted));
+        self.known.insert(bound, Asked { row, value, wanted });
     }
 
     /// Of a bound at the step's start, the singular values found once.
@@ -279,7 +287,10 @@ fn broken(task: &Task, y: &[Vec3], pairs: &mut Option<Nearby>) -> Vec<(Bound, f6
             look(Bound::Rigid(i, i), mode.spare(truss));
         }
     }
-    for (bound, lack) in between::shortfalls(truss, x, y, &pairs, cushion) {
+    let on_the_way = between::shortfalls(truss, x, y, &pairs, cushion);
+    let passed = passing::obstacles(truss, x, y, cushion);
+    let below = if task.ground { passing::ground(truss, x, y) } else { Vec::new() };
+    for (bound, lack) in on_the_way.into_iter().chain(passed).chain(below) {
         broken.entry(bound).and_modify(|known| *known = known.max(lack)).or_insert(lack);
     }
     broken.into_iter().collect()

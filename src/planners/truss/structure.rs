@@ -1,5 +1,6 @@
 //! A truss as its planners see it: who is joined to whom, and what its struts allow.
 
+use super::surroundings::Surroundings;
 use crate::geometry::Vec3;
 use crate::robot::Strut;
 
@@ -20,6 +21,7 @@ pub struct Structure {
     pub limits: Limits,
     /// Struts that share a node, where their angles have a limit.
     pub corners: Vec<(usize, usize)>,
+    pub around: Surroundings,
 }
 
 /// Limits beside those that every strut has.
@@ -65,6 +67,7 @@ impl Structure {
             unit: struts.iter().map(length).sum::<f64>() / struts.len().max(1) as f64,
             limits: Limits::default(),
             corners: Vec::new(),
+            around: Surroundings::default(),
         }
     }
 
@@ -85,6 +88,12 @@ impl Structure {
             let sum = self.around(start, i);
             self.limits.loops[i].range = (sum - slack, sum + slack);
         }
+        self
+    }
+
+    /// Among obstacles, and on uneven ground.
+    pub fn amid(mut self, around: Surroundings) -> Structure {
+        self.around = around;
         self
     }
 

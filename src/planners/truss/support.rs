@@ -5,11 +5,21 @@ use super::structure::Structure;
 use crate::geometry::Vec3;
 
 /// Nodes below this part of the unit are on the ground.
-const ON_GROUND: f64 = 1e-4;
+pub const ON_GROUND: f64 = 1e-4;
 
 /// Nodes on the ground.
 pub fn contacts(truss: &Structure, x: &[Vec3]) -> Vec<usize> {
-    (0..truss.nodes).filter(|&node| x[node].z <= ON_GROUND * truss.unit).collect()
+    (0..truss.nodes).filter(|&node| truss.around.above(x[node]) <= ON_GROUND * truss.unit).collect()
+}
+
+/// Whether a node that is on the ground at both ends of its way is so in between.
+pub fn stays_down(truss: &Structure, from: Vec3, to: Vec3) -> bool {
+    let terrain = truss.around.terrain.as_ref().filter(|_| from != to);
+    terrain.is_none_or(|terrain| {
+        let mut stays = true;
+        terrain.profile(from, to, |_, height| stays &= height <= ON_GROUND * truss.unit);
+        stays
+    })
 }
 
 /// Their hull, counter-clockwise from above, without nodes on its edges.

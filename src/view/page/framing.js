@@ -14,6 +14,7 @@ function framingOf(plan, motion, X) {
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
     for (const solid of motion.solids) {
+      if (solid.endless) continue;
       const i = POSE * solid.body;
       const q = [X[i + 4], X[i + 5], X[i + 6], X[i + 7]];
       const c = add([X[i], X[i + 1], X[i + 2]], turned(q, solid.p.map((x, k) => x * X[i + 8 + k])));

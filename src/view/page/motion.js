@@ -291,10 +291,13 @@ function trussMotion(plan, body) {
   const thick = clamp(typical * 0.03, 1e-4, 1);
   const modules = body.nodes.map(name => ({ name, type: "node", group: "nodes" }));
   body.struts.forEach(([a, b]) => modules.push({ name: body.nodes[a] + " -- " + body.nodes[b], type: body.strut, group: "struts" }));
+  const moving = modules.length;
+  for (const { name } of body.around) modules.push({ name, type: name.replace(/ [0-9]+$/, ""), group: "surroundings", around: true });
   // A strut is a thick tube with a thinner rod that slides in it, as linear actuators are.
   const solids = [];
   modules.forEach((_, i) => {
     const solid = (shape, p, s, shade) => solids.push({ body: i, shape, p, q: [0, 0, 0, 1], s, shade });
+    if (i >= moving) return body.around[i - moving].solids.forEach(s => solids.push({ ...s, body: i, shade: 0, endless: body.around[i - moving].name === "ground" }));
     if (i < nodes) return solid(2, [0, 0, 0], [2.6 * thick, 2.6 * thick, 2.6 * thick], 0);
     solid(1, [0, 0, 0], [thick * 0.6, thick * 0.6, 0.96], 1);
     solid(1, [0, 0, -0.21], [thick, thick, 0.5], 0);
@@ -323,6 +326,7 @@ function trussMotion(plan, body) {
         const d = sub(pb, pa);
         X.set([...scaled(add(pa, pb), 0.5), 0, ...fromZ(d), 1, 1, norm(d)], POSE * (nodes + s));
       });
+      for (let i = moving; i < modules.length; i++) X.set([0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1], POSE * i);
     },
     causes: t => new Set([body.knots[clamp(lastNotAbove(times, t) + 1, 0, times.length - 1)].cause]),
     beginnings: () => body.knots.slice(1).map((knot, i) => [times[i], knot.cause]),
@@ -333,10 +337,11 @@ function trussMotion(plan, body) {
     }),
     facts(b, t) {
       if (b < nodes) return [["node", nodesAt(t)(b).map(x => x.toFixed(2)).join(", ") + " m"]];
+      if (b >= moving) return [];
       const length = lengths(nodesAt(t), body.struts[b - nodes]);
       return [["type", body.strut], ["length", length.toFixed(3) + " m of " + body.range.map(x => x.toFixed(2)).join(".." ) + " m"]];
     },
     /** How far out each strut is in its range, 0..1: for the colours. */
-    extended: (X, i) => (i < nodes ? null : (X[POSE * i + 10] - body.range[0]) / (body.range[1] - body.range[0])),
+    extended: (X, i) => (i < nodes || i >= moving ? null : (X[POSE * i + 10] - body.range[0]) / (body.range[1] - body.range[0])),
   };
 }

@@ -3,6 +3,8 @@
 /** Told apart by people who see no red, no green or no blue, too: a test measures it. */
 const PALETTE = ["#3865d4", "#f5b116", "#2aa264", "#b76086", "#7bd3f4", "#c4bb58", "#8b84bf", "#a0c7aa"];
 const FAILED = "#d9480f";
+/** What is no part of a robot: obstacles, and ground that is not flat. */
+const AROUND = "#b4b8b2";
 
 const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
 
@@ -16,9 +18,10 @@ function ramp(u) {
 
 /** Ways to colour: {name, title, colour(body, X, t), legend}. */
 function colouringsOf(plan, motion) {
-  const groups = [...new Set(motion.modules.map(m => m.group))];
-  const types = [...new Set(motion.modules.map(m => m.type))];
-  const by = (list, key) => motion.modules.map(m => rgb(PALETTE[list.indexOf(m[key]) % PALETTE.length]));
+  const parts = motion.modules.filter(m => !m.around);
+  const groups = [...new Set(parts.map(m => m.group))];
+  const types = [...new Set(parts.map(m => m.type))];
+  const by = (list, key) => motion.modules.map(m => rgb(m.around ? AROUND : PALETTE[list.indexOf(m[key]) % PALETTE.length]));
   const swatches = list => [...list.slice(0, 8).map((name, i) => [PALETTE[i], name]), ...(list.length > 8 ? [["none", "and " + (list.length - 8) + " more"]] : [])];
   const ofGroup = by(groups, "group");
   const ofType = by(types, "type");
@@ -27,7 +30,7 @@ function colouringsOf(plan, motion) {
   if (motion.squeezed) all.push({ name: "size", title: "Size", colour: (b, X) => ramp(1 - motion.squeezed(X, b)), legend: [["ramp", "squeezed to full size"]] });
   if (motion.extended) all.push({
     name: "length", title: "Length", legend: [["ramp", "shortest to longest"]],
-    colour: (b, X) => { const u = motion.extended(X, b); return u === null ? rgb("#59626c") : ramp(u); },
+    colour: (b, X) => { const u = motion.extended(X, b); return u === null ? rgb(motion.modules[b].around ? AROUND : "#59626c") : ramp(u); },
   });
   // Cells of a lattice are parts of nothing.
   if (groups.some(Boolean)) plain("part", "Part", ofGroup, groups);

@@ -1,0 +1,135 @@
+//! Uneven ground: heights over a grid, with flat triangles between.
+
+use super::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Heights at the corners of equal squares, each of which is two triangles with a side from its corner
+/// of the least x and y to that of the greatest. Beyond the rim heights are those of the rim.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeightField {
+    /// Where the first height is, m.
+    pub corner: [f64; 2],
+    /// Between neighbours, m.
+    pub spacing: f64,
+    /// How many heights there are along x.
+    pub columns: usize,
+    /// Row by row along y, m.
+    pub heights: Vec<f64>,
+}
+
+impl HeightField {
+    /// What keeps it from being one.
+    pub fn fault(&self) -> Option<&'static str> {
+        let rows = self.heights.len().checked_div(self.columns).unwrap_or(0);
+        let faults = [
+            (self.columns < 2 || rows < 2, "the ground has less than two rows or columns of heights"),
+            (rows * self.columns != self.heights.len(), "the rows of the ground have different lengths"),
+            (!(self.spacing > 0.0 && self.spacing.is_finite()), "the heights of the ground are not apart"),
+            (self.heights.iter().chain(&self.corner).any(|h| !h.is_finite()), "a height is not finite"),
+        ];
+        faults.into_iter().find_map(|(bad, why)| bad.then_some(why))
+    }
+
+    pub fn rows(&self) -> usize {
+        self.heights.len() / self.columns
+    }
+
+    /// Over a place, m.
+    pub fn height(&self, x: f64, y: f64) -> f64 {
+        let (triangle, [u, v]) = self.triangle(x, y);
+        triangle.height + triangle.slope[0] * u + triangle.slope[1] * v
+    }
+
+    /// How the height grows with x and with y. On a crease that of one of its sides.
+    pub fn slope(&self, x: f64, y: f64) -> [f64; 2] {
+        let (triangle, _) = self.triangle(x, y);
+        let inside = [self.along(0, x), self.along(1, y)].map(|(_, clamped)| !clamped);
+        [0, 1].map(|k| if inside[k] { triangle.slope[k] / self.spacing } else { 0.0 })
+    }
+
+    /// The greatest slope: height by way.
+    pub fn steepest(&self) -> f64 {
+        let squares =
+            (0..self.rows() - 1).flat_map(|row| (0..self.columns - 1).map(move |column| (column, row)));
+        let slopes =
+            squares.flat_map(|(column, row)| [true, false].map(|low| self.half(column, row, low).slope));
+        slopes.map(|[a, b]| libm::hypot(a, b) / self.spacing).fold(0.0, f64::max)
+    }
+
+    /// How far a point is above.
+    pub fn above(&self, p: Vec3) -> f64 {
+        p.z - self.height(p.x, p.y)
+    }
+
+    /// How far a segment is above, told with the part of its length: at its ends and wherever it crosses, seen
+    /// from above, a side of a triangle; in between that changes evenly.
+    pub fn profile(&self, p: Vec3, q: Vec3, mut tell: impl FnMut(f64, f64)) {
+        let mut look = |part: f64| tell(part, self.above(p + (q - p) * part));
+        look(0.0);
+        look(1.0);
+        let (columns, rows) = (self.columns as f64, self.rows() as f64);
+        let flat = |v: Vec3| [v.x - self.corner[0], v.y - self.corner[1]].map(|w| w / self.spacing);
+        let ([px, py], [qx, qy]) = (flat(p), flat(q));
+        // Lines of the same x, of the same y, and of the same difference of both.
+        let families = [
+            (px, qx, 0.0, columns - 1.0),
+            (py, qy, 0.0, rows - 1.0),
+            (px - py, qx - qy, 1.0 - rows, columns - 1.0),
+        ];
+        for (from, to, least, most) in families {
+            let first = libm::ceil(from.min(to)).max(least);
+            let last = libm::floor(from.max(to)).min(most);
+            if from != to && first <= last {
+                let lines = (first as i64..=last as i64).map(|line| (line as f64 - from) / (to - from));
+                lines.filter(|part| 0.0 < *part && *part < 1.0).for_each(&mut look);
+            }
+        }
+    }
+
+    /// Where a segment is lowest above it: the part of its length, and how high, m.
+    pub fn lowest(&self, p: Vec3, q: Vec3) -> (f64, f64) {
+        let mut least = (0.0, f64::INFINITY);
+        self.profile(p, q, |part, height| {
+            if height < least.1 {
+                least = (part, height);
+            }
+        });
+        least
+    }
+
+    /// In steps of the grid, and whether it was brought to the rim.
+    fn along(&self, axis: usize, at: f64) -> (f64, bool) {
+        let count = if axis == 0 { self.columns } else { self.rows() };
+        let free = (at - self.corner[axis]) / self.spacing;
+        let kept = free.clamp(0.0, (count - 1) as f64);
+        (kept, kept != free)
+    }
+
+    /// The triangle at a place, and the place in it from its square's corner.
+    fn triangle(&self, x: f64, y: f64) -> (Half, [f64; 2]) {
+        let [u, v] = [self.along(0, x).0, self.along(1, y).0];
+        let column = (u as usize).min(self.columns - 2);
+        let row = (v as usize).min(self.rows() - 2);
+        let [u, v] = [u - column as f64, v - row as f64];
+        (self.half(column, row, u >= v), [u, v])
+    }
+
+    /// A half of a square: that of greater x, or that of greater y.
+    fn half(&self, column: usize, row: usize, low: bool) -> Half {
+        let at = |right: usize, up: usize| self.heights[(row + up) * self.columns + column + right];
+        let slope = if low {
+            [at(1, 0) - at(0, 0), at(1, 1) - at(1, 0)]
+        } else {
+            [at(1, 1) - at(0, 1), at(0, 1) - at(0, 0)]
+        };
+        Half { height: at(0, 0), slope }
+    }
+}
+
+/// Half a square: the height at its corner, and how it grows over a square's side.
+struct Half {
+    height: f64,
+    slope: [f64; 2],
+}

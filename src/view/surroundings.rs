@@ -1,0 +1,51 @@
+//! What is around a truss, as solids to draw: its obstacles, and the part of its ground that it is on.
+
+use crate::geometry::{HeightField, Placed, Pose, Shape, Vec3};
+use crate::plan::NodePaths;
+
+/// Squares of ground that are drawn each way.
+const SQUARES_MAX: usize = 48;
+/// How far the ground is drawn around where the nodes are, in the width of the truss at the start.
+const AROUND: f64 = 0.5;
+
+/// Each with its name.
+pub fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
+    let around = &paths.surroundings;
+    let obstacles = around.obstacles.iter().enumerate();
+    let named = obstacles.map(|(i, shapes)| (format!("obstacle {}", i + 1), shapes.clone()));
+    let terrain = around.terrain.as_ref().map(|field| ("ground".to_owned(), vec![ground(paths, field)]));
+    named.chain(terrain).collect()
+}
+
+/// Triangles over what the truss walks on; of a fine grid every second height, third, ...
+fn ground(paths: &NodePaths, field: &HeightField) -> Placed {
+    let range = |axis: usize, knots: usize| {
+        let nodes = paths.knots[..knots].iter().flat_map(|knot| &knot.nodes).map(|p| p[axis]);
+        nodes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let lines = |axis: usize, count: usize| {
+        let ((low, high), (first, last)) = (range(axis, paths.knots.len()), range(axis, 1));
+        let more = AROUND * (last - first);
+        let at = |x: f64| ((x - field.corner[axis]) / field.spacing).clamp(0.0, (count - 1) as f64);
+        let (from, to) = (libm::floor(at(low - more)) as usize, libm::ceil(at(high + more)) as usize);
+        let to = to.max(from + 1).min(count - 1);
+        let from = from.min(to - 1);
+        let stride = (to - from).div_ceil(SQUARES_MAX);
+        (from..to).step_by(stride).chain([to]).collect::<Vec<usize>>()
+    };
+    let (columns, rows) = (lines(0, field.columns), lines(1, field.rows()));
+    let place = |column: usize, row: usize| {
+        let [x, y] = [(0, column), (1, row)].map(|(k, i)| field.corner[k] + i as f64 * field.spacing);
+        Vec3::new(x, y, field.heights[row * field.columns + column])
+    };
+    let vertices =
+        rows.iter().flat_map(|&row| columns.iter().map(move |&column| place(column, row))).collect();
+    let number = |column: usize, row: usize| (row * columns.len() + column) as u32;
+    let squares = (0..rows.len() - 1).flat_map(|row| (0..columns.len() - 1).map(move |column| (column, row)));
+    let triangles = squares.flat_map(|(i, j)| {
+        let [a, b, c, d] = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    let triangles = triangles.collect();
+    Placed { pose: Pose::identity(), shape: Shape::Mesh { name: "ground".into(), vertices, triangles } }
+}
