@@ -79,8 +79,7 @@ pub fn small_png(showing: &Showing, still: &Still) -> Vec<u8> {
 fn canvas(showing: &Showing, still: &Still) -> Canvas {
     let time = still.time.clamp(0.0, findings::end(showing.plan));
     let bodies = drawn(showing, time);
-    let uneven =
-        matches!(&showing.plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
+    let uneven = matches!(&showing.plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
     let grounded = !uneven && showing.plan.worlds.first().is_none_or(|w| w.world.has_floor());
     Scene::new(bodies, grounded, still).canvas()
 }

@@ -11,7 +11,7 @@ use super::truss_standing::Standing;
 use super::{truss_around, truss_distance, truss_lengths, truss_shape, truss_standing};
 use crate::geometry::Vec3;
 use crate::interrupt;
-use crate::plan::{CheckKind, Failure, Ground, NodePaths, Plan, Status, Verdict, Way, World, Worst};
+use crate::plan::{CheckKind, Failure, NodePaths, Plan, Status, Verdict, Way, World, Worst};
 use crate::robot::Strut;
 use crate::units::{Dimension, quantity};
 
@@ -69,14 +69,14 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         judged.distances(&leg, &mut ledger);
         judged.obstacles(&leg, &mut ledger);
         judged.shape(&leg, &mut ledger);
-        if world.ground != Ground::Off {
+        if world.has_floor() {
             judged.ground(&leg, &mut ledger);
             if world.gravity > 0.0 {
                 standing.leg(&leg, &mut ledger);
             }
         }
         if let Way::Roll { .. } = knot.way
-            && (world.gravity == 0.0 || world.ground == Ground::Off)
+            && (world.gravity == 0.0 || !world.has_floor())
         {
             let message = "without gravity and a ground nothing makes it roll".to_string();
             ledger.fail(judged.failure(CheckKind::Ground, begins, vec![], message));
@@ -111,7 +111,7 @@ impl Judged<'_> {
             self.obstacles(&leg, ledger);
             self.shape(&leg, ledger);
         }
-        if world.ground != Ground::Off && self.paths.knots.len() == 1 {
+        if world.has_floor() && self.paths.knots.len() == 1 {
             self.ground(&leg, ledger);
             if world.gravity > 0.0 {
                 standing.leg(&leg, ledger);
@@ -205,7 +205,7 @@ impl Judged<'_> {
         for (time, words) in &standing.events {
             ledger.verdict.events.push((*time, words.clone()));
         }
-        let on_ground = plan.worlds.iter().any(|w| w.world.gravity > 0.0 && w.world.ground != Ground::Off);
+        let on_ground = plan.worlds.iter().any(|w| w.world.gravity > 0.0 && w.world.has_floor());
         let stands = |status: Status| {
             if on_ground { status } else { Status::NotChecked("nothing pulls it down".into()) }
         };
