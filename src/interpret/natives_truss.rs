@@ -333,7 +333,10 @@ impl Task {
             Stuck::Unsettled(bounds) => ("no step was found that keeps all limits", bounds),
         };
         let mut told: Vec<String> = Vec::new();
-        for bound in bounds.iter().map(|bound| self.bound(*bound)) {
+        // What is around it says more than its own struts, of which many are at some limit.
+        let outer = |bound: &&Bound| matches!(bound, Bound::Clear(..) | Bound::Over(..));
+        let bounds = bounds.iter().filter(outer).chain(bounds.iter().filter(|bound| !outer(bound)));
+        for bound in bounds.map(|bound| self.bound(*bound)) {
             if !told.contains(&bound) {
                 told.push(bound);
             }

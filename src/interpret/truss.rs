@@ -5,7 +5,7 @@ use super::connect::shorten;
 use super::design::{Design, DesignKind, Instance};
 use super::eval::Frame;
 use super::interpreter::Interpreter;
-use super::stop::{Eval, fault};
+use super::stop::{Eval, Stop, fault};
 use super::value::Value;
 use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
 use crate::geometry::Vec3;
@@ -22,6 +22,8 @@ const NODE_DISTANCE_MIN: f64 = 1e-9;
 const LENGTH_TOLERANCE: f64 = 1e-9;
 /// More nodes make the rigidity matrix too large to decompose in a few seconds.
 const NODES_MAX: usize = 1000;
+/// Faults of one truss that are told.
+const FAULTS_TOLD: usize = 8;
 /// Of more nodes it takes a while to find out whether they hold each other.
 const NODES_AT_ONCE: usize = 100;
 
@@ -93,7 +95,7 @@ impl Interpreter<'_> {
             return Ok(None);
         }
         let Some(of) = of else { return Ok(None) };
-        self.attempt(|this| this.check_truss(&draft, &of, name))?;
+        self.check_truss(&draft, &of, name)?;
         if self.failed_since(mark) {
             return Ok(None);
         }
@@ -224,31 +226,39 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Tells some of all faults, one of a place in the text.
     fn check_truss(&mut self, draft: &Draft, of: &Rc<Design>, name: Span) -> Eval<()> {
+        let DesignKind::Strut(kind) = &of.kind else { return Ok(()) };
+        let mut faults: Vec<(Span, Stop)> = Vec::new();
         if draft.struts.is_empty() {
-            return Err(fault(code::BAD_TRUSS, name, "the truss has no struts", "no struts"));
+            faults.push((name, fault(code::BAD_TRUSS, name, "the truss has no struts", "no struts")));
         }
-        for (i, a) in draft.nodes.iter().enumerate() {
-            for b in &draft.nodes[..i] {
-                if (a.place - b.place).norm() < NODE_DISTANCE_MIN {
-                    let message = format!("the nodes {} and {} are at one place", b.name, a.name);
-                    return Err(Diagnostic::error(code::BAD_TRUSS, message)
-                        .label(a.span, "here")
-                        .label(b.span, "and here")
-                        .into());
-                }
+        let twins = twins(&draft.nodes);
+        for &(a, b) in &twins {
+            let (a, b) = (&draft.nodes[a], &draft.nodes[b]);
+            let message = format!("the nodes {} and {} are at one place", b.name, a.name);
+            let diagnostic = Diagnostic::error(code::BAD_TRUSS, message);
+            faults.push((a.span, diagnostic.label(a.span, "here").label(b.span, "and here").into()));
+        }
+        // What struts of two nodes at one place would be told follows from that.
+        let sound = |(a, b, _): &(usize, usize, Span)| !twins.iter().any(|(twin, _)| twin == a || twin == b);
+        for (index, strut) in draft.struts.iter().enumerate().filter(|(_, strut)| sound(strut)) {
+            if let Err(stop) = self.check_strut(draft, strut, &draft.struts[..index], kind) {
+                faults.push((strut.2, stop));
             }
         }
-        let DesignKind::Strut(kind) = &of.kind else { return Ok(()) };
-        for (index, strut) in draft.struts.iter().enumerate() {
-            self.check_strut(draft, strut, &draft.struts[..index], kind)?;
-        }
-        let loose =
-            (0..draft.nodes.len()).find(|node| !draft.struts.iter().any(|(a, b, _)| a == node || b == node));
-        if let Some(node) = loose {
-            let node = &draft.nodes[node];
+        let held = |node: &usize| draft.struts.iter().any(|(a, b, _)| a == node || b == node);
+        let loose = (0..draft.nodes.len()).filter(|node| !draft.struts.is_empty() && !held(node));
+        for node in loose.map(|node| &draft.nodes[node]) {
             let message = format!("no strut holds the node {}", node.name);
-            return Err(fault(code::BAD_TRUSS, node.span, message, "no strut ends here"));
+            faults.push((node.span, fault(code::BAD_TRUSS, node.span, message, "no strut ends here")));
+        }
+        let mut told: Vec<Span> = Vec::new();
+        for (span, stop) in faults {
+            if told.len() < FAULTS_TOLD && !told.contains(&span) {
+                told.push(span);
+                self.attempt(|_| Err::<(), Stop>(stop))?;
+            }
         }
         Ok(())
     }
@@ -321,6 +331,12 @@ impl Interpreter<'_> {
             None => Value::Unknown,
         }
     }
+}
+
+/// Nodes at the place of an earlier one, with that.
+fn twins(nodes: &[Node]) -> Vec<(usize, usize)> {
+    let near = |a: usize, b: usize| (nodes[a].place - nodes[b].place).norm() < NODE_DISTANCE_MIN;
+    (0..nodes.len()).filter_map(|a| Some((a, (0..a).find(|&b| near(a, b))?))).collect()
 }
 
 fn numbered(places: Vec<Vec3>, span: Span) -> Vec<Node> {

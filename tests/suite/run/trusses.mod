@@ -16,7 +16,28 @@ print(terrain([[0m, 1m], [0m, 1m]], spacing: 0m))
 //                                           ^^ E0506
 print(terrain([[0m, 1m], [0m, 1m]], spacing: 1m))
 //> a terrain of 2 by 2 heights
-print(terrain([[0, 1], [0, 1]], spacing: 1m))
-//              ^ E0204
 print(terrain([], spacing: 1m))
 //            ^^ E0506 less than two rows
+
+--- a truss with several faults tells them all, and nothing that follows from one
+use std.truss.PneumaticReel
+truss T of PneumaticReel {
+  node a = [0m, 0m, 0m]
+  node b = [1m, 0m, 0m]
+  node c = [0m, 1m, 0m]
+  node d = [0m, 0m, 50m]
+  node twin = [1m, 0m, 0m]
+//     ^^^^ E0312 the nodes b and twin are at one place
+  node alone = [5m, 5m, 5m]
+//     ^^^^^ E0312 no strut holds the node alone
+  strut a -- b
+  strut b -- c
+  strut b -- a
+//^^^^^^^^^^^^ E0312 the strut b -- a is there twice
+  strut c -- d
+//^^^^^^^^^^^^ E0312 50.01m long
+  strut c -- c
+//^^^^^^^^^^^^ E0312 begins and ends at one node
+  strut a -- twin
+}
+print(nodes(T))
