@@ -87,7 +87,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("std::io", &["plan", "cli"]),
     ("std::net", &[]),
     ("std::process", &["cli"]),
-    ("std::thread", &["interpret", "cli"]),
+    ("std::thread", &["planners", "interpret", "cli"]),
     ("std::time", &["cli"]),
 ];
 

@@ -50,10 +50,14 @@ impl Host for Watcher {
 }
 
 fn watched(text: &str, watcher: &mut Watcher) -> Outcome {
+    watched_on(text, watcher, 1)
+}
+
+fn watched_on(text: &str, watcher: &mut Watcher, threads: usize) -> Outcome {
     let files = MapFiles::of(text);
     let checked = modl::check::check(&files, "main.mod");
     assert!(!checked.has_errors(), "{:?}", checked.diagnostics);
-    interpret::run(&checked, Mode::Run, &files, watcher, &Options::default())
+    interpret::run(&checked, Mode::Run, &files, watcher, &Options { threads, ..Options::default() })
 }
 
 const TANGLE: &str = "use std.rofi.{Rofi, tangle}\nlet t = tangle(30, 1000, seed: 1)\n";
@@ -68,6 +72,22 @@ fn it_tells_how_far_it_has_come() {
         watcher.seen.iter().any(|line| line.contains(&words) && line.contains("pairs of ends tried"))
     };
     assert!(told(0) && told(docks), "{:?}", watcher.seen);
+}
+
+#[test]
+fn threads_do_not_change_what_is_found() {
+    let found = |threads: usize, end: &str| {
+        let mut watcher = Watcher::default();
+        let text =
+            format!("{TANGLE}let p = tosnake(t{end})\nprint(p.tried, p.work)\nemit(p, \"p.plan.json\")\n");
+        let outcome = watched_on(&text, &mut watcher, threads);
+        (watcher.desk.printed.clone(), watcher.desk.written.clone(), format!("{:?}", outcome.diagnostics))
+    };
+    let alone = found(1, "");
+    assert!(!alone.1.is_empty() && found(2, "") == alone && found(7, "") == alone);
+    // And where the budget ends it.
+    let alone = found(1, ", budget: 20000");
+    assert!(alone.2.contains("connections were made") && found(5, ", budget: 20000") == alone);
 }
 
 #[test]
@@ -89,9 +109,9 @@ const SOON: Duration = Duration::from_secs(1);
 
 #[test]
 fn a_search_ends_soon_when_somebody_wishes_it() {
-    for words in ["0 of", "5 of", "verifying"] {
+    for (words, threads) in [("0 of", 1), ("5 of", 1), ("5 of", 3), ("verifying", 1)] {
         let mut watcher = Watcher { enough_at: Some(words), ..Watcher::default() };
-        let outcome = watched(&format!("{TANGLE}print(tosnake(t).docks)\n"), &mut watcher);
+        let outcome = watched_on(&format!("{TANGLE}print(tosnake(t).docks)\n"), &mut watcher, threads);
         let took = watcher.had_enough.expect("the line came").elapsed();
         println!("after `{words}` it took {took:?}");
         assert!(outcome.cancelled && watcher.desk.printed.is_empty(), "{words}");

@@ -172,7 +172,14 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let pages = matches!(task, Task::Show);
     let verb = if pages { "show" } else { "run" };
     let command = format!("modl {verb} {name}{seed}");
-    Options { filter, seed: globals.seed, pages, command, picture: None, limits: limits(globals) }
+    let limits = limits(globals);
+    Options { filter, seed: globals.seed, pages, command, picture: None, limits, threads: threads(globals) }
+}
+
+/// As many threads as the user wants, otherwise as many as there are processors.
+pub fn threads(globals: &Globals) -> usize {
+    let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    globals.threads.map_or_else(processors, |n| usize::try_from(n).unwrap_or(1))
 }
 
 /// The limits that the user wants.

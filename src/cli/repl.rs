@@ -98,6 +98,7 @@ impl<'g> Talk<'g> {
             seed: globals.seed,
             command: format!("modl repl{seed}"),
             limits: program::limits(globals),
+            threads: program::threads(globals),
             ..Options::default()
         };
         let session = Session::new(Arc::new(project), options, &terminal);

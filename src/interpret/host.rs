@@ -59,6 +59,8 @@ pub struct Options {
     /// Width and height of still pictures; `None`: as large as they are by themselves.
     pub picture: Option<(usize, usize)>,
     pub limits: Limits,
+    /// Threads that a planner may use, at least one; no result depends on it.
+    pub threads: usize,
 }
 
 /// Bounds on what a program may use. Reaching one is a diagnostic.

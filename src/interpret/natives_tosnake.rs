@@ -281,7 +281,8 @@ impl Wild {
             }
             goes_on()
         };
-        let settings = Settings { seed, budget, collisions, ..Settings::default() };
+        let threads = interpreter.options.threads.max(1);
+        let settings = Settings { seed, budget, collisions, threads, ..Settings::default() };
         let found = tosnake::unwind_under(&self.start, self.weight.as_ref(), &settings, &mut watch);
         if matches!(found, Err(Refusal::Stopped(_))) && stage.cancelled() {
             return Err(Stop::Halt);
@@ -446,7 +447,8 @@ fn fell_short(at: Span, what: &str, progress: &Progress, hint: &str) -> Stop {
     let Progress { needed, made, tried, work, longest, chains } = progress;
     let message =
         format!("{what}: {made} of {needed} connections were made, and {tried} pairs of ends tried");
-    let reached = format!("at best {chains} chains, the longest of {longest} modules, after {work} poses");
+    let modules = if *longest == 1 { "module" } else { "modules" };
+    let reached = format!("at best {chains} chains, the longest of {longest} {modules}, after {work} poses");
     Diagnostic::error(code::NO_WAY, message).label(at, reached).hint(hint).into()
 }
 

@@ -27,6 +27,8 @@ struct Wish {
     given_up: AtomicBool,
     asked: AtomicBool,
     waker: Mutex<Option<Waker>>,
+    /// A wish that counts as this one, too.
+    above: Option<Interrupt>,
 }
 
 /// Wakes who waits for the work.
@@ -50,7 +52,12 @@ impl Interrupt {
     }
 
     pub fn raised(&self) -> bool {
-        self.0.raised.load(Ordering::Relaxed)
+        self.0.raised.load(Ordering::Relaxed) || self.0.above.as_ref().is_some_and(Interrupt::raised)
+    }
+
+    /// A wish of its own, that is raised where this one is, too: for helpers at one piece of the work.
+    pub fn below(&self) -> Interrupt {
+        Interrupt(Arc::new(Wish { above: Some(self.clone()), ..Wish::default() }))
     }
 
     /// Nobody is to wait any longer for work whose end is wished.
@@ -124,6 +131,11 @@ pub fn checkpoint() {
     if WORK.with_borrow(|work| work.as_ref().is_some_and(|work| work.interrupt.raised())) {
         leave();
     }
+}
+
+/// The wish that the work at hand obeys.
+pub fn current() -> Option<Interrupt> {
+    WORK.with_borrow(|work| work.as_ref().map(|work| work.interrupt.clone()))
 }
 
 /// Ends the work at hand.

@@ -97,25 +97,23 @@ pub enum Side {
 impl Attempt<'_> {
     /// Positions of the joints one after the other, the last of them with the docks together, and the
     /// ways between them free.
-    pub fn way(&self, state: &State, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
-        let scene = state.scene();
-        let here = &state.robot.joints;
+    pub fn way(&self, scene: &Scene, here: &Joints, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
         if self.manner == Manner::Leap {
-            let there = self.leap(&scene, here, dice, work)?;
+            let there = self.leap(scene, here, dice, work)?;
             return scene.is_free(here, &there, work).then(|| vec![there]);
         }
-        let lp = self.bending(&state.tree);
+        let lp = self.bending(scene.tree);
         let mut drift = vec![0.0; 3 * here.len()];
         for (joint, _) in &lp.joints {
             drift[3 * joint.module + joint.joint] = DRIFT * self.size * dice.signed();
         }
-        let way = self.closing(&scene, &lp).close(here, &drift, work)?;
+        let way = self.closing(scene, &lp).close(here, &drift, work)?;
         let last = way.last()?.clone();
         if scene.is_free(here, &last, work) {
             return Some(vec![last]);
         }
         let mut stops = Vec::new();
-        connect(&scene, &way, 0, way.len() - 1, work, &mut stops).then_some(stops)
+        connect(scene, &way, 0, way.len() - 1, work, &mut stops).then_some(stops)
     }
 
     /// Where the loop's joints bring the docks together, set out from near given positions; whatever is
@@ -129,6 +127,11 @@ impl Attempt<'_> {
             *q = closing::limited(joint.joint, *q + self.size * range * dice.signed());
         }
         self.closing(scene, &lp).close(&start, &[], work)?.pop()
+    }
+
+    /// How many numbers of the dice the way takes.
+    pub fn throws(&self, tree: &Tree) -> usize {
+        self.bending(tree).joints.len()
     }
 
     fn bending(&self, tree: &Tree) -> Loop {

@@ -32,6 +32,7 @@ pub mod closing;
 pub mod merging;
 
 mod alongside;
+mod attempts;
 mod lattice;
 
 mod piece;
@@ -73,6 +74,8 @@ pub struct Settings {
     pub collisions: Collisions,
     /// Of the paper's own method.
     pub fabrik: fabrik::Settings,
+    /// Threads that may be at work at once; what is found does not depend on it.
+    pub threads: usize,
 }
 
 /// Where collisions are looked for.
@@ -98,6 +101,7 @@ impl Default for Settings {
             closing: closing::Settings::default(),
             collisions: Collisions::Motion,
             fabrik: fabrik::Settings::default(),
+            threads: 1,
         }
     }
 }

@@ -1,9 +1,10 @@
 //! The whole way to the snake.
 
 use super::alongside::Party;
+use super::attempts::{self, Job};
 use super::closing::{Loop, Manner};
 use super::lattice;
-use super::merging::{self, Pair, Side};
+use super::merging::{self, Attempt, Pair, Side};
 use super::opening;
 use super::paper;
 use super::robot::{ALPHA, BETA, GAMMA, Robot};
@@ -25,6 +26,9 @@ const ATTEMPTS: [(Manner, f64, usize); 5] = [
     (Manner::Leap, 1.0, 20),
     (Manner::Flow, 0.5, 10),
 ];
+
+/// For smaller robots threads are not worth it.
+const PARALLEL_MIN: usize = 16;
 
 /// Under weight it matters which tentacle moves: all of them, and each alone, are tried.
 const SIDES: [Side; 3] = [Side::Both, Side::First, Side::Second];
@@ -212,14 +216,6 @@ impl<'a> Search<'a> {
         Refusal::Heavy(Heavy { load, doing, progress: self.progress })
     }
 
-    /// What was too heavy just now, if anything was, was so in doing this.
-    fn blame(&mut self, doing: Doing) {
-        let Some(load) = self.state.refused.take() else { return };
-        if self.heavy.is_none_or(|(known, _)| load.ratio < known.ratio) {
-            self.heavy = Some((load, doing));
-        }
-    }
-
     /// Tilts turn to zero; gives how many are left.
     fn straighten(&mut self) -> usize {
         let last = self.state.bad_bonds() == 0;
@@ -228,7 +224,7 @@ impl<'a> Search<'a> {
         let tilted = opening::straighten(&mut self.state, &mut self.dice);
         self.state.share = 1.0;
         if last {
-            self.blame(Doing::Straightening);
+            blame(&mut self.heavy, &self.state, Doing::Straightening);
         }
         self.state.refused.take();
         tilted
@@ -237,25 +233,58 @@ impl<'a> Search<'a> {
     /// Brings the ends of two chains together, whichever first. `idle` rounds before found none.
     fn merge(&mut self, idle: usize) -> Result<bool, Refusal> {
         let pairs = self.pairs(idle);
+        let (jobs, dice) = self.jobs(&pairs);
+        let Search { state, settings, watch, progress, heavy, .. } = self;
+        let (mut work, mut won, mut refusal) = (0, None, None);
+        let alone = state.weight.is_some() || state.robot.modules() < PARALLEL_MIN;
+        let threads = if alone { 1 } else { settings.threads };
+        attempts::in_order(state, &jobs, threads, &mut |made| {
+            progress.tried += 1;
+            work += made.work;
+            let pair = jobs[made.job].attempt.pair;
+            if let Some(way) = made.way
+                && (state.weight.is_none() || merged_within_limits(state, pair, &way).is_some())
+            {
+                won = Some((made.job, way));
+                return true;
+            }
+            blame(heavy, state, Doing::Joining(pair.a, pair.b));
+            progress.work = state.work + work;
+            refusal = told(progress, settings, watch).err();
+            refusal.is_some()
+        });
+        let (pair, next) = match &won {
+            Some((job, _)) => (Some(*jobs[*job].attempt.pair), jobs.get(job + 1).map(|job| job.dice.clone())),
+            None => (None, None),
+        };
+        self.state.work += work;
+        self.dice = next.unwrap_or(dice);
+        match (refusal, pair, won) {
+            (Some(refusal), ..) => Err(refusal),
+            (None, Some(pair), Some((_, way))) => Ok(self.take(&pair, way, &pairs)),
+            _ => self.merge_on_lattice(idle, &pairs),
+        }
+    }
+
+    /// All attempts in their order, each with its dice; and the dice after them.
+    fn jobs<'p>(&self, pairs: &'p [Pair]) -> (Vec<Job<'p>>, Dice)
+    where
+        'a: 'p,
+    {
         let sides = if self.state.weight.is_some() { &SIDES[..] } else { &SIDES[..1] };
+        let mut dice = self.dice.clone();
+        let mut jobs = Vec::new();
         for (manner, size, many) in ATTEMPTS {
             for pair in pairs.iter().take(many) {
                 for &side in sides {
-                    self.progress.tried += 1;
-                    let closing = &self.settings.closing;
-                    let attempt = merging::Attempt { pair, manner, size, side, closing };
-                    let mut work = 0;
-                    let way = attempt.way(&self.state, &mut self.dice, &mut work);
-                    self.state.work += work;
-                    if way.is_some_and(|way| self.take(pair, way, &pairs)) {
-                        return Ok(true);
-                    }
-                    self.blame(Doing::Joining(pair.a, pair.b));
-                    self.report()?;
+                    let attempt = Attempt { pair, manner, size, side, closing: &self.settings.closing };
+                    let throws = attempt.throws(&self.state.tree);
+                    jobs.push(Job { attempt, dice: dice.clone() });
+                    dice.skip(throws);
                 }
             }
         }
-        self.merge_on_lattice(idle, &pairs)
+        (jobs, dice)
     }
 
     /// Where descent brought nothing together, short loops close on the lattice of quarter turns.
@@ -271,7 +300,7 @@ impl<'a> Search<'a> {
             if there.is_some_and(|there| self.take(pair, vec![there], pairs)) {
                 return Ok(true);
             }
-            self.blame(Doing::Joining(pair.a, pair.b));
+            blame(&mut self.heavy, &self.state, Doing::Joining(pair.a, pair.b));
             self.report()?;
         }
         Ok(false)
@@ -281,11 +310,7 @@ impl<'a> Search<'a> {
     /// where joints would not hold what hangs on them afterwards.
     fn take(&mut self, pair: &Pair, mut way: Vec<Joints>, pairs: &[Pair]) -> bool {
         if self.state.weight.is_some() {
-            let mut there = self.state.clone();
-            way.iter().for_each(|joints| there.go(joints));
-            let after = merging::made_within_limits(&there, pair);
-            self.state.refused.set(there.refused.get());
-            let Some(after) = after else { return false };
+            let Some(after) = merged_within_limits(&self.state, pair, &way) else { return false };
             self.state = after;
             self.progress.made += 1;
             self.progress.see(&self.state);
@@ -346,9 +371,36 @@ impl<'a> Search<'a> {
 
     fn report(&mut self) -> Result<(), Refusal> {
         self.progress.work = self.state.work;
-        if self.state.work > self.settings.budget {
-            return Err(Refusal::Budget(self.progress));
-        }
-        if (self.watch)(&self.progress) { Ok(()) } else { Err(Refusal::Stopped(self.progress)) }
+        told(&self.progress, self.settings, self.watch)
     }
+}
+
+/// Whether to go on, after whoever watches was told.
+fn told(
+    progress: &Progress,
+    settings: &Settings,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<(), Refusal> {
+    if progress.work > settings.budget {
+        return Err(Refusal::Budget(*progress));
+    }
+    if watch(progress) { Ok(()) } else { Err(Refusal::Stopped(*progress)) }
+}
+
+/// What was too heavy just now, if anything was, was so in doing this.
+fn blame(heavy: &mut Option<(Load, Doing)>, state: &State, doing: Doing) {
+    let Some(load) = state.refused.take() else { return };
+    if heavy.is_none_or(|(known, _)| load.ratio < known.ratio) {
+        *heavy = Some((load, doing));
+    }
+}
+
+/// The robot after a way and the merge that it is for; `None` where joints would not hold what hangs on
+/// them then.
+fn merged_within_limits(state: &State, pair: &Pair, way: &[Joints]) -> Option<State> {
+    let mut there = state.clone();
+    way.iter().for_each(|joints| there.go(joints));
+    let after = merging::made_within_limits(&there, pair);
+    state.refused.set(there.refused.get());
+    after
 }

@@ -1,0 +1,97 @@
+//! Attempts at bringing pairs together, several at a time on threads.
+//!
+//! What is found does not depend on how many threads there are. Each attempt throws the dice that it
+//! would throw if those before it had been made one after the other; and they count in their order up to
+//! the first that succeeds. What later ones have done by then is forgotten.
+
+use super::merging::Attempt;
+use super::state::{Joints, State};
+use super::sweep::Scene;
+use crate::interrupt::{self, Interrupt};
+use crate::planners::random::Dice;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::channel;
+use std::thread;
+
+/// An attempt with the dice that it throws.
+pub struct Job<'a> {
+    pub attempt: Attempt<'a>,
+    pub dice: Dice,
+}
+
+/// What came of a job.
+pub struct Made {
+    /// Its number.
+    pub job: usize,
+    /// See [`Attempt::way`].
+    pub way: Option<Vec<Joints>>,
+    /// Poses that it took.
+    pub work: u64,
+}
+
+/// Does jobs, and calls `take` with what came of each, in their order, until it says that it has enough.
+/// With more than one thread nothing may pull at the robot.
+pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMut(Made) -> bool) {
+    let (tree, docked, here) = (&state.tree, &state.docked, &state.robot.joints);
+    let made = |job: usize, scene: &Scene| {
+        let Job { attempt, dice } = &jobs[job];
+        let mut work = 0;
+        let way = attempt.way(scene, here, &mut dice.clone(), &mut work);
+        Made { job, way, work }
+    };
+    // What comes first often succeeds: threads would only get in each other's way.
+    let alone = if threads > 1 { ALONE.min(jobs.len()) } else { jobs.len() };
+    let scene = state.scene();
+    if (0..alone).any(|job| take(made(job, &scene))) || alone == jobs.len() {
+        return;
+    }
+    let wish = interrupt::current().map_or_else(Interrupt::default, |user| user.below());
+    let next = AtomicUsize::new(alone);
+    let (sender, results) = channel();
+    thread::scope(|scope| {
+        for _ in 0..threads.min(jobs.len() - alone) {
+            let (sender, next, wish, made) = (sender.clone(), &next, &wish, &made);
+            scope.spawn(move || {
+                let scene = Scene { tree, docked: docked.clone(), burden: None };
+                let work = || {
+                    loop {
+                        let job = next.fetch_add(1, Ordering::Relaxed);
+                        if job >= jobs.len() || sender.send(made(job, &scene)).is_err() {
+                            return;
+                        }
+                    }
+                };
+                interrupt::catch(wish, |_| {}, work)
+            });
+        }
+        drop(sender);
+        // Whichever way this is left, the threads are to end.
+        let _ends = Ends(&wish);
+        let mut early = BTreeMap::new();
+        let mut awaited = alone;
+        for made in results {
+            early.insert(made.job, made);
+            while let Some(made) = early.remove(&awaited) {
+                awaited += 1;
+                if take(made) {
+                    return;
+                }
+            }
+        }
+        // Before all results came only the user's wish ends the threads.
+        interrupt::checkpoint();
+    });
+}
+
+/// Jobs that are done before threads begin.
+const ALONE: usize = 1;
+
+/// Raises a wish when it goes.
+struct Ends<'a>(&'a Interrupt);
+
+impl Drop for Ends<'_> {
+    fn drop(&mut self) {
+        self.0.raise();
+    }
+}
