@@ -218,7 +218,7 @@ extern fn cross<D: Dimension>(a: Vec3<Quantity<D>>, b: Vec3<Quantity<D>>) -> Vec
 /// ```
 extern fn position(pose: Pose) -> Vec3<Length>
 
-/// Where an axis points after it was turned by a pose.
+/// Where an axis points after it was turned by a pose: in the frame in which the pose is given.
 ///
 /// Example:
 /// ```modl
@@ -868,7 +868,7 @@ extern fn layers(texts: Text...) -> Cells
 
 /// The nodes and struts of a truss.
 extern type Frame {
-  /// Where the nodes are.
+  /// Where the nodes are, in the frame of the truss.
   nodes: List<Vec3<Length>>
   /// Which nodes each strut joins: pairs of places in `nodes`.
   struts: List<List<Int>>
@@ -908,7 +908,8 @@ extern fn tetrahelix(n: Int, edge: Length) -> Frame
 /// ```
 extern fn from_mesh(mesh: Mesh) -> Frame
 
-/// A mesh from its vertices and faces; a face is a list of places in `vertices`, counterclockwise from outside.
+/// A mesh from its vertices, in a frame of its own, and its faces; a face is a list of places in
+/// `vertices`, counterclockwise from outside.
 ///
 /// A place that does not exist, or a face of fewer than three, is refused.
 ///
@@ -990,7 +991,7 @@ extern fn terrain(
   centre: Vec3<Length> = [0mm, 0mm, 0mm],
 ) -> Terrain
 
-/// A cloud of points, a target for `morph`.
+/// A cloud of points in a frame of its own, a target for `morph`.
 ///
 /// Example:
 /// ```modl

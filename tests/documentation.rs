@@ -18,7 +18,9 @@ config Arm {
   part h[2]: Hinge(length: 60mm)
   connect h[0].front -- h[1].back
 
+  /// From the shoulder to the tip.
   let reach = 120mm
+  /// Where a tool docks.
   port hand = h[1].front
 
   /// Bends by `a`.
@@ -27,6 +29,9 @@ config Arm {
 
 /// Private, so it is not told.
 fn _hidden() = 1
+
+/// What every arm may carry.
+let load = 200g
 
 /// Needs a number.
 config Chain(n: Int) { part h[n]: Hinge  for i in 0..n - 1 { connect h[i].front -- h[i + 1].back } }
@@ -53,8 +58,10 @@ fn a_site_tells_of_the_project_and_the_library() {
         "<code>curl(a: Angle = 20deg)</code>",
         "<p>Bends by <code>a</code>.</p>",
         "<code>h[]: Hinge</code>",
-        "<h3>values</h3>\n<dl>\n<dt id=\"Arm.reach\"><code>reach: Length</code></dt>",
-        "<h3>ports</h3>\n<dl>\n<dt id=\"Arm.hand\"><code>hand</code></dt>",
+        "<h3>values</h3>\n<dl>\n<dt id=\"Arm.reach\"><code>reach: Length</code></dt>\n<dd><p>From the shoulder to the tip.</p>",
+        "<h2><a href=\"#load\">load</a> <small>let</small></h2>",
+        "let load: Mass</pre>\n<p>What every arm may carry.</p>",
+        "<h3>ports</h3>\n<dl>\n<dt id=\"Arm.hand\"><code>hand</code></dt>\n<dd><p>Where a tool docks.</p>",
         "<h3>parameters</h3>\n<dl>\n<dt id=\"Chain.n\"><code>n: Int</code></dt>",
         "<a href=\"hinge-mod.html#Hinge\"><code>Hinge</code></a>",
         "<a href=\"hinge-mod.html#Hinge.bend\">",

@@ -229,27 +229,97 @@ fn reference_pages_are_those_of_the_declarations() {
     assert!(stale.is_empty(), "stale pages; UPDATE_DOCS=1 writes them: {}", stale.join(", "));
 }
 
+/// Whatever others can use, with what is said of it: declarations, and what can be named inside them.
+fn public(file: &File) -> Vec<(String, Option<&str>, bool)> {
+    let mut found = Vec::new();
+    for item in &file.items {
+        let (name, exemplified) = match &item.kind {
+            ItemKind::ExternFn(f) => (f.name, true),
+            ItemKind::Fn(f) => (f.name, true),
+            ItemKind::ExternType(t) => (t.name, false),
+            ItemKind::Module(m) => (m.name, false),
+            ItemKind::Connector(c) => (c.name, false),
+            ItemKind::Cell(f) | ItemKind::Strut(f) => (f.name, false),
+            ItemKind::Config(c) => (c.name, false),
+            ItemKind::Let(l) => (l.name, false),
+            ItemKind::Lattice(l) => (l.name, false),
+            ItemKind::Truss(t) => (t.name, false),
+            _ => continue,
+        };
+        let name = name.text.as_str();
+        if !shown(name) {
+            continue;
+        }
+        found.push((name.to_owned(), item.doc.as_deref(), exemplified));
+        let inside: Vec<(&str, Option<&str>)> = match &item.kind {
+            ItemKind::ExternType(t) => {
+                let fields = t.fields.iter().map(|f| (f.name.text.as_str(), f.doc.as_deref()));
+                fields
+                    .chain(t.methods.iter().map(|(doc, m)| (m.name.text.as_str(), doc.as_deref())))
+                    .collect()
+            }
+            ItemKind::Config(c) => {
+                let behaviors = c.clauses.iter().filter_map(|clause| match &clause.kind {
+                    ConfigClauseKind::Behavior(b) => Some((b.name.text.as_str(), clause.doc.as_deref())),
+                    _ => None,
+                });
+                behaviors.collect()
+            }
+            _ => Vec::new(),
+        };
+        let inside = inside.into_iter().filter(|(own, _)| shown(own));
+        found.extend(inside.map(|(own, doc)| (format!("{name}.{own}"), doc, false)));
+    }
+    found
+}
+
 #[test]
 fn every_declaration_of_the_library_is_documented_and_exemplified() {
     let mut wanting = Vec::new();
     for (path, text) in files("stdlib", "mod") {
-        for item in parse(FileId(0), &text).file.items {
-            let doc = item.doc.as_deref().unwrap_or("");
-            let (name, exemplified) = match &item.kind {
-                ItemKind::ExternFn(f) => (f.name, true),
-                ItemKind::Fn(f) => (f.name, true),
-                ItemKind::ExternType(t) => (t.name, false),
-                ItemKind::Module(m) => (m.name, false),
-                ItemKind::Connector(c) => (c.name, false),
-                ItemKind::Cell(f) | ItemKind::Strut(f) => (f.name, false),
-                ItemKind::Config(c) => (c.name, false),
-                _ => continue,
-            };
-            let name = name.text.as_str();
-            if shown(name) && (doc.trim().is_empty() || exemplified && !doc.contains("Example:\n```")) {
+        for (name, doc, exemplified) in public(&parse(FileId(0), &text).file) {
+            let doc = doc.unwrap_or("");
+            if doc.trim().is_empty() || exemplified && !doc.contains("Example:\n```") {
                 wanting.push(format!("{path}: {name}"));
             }
         }
     }
     assert!(wanting.is_empty(), "without documentation or example:\n{}", wanting.join("\n"));
+}
+
+/// Types carry the unit of a quantity; in which frame a place stands, only words can say.
+#[test]
+fn places_and_poses_of_the_library_are_documented_with_their_frame() {
+    let words = ["frame", "world", "base", "middle", "centre", "link", "module", "origin", "seen from"];
+    let mut wanting = Vec::new();
+    for (path, text) in files("stdlib", "mod") {
+        let file = parse(FileId(0), &text).file;
+        let mut judge = |name: String, written: &str, doc: Option<&str>| {
+            let has_place = written.contains("Vec3<Length>") || written.contains("Pose");
+            if has_place && shown(&name) && !words.iter().any(|word| doc.unwrap_or("").contains(word)) {
+                wanting.push(format!("{path}: {name}"));
+            }
+        };
+        for item in &file.items {
+            let whole = &text[item.span.range()];
+            match &item.kind {
+                ItemKind::ExternFn(f) => judge(f.name.text.to_string(), whole, item.doc.as_deref()),
+                ItemKind::Fn(f) => {
+                    let head = &text[item.span.start as usize..f.body.span.start as usize];
+                    judge(f.name.text.to_string(), head, item.doc.as_deref());
+                }
+                ItemKind::ExternType(t) => {
+                    for field in &t.fields {
+                        judge(
+                            field.name.text.to_string(),
+                            &text[field.ty.span.range()],
+                            field.doc.as_deref(),
+                        );
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    assert!(wanting.is_empty(), "in which frame?\n{}", wanting.join("\n"));
 }

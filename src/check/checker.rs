@@ -122,6 +122,7 @@ pub struct Members<'a> {
 pub struct MemberInfo<'a> {
     pub name: Symbol,
     pub span: Span,
+    pub doc: Option<Arc<str>>,
     pub kind: MemberInfoKind<'a>,
 }
 

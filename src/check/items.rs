@@ -421,7 +421,8 @@ impl<'a> Checker<'a> {
                 I::Node { .. } => M::Node,
             };
             let ty = self.member_type(id, member, None);
-            out.push(super::typed::Member { name: info.name, span: info.span, ty, kind, doc: None });
+            let doc = info.doc.clone();
+            out.push(super::typed::Member { name: info.name, span: info.span, ty, kind, doc });
         }
         out
     }

@@ -17,10 +17,16 @@ impl<'a> Members<'a> {
     /// `false`: the name is taken.
     fn add(&mut self, name: ast::Name, kind: MemberInfoKind<'a>) -> bool {
         let id = MemberId(self.list.len() as u32);
-        self.list.push(MemberInfo { name: name.text, span: name.span, kind });
+        self.list.push(MemberInfo { name: name.text, span: name.span, doc: None, kind });
         let new = !self.index.contains_key(&name.text);
         self.index.entry(name.text).or_insert(id);
         new
+    }
+
+    /// What is said of the members from one on, which one clause declares.
+    fn document(&mut self, from: usize, doc: Option<&str>) {
+        let doc: Option<Arc<str>> = doc.map(Arc::from);
+        self.list[from..].iter_mut().for_each(|member| member.doc = doc.clone());
     }
 }
 
@@ -67,7 +73,10 @@ impl<'a> Checker<'a> {
         for clause in &module.clauses {
             let doc = clause.doc.as_deref().map(Arc::from);
             match &clause.kind {
-                ModuleClauseKind::Let(x) => self.add_member(members, x.name, MemberInfoKind::Let(x)),
+                ModuleClauseKind::Let(x) => {
+                    self.add_member(members, x.name, MemberInfoKind::Let(x));
+                    members.document(members.list.len() - 1, clause.doc.as_deref());
+                }
                 ModuleClauseKind::Joint { name, kind, .. } => {
                     let dimension = joint_dimension(kind);
                     self.add_joint(members, *name, doc, &clause.kind, dimension);
@@ -177,6 +186,7 @@ impl<'a> Checker<'a> {
     fn config_members(&mut self, id: DefId, members: &mut Members<'a>, config: &'a ast::Config) {
         let mut parts = 0;
         for clause in &config.clauses {
+            let before = members.list.len();
             match &clause.kind {
                 ConfigClauseKind::Let(x) => self.add_member(members, x.name, MemberInfoKind::Let(x)),
                 ConfigClauseKind::Part(part) => {
@@ -203,6 +213,7 @@ impl<'a> Checker<'a> {
                 }
                 _ => {}
             }
+            members.document(before, clause.doc.as_deref());
         }
     }
 

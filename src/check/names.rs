@@ -74,6 +74,8 @@ impl<'a> Checker<'a> {
             d = d.hint(instead);
         } else if let Some(file) = library::declares(name.as_str()) {
             d = d.hint(format!("the library has it: `use std.{file}.{name}`"));
+        } else if let Some(path) = self.declared_elsewhere(scope.file, name) {
+            d = d.hint(format!("another file declares it: `use \"{path}\".{{{name}}}`"));
         } else if let Some(near) = suggest(name.as_str(), names) {
             d = d.hint(format!("`{near}`?"));
         } else if is_unit(name.as_str()) {
@@ -81,6 +83,24 @@ impl<'a> Checker<'a> {
         }
         self.report(d);
         error_expr(span)
+    }
+
+    /// The file beside this one that declares a public name and is part of the program.
+    fn declared_elsewhere(&self, file: usize, name: Symbol) -> Option<String> {
+        let public = !name.as_str().starts_with('_');
+        let own = |other: usize| match self.top(other).get(&name) {
+            Some(Entity::Def(id)) => self.def(*id).file == other,
+            _ => false,
+        };
+        let path = |file: usize| {
+            let text = self.sources.file(self.loaded.files[file].ast.id);
+            (!text.library).then(|| text.name.to_string())
+        };
+        // What a file in another folder is called from here is not said.
+        let beside = |path: &String| path.ends_with(".mod") && !path.contains('/');
+        let here = path(file).is_some_and(|path| !path.contains('/'));
+        let mut others = (0..self.loaded.files.len()).filter(|&other| other != file && public && here);
+        others.find_map(|other| own(other).then(|| path(other)).flatten().filter(beside))
     }
 
     /// A declaration used as a value.

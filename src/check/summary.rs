@@ -156,7 +156,8 @@ pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
             let parts = config.parts.iter().map(|part| {
                 let many = part.count.as_ref().map_or_else(String::new, |_| "[]".to_owned());
                 let head = format!("{}{many}: {}", part.name, checked.sources.text(part.ty_span));
-                entry(Group::Part, part.name, head, &None)
+                let member = config.members.iter().find(|member| member.name == part.name);
+                entry(Group::Part, part.name, head, &member.and_then(|member| member.doc.clone()))
             });
             let behaviors = config.behaviors.iter().map(|b| {
                 entry(Group::Behavior, b.name, format!("{}({})", b.name, params(&b.params)), &b.doc)

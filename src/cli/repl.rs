@@ -160,6 +160,7 @@ impl<'g> Talk<'g> {
             Some(Ok(command)) => return self.obey(command),
             Some(Err(why)) => self.complain(&why),
             None if text.trim().is_empty() => {}
+            None if let Some(call) = self.session.call_of(text) => print(&call),
             None => {
                 let text = text.trim_end();
                 self.enter(&Input { text, name: "<stdin>", first_line, tell: Tell::All, keep: true });

@@ -85,6 +85,7 @@ mod portrait;
 mod portrait_motion;
 mod portrait_robot;
 mod portrait_shape;
+mod portrait_truss;
 pub mod session;
 
 pub use host::{Host, Limits, Mode, Options, Outcome, TestResult, WriteError};

@@ -3,6 +3,7 @@
 use super::interpreter::Interpreter;
 use super::planning::Planned;
 use super::portrait::{Branch, counted};
+use super::portrait_truss;
 use super::robot_of::Robot;
 use super::stop::{Eval, Stop};
 use super::value::Behavior;
@@ -84,6 +85,7 @@ impl Interpreter<'_> {
             let rest = SKETCH_WIDTH.saturating_sub(1 + long.chars().count());
             lines.push(row("", &format!("0{:rest$}{long}", "")));
         }
+        lines.extend(portrait_truss::made(planned));
         for failure in verdict.failures.iter().take(FAILURES_SHOWN) {
             lines.push(format!("  {}", failure_line(failure)));
         }

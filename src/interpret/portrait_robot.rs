@@ -5,6 +5,7 @@ use super::design::{ConfigDesign, Design, DesignKind, Instance, ModuleDesign};
 use super::interpreter::Interpreter;
 use super::portrait::{Branch, counted, listed};
 use super::portrait_shape;
+use super::portrait_truss;
 use super::stop::Eval;
 use crate::check::typed::{DefId, DefKind};
 use crate::robot::{Joint, JointKind};
@@ -23,12 +24,7 @@ impl Interpreter<'_> {
             DesignKind::Lattice(lattice) => {
                 format!("{} of {}\n{}", design.name, lattice.of.name, portrait_shape::cells(&lattice.cells))
             }
-            DesignKind::Truss(truss) => format!(
-                "{}: {}, {}",
-                design.name,
-                counted(truss.nodes.len(), "node"),
-                counted(truss.struts.len(), "strut")
-            ),
+            DesignKind::Truss(truss) => portrait_truss::truss(design, truss),
             DesignKind::Cell(cell) => format!(
                 "{}: {}, shrinks to {}, {}",
                 design.name,

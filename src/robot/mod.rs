@@ -13,6 +13,7 @@ pub mod step;
 pub mod symmetry;
 pub mod tree;
 pub mod truss;
+mod truss_band;
 
 pub use assembly::{Assembly, Bond, JointId, JointOwner, ModuleInstance, PortRef, State};
 pub use kinematics::{Kinematics, Residual};

@@ -1,6 +1,7 @@
 //! Infinitesimal rigidity of trusses: which motions of the nodes change no strut's length, to first
 //! order (Maxwell, Calladine). The rigidity matrix has one row a strut and three columns a node.
 
+use super::truss_band;
 use crate::geometry::Vec3;
 use nalgebra::{DMatrix, DVector};
 
@@ -11,6 +12,8 @@ const SINGULAR: f64 = 1e-9;
 const STILL: f64 = 1e-6;
 /// A strut carries a self-stress if this much of its row lies in the span of the others.
 const REDUNDANT: f64 = 1e-9;
+/// Trusses of more nodes are looked at in their band first: a decomposition takes the cube of their number.
+const NODES_DENSE: usize = 60;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rigidity {
@@ -43,6 +46,19 @@ impl Rigidity {
 
 /// Examines a truss. Struts must have length.
 pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
+    if nodes.len() > NODES_DENSE
+        && let Some(facts) = truss_band::facts(nodes, struts)
+    {
+        let rank = 3 * nodes.len() - motions_of_the_whole(nodes).len();
+        return Rigidity {
+            rank,
+            rank_rigid: rank,
+            self_stresses: struts.len() - rank,
+            weakest: facts.weakest,
+            redundant: facts.redundant,
+            free: Vec::new(),
+        };
+    }
     let matrix = rigidity_matrix(nodes, struts);
     let svd = matrix.svd(true, true);
     let largest = svd.singular_values.max();
@@ -86,7 +102,7 @@ fn rigidity_matrix(nodes: &[Vec3], struts: &[(usize, usize)]) -> DMatrix<f64> {
 }
 
 /// An orthonormal basis of the translations and turns of all nodes together.
-fn motions_of_the_whole(nodes: &[Vec3]) -> Vec<DVector<f64>> {
+pub(super) fn motions_of_the_whole(nodes: &[Vec3]) -> Vec<DVector<f64>> {
     let centre = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
     let moved = |motion: &dyn Fn(&Vec3) -> Vec3| {
         DVector::from_iterator(3 * nodes.len(), nodes.iter().flat_map(|p| motion(p).data.0[0]))
@@ -98,7 +114,7 @@ fn motions_of_the_whole(nodes: &[Vec3]) -> Vec<DVector<f64>> {
 }
 
 /// Gram and Schmidt, twice for accuracy; vectors that depend on those before are left out.
-fn orthonormal(vectors: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+pub(super) fn orthonormal(vectors: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     let mut basis: Vec<DVector<f64>> = Vec::new();
     for vector in vectors {
         let length = vector.norm();

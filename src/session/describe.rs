@@ -4,7 +4,7 @@ use super::dependencies::meant;
 use super::members::about;
 use super::state::{Session, is_given, value_type};
 use crate::check::summary::{self, Group, Inside};
-use crate::check::typed::{Def, DefId};
+use crate::check::typed::{Def, DefId, DefKind};
 use crate::check::{self, Checked, Entry, Meaning, Type};
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, library};
@@ -40,10 +40,21 @@ impl Session {
         let Some((id, member)) = self.find(name) else { return self.doc_of_library(name) };
         let def = self.checked.program.def(id);
         match member {
+            // A value has the members of its type.
             Some(member) => member_doc(&self.checked, def, &member)
+                .or_else(|| member_doc(&self.checked, self.checked.program.def(type_of(def)?), &member))
                 .ok_or_else(|| format!("`{}` has no `{member}`", def.name)),
             None => Ok(self.doc_of(id)),
         }
+    }
+
+    /// How a built-in function is called, for a text that is nothing but its name: those that take
+    /// arguments of several types are no values.
+    pub fn call_of(&self, text: &str) -> Option<String> {
+        let (id, member) = self.find(text.trim())?;
+        let native = matches!(self.checked.program.def(id).kind, DefKind::Native(_)) && member.is_none();
+        let name = self.checked.program.def(id).name;
+        native.then(|| format!("{}\n`:doc {name}` tells more\n", summary::signature(&self.checked, id)))
     }
 
     /// How a name is declared, with its documentation.
@@ -138,9 +149,22 @@ fn is_named(item: &ast::Item, name: &str) -> bool {
         K::Config(x) => x.name,
         K::Lattice(x) => x.name,
         K::Truss(x) => x.name,
+        K::ExternFn(x) => x.name,
+        K::ExternType(x) => x.name,
         _ => return false,
     };
     declared.text == name
+}
+
+/// What the value of a `let` is an instance of.
+fn type_of(def: &Def) -> Option<DefId> {
+    match &def.kind {
+        DefKind::Let(binding) => match binding.ty {
+            Type::Instance(id) | Type::Record(id) => Some(id),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 /// Joints, ports, parts, behaviours, fields and methods, a line each.
