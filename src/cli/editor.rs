@@ -98,6 +98,18 @@ fn history_file() -> Option<PathBuf> {
         .or_else(|| Some(folder("LOCALAPPDATA")?.join("modl/history")))
 }
 
+/// How many candidates are listed with all that is said of them.
+const SPELT_OUT_MAX: usize = 12;
+/// Characters that are said of each of more.
+const ABOUT_MAX: usize = 36;
+
+fn shortened(about: &str, many: bool) -> Cow<'_, str> {
+    match about.char_indices().nth(ABOUT_MAX) {
+        Some((end, _)) if many => Cow::Owned(format!("{}...", &about[..end])),
+        _ => Cow::Borrowed(about),
+    }
+}
+
 /// What helps who types.
 struct Assistant {
     knowledge: Option<Knowledge>,
@@ -116,11 +128,13 @@ impl Completer for Assistant {
         // Whoever stops waiting drops the receiver; the thread ends by itself.
         std::thread::spawn(move || drop(sender.send(complete::complete(&knowledge, &text, at))));
         let Ok(found) = receiver.recv_timeout(COMPLETION_PATIENCE) else { return Ok((at, Vec::new())) };
+        // Many stand side by side; one alone has its line for itself.
+        let many = found.candidates.len() > SPELT_OUT_MAX;
         let pair = |named: crate::session::complete::Named| Pair {
             display: if named.about.is_empty() {
                 named.name.clone()
             } else {
-                format!("{}  {}", named.name.trim_end(), named.about)
+                format!("{}  {}", named.name.trim_end(), shortened(&named.about, many))
             },
             replacement: named.name,
         };

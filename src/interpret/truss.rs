@@ -26,6 +26,8 @@ const NODES_MAX: usize = 1000;
 const FAULTS_TOLD: usize = 8;
 /// Of more nodes it takes a while to find out whether they hold each other.
 const NODES_AT_ONCE: usize = 100;
+/// Free motions of a truss that is not rigid that are told.
+const MOTIONS_TOLD: usize = 6;
 
 pub struct TrussDesign {
     /// The strut.
@@ -350,8 +352,11 @@ fn not_rigid(truss: &TrussDesign, name: Span) -> Diagnostic {
     let count = rigidity.free.len();
     let motions = if count == 1 { "1 free motion".to_string() } else { format!("{count} free motions") };
     let mut diagnostic = Diagnostic::error(code::NOT_RIGID, message).label(name, motions);
-    for (index, motion) in free_motions(truss).into_iter().enumerate() {
+    for (index, motion) in free_motions(truss).into_iter().take(MOTIONS_TOLD).enumerate() {
         diagnostic = diagnostic.hint(format!("free motion {}: {motion}", index + 1));
+    }
+    if count > MOTIONS_TOLD {
+        diagnostic = diagnostic.hint(format!("and {} more free motions", count - MOTIONS_TOLD));
     }
     diagnostic.hint("add struts between nodes that move against each other")
 }

@@ -104,6 +104,11 @@ fn candidates(knowledge: &Knowledge, before: &str) -> Completion {
         return done(word, words);
     }
     let mut found = named_arguments(knowledge, &before[..word]);
+    if word == before.len() && !found.is_empty() {
+        // Nothing is typed yet: all that the library has would bury what the call takes.
+        found.extend(project_names(knowledge));
+        return done(word, found);
+    }
     found.extend(names(knowledge, before, word));
     done(word, found)
 }
@@ -384,6 +389,15 @@ fn global_names(knowledge: &Knowledge) -> Vec<Named> {
             Meaning::File(_) => Named::new(name.as_str(), "library"),
         })
         .collect()
+}
+
+/// Names that the project and the session declare.
+fn project_names(knowledge: &Knowledge) -> Vec<Named> {
+    let (program, sources) = (&knowledge.checked.program, &knowledge.checked.sources);
+    let own = meant(&knowledge.checked)
+        .into_iter()
+        .filter(|(name, id)| is_given(*name) && !sources.file(program.def(*id).file).library);
+    own.map(|(name, id)| Named::new(name.as_str(), about(program, id))).collect()
 }
 
 /// Names that can be seen, those that the text itself declares, and words of the language.
