@@ -45,3 +45,58 @@ module Mori(side: Length = 80mm, thickness: Length = 6mm, weight: Mass = 26g) {
       facing [cos(120deg * i - 90deg), sin(120deg * i - 90deg), 0] up +Z
   }
 }
+
+/// A triangular panel with sides of one's own, in millimetres or metres; otherwise as Mori, drawn flat with
+/// its front up, about the middle of its corners, its first side towards -y.
+///
+/// `fold` makes these to measure: each face of the shape becomes a panel with its sides, so that spheres,
+/// tori and any other surface of triangles can be folded. The motors of a panel weigh the same whatever its
+/// size, its plate goes with its area; a panel with sides of 80 mm weighs as much as a Mori.
+///
+/// Example:
+/// ```modl
+/// use std.mori.Panel
+/// print(mass(Panel()), mass(Panel(sides: [60mm, 80mm, 100mm])))
+/// ```
+module Panel(
+  sides: List<Length> = [80mm, 80mm, 80mm],
+  thickness: Length = 6mm,
+  motors: Mass = 18g,
+  plate: Quantity<kg/m^2> = 8g / (sqrt(3) / 4 * (80mm)^2),
+) {
+  require len(sides) == 3, "a panel has three sides"
+  require min(sides) > 0mm and 2 * max(sides) < sum(sides), "no triangle has such sides"
+
+  // The first side along x, the third corner above it.
+  let foot = (sides[0]^2 + sides[2]^2 - sides[1]^2) / (2 * sides[0])
+  let top = sqrt(max(sides[2]^2 - foot^2, 0mm^2))
+  let middle: Vec3<Length> = [(sides[0] + foot) / 3, top / 3, 0mm]
+  let corner: List<Vec3<Length>> =
+    [-middle, [sides[0] - middle[0], -middle[1], 0mm], [foot - middle[0], top - middle[1], 0mm]]
+
+  // The circle that touches all sides: what is drawn inside the sides is smaller about its centre.
+  let area = sides[0] * top / 2
+  let radius = 2 * area / sum(sides)
+  let centre = (corner[0] * sides[1] + corner[1] * sides[2] + corner[2] * sides[0]) / sum(sides)
+
+  // A tenth of a millimetre inside the edges, so that panels side by side do not meet; and where the bevel ends.
+  let inside = radius - 0.1mm
+  let outside = inside - thickness / 2 * sqrt(3)
+
+  require outside > 0mm, "the panel is too thick for its sides: the bevels meet"
+
+  mass motors + plate * area
+
+  let inner = [centre + (c - centre) * (inside / radius) for c in corner]
+  let outer = [centre + (c - centre) * (outside / radius) for c in corner]
+
+  link panel = prism(inner, height: thickness)
+    collides hull(inner ++ [c + [0mm, 0mm, z] for c in outer for z in [-thickness / 2, thickness / 2]])
+
+  for i in 0..3 {
+    let along = (corner[(i + 1) % 3] - corner[i]) / sides[i]
+    port edge[i] : Edge on panel
+      at (corner[i] + corner[(i + 1) % 3]) / 2
+      facing [along[1], -along[0], 0] up +Z
+  }
+}

@@ -7,11 +7,21 @@ use crate::suite::MapFiles;
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
 use modl::interpret::{Mode, Options};
+use modl::robot::{Kinematics, PortRef};
 use modl::source::code;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::sync::Mutex;
 
-const SHAPES: [&str; 4] = ["tetrahedron", "octahedron", "icosahedron", "quadruped_turtle"];
+/// Shapes with the module that they are folded of.
+const SHAPES: [(&str, &str); 6] = [
+    ("tetrahedron", "Mori"),
+    ("octahedron", "Mori"),
+    ("icosahedron", "Mori"),
+    ("quadruped_turtle", "Mori"),
+    ("octahedron", "Panel"),
+    ("geodesic80", "Panel"),
+];
 
 /// A shape of the truth as an OFF file, so that it takes the way a user's shape takes.
 fn off(shape: &Value) -> String {
@@ -27,14 +37,24 @@ fn off(shape: &Value) -> String {
     text
 }
 
-fn written(shape: &str) -> BTreeMap<String, Vec<u8>> {
-    let program = "use std.mori.Mori
-let found = fold(load_mesh(\"shape.off\", scale: 80mm), module: Mori)
+/// Folded once for all tests.
+fn written(shape: &str, module: &str) -> BTreeMap<String, Vec<u8>> {
+    static KNOWN: Mutex<BTreeMap<String, BTreeMap<String, Vec<u8>>>> = Mutex::new(BTreeMap::new());
+    let mut known = KNOWN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    known.entry(format!("{shape} of {module}")).or_insert_with(|| folded_anew(shape, module)).clone()
+}
+
+fn folded_anew(shape: &str, module: &str) -> BTreeMap<String, Vec<u8>> {
+    let program = format!(
+        "use std.mori.{module}
+let found = fold(load_mesh(\"shape.off\", scale: 80mm), module: {module})
 save(found, \"shape.fold\")
 save(found.layout, \"again.fold\")
 show(found.layout, \"shape.svg\")
-";
-    let mut files = MapFiles::of(program);
+emit(found, \"shape.plan.json\")
+"
+    );
+    let mut files = MapFiles::of(&program);
     files.0.insert("shape.off".into(), off(&TRUTH["shapes"][shape]).into_bytes());
     let done = ran(&files, "main.mod", Mode::Run, &Options::default());
     assert!(done.outcome.diagnostics.is_empty(), "{shape}: {:?}", done.outcome.diagnostics);
@@ -101,8 +121,8 @@ fn farthest(a: &[Vec3], b: &[Vec3]) -> f64 {
 
 #[test]
 fn a_fold_file_folds_into_the_target_by_its_own_angles() {
-    for name in SHAPES {
-        let written = written(name);
+    for (name, module) in SHAPES {
+        let written = written(name, module);
         assert_eq!(written["shape.fold"], written["again.fold"]);
         let file: Value = serde_json::from_slice(&written["shape.fold"]).expect("JSON");
         let shape = &TRUTH["shapes"][name];
@@ -127,8 +147,11 @@ fn a_fold_file_folds_into_the_target_by_its_own_angles() {
             let faces = list(&file["faces_vertices"]).iter();
             let corners: Vec<Vec<Vec3>> =
                 faces.map(|f| places(f).into_iter().map(|v| places_3d[v]).collect()).collect();
-            for face in &corners {
-                assert!(((face[1] - face[0]).norm() - 80.0).abs() < 1e-7, "{name}, frame {number}");
+            for (face, wanted) in corners.iter().zip(&target) {
+                for k in 0..3 {
+                    let side = |of: &[Vec3]| (of[(k + 1) % 3] - of[k]).norm();
+                    assert!((side(face) - side(wanted)).abs() < 1e-7, "{name}, frame {number}");
+                }
             }
             if number + 1 == frames.len() {
                 assert!(farthest(&seen_from_first(&corners), &seen_from_first(&target)) < 1e-9 * 80.0);
@@ -137,10 +160,40 @@ fn a_fold_file_folds_into_the_target_by_its_own_angles() {
     }
 }
 
+/// What is told in the plan alone: in the end the middles of the panels' edges are where those of the shape
+/// are, and where two faces meet, so do two edges.
+#[test]
+fn a_plan_ends_in_the_target() {
+    for (name, module) in SHAPES {
+        let file = written(name, module).remove("shape.plan.json").expect("written");
+        let plan = modl::plan::file::read(&String::from_utf8(file).expect("text")).expect("a plan");
+        let modl::plan::Body::Tracks(tracks) = &plan.body else { panic!("joints move") };
+        let (robot, end) = (&tracks.robot, tracks.end());
+        let kinematics = Kinematics::new(robot, &end.bonds, robot.base);
+        let mut poses = vec![Pose::identity(); kinematics.link_count()];
+        kinematics.link_poses(&end.joints, &Pose::identity(), &mut poses);
+        let shape = &TRUTH["shapes"][name];
+        let points: Vec<Vec3> = list(&shape["vertices_unit_edge"])
+            .iter()
+            .map(|v| Vec3::from_row_slice(&numbers(v)) * 0.08)
+            .collect();
+        let (mut wanted, mut found) = (Vec::new(), Vec::new());
+        for (module, face) in list(&shape["faces_ccw"]).iter().enumerate() {
+            let corners: Vec<Vec3> = places(face).into_iter().map(|v| points[v]).collect();
+            wanted.push((0..3).map(|k| (corners[k] + corners[(k + 1) % 3]) / 2.0).collect());
+            let middle =
+                |port| kinematics.port_pose(robot, PortRef { module, port }, &poses).translation.vector;
+            found.push((0..3).map(middle).collect());
+        }
+        let off_by = farthest(&seen_from_first(&found), &seen_from_first(&wanted));
+        assert!(off_by < 1e-9, "{name} of {module}: {off_by} m");
+    }
+}
+
 #[test]
 fn a_fold_file_says_what_the_format_wants() {
-    for name in SHAPES {
-        let file: Value = serde_json::from_slice(&written(name)["shape.fold"]).expect("JSON");
+    for (name, module) in SHAPES {
+        let file: Value = serde_json::from_slice(&written(name, module)["shape.fold"]).expect("JSON");
         assert_eq!(file["file_spec"], 1.2);
         assert_eq!(file["frame_unit"], "mm");
         assert_eq!(file["frame_classes"], serde_json::json!(["creasePattern"]));
@@ -187,7 +240,8 @@ fn a_pattern_has_a_layer_for_each_kind_of_line() {
     for (name, mountains, valleys) in
         [("tetrahedron", 3, 0), ("octahedron", 7, 0), ("quadruped_turtle", 9, 8)]
     {
-        let text = String::from_utf8(written(name).remove("shape.svg").expect("written")).expect("text");
+        let text =
+            String::from_utf8(written(name, "Mori").remove("shape.svg").expect("written")).expect("text");
         let layer = |name: &str| {
             let from = text.find(&format!("<g id=\"{name}\"")).unwrap_or_else(|| panic!("no layer {name}"));
             &text[from..from + text[from..].find("</g>").expect("closed")]

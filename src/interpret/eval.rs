@@ -297,6 +297,12 @@ impl Interpreter<'_> {
     fn eval_index(&mut self, object: &Expr, index: &Expr, span: Span, frame: &mut Frame) -> Eval<Value> {
         let list = self.eval(object, frame)?;
         let index = self.eval(index, frame)?;
+        let list = match list {
+            Value::Vec3(vector, dimension) => {
+                Value::list(vector.iter().map(|x| Value::Quantity(*x, dimension)).collect())
+            }
+            list => list,
+        };
         let (Value::List(elements), Some(at)) = (&list, index.as_big()) else { return Ok(Value::Unknown) };
         let found = usize::try_from(&at).ok().and_then(|at| elements.get(at));
         found.cloned().ok_or_else(|| {

@@ -9,6 +9,7 @@ use crate::planners::fold::enumerate::{self, TooManyFaces};
 use crate::planners::fold::exact::{self, NoLayout};
 use crate::planners::fold::heuristic::{self, Measure};
 use crate::planners::fold::objective::{Minimise, Objective};
+use crate::planners::fold::peak;
 use crate::planners::fold::survey::{self, Survey};
 use crate::planners::fold::{Layout, Proof, Target};
 use crate::source::{Diagnostic, code};
@@ -29,6 +30,8 @@ pub struct Found {
     pub least: f64,
     /// Whether none that lies flat is better than the first.
     pub proved: bool,
+    /// Whether none that lies flat is left out of the list before the last of it.
+    pub listed: bool,
     /// Roots that are equally good.
     pub ties: Vec<usize>,
     /// How many pairs of a layout and a root are known to be equally good.
@@ -91,6 +94,7 @@ impl Question<'_> {
             bound: self.scaled(found.bound),
             least,
             proved: found.proof == Proof::Optimal,
+            listed: false,
             next: Some(settings),
             tied: found.roots.len() as u64,
             ties: found.roots,
@@ -169,8 +173,7 @@ impl Question<'_> {
             hinges.push(hinge.ok_or_else(|| refuse(format!("faces {a} and {b} share no hinge")))?);
         }
         let of_root = |root: usize| Layout::of_hinges(self.target, &hinges, root);
-        let roots = self.options.root.map_or(0..self.target.faces.len(), |root| root..root + 1);
-        let layouts: Option<Vec<Layout>> = roots.map(of_root).collect();
+        let layouts: Option<Vec<Layout>> = self.options.roots.iter().copied().map(of_root).collect();
         let Some(layouts) = layouts else {
             let faces = self.target.faces.len();
             return Err(refuse(format!("{} hinges that join not all {faces} faces", hinges.len())));
@@ -189,7 +192,7 @@ impl Question<'_> {
     /// Every layout measured, or as many as may be; with how many that are.
     fn surveyed(&self) -> Eval<(Found, u64)> {
         let budget = self.options.budget.min(self.objective.measures_max());
-        let settings = survey::Settings { root: self.options.root, flat: true, budget, keep: KEPT };
+        let settings = survey::Settings { roots: self.options.roots.clone(), flat: true, budget, keep: KEPT };
         let weights = &self.objective.weights;
         let found =
             survey::survey(self.target, weights, &settings, &mut |layout| self.objective.value(layout));
@@ -199,14 +202,40 @@ impl Question<'_> {
             return Err(self.no_layout(why));
         };
         let is_measured = complete && self.options.minimise != Minimise::Steps;
-        let bound = if is_measured { first[0] } else { self.objective.lower_bound(self.options.root) };
+        let bound = if is_measured { first[0] } else { self.objective.lower_bound(&self.options.roots) };
+        let first = first[0];
         let layouts = best.into_iter().map(|(layout, _)| layout).collect();
-        Ok((Found { layouts, next: None, bound, least, proved: complete, ties: roots, tied: ties }, budget))
+        let (proved, listed) = (complete, complete);
+        let found = Found { layouts, next: None, bound, least, proved, listed, ties: roots, tied: ties };
+        let by_parts = self.options.minimise == Minimise::PeakTorque && self.options.conventions.separate();
+        Ok((if by_parts && !complete { self.of_least_peak(found, first) } else { found }, budget))
+    }
+
+    /// With a proof of the least peak torque, as far as the budget reaches: `first` is that of the first
+    /// layout.
+    fn of_least_peak(&self, mut found: Found, first: f64) -> Found {
+        let scale = self.objective.peak_by_mean();
+        let (target, weights) = (self.target, &self.objective.weights);
+        let (mut left, mut best, mut bound) = (self.options.budget, first / scale, f64::INFINITY);
+        for &root in &self.options.roots {
+            let least = peak::least(target, weights, root, best, &mut left);
+            bound = bound.min(least.bound);
+            if let Some((layout, reached)) = least.layout.filter(|(_, reached)| *reached < best) {
+                best = reached;
+                found.ties = vec![root];
+                found.tied = 1;
+                found.layouts.insert(0, layout);
+            }
+        }
+        found.least = found.least.min(best * scale);
+        found.bound = (bound * scale).max(found.bound).min(best * scale);
+        found.proved = bound >= best * (1.0 - exact::TOL_TIE);
+        found
     }
 
     fn preferred(&self) -> Eval<Found> {
         let Options { root, budget, .. } = *self.options;
-        let measure = Measure::of_panels(self.panel.mass, self.panel.side);
+        let measure = Measure::of_panels(self.panel.mass, self.panel.sides[0]);
         let found =
             heuristic::preferred(self.target, &measure, root, budget).map_err(self.too_many_faces())?;
         let least = self.objective.value(&found.layout)[0];
@@ -216,7 +245,7 @@ impl Question<'_> {
 
     /// Layouts of which nothing is proved but what no layout undercuts.
     fn unproved(&self, layouts: Vec<Layout>, least: f64, ties: Vec<usize>, tied: u64) -> Found {
-        let bound = self.objective.lower_bound(self.options.root);
-        Found { layouts, next: None, bound, least, proved: false, ties, tied }
+        let bound = self.objective.lower_bound(&self.options.roots);
+        Found { layouts, next: None, bound, least, proved: false, listed: false, ties, tied }
     }
 }

@@ -12,7 +12,9 @@ use crate::planners::fold::Target;
 use crate::planners::fold::closing;
 use crate::planners::fold::inertia::Inertia;
 use crate::planners::fold::objective::{Conventions, Minimise};
+use crate::planners::fold::pattern::has_equal_sides;
 use crate::planners::fold::simulation::Count;
+use crate::planners::fold::standing::{Below, below};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 
@@ -53,6 +55,8 @@ pub enum Sequence {
 /// What is asked of a folding beside its shape.
 pub struct Options {
     pub root: Option<usize>,
+    /// Faces that may be the root: those on which the shape can lie.
+    pub roots: Vec<usize>,
     pub seed: u64,
     pub budget: u64,
     pub minimise: Minimise,
@@ -84,8 +88,11 @@ impl Options {
         let gravity = if call.word(GRAVITY) == Some("on") { World::default().gravity } else { 0.0 };
         let count = if call.word(COUNT) == Some("all") { Count::All } else { Count::Moving };
         let radius = call.positive_if(HINGE_RADIUS, "the radius of the hinges")?;
+        let gravitates = gravity != 0.0;
+        let depth = if gravitates { panel.thickness } else { f64::INFINITY };
         let options = Options {
             root,
+            roots: roots(call, target, root, depth)?,
             seed: call.count(SEED, "a seed")? as u64,
             budget: call.count(BUDGET, "a budget")? as u64,
             minimise: match call.word(MINIMISE) {
@@ -102,12 +109,12 @@ impl Options {
             },
             opening: radius.map(|radius| closing::least_opening(panel.thickness, radius)),
         };
-        options.check(call)?;
+        options.check(call, target)?;
         Ok(options)
     }
 
     /// What does not go together.
-    fn check(&self, call: &Call) -> Eval<()> {
+    fn check(&self, call: &Call, target: &Target) -> Eval<()> {
         let separate = self.conventions.separate();
         if call.word(METHOD) == Some("heuristic") && !(separate && self.minimise == Minimise::Energy) {
             let message = "the heuristic estimates energies of moving joints without gravity, nothing else";
@@ -115,6 +122,9 @@ impl Options {
         }
         if call.word(METHOD) == Some("heuristic") && !call.list(PASSIVE)?.is_empty() {
             return Err(call.refuse(METHOD, "the heuristic takes all panels for equally heavy"));
+        }
+        if call.word(METHOD) == Some("heuristic") && !has_equal_sides(target) {
+            return Err(call.refuse(METHOD, "the heuristic takes all panels for equal"));
         }
         if self.sequence == Sequence::LeastEnergy && !separate {
             let message =
@@ -132,13 +142,35 @@ impl Options {
         World { gravity: self.conventions.gravity, ground: Ground::Fixed, friction: 1.0 }
     }
 
-    /// Where the root's panel lies: on the ground with its outside down, if there is one.
-    pub fn base(&self, panel: &Panel) -> Pose {
+    /// Where the root's panel, of a thickness in m, lies: on the ground with its outside down, if there is one.
+    pub fn base(&self, thickness: f64) -> Pose {
         if self.conventions.gravity == 0.0 {
             return Pose::identity();
         }
-        shifted(Vec3::new(0.0, 0.0, panel.thickness / 2.0)) * turned(Vec3::x(), std::f64::consts::PI)
+        shifted(Vec3::new(0.0, 0.0, thickness / 2.0)) * turned(Vec3::x(), std::f64::consts::PI)
     }
+}
+
+/// The faces that may be the root: if one is given, that; else all below which nothing of the shape reaches
+/// farther than `depth`, m.
+fn roots(call: &Call, target: &Target, root: Option<usize>, depth: f64) -> Eval<Vec<usize>> {
+    let asked: Vec<usize> = root.map_or_else(|| (0..target.faces.len()).collect(), |root| vec![root]);
+    let lies = |root: &usize| below(target, *root, depth).is_none();
+    let roots: Vec<usize> = asked.iter().copied().filter(lies).collect();
+    let (true, Some(&first)) = (roots.is_empty(), asked.first()) else { return Ok(roots) };
+    let Some(Below { face, depth }) = below(target, first, depth) else { return Ok(roots) };
+    let depth = quantity(depth, Dimension::LENGTH);
+    let (at, message) = match root {
+        Some(_) => (ROOT, format!("face {face} reaches {depth} below face {first}, which would lie on the ground")),
+        None => {
+            let which = "whichever face lies on the ground, others reach below it";
+            (TARGET, format!("{which}: below face {first} face {face} does by {depth}"))
+        }
+    };
+    Err(Diagnostic::error(code::NO_WAY, message)
+        .label(call.at(at), "can't lie on the ground so")
+        .hint("`gravity: off` folds where there is no ground")
+        .into())
 }
 
 /// What every hinge can do, s: the same for all layouts, or they could not be compared.

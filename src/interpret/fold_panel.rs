@@ -1,29 +1,30 @@
-//! What `fold` is given: the panels and the shape, checked.
+//! Panels and shapes that `fold` is given, checked.
 
 use super::call::Call;
 use super::design::Design;
 use super::interpreter::Interpreter;
-use super::stop::{Eval, Stop};
+use super::stop::Eval;
 use super::value::Value;
 use crate::behavior::law;
 use crate::geometry::{Part, Placed, Pose, Shape, Solid, Vec3};
-use crate::planners::fold::meeting::Solids;
 use crate::planners::fold::{Target, Unfoldable};
 use crate::robot::{Link, ModuleType, Port};
 use crate::source::{Diagnostic, code};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::rc::Rc;
 
-/// How far sides may be off those of the panels, as a part of them.
-const TOL_SIDE: f64 = 1e-6;
+/// How far sides may be off those of the panels, as a part of them; and directions of ports off those of
+/// their edges.
+pub const TOL_SIDE: f64 = 1e-6;
 
 /// What a triangular panel is to the planner.
+#[derive(Clone)]
 pub struct Panel {
     pub design: Rc<Design>,
     /// kg
     pub mass: f64,
-    /// m
-    pub side: f64,
+    /// From the first edge on, counterclockwise seen from the front, m.
+    pub sides: [f64; 3],
     /// Of the even plate that is spread as much across itself, m.
     pub thickness: f64,
     /// What the hinges of its edges can do.
@@ -39,22 +40,19 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// The module in argument `index`.
-    pub fn of(interpreter: &mut Interpreter, call: &Call, index: usize) -> Eval<Panel> {
-        let design = call.instance(index)?.design.clone();
+    /// A design as a panel; `index`: the argument that it came from.
+    pub fn of(interpreter: &mut Interpreter, call: &Call, index: usize, design: &Rc<Design>) -> Eval<Panel> {
         let no_panel = |why: &str| call.refuse(index, format!("no triangular panel: {why}"));
         let Some(module) = design.module() else { return Err(no_panel("a module is wanted")) };
         let kind = &module.module;
         let [a, b, c] = &kind.ports[..] else { return Err(no_panel("it needs one port for each edge")) };
         let [link] = &kind.links[..] else { return Err(no_panel("it has more than one link")) };
-        // From the middle of one edge to those of the others it is half a side.
-        let middle = |port: &Port| port.pose.translation.vector;
-        let halves = [(a, b), (b, c), (c, a)].map(|(p, q)| (middle(q) - middle(p)).norm());
-        let side = 2.0 * halves[0];
-        if halves.iter().any(|half| (2.0 * half - side).abs() > TOL_SIDE * side) {
-            return Err(no_panel("its ports are not at the middles of equal edges"));
-        }
-        let Some(robot) = interpreter.robot_of(&design)? else {
+        let Some(sides) = sides(&[a, b, c]) else {
+            let why = "its ports are not at the middles of its edges, facing outwards, counterclockwise, \
+                       with `up` to its front";
+            return Err(no_panel(why));
+        };
+        let Some(robot) = interpreter.robot_of(design)? else {
             return Err(no_panel("its module is not sound"));
         };
         let library = &robot.assembly.library;
@@ -70,8 +68,55 @@ impl Panel {
         let parts = solid.parts.iter().map(|part| part.moved(&panel_of_link)).collect();
         let ModuleType { touch, contact, .. } = library.modules[0];
         let (mass, design) = (link.mass, design.clone());
-        Ok(Panel { mass, side, thickness, able, torque, touch, contact, parts, design })
+        Ok(Panel { mass, sides, thickness, able, torque, touch, contact, parts, design })
     }
+
+    pub fn is_equilateral(&self) -> bool {
+        alike(self.sides, [self.sides[0]; 3], TOL_SIDE)
+    }
+
+    /// The same with what is worse of another: what holds of it holds of both.
+    pub fn weaker(self, other: &Panel) -> Panel {
+        let least = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::min);
+        let able = law::Ability {
+            speed: least(self.able.speed, other.able.speed),
+            acceleration: least(self.able.acceleration, other.able.acceleration),
+        };
+        Panel {
+            able,
+            torque: least(self.torque, other.torque),
+            thickness: self.thickness.max(other.thickness),
+            touch: self.touch.max(other.touch),
+            ..self
+        }
+    }
+}
+
+/// Whether sides differ by less than a part of the longest.
+pub fn alike(a: [f64; 3], b: [f64; 3], tol: f64) -> bool {
+    let longest = a.into_iter().fold(0.0, f64::max);
+    a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tol * longest)
+}
+
+/// The sides of a panel with ports at the middles of its edges, which face outwards with their `up` to
+/// the front, counterclockwise from there; `None` where they are not that.
+fn sides(ports: &[&Port; 3]) -> Option<[f64; 3]> {
+    let middle = ports.map(|port| port.pose.translation.vector);
+    let front = ports[0].pose.rotation * Vec3::z();
+    let mut sides = [0.0; 3];
+    for k in 0..3 {
+        // From the middle of one edge to that of the next it is half the third, in its direction.
+        let half = middle[(k + 2) % 3] - middle[(k + 1) % 3];
+        sides[k] = 2.0 * half.norm();
+        let out = -half.cross(&front) / half.norm();
+        let turn = &ports[k].pose.rotation;
+        let off = (turn * Vec3::x() - out).norm().max((turn * Vec3::z() - front).norm());
+        // Written so that a number that is none fails, too.
+        if !(off <= TOL_SIDE) {
+            return None;
+        }
+    }
+    Some(sides)
 }
 
 /// The middle of a panel, with x towards its first edge and z along its normal, in the frame of its link.
@@ -91,75 +136,17 @@ fn thickness(link: &Link, normal: Vec3) -> f64 {
     libm::sqrt((12.0 * across / link.mass).max(0.0))
 }
 
-/// The shape in argument `index`; `module` is where the panel was given.
-pub fn target(call: &Call, index: usize, module: usize, panel: &Panel) -> Eval<Target> {
+/// The shape in argument `index`.
+pub fn target(call: &Call, index: usize) -> Eval<Target> {
     let (vertices, faces) = surface(call, index)?;
-    let target = Target::new(vertices, &faces).and_then(|target| {
-        target.check_sides(panel.side, TOL_SIDE * panel.side)?;
-        Ok(target)
-    });
-    target.map_err(|why| {
-        let said = unfoldable(call, index, &why);
-        match why {
-            Unfoldable::UnequalSides { .. } => said.label(call.at(module), "these panels").into(),
-            _ => said.into(),
-        }
-    })
+    Target::new(vertices, &faces).map_err(|why| unfoldable(call, index, &why).into())
 }
 
-fn unfoldable(call: &Call, index: usize, why: &Unfoldable) -> Diagnostic {
+/// Why the shape in argument `index` does not fold.
+pub fn unfoldable(call: &Call, index: usize, why: &Unfoldable) -> Diagnostic {
     Diagnostic::error(code::UNFOLDABLE, why.to_string())
         .label(call.at(index), "does not fold")
         .hint(why.remedy())
-}
-
-/// What each face is made of.
-pub struct Panels {
-    /// By face.
-    pub designs: Vec<Rc<Design>>,
-    /// By face, kg.
-    pub masses: Vec<f64>,
-    pub solids: Solids,
-}
-
-/// The faces listed in argument `listed` are made of the module in argument `passive`, which has no
-/// motors; the hinge between two of them is none.
-pub fn panels(
-    interpreter: &mut Interpreter,
-    call: &Call,
-    [listed, passive]: [usize; 2],
-    panel: &Panel,
-    target: Target,
-) -> Eval<(Panels, Target)> {
-    let faces = target.faces.len();
-    let solids = Solids { parts: vec![panel.parts.clone(); faces], touch: panel.touch };
-    let (designs, masses) = (vec![panel.design.clone(); faces], vec![panel.mass; faces]);
-    let mut panels = Panels { designs, masses, solids };
-    let list = call.list(listed)?.clone();
-    if list.is_empty() {
-        return Ok((panels, target));
-    }
-    if call.is_missing(passive) {
-        return Err(call.refuse(listed, "of what are they? `passive_module` says it"));
-    }
-    let other = Panel::of(interpreter, call, passive)?;
-    if (other.side - panel.side).abs() > TOL_SIDE * panel.side {
-        return Err(call.refuse(passive, "its sides are not those of the other panels"));
-    }
-    let mut driven = vec![true; faces];
-    for value in list.iter() {
-        let Value::Int(face) = value else { continue };
-        let Some(face) = usize::try_from(*face).ok().filter(|face| *face < faces) else {
-            return Err(call.refuse(listed, format!("there is no face {face}: there are {faces}")));
-        };
-        driven[face] = false;
-        panels.designs[face] = other.design.clone();
-        panels.masses[face] = other.mass;
-        panels.solids.parts[face].clone_from(&other.parts);
-        panels.solids.touch = panel.touch.max(other.touch);
-    }
-    let target = target.driven(&driven).map_err(|why| -> Stop { unfoldable(call, listed, &why).into() })?;
-    Ok((panels, target))
 }
 
 /// The surface in an argument: a mesh, or a shape that was read from a file as it is.

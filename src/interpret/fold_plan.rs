@@ -3,8 +3,8 @@
 use super::fold_method::{Found, Question};
 use super::fold_options::{HINGES, MODULE, SEQUENCE, STEP, Sequence, TARGET, shortest_step, too_fast};
 use super::fold_orders::{Need, Reordering};
-use super::fold_panel::Panels;
 use super::fold_sheet::{NoSheet, Pieces, Sheet};
+use super::fold_supply::Panels;
 use super::folding::{FlatPattern, Folded};
 use super::interpreter::Interpreter;
 use super::planning::Planned;
@@ -54,7 +54,7 @@ struct Hearing {
 /// What is to be folded of what.
 pub struct Task<'t> {
     pub question: Question<'t>,
-    pub panels: Panels,
+    pub panels: &'t Panels,
 }
 
 impl Task<'_> {
@@ -64,9 +64,12 @@ impl Task<'_> {
         let call = self.question.call;
         let mut hearing = Hearing { passed: Vec::new(), why: None, looks: 0, judged: 0 };
         let is_proved = found.proved && self.question.options.sequence == Sequence::LeavesFirst;
-        for layout in &found.layouts {
+        for (place, layout) in found.layouts.iter().enumerate() {
             match self.heard(interpreter, &mut hearing, layout)? {
-                Word::Accept => return Ok(self.answer(hearing.passed.remove(0), found, is_proved)),
+                Word::Accept => {
+                    let is_proved = is_proved && (found.listed || place == 0);
+                    return Ok(self.answer(hearing.passed.remove(0), found, is_proved));
+                }
                 Word::Refuse => {}
                 Word::Stop => break,
             }
@@ -269,7 +272,7 @@ impl Task<'_> {
         let causes = interpreter.planner_causes(call.span);
         let problem = Problem {
             robot: robot.assembly.as_ref().clone(),
-            start: State { base: options.base(panel), ..flat },
+            start: State { base: options.base(self.panels.thickness[layout.root]), ..flat },
             program: pieces.program(&robot, order, options.conventions.step),
             start_causes: Vec::new(),
             bond_causes: (0..robot.assembly.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),

@@ -230,6 +230,16 @@ impl<'a> Interpreter<'a> {
         }
     }
 
+    /// What is found while `body` runs is handed back, and not reported.
+    pub fn aside<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
+        let mark = self.reports.len();
+        let value = body(self);
+        let found = self.reports.split_off(mark);
+        let told = |(_, span, _): &(_, Option<Span>, _)| !found.iter().any(|d| d.span() == *span);
+        self.reported.retain(told);
+        (value, found)
+    }
+
     /// Whether an error was found since `mark` (a count of errors), reported before or not.
     pub fn failed_since(&self, mark: usize) -> bool {
         self.errors > mark

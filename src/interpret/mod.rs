@@ -59,6 +59,7 @@ mod fold_orders;
 mod fold_panel;
 mod fold_plan;
 mod fold_sheet;
+mod fold_supply;
 mod folding;
 
 mod natives;

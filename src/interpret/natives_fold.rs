@@ -3,8 +3,9 @@
 use super::call::Call;
 use super::fold_method::Question;
 use super::fold_options::{ARGUMENTS, MODULE, Options, PASSIVE, PASSIVE_MODULE, TARGET};
-use super::fold_panel::{self, Panel};
+use super::fold_panel;
 use super::fold_plan::Task;
+use super::fold_supply::{self, Supply};
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run};
 use super::record::Record;
@@ -20,16 +21,17 @@ pub const TABLE: &[Native] = &[on_run("fold", ARGUMENTS, fold), on_run("random_o
 const ORDERS_MAX: usize = 100_000;
 
 fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let panel = Panel::of(interpreter, call, MODULE)?;
-    let target = fold_panel::target(call, TARGET, MODULE, &panel)?;
-    let (panels, target) = fold_panel::panels(interpreter, call, [PASSIVE, PASSIVE_MODULE], &panel, target)?;
-    let options = Options::of(call, &panel, &target)?;
+    let mut supply = Supply::of(interpreter, call, MODULE)?;
+    let target = fold_panel::target(call, TARGET)?;
+    let (panels, target) =
+        fold_supply::panels(interpreter, &mut supply, [TARGET, PASSIVE, PASSIVE_MODULE], target)?;
+    let options = Options::of(call, &panels.weakest, &target)?;
     crate::interrupt::begin(format!("folding {} panels", target.faces.len()));
     let objective = Objective::new(&target, panels.masses.clone(), options.conventions, options.minimise);
     let question =
-        Question { call, target: &target, objective: &objective, options: &options, panel: &panel };
+        Question { call, target: &target, objective: &objective, options: &options, panel: &panels.weakest };
     let found = question.answer()?;
-    Task { question, panels }.plan(interpreter, &found)
+    Task { question, panels: &panels }.plan(interpreter, &found)
 }
 
 fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {

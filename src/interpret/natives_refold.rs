@@ -4,6 +4,7 @@ use super::call::Call;
 use super::fold_options::{shortest_step, step_of, too_fast};
 use super::fold_panel::{self, Panel};
 use super::fold_sheet::{NoSheet, Pieces, Sheet};
+use super::fold_supply::Supply;
 use super::interpreter::Interpreter;
 use super::natives::{Native, on_run};
 use super::planning::Planned;
@@ -61,9 +62,13 @@ pub fn refolding_field(refolded: &Refolded, field: &str) -> Value {
 }
 
 fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let panel = Panel::of(interpreter, call, 2)?;
-    let from = fold_panel::target(call, 0, 2, &panel)?;
-    let to = fold_panel::target(call, 1, 2, &panel)?;
+    let mut supply = Supply::of(interpreter, call, 2)?;
+    let from = fold_panel::target(call, 0)?;
+    let to = fold_panel::target(call, 1)?;
+    let panel = (*supply.panel(interpreter, 0, &from, 0)?).clone();
+    for (shape, target) in [(0, &from), (1, &to)] {
+        (0..target.faces.len()).try_for_each(|face| supply.check_side(shape, target, face, &panel))?;
+    }
     let step = match call.arg(3) {
         Value::Word(_) => shortest_step(&from, &panel).max(shortest_step(&to, &panel)),
         _ => call.positive(3, "the time of a step")?,

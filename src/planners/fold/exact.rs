@@ -14,6 +14,7 @@
 //! Equal costs are told apart by a tiny addition for every hinge, or symmetric targets would be
 //! searched for ever. The proof holds up to what the additions come to, [`SLACK`] of the energy.
 
+use super::flatten;
 use super::lagrange::{self, Effort, Lagrange, Prices};
 use super::layout::Layout;
 use super::local;
@@ -52,6 +53,9 @@ const RESUMED: f64 = 0.5;
 
 /// An ascent whose steps are shorter has converged.
 const LENGTH_MIN: f64 = 0.01;
+
+/// The part of the steps that are left which may go into one search for a layout that lies flat: one by this.
+const FLATTENING: u64 = 4;
 
 /// What is searched and how long.
 #[derive(Clone, Copy, Debug)]
@@ -159,6 +163,8 @@ fn search<'a>(
         weights,
         raised: &raised,
         flat: settings.flat,
+        seed: settings.seed,
+        flattened: false,
         height: settings.height.unwrap_or(n),
         accepts,
         stopped: false,
@@ -201,6 +207,9 @@ struct Search<'s, 'a> {
     /// With the additions.
     raised: &'s Weights,
     flat: bool,
+    seed: u64,
+    /// Whether a layout that lies flat was looked for by exchanges.
+    flattened: bool,
     /// The most hinges on a path.
     height: usize,
     accepts: Option<&'a mut (dyn FnMut(&Layout) -> Word + 'a)>,
@@ -311,7 +320,7 @@ impl<'s> Search<'s, '_> {
             let bound = bound.max(ways.costs.iter().sum());
             return self.push(Node { root, bound, number: 0, ways: Some(ways) });
         };
-        match disputed(root, &uses(self.target, &ways.paths)) {
+        match routes::disputed(root, &routes::uses(self.target, &ways.paths)) {
             None => self.settle(bounds, root, bound, ways),
             Some(_) if ways.rising => {
                 let raised = self.rise(bounds, root, bound, &mut ways);
@@ -320,7 +329,8 @@ impl<'s> Search<'s, '_> {
                 }
             }
             Some(by_paths) => {
-                let face = disputed(root, &ways.uses).filter(|face| ways.allowed[*face].count_ones() > 1);
+                let face =
+                    routes::disputed(root, &ways.uses).filter(|face| ways.allowed[*face].count_ones() > 1);
                 self.enter_across_each(bounds, root, bound, &ways, face.unwrap_or(by_paths));
             }
         }
@@ -360,7 +370,7 @@ impl<'s> Search<'s, '_> {
 
     /// Paths that agree are the node's best layout, if it may lie as it does.
     fn settle(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: Ways) {
-        let layout = self.layout(root, &ways.paths);
+        let layout = routes::tree(self.target, root, &ways.paths);
         if let Some(path) = self.flat.then(|| overlapping_path(self.target, &layout)).flatten() {
             return self.without_path(bounds, root, bound, &ways, &path);
         }
@@ -384,7 +394,7 @@ impl<'s> Search<'s, '_> {
         self.nodes += 1;
         for side in (0..3).filter(|side| ways.allowed[face] & (1 << side) != 0) {
             let mut allowed = ways.allowed.clone();
-            keep(self.target, &mut allowed, routes::arc(face, side));
+            routes::keep(self.target, &mut allowed, routes::arc(face, side));
             self.child(bounds, root, bound, ways, allowed);
         }
     }
@@ -397,7 +407,7 @@ impl<'s> Search<'s, '_> {
             let (face, side) = routes::head(an_arc);
             left_out[face] &= !(1 << side);
             self.child(bounds, root, bound, ways, left_out);
-            keep(self.target, &mut allowed, an_arc);
+            routes::keep(self.target, &mut allowed, an_arc);
         }
     }
 
@@ -452,11 +462,33 @@ impl<'s> Search<'s, '_> {
                 first = other;
             }
         }
+        if self.flat {
+            first = self.flat_start(first);
+        }
         if self.accepts.is_some() && (self.left == 0 || self.held > HELD_MAX) {
             self.offer(first);
         } else {
             self.consider(first);
         }
+    }
+
+    /// The same for layouts that lie flat: from the best one, if there is one yet.
+    fn flat_start(&mut self, first: Layout) -> Layout {
+        let (target, weights) = (self.target, self.weights);
+        let is_flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
+        if is_flat(&first) || self.best.is_none() && std::mem::replace(&mut self.flattened, true) {
+            return first;
+        }
+        if let Some(best) = &self.best {
+            let rerooted = best.layout.rerooted(target, first.root);
+            return local::improved_among(target, weights, rerooted, &mut self.left, &is_flat);
+        }
+        // The budget goes on to the proof, whatever comes of this.
+        let mut part = self.left / FLATTENING;
+        let granted = part;
+        let flat = flatten::flattened(target, weights, first.clone(), self.seed, &mut part);
+        self.left -= granted - part;
+        flat.unwrap_or(first)
     }
 
     /// A layout that need not be the next best: where each is asked for, it is only something to aim
@@ -511,17 +543,6 @@ impl<'s> Search<'s, '_> {
         Some(ways)
     }
 
-    /// The tree that paths form which agree.
-    fn layout(&self, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
-        let arcs = paths.iter().filter_map(|path| path.first());
-        let hinge = |a: &Arc| {
-            let (face, side) = routes::head(*a);
-            self.target.sides[face][side].expect("arcs lead across hinges")
-        };
-        let hinges: Vec<usize> = arcs.map(hinge).collect();
-        Layout::of_hinges(self.target, &hinges, root).expect("paths that agree form a tree")
-    }
-
     /// `equals`: by face, the root that was searched in its place, if any.
     fn finish(self, equals: &[Option<usize>]) -> Result<Optimum, NoLayout> {
         let closed = self.open.is_infinite();
@@ -555,35 +576,6 @@ fn fraction(hinge: usize, seed: u64) -> f64 {
         x ^ (x >> 31)
     });
     ((mixed >> 32) as f64 + 1.0) / (1u64 << 32) as f64
-}
-
-/// Demands an arc: the face is entered by it alone, and it is not gone back.
-fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
-    let (face, side) = routes::head(an_arc);
-    allowed[face] = 1 << side;
-    let (back, side) = routes::head(routes::reversed(target, an_arc));
-    allowed[back] &= !(1 << side);
-}
-
-/// How often paths enter each face across each of its sides.
-fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
-    let mut uses = vec![[0u32; 3]; target.faces.len()];
-    for &an_arc in paths.iter().flat_map(|path| path.iter()) {
-        let (face, side) = routes::head(an_arc);
-        uses[face][side] += 1;
-    }
-    uses
-}
-
-/// The face into which most paths differ from the commonest way; `None` where all agree.
-fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
-    let dissent = |face: &usize| {
-        let u = uses[*face];
-        u.iter().sum::<u32>() - u.iter().max().expect("there are three")
-    };
-    let faces = (0..uses.len()).filter(|face| *face != root);
-    // Of equal ones the first.
-    faces.rev().max_by_key(dissent).filter(|face| dissent(face) > 0)
 }
 
 /// The arcs of the shortest path in the tree between two faces that overlap in the plane.

@@ -7,6 +7,9 @@ use super::weights::Weights;
 /// An exchange has to gain this part of the energy, or rounding would go round in circles.
 const GAIN_MIN: f64 = 1e-11;
 
+/// Exchanges that gain, of which the best that is allowed is made.
+const TRIED_MAX: usize = 256;
+
 /// So many sums take about as long as one exchange that is weighed.
 const SUMS: usize = 64;
 
@@ -43,9 +46,20 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
 
 /// Exchanges a hinge that folds for one that doesn't as long as that helps. `steps`, counted down: how
 /// many exchanges may be weighed, and for each that is made the sums that it takes anew.
-pub fn improved(target: &Target, weights: &Weights, mut layout: Layout, steps: &mut u64) -> Layout {
+pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut u64) -> Layout {
+    improved_among(target, weights, layout, steps, &|_| true)
+}
+
+/// The same by exchanges that lead to layouts which are allowed.
+pub fn improved_among(
+    target: &Target,
+    weights: &Weights,
+    mut layout: Layout,
+    steps: &mut u64,
+    allowed: &dyn Fn(&Layout) -> bool,
+) -> Layout {
     let gain = layout.energy(weights) * GAIN_MIN;
-    while let Some(better) = exchange(target, weights, &layout, gain, steps) {
+    while let Some(better) = exchange(target, weights, &layout, gain, steps, allowed) {
         crate::interrupt::checkpoint();
         layout = better;
     }
@@ -93,7 +107,7 @@ impl Branches {
     }
 }
 
-/// The best single exchange, if one gains more than `gain`.
+/// The best single exchange that is allowed, if one gains more than `gain`.
 ///
 /// One more hinge between a and b closes a cycle; on a's side of it, some face c loses the hinge to
 /// its parent, and the branch below c hangs from b by its face a. Outside the branch nothing changes.
@@ -104,13 +118,13 @@ fn exchange(
     layout: &Layout,
     gain: f64,
     steps: &mut u64,
+    allowed: &dyn Fn(&Layout) -> bool,
 ) -> Option<Layout> {
     let branches = Branches::new(target, weights, layout);
     *steps = steps.saturating_sub(((branches.below.len() + branches.along.len()) / SUMS) as u64);
     let depths = layout.depths();
     let folding = |face: usize| layout.hinge[face].expect("only the root has none");
-    let mut best: Option<(usize, usize)> = None;
-    let mut least = -gain;
+    let mut better: Vec<(f64, usize, usize)> = Vec::new();
     let mut way = Vec::new();
     for (added, hinge) in target.hinges.iter().enumerate() {
         let [p, q] = hinge.faces;
@@ -127,16 +141,20 @@ fn exchange(
                 });
                 let now = branches.along(c, b) + branches.below(c, added) + turned.sum::<f64>();
                 let change = now - branches.along(c, c);
-                if change < least {
-                    (best, least) = (Some((added, folding(c))), change);
+                if change < -gain {
+                    better.push((change, added, folding(c)));
                 }
             }
         }
     }
-    let (added, dropped) = best?;
-    let hinges: Vec<usize> =
-        layout.hinges().into_iter().map(|h| if h == dropped { added } else { h }).collect();
-    Some(Layout::of_hinges(target, &hinges, layout.root).expect("an exchange on a cycle keeps a tree"))
+    // Of equal ones the first.
+    better.sort_by(|x, y| x.0.total_cmp(&y.0));
+    let exchanged = |&(_, added, dropped): &(f64, usize, usize)| {
+        let hinges: Vec<usize> =
+            layout.hinges().into_iter().map(|h| if h == dropped { added } else { h }).collect();
+        Layout::of_hinges(target, &hinges, layout.root).expect("an exchange on a cycle keeps a tree")
+    };
+    better.iter().take(TRIED_MAX).map(exchanged).find(|layout| allowed(layout))
 }
 
 /// The faces from `a` up to where its way to the root meets that of `b`, without that face.

@@ -21,14 +21,15 @@ pub mod local;
 pub mod routes;
 pub mod symmetry;
 
+pub mod flatten;
+pub mod pattern;
+
 pub mod exact;
 
 pub mod enumerate;
 pub mod spectrum;
 
 pub mod heuristic;
-
-pub mod pattern;
 
 pub mod folded;
 pub mod order;
@@ -39,6 +40,9 @@ pub mod dynamics;
 pub mod series;
 pub mod simulation;
 
+pub mod lift;
+pub mod peak;
+
 pub mod objective;
 pub mod survey;
 
@@ -47,6 +51,7 @@ pub mod closing;
 pub mod meeting;
 pub mod passage;
 pub mod sampling;
+pub mod standing;
 
 pub mod net;
 pub mod plane;

@@ -6,7 +6,9 @@
 
 use super::inertia::{Body, Inertia};
 use super::layout::Layout;
+use super::lift::Lift;
 use super::order_energy;
+use super::peak;
 use super::routes::Routes;
 use super::simulation::{Circumstances, Count, simulate};
 use super::target::Target;
@@ -101,7 +103,7 @@ impl<'t> Objective<'t> {
     /// The same with the leaves first.
     pub fn leaves_first(&self, layout: &Layout) -> Effort {
         if self.conventions.separate() {
-            return closed(self.carried(layout).into_iter(), self.conventions.step);
+            return closed(peak::carried(layout, &self.weights).into_iter(), self.conventions.step);
         }
         self.effort(layout, &super::steps::leaves_first(layout))
     }
@@ -123,34 +125,36 @@ impl<'t> Objective<'t> {
         if self.conventions.separate() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }
     }
 
-    /// What no layout undercuts with the leaves first: peak torque where that is to be small, else
-    /// energy; N·m.
-    pub fn lower_bound(&self, root: Option<usize>) -> f64 {
+    /// What no layout with one of these roots undercuts with the leaves first: peak torque where that is to
+    /// be small, else energy; N·m.
+    pub fn lower_bound(&self, roots: &[usize]) -> f64 {
         let routes = Routes::new(self.target, &self.weights);
-        let roots = root.map_or(0..self.masses.len(), |root| root..root + 1);
-        roots.map(|root| self.bound(&routes, root)).fold(f64::INFINITY, f64::min)
-    }
-
-    /// By face: what its hinge spends with the leaves first, N·m for steps of one second.
-    fn carried(&self, layout: &Layout) -> Vec<f64> {
-        let mut sums = vec![0.0; self.masses.len()];
-        for &face in &layout.order {
-            let mut at = face;
-            while let Some(hinge) = layout.hinge[at] {
-                sums[at] += self.weights.at(hinge, face);
-                at = layout.parent[at];
+        let gravity = self.conventions.gravity;
+        let lift = (gravity != 0.0).then(|| Lift::new(self.target, &self.masses, gravity));
+        let lifted = match (&lift, self.minimise) {
+            (Some(lift), Minimise::PeakTorque) => roots.iter().map(|root| lift.peak(*root)).collect(),
+            (Some(lift), _) => {
+                let energies = lift.energies();
+                roots.iter().map(|root| energies[*root]).collect()
             }
-        }
-        sums
+            (None, _) => vec![0.0; roots.len()],
+        };
+        let bounds = roots.iter().zip(lifted).map(|(root, lifted)| self.bound(&routes, *root).max(lifted));
+        bounds.fold(f64::INFINITY, f64::min)
     }
 
-    /// The same for one root.
+    /// Peaks of the closed form by mean torques for steps of one second.
+    pub fn peak_by_mean(&self) -> f64 {
+        QUINTIC_ACCELERATION / QUINTIC / (self.conventions.step * self.conventions.step)
+    }
+
+    /// The same for one root, without what gravity asks of each hinge.
     fn bound(&self, routes: &Routes, root: usize) -> f64 {
         let by_square = 1.0 / (self.conventions.step * self.conventions.step);
         let lifted = self.lifted(root);
         let angles = || self.target.hinges.iter().map(|hinge| hinge.angle.abs());
         match (self.minimise, self.conventions.gravity == 0.0) {
-            (Minimise::PeakTorque, true) => self.heaviest(root) * by_square * QUINTIC_ACCELERATION / QUINTIC,
+            (Minimise::PeakTorque, true) => self.heaviest(root) * self.peak_by_mean(),
             // Work is torque by angle, so no more than the peak by all angles.
             (Minimise::PeakTorque, false) => {
                 let mut angles: Vec<f64> = angles().collect();
@@ -197,7 +201,7 @@ impl<'t> Objective<'t> {
     }
 
     /// A mean torque that some hinge reaches in every layout, N·m for steps of one second: every face
-    /// is carried by its own hinge, and all faces by the root's.
+    /// is carried by its own hinge, and all faces by the root's ([`peak`]).
     fn heaviest(&self, root: usize) -> f64 {
         let faces = 0..self.masses.len();
         let least = |face: usize, hinges: &mut dyn Iterator<Item = usize>| {
@@ -205,9 +209,7 @@ impl<'t> Objective<'t> {
         };
         let others = || faces.clone().filter(|face| *face != root);
         let own = others().map(|face| least(face, &mut self.target.around(face).map(|(hinge, _)| hinge)));
-        let around: Vec<usize> = self.target.around(root).map(|(hinge, _)| hinge).collect();
-        let all: f64 = others().map(|face| least(face, &mut around.iter().copied())).sum();
-        own.fold(all / around.len().max(1) as f64, f64::max)
+        own.fold(peak::relaxed(self.target, &self.weights, root), f64::max)
     }
 }
 

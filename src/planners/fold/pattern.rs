@@ -45,9 +45,14 @@ impl Pattern {
 
     fn crossing(&self) -> Vec<[usize; 2]> {
         let mut found = Vec::new();
+        let circles: Vec<(Point, f64)> = self.corners.iter().map(circle).collect();
+        let apart = |a: usize, b: usize| {
+            let (([x, y], r), ([u, v], s)) = (circles[a], circles[b]);
+            (x - u) * (x - u) + (y - v) * (y - v) > (r + s) * (r + s)
+        };
         for b in 0..self.corners.len() {
             for a in 0..b {
-                if overlap(&self.corners[a], &self.corners[b]) {
+                if !apart(a, b) && overlap(&self.corners[a], &self.corners[b]) {
                     found.push([a, b]);
                 }
             }
@@ -55,6 +60,13 @@ impl Pattern {
         found.sort_unstable();
         found
     }
+}
+
+/// Around the centroid, with all corners in it.
+fn circle(corners: &[Point; 3]) -> (Point, f64) {
+    let [x, y] = [0, 1].map(|k| corners.iter().map(|c| c[k]).sum::<f64>() / 3.0);
+    let far = corners.iter().map(|[u, v]| (u - x) * (u - x) + (v - y) * (v - y)).fold(0.0, f64::max);
+    ([x, y], libm::sqrt(far))
 }
 
 fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {

@@ -3,6 +3,7 @@
 //! A layout's energy is a sum over faces of what their own path costs for them. Without the demand
 //! that the paths be one tree, each face takes its cheapest path: no layout costs less.
 
+use super::layout::Layout;
 use super::target::Target;
 use super::weights::Weights;
 use std::cmp::Ordering;
@@ -21,6 +22,46 @@ pub fn arc(face: usize, side: usize) -> Arc {
 
 pub fn head(arc: Arc) -> (usize, usize) {
     (arc as usize / 3, arc as usize % 3)
+}
+
+/// Demands an arc: the face is entered by it alone, and it is not gone back.
+pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
+    let (face, side) = head(an_arc);
+    allowed[face] = 1 << side;
+    let (back, side) = head(reversed(target, an_arc));
+    allowed[back] &= !(1 << side);
+}
+
+/// How often paths enter each face across each of its sides.
+pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
+    let mut uses = vec![[0u32; 3]; target.faces.len()];
+    for &an_arc in paths.iter().flat_map(|path| path.iter()) {
+        let (face, side) = head(an_arc);
+        uses[face][side] += 1;
+    }
+    uses
+}
+
+/// The face into which most paths differ from the commonest way; `None` where all agree.
+pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
+    let dissent = |face: &usize| {
+        let u = uses[*face];
+        u.iter().sum::<u32>() - u.iter().max().expect("there are three")
+    };
+    let faces = (0..uses.len()).filter(|face| *face != root);
+    // Of equal ones the first.
+    faces.rev().max_by_key(dissent).filter(|face| dissent(face) > 0)
+}
+
+/// The tree that paths form which agree.
+pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
+    let arcs = paths.iter().filter_map(|path| path.first());
+    let hinge = |a: &Arc| {
+        let (face, side) = head(*a);
+        target.sides[face][side].expect("arcs lead across hinges")
+    };
+    let hinges: Vec<usize> = arcs.map(hinge).collect();
+    Layout::of_hinges(target, &hinges, root).expect("paths that agree form a tree")
 }
 
 /// Cheapest paths of one target under its weights.

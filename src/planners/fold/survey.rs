@@ -25,10 +25,10 @@ const STARTS: usize = 8;
 const EXCHANGES: u64 = 1_000_000;
 
 /// What is looked at and how far.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Settings {
-    /// `None`: any.
-    pub root: Option<usize>,
+    /// Faces that may be the root.
+    pub roots: Vec<usize>,
     /// Whether patterns that overlap in the plane are left out.
     pub flat: bool,
     /// Pairs of a layout and a root that are measured.
@@ -61,8 +61,11 @@ pub fn survey(
 ) -> Survey {
     let n = target.faces.len();
     // What holds for one root holds for those that are equal to it by symmetry.
-    let equals = settings.root.map_or_else(|| symmetry::orbits(target, weights), |root| vec![root; n]);
-    let roots: Vec<usize> = (0..n).filter(|face| equals[*face] == *face).collect();
+    let equals =
+        if settings.roots.len() == 1 { (0..n).collect() } else { symmetry::orbits(target, weights) };
+    let mut roots: Vec<usize> = settings.roots.iter().map(|root| equals[*root]).collect();
+    roots.sort_unstable();
+    roots.dedup();
     let pairs = count::layouts(target) * roots.len();
     let mut kept = Kept { target, settings, best: Vec::new(), ties: vec![0; n], least: f64::INFINITY };
     let complete = n <= enumerate::FACES_MAX && pairs.to_u64().is_some_and(|pairs| pairs <= settings.budget);
@@ -79,7 +82,7 @@ pub fn survey(
         improve(&mut kept, weights, &roots, value);
     }
     let Kept { best, ties, least, .. } = kept;
-    let asked = settings.root.map_or(0..n, |root| root..root + 1);
+    let asked = settings.roots.iter().copied();
     let roots = asked.clone().filter(|root| ties[equals[*root]] > 0).collect();
     let ties = asked.map(|root| ties[equals[root]]).sum();
     Survey { best, ties, roots, least, complete }

@@ -87,15 +87,21 @@ impl Target {
 
     /// Refuses a target with a side that is off the wanted length by more than `tol`, m.
     pub fn check_sides(&self, wanted: f64, tol: f64) -> Result<(), Unfoldable> {
-        for (face, corners) in self.faces.iter().enumerate() {
-            for k in 0..3 {
-                let side = (self.vertices[corners[(k + 1) % 3]] - self.vertices[corners[k]]).norm();
-                if (side - wanted).abs() > tol {
-                    return Err(Unfoldable::UnequalSides { face, side, wanted });
-                }
-            }
+        (0..self.faces.len()).try_for_each(|face| self.check_sides_of(face, wanted, tol))
+    }
+
+    /// The same for one face.
+    pub fn check_sides_of(&self, face: usize, wanted: f64, tol: f64) -> Result<(), Unfoldable> {
+        match self.side_lengths(face).into_iter().find(|side| (side - wanted).abs() > tol) {
+            Some(side) => Err(Unfoldable::UnequalSides { face, side, wanted }),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    /// Of a face, m.
+    pub fn side_lengths(&self, face: usize) -> [f64; 3] {
+        let corners = self.corners(face);
+        [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
     }
 
     /// Without the hinges between two faces of which neither has motors. `driven`: by face, whether it

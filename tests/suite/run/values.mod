@@ -54,3 +54,10 @@ print(a)
 --- equality
 print(1 == 1.0, "a" == "a", [1, 2] == [1, 2], 1mm < 2mm, true and not false)
 //> true true true true true
+
+--- coordinates have numbers, too
+let v: Vec3<Length> = [1m, 2m, 3m]
+print(v[0], v[2] == v.z, [v[i] for i in 0..3])
+//> 1m true [1m, 2m, 3m]
+print(v[3])
+//    ^^^^ E0501 which has 3 elements

@@ -1,0 +1,87 @@
+//! Layouts that lie flat, made of layouts that overlap: exchanges of one hinge for another that part what
+//! overlaps, and then those that cost less and keep it flat. Nothing is proved.
+//!
+//! One of the hinges between two faces that overlap is given up, and the two parts of the sheet are joined
+//! elsewhere. Of some such exchanges that is made which leaves the fewest overlaps, then costs the least;
+//! also where that is more than before, or the search would stay in the first hollow. What was given up a
+//! short while ago does not come back (a tabu list, as "Tabu Unfolder" by Zawallich and Pajarola has it).
+
+use super::layout::Layout;
+use super::local;
+use super::pattern::Pattern;
+use super::target::Target;
+use super::weights::Weights;
+use crate::planners::random::Dice;
+
+/// Exchanges that are looked at before one is made.
+const LOOKS: usize = 24;
+
+/// A hinge that was given up stays out for so many exchanges.
+const TABU: usize = 12;
+
+/// So many pairs of faces are looked at in the time of one step.
+const PAIRS: usize = 64;
+
+/// Exchanges per face, after which the search is given up.
+const MOVES: usize = 24;
+
+/// A layout that lies flat. `steps`, counted down: how long it may be looked for.
+pub fn flattened(
+    target: &Target,
+    weights: &Weights,
+    layout: Layout,
+    seed: u64,
+    steps: &mut u64,
+) -> Option<Layout> {
+    let n = target.faces.len();
+    let mut dice = Dice(seed);
+    let mut out_until = vec![0usize; target.hinges.len()];
+    let mut now = layout;
+    for round in 1..=MOVES * n {
+        crate::interrupt::checkpoint();
+        let overlaps = Pattern::of(target, &now).overlaps();
+        let Some(&[a, b]) = overlaps.get(dice.below(overlaps.len().max(1))) else {
+            let flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
+            return Some(local::improved_among(target, weights, now, steps, &flat));
+        };
+        let between = local::path(&now, a, b);
+        let mut best: Option<((usize, f64), Layout, usize)> = None;
+        for _ in 0..LOOKS {
+            *steps = steps.checked_sub((n * n / PAIRS + n) as u64)?;
+            let dropped = between[dice.below(between.len())];
+            let ways: Vec<usize> = joining(target, &now, dropped)
+                .into_iter()
+                .filter(|hinge| *hinge != dropped && out_until[*hinge] < round)
+                .collect();
+            if ways.is_empty() {
+                continue;
+            }
+            let added = ways[dice.below(ways.len())];
+            let hinges: Vec<usize> =
+                now.hinges().into_iter().map(|h| if h == dropped { added } else { h }).collect();
+            let next = Layout::of_hinges(target, &hinges, now.root).expect("it joins the two parts");
+            let worth = (Pattern::of(target, &next).overlaps().len(), next.energy(weights));
+            if best.as_ref().is_none_or(|(least, ..)| worth < *least) {
+                best = Some((worth, next, dropped));
+            }
+        }
+        if let Some((_, next, dropped)) = best {
+            out_until[dropped] = round + TABU;
+            now = next;
+        }
+    }
+    None
+}
+
+/// The hinges between the two parts into which a layout falls without one of its own.
+fn joining(target: &Target, layout: &Layout, without: usize) -> Vec<usize> {
+    let mut below = vec![false; layout.parent.len()];
+    for &face in &layout.order[1..] {
+        below[face] = layout.hinge[face] == Some(without) || below[layout.parent[face]];
+    }
+    let joins = |hinge: &usize| {
+        let [a, b] = target.hinges[*hinge].faces;
+        below[a] != below[b]
+    };
+    (0..target.hinges.len()).filter(joins).collect()
+}

@@ -1,0 +1,118 @@
+//! What gravity asks of every hinge for every face that it carries, with the leaves folded first: bounds
+//! for what is simulated.
+//!
+//! When a hinge folds, all above it is level, and what it carries has its final form: one rigid body that
+//! turns about an axis at rest. Its torque is `J q̈ + G(q)`. Over the step the mean of `J q̈` is 0, for the
+//! hinge begins and ends at rest; so the mean of |torque| is no less than |mean of G|, and the peak is no
+//! less than |G| at either end, where q̈ is 0. G is a sum over the faces that are carried, and what a face
+//! adds depends on the hinge, on its upper side, and on the face alone: with the outside of the upper face
+//! p down, x the face's centroid in the target and o a point of the hinge,
+//!
+//! ```text
+//! G_j(q) = -m_j g N_p · (ê × R(ê, q - φ) (x_j - o))
+//! ```
+//!
+//! which is a sine of q; the quintic law is odd about the middle of the step, so the mean of G is its value
+//! at φ/2 times the mean of cos(φ (s - 1/2)). A sum over the hinges of a layout is then a sum over faces of
+//! what their own paths cost, some of it negative: no walk of as many arcs as there are faces costs less
+//! than the cheapest.
+
+use super::folded::about;
+use super::simulation::quintic;
+use super::target::Target;
+use crate::geometry::Vec3;
+
+/// Places of the step over which a cosine is averaged, by the midpoints; the sum is exact to far below
+/// [`ROUNDING`], for the law is smooth and flat at both ends.
+const PLACES: usize = 256;
+
+/// What bounds are lowered by: part of themselves.
+const ROUNDING: f64 = 1e-7;
+
+/// The torque of gravity by arc and face, N·m; each arc's sign is such that all faces together count
+/// positive.
+pub struct Lift {
+    faces: usize,
+    arcs: Vec<Arc>,
+}
+
+/// A hinge with one of its faces above.
+struct Arc {
+    above: usize,
+    below: usize,
+    /// By face: the mean over the step, and the values at its beginning and its end.
+    mean: Vec<f64>,
+    ends: [Vec<f64>; 2],
+}
+
+impl Lift {
+    /// `masses`: by face, kg; `gravity`: m/s².
+    pub fn new(target: &Target, masses: &[f64], gravity: f64) -> Lift {
+        let mut arcs = Vec::with_capacity(2 * target.hinges.len());
+        for hinge in &target.hinges {
+            crate::interrupt::checkpoint();
+            let cosine = mean_cosine(hinge.angle);
+            for above in hinge.faces {
+                let (axis, down) = (hinge.axis_from(above), target.normal(above));
+                let at = |angle: f64| -> Vec<f64> {
+                    let turn = about(&hinge.point, axis, angle - hinge.angle);
+                    let torque = |(face, mass): (usize, &f64)| {
+                        let arm: Vec3 = turn.transform_point(&target.centroid(face).into()).coords - hinge.point;
+                        -mass * gravity * down.dot(&axis.cross(&arm))
+                    };
+                    signed(masses.iter().enumerate().map(torque).collect())
+                };
+                let mean = at(hinge.angle / 2.0).into_iter().map(|torque| torque * cosine).collect();
+                let ends = [at(0.0), at(hinge.angle)];
+                arcs.push(Arc { above, below: hinge.other(above), mean, ends });
+            }
+        }
+        Lift { faces: masses.len(), arcs }
+    }
+
+    /// By root: no layout has hinges whose mean torques come to less.
+    pub fn energies(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.faces];
+        for face in 0..self.faces {
+            crate::interrupt::checkpoint();
+            // By face: the cheapest walk from there.
+            let mut cost = vec![f64::INFINITY; self.faces];
+            cost[face] = 0.0;
+            for _ in 1..self.faces {
+                let before = cost.clone();
+                for arc in &self.arcs {
+                    cost[arc.above] = cost[arc.above].min(before[arc.below] + arc.mean[face]);
+                }
+                if cost == before {
+                    break;
+                }
+            }
+            sums.iter_mut().zip(&cost).for_each(|(sum, cost)| *sum += cost);
+        }
+        sums.into_iter().map(|sum| sum.max(0.0) * (1.0 - ROUNDING)).collect()
+    }
+
+    /// No layout with this root has a lower peak: its hinges carry all other faces among them.
+    pub fn peak(&self, root: usize) -> f64 {
+        let around: Vec<&Arc> = self.arcs.iter().filter(|arc| arc.above == root).collect();
+        let by_end = [0, 1].map(|end| {
+            let others = (0..self.faces).filter(|face| *face != root);
+            let least = |face: usize| around.iter().map(|arc| arc.ends[end][face]).fold(f64::INFINITY, f64::min);
+            others.map(least).sum::<f64>() / around.len().max(1) as f64
+        });
+        by_end.into_iter().fold(0.0, f64::max) * (1.0 - ROUNDING)
+    }
+}
+
+/// The same with the sign of the sum made positive.
+fn signed(values: Vec<f64>) -> Vec<f64> {
+    let sign = if values.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+    values.into_iter().map(|value| sign * value).collect()
+}
+
+/// The mean over a step of cos(φ (s - 1/2)).
+fn mean_cosine(angle: f64) -> f64 {
+    let place = |i: usize| (i as f64 + 0.5) / PLACES as f64;
+    let cosine = |i: usize| libm::cos(angle * (quintic(place(i), 1.0).angle - 0.5));
+    (0..PLACES).map(cosine).sum::<f64>() / PLACES as f64
+}
