@@ -101,7 +101,12 @@ fn dynamics(truth: &serde_json::Value) {
         let order = time(&mut || {
             order_energy::least_energy(&target, &layout, &masses, Inertia::Lamina);
         });
-        let all = survey::Settings { roots: (0..target.faces.len()).collect(), flat: true, budget: closed.measures_max(), keep: 64 };
+        let all = survey::Settings {
+            roots: (0..target.faces.len()).collect(),
+            flat: true,
+            budget: closed.measures_max(),
+            keep: 64,
+        };
         let start = Instant::now();
         let found = survey::survey(&target, &closed.weights, &all, &mut |layout| closed.value(layout));
         let survey = start.elapsed();

@@ -1507,8 +1507,9 @@ extern type Folding is Plan {
 /// Finds the flat pattern of panels for a shape that folds for the least energy, the order in which to
 /// fold it without collisions, and the motion.
 ///
-/// The target is a mesh of triangles whose sides are those of the panels, each edge of which joins two
-/// faces at most; panel `i` becomes face `i`. It may come from a file: `load_mesh`, or `mesh` where it
+/// The target is a mesh of triangles, each edge of which joins two faces at most; panel `i` becomes face `i`.
+/// Its sides are those of the panels; a module with a parameter `sides`, as `Panel` of `std.mori`, is made to
+/// measure for each face, so that its sides may be any. It may come from a file: `load_mesh`, or `mesh` where it
 /// is closed. The module is a triangular panel with a hinge at each of
 /// its three edges. `root` is the face that stays where it is; without it, the best is found.
 ///

@@ -10,7 +10,7 @@ use modl::planners::fold::sampling::sample;
 use modl::planners::fold::simulation::{Circumstances, Count, simulate};
 use modl::planners::fold::survey::{Settings, Survey, survey};
 use modl::planners::fold::{
-    Layout, Proof, Target, Unfoldable, Weights, closing, enumerate, exact, order, order_energy, steps,
+    Layout, Proof, Target, Unfoldable, Weights, closing, enumerate, exact, local, order, order_energy, steps,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -254,5 +254,41 @@ proptest! {
                 prop_assert!(objective.lower_bound(&[root]) <= value * (1.0 + 1e-9), "{count:?} {gravity} {minimise:?}");
             }
         }
+    }
+}
+
+/// Where all hinges fold by one angle, what a face gains in height by a hinge is its mean torque by one
+/// factor, whatever the layout: the bound under gravity is that factor by the work of lifting all.
+#[test]
+fn under_gravity_the_bound_of_a_regular_shape_is_its_lifting() {
+    for name in ["tetrahedron", "octahedron", "icosahedron"] {
+        let target = target(name);
+        let conventions = Conventions { gravity: 9.80665, step: 2.0, ..TEXT };
+        let objective = objective(&target, conventions, Minimise::Energy);
+        let up = -target.normal(0);
+        let height = |face: usize| up.dot(&(target.centroid(face) - target.centroid(0)));
+        let lifting: f64 = (0..target.faces.len()).map(|face| MASS * 9.80665 * height(face)).sum();
+        // The mean of cos(φ (s - 1/2)) by Simpson's rule.
+        let angle = target.hinges[0].angle.abs();
+        let law = |x: f64| x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
+        let value = |x: f64| libm::cos(angle * (law(x) - 0.5));
+        let n = 1000;
+        let simpson: f64 = (0..=n)
+            .map(|i| {
+                let factor = if i == 0 || i == n {
+                    1.0
+                } else if i % 2 == 1 {
+                    4.0
+                } else {
+                    2.0
+                };
+                factor * value(i as f64 / n as f64) / (3.0 * n as f64)
+            })
+            .sum();
+        let wanted = lifting * simpson / (2.0 * libm::sin(angle / 2.0));
+        let bound = objective.lower_bound(&[0]);
+        assert!(near(bound, wanted, 1e-6), "{name}: {bound}, {wanted}");
+        let grown = local::grown(&target, &objective.weights, 0);
+        assert!(bound <= objective.leaves_first(&grown).energy);
     }
 }

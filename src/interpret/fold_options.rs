@@ -161,7 +161,9 @@ fn roots(call: &Call, target: &Target, root: Option<usize>, depth: f64) -> Eval<
     let Some(Below { face, depth }) = below(target, first, depth) else { return Ok(roots) };
     let depth = quantity(depth, Dimension::LENGTH);
     let (at, message) = match root {
-        Some(_) => (ROOT, format!("face {face} reaches {depth} below face {first}, which would lie on the ground")),
+        Some(_) => {
+            (ROOT, format!("face {face} reaches {depth} below face {first}, which would lie on the ground"))
+        }
         None => {
             let which = "whichever face lies on the ground, others reach below it";
             (TARGET, format!("{which}: below face {first} face {face} does by {depth}"))

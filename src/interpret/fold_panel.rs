@@ -111,8 +111,7 @@ fn sides(ports: &[&Port; 3]) -> Option<[f64; 3]> {
         let out = -half.cross(&front) / half.norm();
         let turn = &ports[k].pose.rotation;
         let off = (turn * Vec3::x() - out).norm().max((turn * Vec3::z() - front).norm());
-        // Written so that a number that is none fails, too.
-        if !(off <= TOL_SIDE) {
+        if off.is_nan() || off > TOL_SIDE {
             return None;
         }
     }

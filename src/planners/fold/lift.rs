@@ -16,6 +16,9 @@
 //! at φ/2 times the mean of cos(φ (s - 1/2)). A sum over the hinges of a layout is then a sum over faces of
 //! what their own paths cost, some of it negative: no walk of as many arcs as there are faces costs less
 //! than the cheapest.
+//!
+//! Over the step a face gains `2 sin(φ/2) G_j(φ/2)`, and what it gains along its path is its height over the
+//! root, whatever the path: so for hinges of one angle all paths cost the same, and the bound is near.
 
 use super::folded::about;
 use super::simulation::quintic;
@@ -29,8 +32,7 @@ const PLACES: usize = 256;
 /// What bounds are lowered by: part of themselves.
 const ROUNDING: f64 = 1e-7;
 
-/// The torque of gravity by arc and face, N·m; each arc's sign is such that all faces together count
-/// positive.
+/// The torque of gravity by arc and face, N·m.
 pub struct Lift {
     faces: usize,
     arcs: Vec<Arc>,
@@ -40,6 +42,8 @@ pub struct Lift {
 struct Arc {
     above: usize,
     below: usize,
+    /// Of its angle: in this direction a folding hinge turns.
+    sense: f64,
     /// By face: the mean over the step, and the values at its beginning and its end.
     mean: Vec<f64>,
     ends: [Vec<f64>; 2],
@@ -57,21 +61,31 @@ impl Lift {
                 let at = |angle: f64| -> Vec<f64> {
                     let turn = about(&hinge.point, axis, angle - hinge.angle);
                     let torque = |(face, mass): (usize, &f64)| {
-                        let arm: Vec3 = turn.transform_point(&target.centroid(face).into()).coords - hinge.point;
+                        let arm: Vec3 =
+                            turn.transform_point(&target.centroid(face).into()).coords - hinge.point;
                         -mass * gravity * down.dot(&axis.cross(&arm))
                     };
-                    signed(masses.iter().enumerate().map(torque).collect())
+                    masses.iter().enumerate().map(torque).collect()
                 };
                 let mean = at(hinge.angle / 2.0).into_iter().map(|torque| torque * cosine).collect();
                 let ends = [at(0.0), at(hinge.angle)];
-                arcs.push(Arc { above, below: hinge.other(above), mean, ends });
+                let sense = if hinge.angle < 0.0 { -1.0 } else { 1.0 };
+                arcs.push(Arc { above, below: hinge.other(above), sense, mean, ends });
             }
         }
         Lift { faces: masses.len(), arcs }
     }
 
-    /// By root: no layout has hinges whose mean torques come to less.
+    /// By root: no layout has hinges whose mean torques come to less. The torque of each hinge may be
+    /// counted with either sign: as it turns, or about its axis.
     pub fn energies(&self) -> Vec<f64> {
+        let both = [self.sums(|arc| arc.sense), self.sums(|_| 1.0)];
+        let greater = |root: usize| both.iter().map(|sums| sums[root]).fold(0.0, f64::max);
+        (0..self.faces).map(|root| greater(root) * (1.0 - ROUNDING)).collect()
+    }
+
+    /// By root: the cheapest walks to all faces, with the torques' signs as given.
+    fn sums(&self, sign: impl Fn(&Arc) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; self.faces];
         for face in 0..self.faces {
             crate::interrupt::checkpoint();
@@ -81,7 +95,7 @@ impl Lift {
             for _ in 1..self.faces {
                 let before = cost.clone();
                 for arc in &self.arcs {
-                    cost[arc.above] = cost[arc.above].min(before[arc.below] + arc.mean[face]);
+                    cost[arc.above] = cost[arc.above].min(before[arc.below] + sign(arc) * arc.mean[face]);
                 }
                 if cost == before {
                     break;
@@ -89,25 +103,21 @@ impl Lift {
             }
             sums.iter_mut().zip(&cost).for_each(|(sum, cost)| *sum += cost);
         }
-        sums.into_iter().map(|sum| sum.max(0.0) * (1.0 - ROUNDING)).collect()
+        sums
     }
 
     /// No layout with this root has a lower peak: its hinges carry all other faces among them.
     pub fn peak(&self, root: usize) -> f64 {
         let around: Vec<&Arc> = self.arcs.iter().filter(|arc| arc.above == root).collect();
-        let by_end = [0, 1].map(|end| {
+        let mut greatest: f64 = 0.0;
+        for (end, turning) in [(0, true), (0, false), (1, true), (1, false)] {
+            let of = |arc: &&Arc, face: usize| if turning { arc.sense } else { 1.0 } * arc.ends[end][face];
+            let least = |face: usize| around.iter().map(|arc| of(arc, face)).fold(f64::INFINITY, f64::min);
             let others = (0..self.faces).filter(|face| *face != root);
-            let least = |face: usize| around.iter().map(|arc| arc.ends[end][face]).fold(f64::INFINITY, f64::min);
-            others.map(least).sum::<f64>() / around.len().max(1) as f64
-        });
-        by_end.into_iter().fold(0.0, f64::max) * (1.0 - ROUNDING)
+            greatest = greatest.max(others.map(least).sum::<f64>() / around.len().max(1) as f64);
+        }
+        greatest * (1.0 - ROUNDING)
     }
-}
-
-/// The same with the sign of the sum made positive.
-fn signed(values: Vec<f64>) -> Vec<f64> {
-    let sign = if values.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    values.into_iter().map(|value| sign * value).collect()
 }
 
 /// The mean over a step of cos(φ (s - 1/2)).

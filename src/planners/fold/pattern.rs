@@ -51,6 +51,7 @@ impl Pattern {
             (x - u) * (x - u) + (y - v) * (y - v) > (r + s) * (r + s)
         };
         for b in 0..self.corners.len() {
+            crate::interrupt::checkpoint();
             for a in 0..b {
                 if !apart(a, b) && overlap(&self.corners[a], &self.corners[b]) {
                     found.push([a, b]);

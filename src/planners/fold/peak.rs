@@ -123,7 +123,10 @@ fn shares(weights: &Weights, around: &[(usize, usize)], faces: &[usize]) -> Vec<
             break;
         }
         let length = 1.0 / round as f64;
-        share.iter_mut().zip(&loads).for_each(|(s, load)| *s *= libm::exp(length * (load / whole - 1.0 / count as f64)));
+        share
+            .iter_mut()
+            .zip(&loads)
+            .for_each(|(s, load)| *s *= libm::exp(length * (load / whole - 1.0 / count as f64)));
         let sum: f64 = share.iter().sum();
         share.iter_mut().for_each(|s| *s /= sum);
     }

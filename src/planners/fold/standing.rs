@@ -14,7 +14,8 @@ pub struct Below {
 pub fn below(target: &Target, root: usize, depth: f64) -> Option<Below> {
     let (down, ground) = (target.normal(root), target.centroid(root));
     let of = |face: usize| {
-        let depth = target.corners(face).iter().map(|corner| down.dot(&(corner - ground))).fold(0.0, f64::max);
+        let depth =
+            target.corners(face).iter().map(|corner| down.dot(&(corner - ground))).fold(0.0, f64::max);
         Below { face, depth }
     };
     let faces = (0..target.faces.len()).filter(|face| *face != root).map(of);

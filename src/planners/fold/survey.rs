@@ -61,8 +61,7 @@ pub fn survey(
 ) -> Survey {
     let n = target.faces.len();
     // What holds for one root holds for those that are equal to it by symmetry.
-    let equals =
-        if settings.roots.len() == 1 { (0..n).collect() } else { symmetry::orbits(target, weights) };
+    let equals = if settings.roots.len() == 1 { (0..n).collect() } else { symmetry::orbits(target, weights) };
     let mut roots: Vec<usize> = settings.roots.iter().map(|root| equals[*root]).collect();
     roots.sort_unstable();
     roots.dedup();

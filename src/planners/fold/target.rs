@@ -2,6 +2,7 @@
 
 use super::unfoldable::Unfoldable;
 use crate::geometry::Vec3;
+use crate::geometry::soundness::SIZE_MAX;
 use std::collections::BTreeMap;
 
 /// More faces are refused: the count of layouts is by elimination, cubic in the faces.
@@ -74,6 +75,10 @@ impl Target {
         for (face, corners) in faces.iter().enumerate() {
             let triangle = <[usize; 3]>::try_from(corners.as_slice())
                 .map_err(|_| Unfoldable::NotTriangle { face, corners: corners.len() })?;
+            let far = |v: &usize| vertices.get(*v).is_some_and(|p| p.iter().any(|x| x.abs() > SIZE_MAX));
+            if triangle.iter().any(far) {
+                return Err(Unfoldable::TooFar { face });
+            }
             if degenerate(&vertices, triangle) {
                 return Err(Unfoldable::Degenerate { face });
             }

@@ -19,6 +19,10 @@ pub enum Unfoldable {
     Degenerate {
         face: usize,
     },
+    /// A face with a corner farther from the origin than anything may be.
+    TooFar {
+        face: usize,
+    },
     /// An edge at which more than two faces meet.
     NonManifold {
         faces: Vec<usize>,
@@ -57,6 +61,7 @@ impl Unfoldable {
             Unfoldable::Degenerate { .. } => {
                 "leave the face out, or move its corners apart and off one line; it names each vertex once"
             }
+            Unfoldable::TooFar { .. } => "a scale, or the unit of a file, may be wrong",
             Unfoldable::NonManifold { .. } => "leave out faces until two are left at the edge",
             Unfoldable::Orientation { .. } => {
                 "list the corners of every face counterclockwise, as they are seen from outside"
@@ -84,6 +89,7 @@ impl fmt::Display for Unfoldable {
                 write!(f, "face {face} has {corners} corners; only triangles fold")
             }
             Unfoldable::Degenerate { face } => write!(f, "face {face} has no area"),
+            Unfoldable::TooFar { face } => write!(f, "face {face} has a corner farther away than 1000 km"),
             Unfoldable::NonManifold { faces } => {
                 let names: Vec<String> = faces.iter().map(usize::to_string).collect();
                 write!(f, "faces {} meet at one edge; a hinge joins two", listed(&names))
