@@ -106,6 +106,8 @@ pub struct Foot {
 /// Triangles in a tree of balls, so that most need not be looked at.
 pub struct Surface {
     corners: Vec<[Vec3; 3]>,
+    /// A unit vector across each, and how far along it the triangle is.
+    planes: Vec<(Vec3, f64)>,
     /// The balls of the tree, depth first: what is in one follows it.
     balls: Vec<Ball>,
 }
@@ -122,7 +124,13 @@ struct Ball {
 impl Surface {
     pub fn new(corners: Vec<[Vec3; 3]>) -> Surface {
         let mut order: Vec<usize> = (0..corners.len()).collect();
-        let mut surface = Surface { balls: Vec::with_capacity(2 * corners.len()), corners };
+        let plane = |[a, b, c]: &[Vec3; 3]| {
+            // A triangle without area has no plane that it is always beyond.
+            let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+            (normal, normal.dot(a))
+        };
+        let planes = corners.iter().map(plane).collect();
+        let mut surface = Surface { balls: Vec::with_capacity(2 * corners.len()), planes, corners };
         surface.grow(&mut order);
         surface
     }
@@ -178,6 +186,11 @@ impl Surface {
             let Some(triangle) = ball.triangle.filter(|triangle| *triangle != best.triangle) else {
                 continue;
             };
+            // No nearer than its plane.
+            let (normal, along) = self.planes[triangle];
+            if (normal.dot(&p) - along).abs() > best.distance {
+                continue;
+            }
             let found = foot(triangle);
             if found.distance < best.distance || (found.distance == best.distance && triangle < best.triangle)
             {
