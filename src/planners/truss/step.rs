@@ -289,7 +289,8 @@ fn broken(task: &Task, y: &[Vec3], pairs: &mut Option<Nearby>) -> Vec<(Bound, f6
     }
     let on_the_way = between::shortfalls(truss, x, y, &pairs, cushion);
     let passed = passing::obstacles(truss, x, y, cushion);
-    let below = if task.ground { passing::ground(truss, x, y) } else { Vec::new() };
+    // Of a step far away, before its rows are known, the ground takes long to say more.
+    let below = if task.ground && broken.is_empty() { passing::ground(truss, x, y) } else { Vec::new() };
     for (bound, lack) in on_the_way.into_iter().chain(passed).chain(below) {
         broken.entry(bound).and_modify(|known| *known = known.max(lack)).or_insert(lack);
     }
