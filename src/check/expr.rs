@@ -127,10 +127,7 @@ impl<'a> Checker<'a> {
             K::Text(parts) => self.text(scope, span, parts),
             K::Name(name) => self.name_expr(scope, span, *name, want),
             K::Axis(axis) => direction(span, *axis),
-            K::Hole => match self.last_value(scope, want) {
-                Some(name) => self.name_expr(scope, span, name, want),
-                None => expr_of(span, Type::optional(hole_type(want)), ExprKind::Missing),
-            },
+            K::Hole => self.hole(scope, span, want),
             K::List(items) => self.list(scope, span, items, want),
             K::Comprehension { body, clauses } => self.comprehension(scope, span, body, clauses, want),
             K::Unary { op, operand, .. } => self.unary(scope, span, *op, operand, want),
@@ -335,14 +332,6 @@ fn inner_quantity(want: &Type) -> Option<Dimension> {
 
 fn fn_of(want: &Type) -> &Type {
     alternatives(want).into_iter().find(|t| matches!(t, Type::Fn(_))).unwrap_or(want)
-}
-
-/// What a `_` leaves out, as far as it is known.
-fn hole_type(want: Option<&Type>) -> Type {
-    match want {
-        Some(Type::Optional(inner)) => (**inner).clone(),
-        _ => Type::Error,
-    }
 }
 
 /// Whether a type mentions type parameters that are not bound yet.

@@ -47,6 +47,26 @@ impl<'a> Checker<'a> {
         self.loaded.files[scope.file].last.filter(|_| !may_miss)
     }
 
+    /// A `_`: the last value of a session, or what is left out where something may be.
+    pub fn hole(&mut self, scope: &mut Scope, span: Span, want: Option<&Type>) -> Expr {
+        if let Some(name) = self.last_value(scope, want) {
+            return self.name_expr(scope, span, name, want);
+        }
+        match want {
+            Some(missing @ Type::Optional(_)) => expr_of(span, missing.clone(), ExprKind::Missing),
+            Some(Type::Error) => error_expr(span),
+            _ => {
+                let diagnostic = Diagnostic::error(code::UNKNOWN_NAME, "`_` has no value here")
+                    .label(span, "nothing may be left out")
+                    .hint(
+                        "`_` is what is left out where a type ends in `?`, and in a session the last value",
+                    );
+                self.report(diagnostic);
+                error_expr(span)
+            }
+        }
+    }
+
     pub fn unknown_name(&mut self, scope: &Scope, span: Span, name: Symbol, want: Option<&Type>) -> Expr {
         // Nobody knows what is wanted here, so it may be a word of a choice.
         if want.is_some_and(Type::is_error) {
