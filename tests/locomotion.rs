@@ -41,16 +41,15 @@ fn the_s_is_travelled() {
         assert_eq!(travel.end, End::Arrived, "turned by {turned}, {aim:?}");
         assert_eq!(travel.reached, 6);
         assert!((640..=720).contains(&travel.steps), "{} steps", travel.steps);
+        if std::env::var_os("MODL_WHOLE").is_some() {
+            keeps_its_limits(&travel);
+        }
     }
 }
 
-#[test]
-fn nothing_comes_too_near_between_the_samples() {
-    let (truss, start) = robot();
-    let mut wish = s_path(90.0, Aim::Springs);
-    wish.path.truncate(3);
-    let travel = travelled(&wish);
-    let mut x = start;
+/// At fifty moments of every step.
+fn keeps_its_limits(travel: &Travel) {
+    let (truss, mut x) = robot();
     for step in &travel.moves {
         x = match step {
             Move::Roll(roll) => rolled(&x, *roll),
@@ -63,6 +62,14 @@ fn nothing_comes_too_near_between_the_samples() {
             }
         };
     }
+}
+
+#[test]
+fn nothing_comes_too_near_between_the_samples() {
+    let mut wish = s_path(90.0, Aim::Springs);
+    wish.path.truncate(3);
+    let travel = travelled(&wish);
+    keeps_its_limits(&travel);
     assert!(travel.rolls > 2);
 }
 
