@@ -5,8 +5,9 @@
 //! `--tangles=N` instead: N tangles of our own, as many from each line of the table; the number of a
 //! tangle is its seed. Each is planned as a program would, with the judge, within `--limit=60` seconds of
 //! the processor; `--replay=K` replays every K-th plan in steps of a degree. `--seed=N` and `--budget=N`
-//! are the planner's. `--out=FILE` keeps what was found, and goes on where it was ended; `--peer=FILE`
-//! prints another planner's times beside, from a table with `instance`, `success` and `cpu_s`.
+//! are the planner's. `--first=N --every=K` takes every K-th of them from the N-th on. `--out=FILE` keeps
+//! what was found, and goes on where it was ended; `--peer=FILE` prints another planner's times beside, from
+//! a table with `instance`, `success` and `cpu_s`.
 //! `--memory` tells the most memory that was taken. `--modules=50,100` instead: one tangle for each number of
 //! modules, of `--actions=1000` actions, with the seed 1.
 
@@ -89,6 +90,8 @@ fn main() {
         instances = tangles(number("--tangles=", 20) as usize);
     }
     instances.sort_by(|a, b| (a.modules, &a.name).cmp(&(b.modules, &b.name)));
+    let (first, every) = (number("--first=", 0) as usize, number("--every=", 1) as usize);
+    instances = instances.into_iter().skip(first).step_by(every.max(1)).collect();
     let peer = word("--peer=").map(peers).unwrap_or_default();
     let out = word("--out=");
     let known = out.map(kept).unwrap_or_default();

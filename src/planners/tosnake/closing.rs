@@ -5,8 +5,8 @@
 //! contact do not come nearer; joints off the loop make room. Every state on the way is kept: it is
 //! the way to take where the straight one is not free.
 
+use super::contacts::{Contact, Contacts};
 use super::linear::Square;
-use super::near::{self, touch_always};
 use super::rigid::{Rigid, Vec3, rotation_vector};
 use super::robot::{Dock, GAMMA, RED, mate};
 use super::state::Joints;
@@ -123,10 +123,18 @@ impl Closing<'_> {
         let mut poses = Vec::new();
         tree.poses(&joints, &mut poses);
         let bends = |module| lp.joints.iter().any(|(joint, _)| joint.module == module);
-        let carried = tree.carried(|module| manner == Manner::Flow || bends(module));
+        let turns = |module: usize| manner == Manner::Flow || bends(module);
+        let carried = tree.carried(turns);
         // Long loops have a long way to go.
         let long = 1.0 + lp.joints.len() as f64 / 3.0 * settings.long;
         let drifting = if drift.is_empty() { 0 } else { settings.drifting };
+        // What matters in a leap is what overlaps and what is driven apart; in a flow all that may meet
+        // within one step.
+        let reach = match manner {
+            Manner::Leap => settings.repulsion_reach.max(APART),
+            Manner::Flow => 1.0 + 2.0 * settings.step_max * long,
+        };
+        let mut near = Contacts::new(scene, (lp.from, lp.to), tree.parts(turns));
         let (mut best, mut since) = (f64::INFINITY, 0);
         for iteration in 0..(settings.iterations_max as f64 * long) as usize {
             crate::interrupt::checkpoint();
@@ -134,7 +142,7 @@ impl Closing<'_> {
             *work += STEP_WORK;
             let error = lp.error(&poses);
             let size = error.norm();
-            let contacts = contacts(scene, &poses, 1.0 + 2.0 * settings.step_max * long, (lp.from, lp.to));
+            let contacts = near.within(reach, &poses);
             let least = contacts.iter().fold(f64::INFINITY, |least, c| least.min(c.distance));
             let overlap = (APART - least).max(0.0);
             if size < settings.tol_closed && overlap == 0.0 {
@@ -187,31 +195,6 @@ pub fn limited(joint: usize, q: f64) -> f64 {
     if joint == GAMMA { q } else { q.clamp(-FRAC_PI_2, FRAC_PI_2) }
 }
 
-/// Two balls that are near each other.
-struct Contact {
-    a: usize,
-    b: usize,
-    distance: f64,
-    /// From a to b, of length 1.
-    normal: Vec3,
-}
-
-fn contacts(scene: &Scene, poses: &[Rigid], reach: f64, meeting: (usize, usize)) -> Vec<Contact> {
-    let mut all = Vec::new();
-    near::pairs(poses, reach, &mut |a, b, squared| {
-        // The two that are to meet come as near as their docks ask.
-        let meet = (a, b) == meeting || (b, a) == meeting;
-        if !meet && !touch_always(scene.tree, a, b, &scene.docked) {
-            let distance = libm::sqrt(squared);
-            let way = poses[b].place - poses[a].place;
-            // Balls in one place have to go somewhere.
-            let normal = if distance > 1e-6 { way / distance } else { Vec3::x() };
-            all.push(Contact { a, b, distance, normal });
-        }
-    });
-    all
-}
-
 /// One step of the descent: which change of the joints.
 struct Problem<'a> {
     manner: Manner,
@@ -231,12 +214,6 @@ struct Row {
     goal: f64,
 }
 
-impl Row {
-    fn value(&self, change: &[f64]) -> f64 {
-        self.terms.iter().map(|&(joint, factor)| factor * change[joint]).sum()
-    }
-}
-
 /// Conditions that are taken in at most, and rounds of taking in and dropping.
 const ACTIVE_MAX: usize = 100;
 const ROUNDS: usize = 12;
@@ -248,9 +225,9 @@ impl Problem<'_> {
         let count = 3 * self.joints.len();
         let mut rows = self.closing_rows(lp, error);
         let wish = self.wish(lp, count);
-        let candidates: Vec<Row> = match self.manner {
-            Manner::Leap => Vec::new(),
-            Manner::Flow => self.contacts.iter().map(|contact| self.row(contact)).collect(),
+        let candidates = match self.manner {
+            Manner::Leap => &[],
+            Manner::Flow => self.contacts,
         };
         let damping = 1e-4 * error.norm_squared().min(1.0) + 1e-12;
         let mut fixed = vec![false; count];
@@ -258,9 +235,7 @@ impl Problem<'_> {
         let mut change = vec![0.0; count];
         for round in 0..ROUNDS {
             rows.truncate(6);
-            rows.extend(
-                active.iter().map(|&c| Row { terms: candidates[c].terms.clone(), goal: candidates[c].goal }),
-            );
+            rows.extend(active.iter().map(|&c| self.row(&candidates[c])));
             let (solved, multipliers) = solve(&rows, &wish, &fixed, damping);
             change = solved;
             self.shorten(&mut change);
@@ -276,9 +251,18 @@ impl Problem<'_> {
             }
             let mut changed = kept.len() != active.len();
             active = kept;
-            let mut violated: Vec<(f64, usize)> = (0..candidates.len())
-                .filter(|c| !active.contains(c))
-                .map(|c| (candidates[c].value(&change) - candidates[c].goal, c))
+            let going = if candidates.is_empty() { Vec::new() } else { self.going(&change) };
+            let far = going.iter().map(|v: &Vec3| v.norm()).fold(0.0, f64::max);
+            let mut violated: Vec<(f64, usize)> = candidates
+                .iter()
+                .enumerate()
+                .filter(|(c, contact)| {
+                    contact.distance < self.settings.keep + 2.0 * far && !active.contains(c)
+                })
+                .map(|(c, contact)| {
+                    let parting = contact.normal.dot(&(going[contact.b] - going[contact.a]));
+                    (parting - self.least_parting(contact), c)
+                })
                 .filter(|(slack, _)| *slack < -SLACK)
                 .collect();
             violated.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
@@ -331,9 +315,13 @@ impl Problem<'_> {
             let v = axis.cross(&(at - point)) * *sign;
             (3 * joint.module + joint.joint, contact.normal.dot(&v))
         };
+        Row { terms: between.iter().map(term).collect(), goal: self.least_parting(contact) }
+    }
+
+    /// By how much two balls must part in one step at least; less than nothing where they may draw nearer.
+    fn least_parting(&self, contact: &Contact) -> f64 {
         let missing = self.settings.keep - contact.distance;
-        let goal = if missing > 0.0 { (0.5 * missing).min(0.05) } else { missing };
-        Row { terms: between.iter().map(term).collect(), goal }
+        if missing > 0.0 { (0.5 * missing).min(0.05) } else { missing }
     }
 
     /// Gently apart.
@@ -368,20 +356,27 @@ impl Problem<'_> {
 
     /// How far the ball goes that goes farthest, to first order.
     fn farthest(&self, change: &[f64]) -> f64 {
+        libm::sqrt(self.going(change).iter().map(Vec3::norm_squared).fold(0.0, f64::max))
+    }
+
+    /// By place: which way its ball goes, and how far, to first order.
+    fn going(&self, change: &[f64]) -> Vec<Vec3> {
         let mut twist = vec![(Vec3::zeros(), Vec3::zeros()); self.poses.len()];
-        let mut far: f64 = 0.0;
+        let mut going = vec![Vec3::zeros(); self.poses.len()];
         for place in 1..self.poses.len() {
             let (mut v, mut w) = twist[self.tree.parent[place]];
             for joint in self.tree.joints_at(place) {
-                let (axis, point) = self.tree.axis(joint, self.poses);
                 let turn = change[3 * joint.module + joint.joint];
-                v -= axis.cross(&point) * turn;
-                w += axis * turn;
+                if turn != 0.0 {
+                    let (axis, point) = self.tree.axis(joint, self.poses);
+                    v -= axis.cross(&point) * turn;
+                    w += axis * turn;
+                }
             }
             twist[place] = (v, w);
-            far = far.max((v + w.cross(&self.poses[place].place)).norm_squared());
+            going[place] = v + w.cross(&self.poses[place].place);
         }
-        libm::sqrt(far)
+        going
     }
 }
 

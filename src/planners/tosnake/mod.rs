@@ -28,6 +28,7 @@ pub mod opening;
 mod linear;
 
 pub mod closing;
+pub mod contacts;
 
 pub mod merging;
 

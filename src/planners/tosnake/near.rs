@@ -5,36 +5,50 @@ use super::robot::Robot;
 use super::tree::Tree;
 
 /// Calls `found` for every pair of places whose balls are nearer than `reach`, the smaller first.
+///
+/// Balls are sorted into cubes of that size, cubes into columns, and columns by their places: so the three
+/// cubes of a column that may hold a ball's neighbours are one stretch of the list, and for each of
+/// the columns around the stretch goes on as the balls do.
 pub fn pairs(poses: &[Rigid], reach: f64, found: &mut dyn FnMut(usize, usize, f64)) {
-    let axis = widest(poses);
-    let mut order: Vec<(f64, u32)> =
-        poses.iter().enumerate().map(|(place, pose)| (pose.place[axis], place as u32)).collect();
-    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let cube = |x: f64| (libm::floor(x / reach) as i64 + CUBES_HALF) as u64;
+    let key = |p: &Vec3| cube(p.x) * COLUMN * COLUMN + cube(p.y) * COLUMN + cube(p.z);
+    let mut order: Vec<(u64, u32)> =
+        poses.iter().enumerate().map(|(place, pose)| (key(&pose.place), place as u32)).collect();
+    order.sort_unstable();
     let sorted: Vec<Vec3> = order.iter().map(|(_, place)| poses[*place as usize].place).collect();
-    for i in 0..sorted.len() {
-        let p = sorted[i];
-        for j in i + 1..sorted.len() {
-            if order[j].0 - order[i].0 >= reach {
+    let mut see = |i: usize, j: usize| {
+        let squared = (sorted[j] - sorted[i]).norm_squared();
+        if squared < reach * reach {
+            let (a, b) = (order[i].1 as usize, order[j].1 as usize);
+            found(a.min(b), a.max(b), squared);
+        }
+    };
+    let columns = [COLUMN, COLUMN * COLUMN - COLUMN, COLUMN * COLUMN, COLUMN * COLUMN + COLUMN];
+    let mut first = [0; 4];
+    for (i, (here, _)) in order.iter().enumerate() {
+        for (j, (there, _)) in order.iter().enumerate().skip(i + 1) {
+            if *there > here + 1 {
                 break;
             }
-            let squared = (sorted[j] - p).norm_squared();
-            if squared < reach * reach {
-                let (a, b) = (order[i].1 as usize, order[j].1 as usize);
-                found(a.min(b), a.max(b), squared);
+            see(i, j);
+        }
+        for (first, column) in first.iter_mut().zip(columns) {
+            while *first < order.len() && order[*first].0 < here + column - 1 {
+                *first += 1;
+            }
+            for (j, (there, _)) in order.iter().enumerate().skip(*first) {
+                if *there > here + column + 1 {
+                    break;
+                }
+                see(i, j);
             }
         }
     }
 }
 
-fn widest(poses: &[Rigid]) -> usize {
-    let mut low = Vec3::repeat(f64::INFINITY);
-    let mut high = -low;
-    for pose in poses {
-        low = low.inf(&pose.place);
-        high = high.sup(&pose.place);
-    }
-    (high - low).imax()
-}
+/// Cubes are counted from the middle of so many in every direction, which is farther than robots reach.
+const COLUMN: u64 = 1 << 21;
+const CUBES_HALF: i64 = 1 << 20;
 
 /// Whether two places are shoes of one module, or docked to one another: then they always touch.
 pub fn touch_always(tree: &Tree, a: usize, b: usize, docked: &[(usize, usize)]) -> bool {

@@ -7,21 +7,22 @@ use super::lattice;
 use super::merging::{self, Attempt, Pair, Side};
 use super::opening;
 use super::paper;
-use super::robot::{ALPHA, BETA, GAMMA, Robot};
+use super::robot::{ALPHA, BETA, Dock, GAMMA, Robot};
 use super::shortening::shortened;
 use super::sound;
 use super::state::{Joints, State};
 use super::weight::{Load, Weight};
 use super::{Collisions, Doing, Found, Heavy, Progress, Refusal, Settings};
 use crate::planners::random::Dice;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// How pairs of ends are tried: in which manner, from how far a posture of their own, and how many of
 /// them. What is cheap comes first.
 const ATTEMPTS: [(Manner, f64, usize); 5] = [
-    (Manner::Leap, 0.02, 20),
-    (Manner::Leap, 0.3, 20),
+    (Manner::Leap, 0.02, 60),
+    (Manner::Leap, 0.3, 60),
     (Manner::Flow, 0.0, 10),
     (Manner::Leap, 1.0, 20),
     (Manner::Flow, 0.5, 10),
@@ -29,6 +30,9 @@ const ATTEMPTS: [(Manner, f64, usize); 5] = [
 
 /// For smaller robots threads are not worth it.
 const PARALLEL_MIN: usize = 16;
+
+/// Under weight more is tried of each pair, and no more pairs than so many.
+const HEAVY_PAIRS: usize = 20;
 
 /// Under weight it matters which tentacle moves: all of them, and each alone, are tried.
 const SIDES: [Side; 3] = [Side::Both, Side::First, Side::Second];
@@ -115,6 +119,10 @@ const EASY: f64 = 0.6;
 /// By so much, in modules on the way, a pair is less promising whose joints hold all that they can.
 const HEAVY_COST: f64 = 8.0;
 
+/// By so much, in modules on the way, a pair is less promising for every time that it was tried in vain, with as
+/// many modules on the way as now.
+const VAIN_COST: f64 = 0.7;
+
 struct Search<'a> {
     state: State,
     dice: Dice,
@@ -123,6 +131,8 @@ struct Search<'a> {
     progress: Progress,
     /// Of all that was too heavy what was least so.
     heavy: Option<(Load, Doing)>,
+    /// How often pairs were tried in vain, with the modules that bent between them then.
+    vain: BTreeMap<[Dock; 2], (usize, u32)>,
 }
 
 impl<'a> Search<'a> {
@@ -134,7 +144,7 @@ impl<'a> Search<'a> {
     ) -> Search<'a> {
         let mut progress = Progress { needed: state.bad_bonds(), ..Progress::default() };
         progress.see(&state);
-        Search { state, dice, settings, watch, progress, heavy: None }
+        Search { state, dice, settings, watch, progress, heavy: None, vain: BTreeMap::new() }
     }
 
     fn found(mut self, robot: &Robot) -> Result<Found, Refusal> {
@@ -234,7 +244,7 @@ impl<'a> Search<'a> {
     fn merge(&mut self, idle: usize) -> Result<bool, Refusal> {
         let pairs = self.pairs(idle);
         let (jobs, dice) = self.jobs(&pairs);
-        let Search { state, settings, watch, progress, heavy, .. } = self;
+        let Search { state, settings, watch, progress, heavy, vain, .. } = self;
         let (mut work, mut won, mut refusal) = (0, None, None);
         let alone = state.weight.is_some() || state.robot.modules() < PARALLEL_MIN;
         let threads = if alone { 1 } else { settings.threads };
@@ -249,6 +259,8 @@ impl<'a> Search<'a> {
                 return true;
             }
             blame(heavy, state, Doing::Joining(pair.a, pair.b));
+            let known = vain.entry([pair.a, pair.b]).or_default();
+            *known = (pair.length, if known.0 == pair.length { known.1 + 1 } else { 1 });
             progress.work = state.work + work;
             refusal = told(progress, settings, watch).err();
             refusal.is_some()
@@ -271,11 +283,12 @@ impl<'a> Search<'a> {
     where
         'a: 'p,
     {
-        let sides = if self.state.weight.is_some() { &SIDES[..] } else { &SIDES[..1] };
+        let (sides, most) =
+            if self.state.weight.is_some() { (&SIDES[..], HEAVY_PAIRS) } else { (&SIDES[..1], usize::MAX) };
         let mut dice = self.dice.clone();
         let mut jobs = Vec::new();
         for (manner, size, many) in ATTEMPTS {
-            for pair in pairs.iter().take(many) {
+            for pair in pairs.iter().take(many.min(most)) {
                 for &side in sides {
                     let attempt = Attempt { pair, manner, size, side, closing: &self.settings.closing };
                     let throws = attempt.throws(&self.state.tree);
@@ -347,6 +360,10 @@ impl<'a> Search<'a> {
             }
         }
         for pair in &mut pairs {
+            if self.state.weight.is_none() {
+                let vain = self.vain.get(&[pair.a, pair.b]).filter(|(length, _)| *length == pair.length);
+                pair.cost += VAIN_COST * vain.map_or(0.0, |(_, times)| f64::from(*times));
+            }
             pair.cost *= 1.0 + 0.5 * NOISE * idle as f64 * (1.0 + self.dice.signed());
         }
         pairs.sort_by(|p, q| p.cost.total_cmp(&q.cost).then((p.a, p.b).cmp(&(q.a, q.b))));

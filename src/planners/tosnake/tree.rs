@@ -132,6 +132,16 @@ impl Tree {
         (0..self.shoes()).filter(|&place| carried[place]).collect()
     }
 
+    /// By place: balls of one number do not move against each other when modules turn.
+    pub fn parts(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
+        let mut part = vec![0; self.shoes()];
+        for place in 1..part.len() {
+            let own = matches!(self.link[place], Link::Module) && turns(self.shoe[place] / 2);
+            part[place] = if own { place } else { part[self.parent[place]] };
+        }
+        part
+    }
+
     /// The bond by which a shoe hangs on its parent.
     pub fn bond(&self, place: usize) -> Option<usize> {
         match self.link[place] {
