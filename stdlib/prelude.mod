@@ -1413,6 +1413,22 @@ extern type Report {
 /// ```
 extern fn plan(behavior: Behavior, from: State?, world: World?) -> Plan
 
+/// A plan that `emit` wrote before, from a file of this project, as a plan of `robot`: one that starts as the
+/// plan's own robot did, with the same modules connected in the same way in the same posture.
+///
+/// Modules take the names that they have in `robot`. Nothing of the file is believed: `emit` has the judge
+/// look at the plan again. So ways that took long to find are kept: of n shapes n plans to the snake make
+/// all reconfigurations.
+///
+/// Example:
+/// ```modl check
+/// use std.rofi.{Chair, Spider}
+/// let chair = load_plan("plans/chair.plan.json", Chair())
+/// let spider = load_plan("plans/spider.plan.json", Spider())
+/// emit(chair ++ reverse(spider), "chair-to-spider.plan.json")
+/// ```
+extern fn load_plan(file: Text, robot: Config) -> Plan
+
 /// The plan run backwards, from its end to its beginning.
 ///
 /// Example:

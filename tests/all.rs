@@ -41,6 +41,7 @@ mod motions;
 mod pages;
 mod plan_file;
 mod plan_operations;
+mod plans_stored;
 mod programs;
 mod quadratic;
 mod readme;

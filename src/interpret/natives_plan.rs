@@ -9,16 +9,21 @@ use super::planning::{Beginning, Planned};
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
-use crate::plan::{self, Ground, Plan, Settings, Stability, World};
+use super::verdicts::failure_line;
+use crate::behavior::{self, Problem};
+use crate::plan::{self, CauseId, Ground, Node, Plan, Provenance, Settings, Stability, World};
+use crate::robot::{Assembly, State};
 use crate::source::{Diagnostic, code, files};
 use crate::view;
 use std::rc::Rc;
+use std::sync::Arc;
 
 pub const TABLE: &[Native] = &[
     on_run("print", 1, print),
     on_run("emit", 5, emit),
     pure("world", 3, world),
     on_run("plan", 3, plan_behavior),
+    on_run("load_plan", 2, load_plan),
     on_run("reverse", 1, reverse),
     on_run("verify", 5, verify),
     on_run("Plan.at", 2, plan_at),
@@ -93,6 +98,52 @@ fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
     let reversed = interpreter.changed(&planned, |plan| Ok(plan::reversed(plan)), call.span)?;
     Ok(planned_value(Some(reversed)))
+}
+
+/// A plan from a file, of a robot that starts as the plan's own does, with the names of this one's modules:
+/// it goes on where a plan of this robot ends that does nothing.
+fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (path, bytes) = interpreter.project_file(call, 0)?;
+    let design = call.instance(1)?.design.clone();
+    let Some(robot) = interpreter.robot_at(&design, call.at(1))? else { return Ok(Value::Unknown) };
+    let unsound = |why: &str| {
+        let message = format!("`{path}` is no sound plan file: {why}");
+        fault(code::BAD_PLAN_FILE, call.at(0), message, why)
+    };
+    let text = String::from_utf8(bytes).map_err(|_| unsound("it is not UTF-8 text"))?;
+    let stored = plan::file::read(&text).map_err(|error| unsound(&error.to_string()))?;
+    // The judge looks at the motion; what robots execute is the program.
+    if let Some(failure) = behavior::unfaithful(&stored) {
+        return Err(unsound(&failure_line(&failure)));
+    }
+    let mut causes = interpreter.planner_causes(call.span);
+    let run = |robot: &Assembly, start: &State, program: Arc<Node>| {
+        behavior::schedule(Problem {
+            robot: robot.clone(),
+            start: start.clone(),
+            program,
+            start_causes: Vec::new(),
+            bond_causes: (0..robot.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),
+            settings: behavior::Settings::default(),
+        })
+    };
+    let actions = stored.body.tracks().zip(stored.program.as_ref()).map_or(0, |(tracks, program)| {
+        run(&tracks.robot, &tracks.start, program.root.clone()).map_or(0, |played| played.actions)
+    });
+    let nothing = run(&robot.assembly, &robot.start, Arc::new(Node::Series(Vec::new())))
+        .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, call.span))?;
+    let world = stored.worlds.first().map_or(World::FREE, |first| first.world);
+    let (begun, _) = interpreter.assemble_plan(design.clone(), robot.clone(), nothing, &causes, world);
+    let mut plan = plan::joined(&begun.plan, &stored).map_err(|unfit| {
+        let message = format!("the plan in `{path}` does not begin with this robot: {unfit}");
+        fault(code::NO_MATCH, call.at(1), message, "another robot, or in another posture")
+    })?;
+    let Provenance { planner, seed, budget, .. } = stored.provenance;
+    plan.provenance = Provenance { planner, seed, budget, ..plan.provenance };
+    // Whatever moved the robot then, what moves it now is this call.
+    causes.ids.resize(plan.causes.len(), causes.ids[0]);
+    let planned = Planned::new(design, Some(robot), plan, causes.ids, actions);
+    Ok(planned_value(Some(Rc::new(planned))))
 }
 
 fn plan_at(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
