@@ -17,6 +17,7 @@ mod faithful;
 mod fences;
 mod fold;
 mod fold_bounds;
+mod fold_clearing;
 mod fold_collisions;
 mod fold_dynamics;
 mod fold_files;

@@ -17,6 +17,9 @@ use crate::source::{Diagnostic, code};
 /// Layouts that are kept to be judged, where each was measured.
 const KEPT: usize = 4096;
 
+/// The search for the next best layout has the budget by this.
+const NEXT_BEST: u64 = 4;
+
 /// Layouts that may be what is wanted, with what is known about them.
 pub struct Found {
     /// The best first; none that was passed over is better than those that follow.
@@ -36,6 +39,14 @@ pub struct Found {
     pub ties: Vec<usize>,
     /// How many pairs of a layout and a root are known to be equally good.
     pub tied: u64,
+}
+
+impl Found {
+    /// How the next best is sought, in a part of the budget: where none of the first is let through, other
+    /// ways are tried as well.
+    pub fn next_best(&self) -> Option<exact::Settings> {
+        self.next.map(|next| exact::Settings { budget: next.budget / NEXT_BEST, ..next })
+    }
 }
 
 /// What is asked.

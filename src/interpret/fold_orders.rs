@@ -75,7 +75,7 @@ impl<'t> Reordering<'t> {
     /// The best layout of those that are known or can be sought which folds in some order.
     pub fn first(&mut self, interpreter: &mut Interpreter, found: &Found) -> Eval<Option<Outcome>> {
         let mut open = Vec::new();
-        let mut ended = match found.next {
+        let mut ended = match found.next_best() {
             None => self.of_all(interpreter, &found.layouts, 0, &mut open)?,
             Some(settings) => self.of_next(interpreter, &settings, &mut open)?,
         };

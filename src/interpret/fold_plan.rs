@@ -55,6 +55,8 @@ struct Hearing {
 pub struct Task<'t> {
     pub question: Question<'t>,
     pub panels: &'t Panels,
+    /// Hinges that every layout has to have.
+    pub must: Vec<usize>,
 }
 
 impl Task<'_> {
@@ -84,8 +86,10 @@ impl Task<'_> {
                 .hint("another `sequence` or `root` may let it fold")
                 .into());
         }
+        let cleared = self.cleared(interpreter)?;
         let mut reordering = Reordering::new(&self);
-        if let Some(outcome) = reordering.first(interpreter, found)? {
+        let reordered = reordering.first(interpreter, found)?;
+        if let Some(outcome) = self.lesser(cleared, reordered) {
             return Ok(self.answer(outcome, found, false));
         }
         let message = format!("no order of folding was found that the judge lets through: {why}");
@@ -138,7 +142,7 @@ impl Task<'_> {
         hearing: &mut Hearing,
         found: &Found,
     ) -> Eval<Option<(Outcome, bool)>> {
-        let Some(settings) = found.next else { return Ok(None) };
+        let Some(settings) = found.next_best() else { return Ok(None) };
         let Question { target, objective, .. } = self.question;
         let refused: Vec<Vec<usize>> = found.layouts.iter().map(Layout::hinges).collect();
         let mut fault = None;
@@ -219,17 +223,23 @@ impl Task<'_> {
         })
     }
 
+    /// What is to be small of a way to fold.
+    pub fn value(&self, layout: &Layout, steps: &[Vec<usize>]) -> f64 {
+        let effort = self.question.objective.effort(layout, steps);
+        match self.question.options.minimise {
+            Minimise::Energy => effort.energy,
+            Minimise::PeakTorque => effort.peak,
+            Minimise::Steps => steps.len() as f64,
+        }
+    }
+
     fn answer(&self, outcome: Outcome, found: &Found, optimal: bool) -> Value {
         let Outcome { mut planned, layout, steps } = outcome;
         let Question { target, objective, options, .. } = self.question;
         let energetic = matches!(options.minimise, Minimise::Energy) && found.bound > 0.0;
         planned.plan.provenance.bound = energetic.then_some(Bound::FoldingEnergy(found.bound));
         let effort = objective.effort(&layout, &steps);
-        let value = match options.minimise {
-            Minimise::Energy => effort.energy,
-            Minimise::PeakTorque => effort.peak,
-            Minimise::Steps => steps.len() as f64,
-        };
+        let value = self.value(&layout, &steps);
         let folded = Folded {
             layouts: count::layouts(target),
             effort,

@@ -53,6 +53,7 @@ mod planning;
 mod record;
 mod verdicts;
 
+mod fold_clear;
 mod fold_method;
 mod fold_options;
 mod fold_orders;

@@ -1,6 +1,7 @@
 //! `fold`: the planner of folding, as it is called.
 
 use super::call::Call;
+use super::fold_clear;
 use super::fold_method::Question;
 use super::fold_options::{ARGUMENTS, MODULE, Options, PASSIVE, PASSIVE_MODULE, TARGET};
 use super::fold_panel;
@@ -26,12 +27,13 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (panels, target) =
         fold_supply::panels(interpreter, &mut supply, [TARGET, PASSIVE, PASSIVE_MODULE], target)?;
     let options = Options::of(call, &panels.weakest, &target)?;
+    let must = fold_clear::must_hinge(call, &target, &panels)?;
     crate::interrupt::begin(format!("folding {} panels", target.faces.len()));
     let objective = Objective::new(&target, panels.masses.clone(), options.conventions, options.minimise);
     let question =
         Question { call, target: &target, objective: &objective, options: &options, panel: &panels.weakest };
     let found = question.answer()?;
-    Task { question, panels: &panels }.plan(interpreter, &found)
+    Task { question, panels: &panels, must }.plan(interpreter, &found)
 }
 
 fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -74,7 +74,7 @@ pub fn flattened(
 }
 
 /// The hinges between the two parts into which a layout falls without one of its own.
-fn joining(target: &Target, layout: &Layout, without: usize) -> Vec<usize> {
+pub fn joining(target: &Target, layout: &Layout, without: usize) -> Vec<usize> {
     let mut below = vec![false; layout.parent.len()];
     for &face in &layout.order[1..] {
         below[face] = layout.hinge[face] == Some(without) || below[layout.parent[face]];

@@ -54,12 +54,31 @@ pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut 
 pub fn improved_among(
     target: &Target,
     weights: &Weights,
-    mut layout: Layout,
+    layout: Layout,
     steps: &mut u64,
     allowed: &dyn Fn(&Layout) -> bool,
 ) -> Layout {
+    improved_by(target, weights, layout, steps, &Rules { fits: &|_, _| true, allowed })
+}
+
+/// What is asked of exchanges beside that they help.
+pub struct Rules<'r> {
+    /// Asked of all: of a layout, whether the first hinge may be exchanged for the second.
+    pub fits: &'r dyn Fn(&Layout, [usize; 2]) -> bool,
+    /// Asked of some that help the most: whether the layout that they lead to is allowed.
+    pub allowed: &'r dyn Fn(&Layout) -> bool,
+}
+
+/// The same by exchanges that keep to the rules.
+pub fn improved_by(
+    target: &Target,
+    weights: &Weights,
+    mut layout: Layout,
+    steps: &mut u64,
+    rules: &Rules,
+) -> Layout {
     let gain = layout.energy(weights) * GAIN_MIN;
-    while let Some(better) = exchange(target, weights, &layout, gain, steps, allowed) {
+    while let Some(better) = exchange(target, weights, &layout, gain, steps, rules) {
         crate::interrupt::checkpoint();
         layout = better;
     }
@@ -118,7 +137,7 @@ fn exchange(
     layout: &Layout,
     gain: f64,
     steps: &mut u64,
-    allowed: &dyn Fn(&Layout) -> bool,
+    rules: &Rules,
 ) -> Option<Layout> {
     let branches = Branches::new(target, weights, layout);
     *steps = steps.saturating_sub(((branches.below.len() + branches.along.len()) / SUMS) as u64);
@@ -141,7 +160,7 @@ fn exchange(
                 });
                 let now = branches.along(c, b) + branches.below(c, added) + turned.sum::<f64>();
                 let change = now - branches.along(c, c);
-                if change < -gain {
+                if change < -gain && (rules.fits)(layout, [folding(c), added]) {
                     better.push((change, added, folding(c)));
                 }
             }
@@ -154,7 +173,7 @@ fn exchange(
             layout.hinges().into_iter().map(|h| if h == dropped { added } else { h }).collect();
         Layout::of_hinges(target, &hinges, layout.root).expect("an exchange on a cycle keeps a tree")
     };
-    better.iter().take(TRIED_MAX).map(exchanged).find(|layout| allowed(layout))
+    better.iter().take(TRIED_MAX).map(exchanged).find(|layout| (rules.allowed)(layout))
 }
 
 /// The faces from `a` up to where its way to the root meets that of `b`, without that face.

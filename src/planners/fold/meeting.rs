@@ -46,6 +46,36 @@ pub struct Solids {
     pub touch: f64,
 }
 
+/// Pairs of panels that meet in the target itself, unless they hang together by a hinge.
+pub fn in_target(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
+    let parts = placed(target, solids);
+    let reach = reach(target, &parts);
+    let solids = Solids { parts, touch: solids.touch };
+    let faces = 0..target.faces.len();
+    let middles: Vec<Vec3> = faces.clone().map(|face| target.centroid(face)).collect();
+    let near = |[a, b]: &[usize; 2]| (middles[*a] - middles[*b]).norm() < reach[*a] + reach[*b];
+    let pairs = faces.flat_map(|b| (0..b).map(move |a| [a, b])).filter(near);
+    pairs.filter(|pair| solids.meet(*pair, &Pose::identity())).collect()
+}
+
+/// The parts of all panels in their places in the target.
+fn placed(target: &Target, solids: &Solids) -> Vec<Vec<Part>> {
+    let of_face = |(face, parts): (usize, &Vec<Part>)| -> Vec<Part> {
+        let place = place(target, face);
+        parts.iter().map(|part| part.moved(&place)).collect()
+    };
+    solids.parts.iter().enumerate().map(of_face).collect()
+}
+
+/// By face: how far its parts are from its middle, m.
+fn reach(target: &Target, parts: &[Vec<Part>]) -> Vec<f64> {
+    let of_face = |(face, parts): (usize, &Vec<Part>)| {
+        let middle = target.centroid(face);
+        parts.iter().map(|part| (part.centre - middle).norm() + part.radius).fold(0.0, f64::max)
+    };
+    parts.iter().enumerate().map(of_face).collect()
+}
+
 /// A look at the panels of one layout.
 pub struct Look<'t> {
     target: &'t Target,
@@ -78,50 +108,84 @@ impl<'t> Look<'t> {
 
     /// Panels as they are.
     pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> Look<'t> {
-        let placed = |(face, parts): (usize, &Vec<Part>)| -> Vec<Part> {
-            let place = place(target, face);
-            parts.iter().map(|part| part.moved(&place)).collect()
-        };
-        let parts: Vec<Vec<Part>> = solids.parts.iter().enumerate().map(placed).collect();
-        let reach = |(face, parts): (usize, &Vec<Part>)| {
-            let middle = target.centroid(face);
-            parts.iter().map(|part| (part.centre - middle).norm() + part.radius).fold(0.0, f64::max)
-        };
-        let reach = parts.iter().enumerate().map(reach).collect();
+        let parts = placed(target, solids);
+        let reach = reach(target, &parts);
         Look { target, layout, form: Form::Solids(Solids { parts, touch: solids.touch }), reach }
     }
 
     /// Two faces that meet while some hinges fold at the same time, none above another; `folded`: the
     /// hinges that have folded before.
     pub fn during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
-        let Look { target, layout, form, reach } = self;
-        let full = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
-        let against = moving_against(layout, moving);
-        let middles: Vec<Vec3> = (0..reach.len()).map(|face| target.centroid(face)).collect();
+        let against = moving_against(self.layout, moving);
         (1..=SAMPLES).find_map(|sample| {
-            crate::interrupt::checkpoint();
-            let part = quintic(sample as f64 / SAMPLES as f64, 1.0).angle;
-            let poses = poses_at(target, layout, |face| match folded[face] {
-                true => full(face),
-                false if moving.contains(&face) => full(face) * part,
-                false => 0.0,
-            });
-            let placed = |face: usize, p: &Vec3| poses[face].transform_point(&(*p).into()).coords;
-            let centres: Vec<Vec3> = middles.iter().enumerate().map(|(face, p)| placed(face, p)).collect();
-            let near = |a: usize, b: usize| (centres[a] - centres[b]).norm() < reach[a] + reach[b];
-            let meet = |a: usize, b: usize| match form {
-                Form::Triangles(small) => {
-                    !parted(&small[a].map(|p| placed(a, &p)), &small[b].map(|p| placed(b, &p)))
-                }
-                // Those on a common hinge are built to touch.
-                Form::Solids(solids) => {
-                    let on_hinge = layout.parent[a] == b || layout.parent[b] == a;
-                    !on_hinge && solids.meet([a, b], &(poses[a].inverse() * poses[b]))
-                }
-            };
-            against.iter().find(|&&[a, b]| near(a, b) && meet(a, b)).copied()
+            let state = self.state(folded, moving, sample as f64 / SAMPLES as f64);
+            against.iter().find(|pair| self.meet(&state, **pair)).copied()
         })
     }
+
+    /// The pairs of faces that meet while the layout is folded in steps, in order; not all of them where they
+    /// are more than `most`. `samples`: states of each step that are looked at.
+    pub fn meetings(&self, steps: &[Vec<usize>], samples: usize, most: usize) -> Vec<[usize; 2]> {
+        let mut folded = vec![false; self.reach.len()];
+        let mut met: Vec<[usize; 2]> = Vec::new();
+        for moving in steps {
+            let mut against = moving_against(self.layout, moving);
+            for sample in 1..=samples {
+                let state = self.state(&folded, moving, sample as f64 / samples as f64);
+                against.retain(|pair| {
+                    let meet = met.len() <= most && self.meet(&state, *pair);
+                    met.extend(meet.then_some(*pair));
+                    !meet
+                });
+            }
+            moving.iter().for_each(|face| folded[*face] = true);
+        }
+        met.sort_unstable();
+        met.dedup();
+        met
+    }
+
+    /// Where the faces are when a part of the time of a step is over.
+    fn state(&self, folded: &[bool], moving: &[usize], time: f64) -> State {
+        crate::interrupt::checkpoint();
+        let Look { target, layout, .. } = self;
+        let full = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
+        let part = quintic(time, 1.0).angle;
+        let poses = poses_at(target, layout, |face| match folded[face] {
+            true => full(face),
+            false if moving.contains(&face) => full(face) * part,
+            false => 0.0,
+        });
+        let placed = |face: usize| poses[face].transform_point(&target.centroid(face).into()).coords;
+        let middles = (0..self.reach.len()).map(placed).collect();
+        State { poses, middles }
+    }
+
+    fn meet(&self, State { poses, middles }: &State, [a, b]: [usize; 2]) -> bool {
+        let away = self.reach[a] + self.reach[b];
+        if (middles[a] - middles[b]).norm_squared() >= away * away {
+            return false;
+        }
+        match &self.form {
+            Form::Triangles(small) => {
+                let placed = |face: usize| small[face].map(|p| poses[face].transform_point(&p.into()).coords);
+                !parted(&placed(a), &placed(b))
+            }
+            // Those on a common hinge are built to touch.
+            Form::Solids(solids) => {
+                let on_hinge = self.layout.parent[a] == b || self.layout.parent[b] == a;
+                !on_hinge && solids.meet([a, b], &(poses[a].inverse() * poses[b]))
+            }
+        }
+    }
+}
+
+/// A state on the way.
+struct State {
+    /// By face: its displacement from its place in the target.
+    poses: Vec<Pose>,
+    /// By face: its centroid, m.
+    middles: Vec<Vec3>,
 }
 
 impl Solids {

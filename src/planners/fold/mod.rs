@@ -47,6 +47,7 @@ pub mod objective;
 pub mod survey;
 
 pub mod burden;
+pub mod clearing;
 pub mod closing;
 pub mod meeting;
 pub mod passage;
