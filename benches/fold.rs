@@ -106,6 +106,7 @@ fn dynamics(truth: &serde_json::Value) {
             flat: true,
             budget: closed.measures_max(),
             keep: 64,
+            glance: closed.glance(100_000_000),
         };
         let start = Instant::now();
         let found = survey::survey(&target, &closed.weights, &all, &mut |layout| closed.value(layout));

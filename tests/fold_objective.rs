@@ -24,8 +24,38 @@ fn objective(target: &Target, conventions: Conventions, minimise: Minimise) -> O
 
 fn surveyed(objective: &Objective, target: &Target, root: Option<usize>, budget: u64) -> Survey {
     let roots = root.map_or_else(|| (0..target.faces.len()).collect(), |root| vec![root]);
-    let settings = Settings { roots, flat: false, budget, keep: 4 };
+    let settings = Settings { roots, flat: false, budget, keep: 4, glance: None };
     survey(target, &objective.weights, &settings, &mut |layout| objective.value(layout))
+}
+
+/// Sums over sets of faces find the same layouts, ties and least values as measuring each.
+#[test]
+fn a_glance_leaves_out_nothing_that_is_good() {
+    for (name, root) in [("octahedron", None), ("triangular_bipyramid", None), ("quadruped_turtle", Some(5))]
+    {
+        let target = target(name);
+        let objective = objective(&target, TEXT, Minimise::PeakTorque);
+        let measured = surveyed(&objective, &target, root, u64::MAX);
+        let roots = root.map_or_else(|| (0..target.faces.len()).collect(), |root| vec![root]);
+        let glance = objective.glance(u64::MAX);
+        assert!(glance.is_some());
+        let settings = Settings { roots, flat: false, budget: 0, keep: 4, glance };
+        let (mut made, trees) = (
+            0,
+            TRUTH["shapes"][name]["spanning_trees"]
+                .as_str()
+                .and_then(|n| n.parse::<usize>().ok())
+                .expect("a number"),
+        );
+        let glanced = survey(&target, &objective.weights, &settings, &mut |layout| {
+            made += 1;
+            objective.value(layout)
+        });
+        assert!(glanced.complete && measured.complete, "{name}");
+        assert_eq!(glanced.best, measured.best, "{name}");
+        assert_eq!((glanced.ties, &glanced.roots), (measured.ties, &measured.roots), "{name}");
+        assert!(glanced.least == measured.least && made < trees, "{made} of {trees} {name}");
+    }
 }
 
 /// The sequences that are also compared with random orders.

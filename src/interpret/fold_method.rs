@@ -203,7 +203,10 @@ impl Question<'_> {
     /// Every layout measured, or as many as may be; with how many that are.
     fn surveyed(&self) -> Eval<(Found, u64)> {
         let budget = self.options.budget.min(self.objective.measures_max());
-        let settings = survey::Settings { roots: self.options.roots.clone(), flat: true, budget, keep: KEPT };
+        let glance = self.objective.glance(self.options.budget);
+        let roots = self.options.roots.clone();
+        let settings = survey::Settings { roots, flat: true, budget, keep: KEPT, glance };
+        let budget = glance.map_or(budget, |glance| glance.budget);
         let weights = &self.objective.weights;
         let found =
             survey::survey(self.target, weights, &settings, &mut |layout| self.objective.value(layout));
@@ -218,7 +221,7 @@ impl Question<'_> {
         let layouts = best.into_iter().map(|(layout, _)| layout).collect();
         let (proved, listed) = (complete, complete);
         let found = Found { layouts, next: None, bound, least, proved, listed, ties: roots, tied: ties };
-        let by_parts = self.options.minimise == Minimise::PeakTorque && self.options.conventions.separate();
+        let by_parts = self.objective.peaks_add_up();
         Ok((if by_parts && !complete { self.of_least_peak(found, first) } else { found }, budget))
     }
 

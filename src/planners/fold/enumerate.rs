@@ -253,6 +253,35 @@ impl Sums {
     }
 }
 
+/// The greatest mean torque of layouts with the leaves first, without making them.
+pub struct Peaks<'t> {
+    sums: Sums,
+    tree: Tree<'t>,
+}
+
+impl<'t> Peaks<'t> {
+    /// `None` where the target has more than [`FACES_MAX`] faces.
+    pub fn new(target: &'t Target, weights: &Weights) -> Option<Peaks<'t>> {
+        let few = target.faces.len() <= FACES_MAX;
+        few.then(|| Peaks { sums: Sums::new(target, weights), tree: Tree::new(target) })
+    }
+
+    /// Takes up a layout.
+    pub fn hang(&mut self, hinges: &[usize]) {
+        self.tree.hang(hinges);
+    }
+
+    /// Of the layout that was taken up last, with a root: N·m for steps of one second.
+    pub fn greatest(&self, root: usize) -> f64 {
+        let below = &self.tree.below;
+        let carried = |&(face, _, hinge): &(usize, usize, usize)| {
+            let turned = below[face] >> root & 1 == 1;
+            self.sums.over(hinge, if turned { below[0] & !below[face] } else { below[face] })
+        };
+        self.tree.order[1..].iter().map(carried).fold(0.0, f64::max)
+    }
+}
+
 /// A layout hung up at face 0, for reuse.
 struct Tree<'t> {
     target: &'t Target,

@@ -11,6 +11,7 @@ use super::order_energy;
 use super::peak;
 use super::routes::Routes;
 use super::simulation::{Circumstances, Count, simulate};
+use super::survey::Glance;
 use super::target::Target;
 use super::weights::{QUINTIC, Weights};
 use crate::geometry::Vec3;
@@ -19,7 +20,9 @@ use crate::geometry::Vec3;
 const QUINTIC_SPEED: f64 = QUINTIC / 2.0;
 const QUINTIC_ACCELERATION: f64 = 5.773_502_691_896_258;
 
-/// Faces of layouts that are measured, by the closed form and by simulation: some seconds.
+/// Faces of layouts that are measured, by sums over sets of faces, by the closed form, and by simulation: some
+/// seconds.
+const SUMMED_MAX: u64 = 400_000_000;
 const CLOSED_MAX: u64 = 10_000_000;
 const SIMULATED_MAX: u64 = 40_000;
 
@@ -86,6 +89,17 @@ impl<'t> Objective<'t> {
     /// Whether proof needs no look at every layout: energies add up over faces.
     pub fn adds_up(&self) -> bool {
         self.conventions.separate() && self.minimise != Minimise::PeakTorque
+    }
+
+    /// Whether what is to be small is the greatest of sums over sets of faces.
+    pub fn peaks_add_up(&self) -> bool {
+        self.conventions.separate() && self.minimise == Minimise::PeakTorque
+    }
+
+    /// How many layouts with roots may be looked at where it is.
+    pub fn glance(&self, budget: u64) -> Option<Glance> {
+        let most = budget.min(SUMMED_MAX / self.masses.len() as u64);
+        self.peaks_add_up().then(|| Glance { scale: self.peak_by_mean(), budget: most })
     }
 
     /// What folding in these steps takes.

@@ -2,7 +2,7 @@
 //! are few, else good ones are improved by exchanges.
 
 use super::count;
-use super::enumerate;
+use super::enumerate::{self, Peaks};
 use super::layout::Layout;
 use super::local;
 use super::pattern::Pattern;
@@ -10,6 +10,7 @@ use super::routes::Routes;
 use super::symmetry;
 use super::target::Target;
 use super::weights::Weights;
+use super::words;
 use crate::interrupt;
 use crate::units::display::number;
 use num_traits::ToPrimitive;
@@ -35,6 +36,17 @@ pub struct Settings {
     pub budget: u64,
     /// How many of the best are kept.
     pub keep: usize,
+    pub glance: Option<Glance>,
+}
+
+/// Where the first value is the greatest mean torque of the closed form, sums over sets of faces tell it, and
+/// most layouts need not be made.
+#[derive(Clone, Copy, Debug)]
+pub struct Glance {
+    /// The first value by the greatest mean torque for steps of one second.
+    pub scale: f64,
+    /// Pairs of a layout and a root that may be looked at so, instead of measured.
+    pub budget: u64,
 }
 
 /// What was found.
@@ -67,10 +79,24 @@ pub fn survey(
     roots.dedup();
     let pairs = count::layouts(target) * roots.len();
     let mut kept = Kept { target, settings, best: Vec::new(), ties: vec![0; n], least: f64::INFINITY };
-    let complete = n <= enumerate::FACES_MAX && pairs.to_u64().is_some_and(|pairs| pairs <= settings.budget);
+    let most = settings.glance.map_or(settings.budget, |glance| glance.budget.max(settings.budget));
+    let complete = n <= enumerate::FACES_MAX && pairs.to_u64().is_some_and(|pairs| pairs <= most);
     if complete {
+        let mut glance =
+            settings.glance.and_then(|glance| Some((glance.scale, Peaks::new(target, weights)?)));
+        let (mut looked_at, all) = (0u64, count::layouts(target));
         let walked = enumerate::each(target, u64::MAX, |hinges| {
+            looked_at += 1;
+            interrupt::progress(|| words::counted(looked_at, &all, "layouts", None));
+            if let Some((_, peaks)) = &mut glance {
+                peaks.hang(hinges);
+            }
             for &root in &roots {
+                if let Some((scale, peaks)) = &glance
+                    && kept.is_full_of_less_than(peaks.greatest(root) * scale)
+                {
+                    continue;
+                }
                 let layout = Layout::of_hinges(target, hinges, root).expect("only trees are enumerated");
                 let value = value(&layout);
                 kept.offer(layout, value);
@@ -155,6 +181,12 @@ struct Kept<'s> {
 }
 
 impl Kept<'_> {
+    /// Whether a layout with this first value changes nothing: so many are better that it is not kept.
+    fn is_full_of_less_than(&self, value: f64) -> bool {
+        let last = self.best.last().filter(|_| self.best.len() >= self.settings.keep.max(1));
+        last.is_some_and(|(_, last)| compare(value, last[0]).is_gt())
+    }
+
     fn offer(&mut self, layout: Layout, value: [f64; 2]) {
         self.least = self.least.min(value[0]);
         let against = self.best.first().map_or(Ordering::Less, |best| compare(value[0], best.1[0]));
