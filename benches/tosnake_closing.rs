@@ -86,7 +86,14 @@ fn opened(modules: usize, seed: u64) -> State {
 
 fn least_squares(state: &State, pair: &Pair, times: &mut Times) {
     let closing = closing::Settings::default();
-    let attempt = Attempt { pair, manner: Manner::Leap, size: 0.02, side: Side::Both, closing: &closing };
+    let attempt = Attempt {
+        pair,
+        manner: Manner::Leap,
+        detour: false,
+        size: 0.02,
+        side: Side::Both,
+        closing: &closing,
+    };
     let (scene, mut work) = (state.scene(), 0);
     let start = Instant::now();
     let closed = attempt.leap(&scene, &state.robot.joints, &mut Dice(1), &mut work).is_some();

@@ -63,6 +63,7 @@ mod syntax_random;
 mod terminal;
 mod tidy;
 mod tosnake;
+mod tosnake_detour;
 mod tosnake_near;
 mod tosnake_search;
 mod tosnake_weight;

@@ -444,7 +444,7 @@ fn too_heavy(at: Span, robot: &Robot, heavy: &Heavy) -> Stop {
 
 /// How far a search came that did not come to its end.
 fn fell_short(at: Span, what: &str, progress: &Progress, hint: &str) -> Stop {
-    let Progress { needed, made, tried, work, longest, chains } = progress;
+    let Progress { needed, made, tried, work, longest, chains, .. } = progress;
     let message =
         format!("{what}: {made} of {needed} connections were made, and {tried} pairs of ends tried");
     let modules = if *longest == 1 { "module" } else { "modules" };

@@ -44,7 +44,8 @@ impl Party {
                 continue;
             }
             *tried += 1;
-            let attempt = Attempt { pair, manner: Manner::Leap, size: SIZE, side: Side::Both, closing };
+            let attempt =
+                Attempt { pair, manner: Manner::Leap, detour: false, size: SIZE, side: Side::Both, closing };
             let next = attempt.leap(&scene, &self.joints, dice, work);
             match next.filter(|next| scene.is_free(here, next, work)) {
                 Some(next) => {

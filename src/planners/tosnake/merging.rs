@@ -1,11 +1,12 @@
 //! Two chains become one: their ends meet, and a bond that is none of a snake is let go.
 
 use super::closing::{self, Loop, Manner};
+use super::detour::Detour;
 use super::near;
 use super::robot::{Bond, Dock, FACES, GAMMA, RED};
 use super::state::{Joints, State};
 use super::sweep::Scene;
-use super::tree::Tree;
+use super::tree::{JointRef, Tree};
 use crate::planners::random::Dice;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -124,6 +125,8 @@ fn bending(state: &State, a: Dock, b: Dock) -> (usize, usize) {
 pub struct Attempt<'a> {
     pub pair: &'a Pair,
     pub manner: Manner,
+    /// Whether a leap takes another way where the straight one is not free.
+    pub detour: bool,
     /// How far from where it is the loop sets out: 0 to 1.
     pub size: f64,
     pub side: Side,
@@ -144,7 +147,17 @@ impl Attempt<'_> {
     pub fn way(&self, scene: &Scene, here: &Joints, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
         if self.manner == Manner::Leap {
             let there = self.leap(scene, here, dice, work)?;
-            return scene.is_free(here, &there, work).then(|| vec![there]);
+            if scene.is_free(here, &there, work) {
+                return Some(vec![there]);
+            }
+            if !self.detour {
+                return None;
+            }
+            let mut own = Dice(dice.word());
+            let joints: Vec<JointRef> =
+                self.bending(scene.tree).joints.iter().map(|(joint, _)| *joint).collect();
+            let detour = Detour { scene, joints: &joints };
+            return detour.way(here, &there, &mut own, work);
         }
         let lp = self.bending(scene.tree);
         let mut drift = vec![0.0; 3 * here.len()];
@@ -175,7 +188,7 @@ impl Attempt<'_> {
 
     /// How many numbers of the dice the way takes.
     pub fn throws(&self, tree: &Tree) -> usize {
-        self.bending(tree).joints.len()
+        self.bending(tree).joints.len() + usize::from(self.detour)
     }
 
     fn bending(&self, tree: &Tree) -> Loop {

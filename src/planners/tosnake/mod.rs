@@ -32,6 +32,8 @@ pub mod contacts;
 
 pub mod merging;
 
+pub mod detour;
+
 mod alongside;
 mod attempts;
 mod lattice;
@@ -71,6 +73,8 @@ pub struct Settings {
     pub shake_turns: usize,
     /// Pairs of ends that come together in one turn, at most.
     pub at_once: usize,
+    /// Pairs for which a detour is looked for where no other attempt at any pair did.
+    pub detours: usize,
     pub closing: closing::Settings,
     pub collisions: Collisions,
     /// Of the paper's own method.
@@ -99,6 +103,7 @@ impl Default for Settings {
             shake_slack: 0.02,
             shake_turns: 100,
             at_once: 8,
+            detours: 10,
             closing: closing::Settings::default(),
             collisions: Collisions::Motion,
             fabrik: fabrik::Settings::default(),
@@ -119,6 +124,8 @@ pub struct Progress {
     /// Pairs of ends that were tried.
     pub tried: u64,
     pub work: u64,
+    /// Rounds in which no pair came together, so that the robot was shaken.
+    pub shakes: u64,
     /// Modules of the longest chain, and how many chains there are.
     pub longest: usize,
     pub chains: usize,

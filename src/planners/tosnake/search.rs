@@ -28,6 +28,9 @@ const ATTEMPTS: [(Manner, f64, usize); 5] = [
     (Manner::Flow, 0.5, 10),
 ];
 
+/// From how far a posture of their own loops set out that may take a detour.
+const DETOUR_SIZE: f64 = 0.3;
+
 /// For smaller robots threads are not worth it.
 const PARALLEL_MIN: usize = 16;
 
@@ -287,10 +290,13 @@ impl<'a> Search<'a> {
             if self.state.weight.is_some() { (&SIDES[..], HEAVY_PAIRS) } else { (&SIDES[..1], usize::MAX) };
         let mut dice = self.dice.clone();
         let mut jobs = Vec::new();
-        for (manner, size, many) in ATTEMPTS {
+        let straight = ATTEMPTS.map(|(manner, size, many)| (manner, false, size, many));
+        let around = (Manner::Leap, true, DETOUR_SIZE, self.settings.detours);
+        for (manner, detour, size, many) in straight.into_iter().chain([around]) {
             for pair in pairs.iter().take(many.min(most)) {
                 for &side in sides {
-                    let attempt = Attempt { pair, manner, size, side, closing: &self.settings.closing };
+                    let attempt =
+                        Attempt { pair, manner, detour, size, side, closing: &self.settings.closing };
                     let throws = attempt.throws(&self.state.tree);
                     jobs.push(Job { attempt, dice: dice.clone() });
                     dice.skip(throws);
@@ -371,6 +377,7 @@ impl<'a> Search<'a> {
     }
 
     fn shake(&mut self) {
+        self.progress.shakes += 1;
         let Settings { shake_turns, shake_slack, .. } = *self.settings;
         let now = self.state.load().map_or(0.0, |load| load.ratio);
         self.state.share = f64::max(EASY, now);
