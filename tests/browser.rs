@@ -7,10 +7,11 @@ use crate::cli::Sandbox;
 use crate::plan_operations::plan_of;
 use crate::programs::*;
 use crate::robots::{TILT, chain, reel};
+use crate::truss_judge::knot;
 use modl::geometry::Pose;
 use modl::plan::{
-    Body, CauseId, CellLimits, Counter, Knot, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages,
-    TrussLimits, Way, verify,
+    Body, CauseId, CellLimits, Counter, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages, TrussLimits,
+    Way, verify,
 };
 use modl::robot::{Cell, Kinematics, Library};
 use modl::view::{Showing, page};
@@ -125,22 +126,15 @@ fn truss() -> Plan {
             }
         }
     }
-    let knot = |time, way, nodes| Knot {
-        time,
-        way,
-        nodes,
-        cause: CauseId(0),
-        margins: modl::plan::Margins::default(),
-    };
     let (edge, angle) = ((0, 1), -0.3);
-    let leaning = knot(2.0, Way::Straight, nodes(0.3));
+    let leaning = knot(2.0, Way::Straight, &nodes(0.3));
     let mut paths = NodePaths {
         limits: TrussLimits::default(),
         surroundings: modl::plan::Surroundings::default(),
         strut: 0,
         node_names: (0..300).map(|i| format!("ring[{}][{}]", i / 3, i % 3)).collect(),
         struts,
-        knots: vec![knot(0.0, Way::Straight, nodes(0.0)), leaning.clone(), leaning],
+        knots: vec![knot(0.0, Way::Straight, &nodes(0.0)), leaning.clone(), leaning],
     };
     paths.knots[2].time = 4.0;
     paths.knots[2].way = Way::Roll { edge, angle };

@@ -2,9 +2,10 @@
 
 use crate::programs::*;
 use crate::robots::{FRONT, LEFT, TILT, at_rest, chain, walk4};
+use crate::truss_judge::knot;
 use modl::behavior::Scheduled;
 use modl::plan::{
-    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Knot, Law, Model, Node,
+    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Law, Model, Node,
     NodePaths, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage, Stages, Tracks, TrussLimits,
     Unfit, Way, World, WorldFrom, joined, reversed, sliced, timeline,
 };
@@ -353,13 +354,6 @@ fn lattice_stages_follow_their_closed_form_and_run_backwards() {
 
 /// A triangle that stretches and then rolls over one of its edges.
 pub fn rolling() -> NodePaths {
-    let knot = |time, way, nodes| Knot {
-        time,
-        way,
-        nodes,
-        cause: CauseId(0),
-        margins: modl::plan::Margins::default(),
-    };
     let flat = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.5, 0.0]];
     let long = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.5, 0.0]];
     let over = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, -2.0]];
@@ -370,9 +364,9 @@ pub fn rolling() -> NodePaths {
         node_names: ["a", "b", "c"].map(String::from).to_vec(),
         struts: vec![(0, 1), (1, 2), (2, 0)],
         knots: vec![
-            knot(0.0, Way::Straight, flat),
-            knot(2.0, Way::Straight, long),
-            knot(4.0, Way::Roll { edge: (0, 1), angle: FRAC_PI_2 }, over),
+            knot(0.0, Way::Straight, &flat),
+            knot(2.0, Way::Straight, &long),
+            knot(4.0, Way::Roll { edge: (0, 1), angle: FRAC_PI_2 }, &over),
         ],
     }
 }

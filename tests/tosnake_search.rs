@@ -2,7 +2,7 @@
 //! paper's own method beside it.
 
 use crate::desk::{Desk, run_clean};
-use crate::replay::Replay;
+use crate::replay::{Replay, tracks};
 use crate::suite::MapFiles;
 use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
 use modl::interrupt::Interrupt;
@@ -180,7 +180,7 @@ print(p.docks, v.ok)
 }
 
 /// Shapes of the library that are the paper's, by their number of modules.
-const EIGHT: [&str; 7] = [
+pub const EIGHT: [&str; 7] = [
     "Chair",
     "Snake(n: 8)",
     "Spider",
@@ -189,7 +189,7 @@ const EIGHT: [&str; 7] = [
     "Crab",
     "Crab(folded: true)",
 ];
-const TEN: [&str; 18] = [
+pub const TEN: [&str; 18] = [
     "Ball",
     "Board",
     "Caterpillar",
@@ -234,7 +234,6 @@ fn every_shape_becomes_every_other_of_its_size() {
         let desk = run_clean(&text);
         assert_eq!(desk.printed, ["true"], "{from} to {to}");
         let plan = plan::file::read(desk.text("p.plan.json")).expect("it was written to be read");
-        let Body::Tracks(tracks) = &plan.body else { panic!("a plan of joints") };
-        Replay::new(tracks).judge().unwrap_or_else(|fault| panic!("{from} to {to}: {fault}"));
+        Replay::new(tracks(&plan)).judge().unwrap_or_else(|fault| panic!("{from} to {to}: {fault}"));
     }
 }

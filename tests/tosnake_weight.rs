@@ -2,11 +2,12 @@
 //! against closed forms and virtual work; plans that keep every joint's torque within its limit; refusals.
 
 use crate::desk::{run, run_clean};
-use crate::replay::Replay;
+use crate::replay::{Replay, tracks};
 use crate::suite::MapFiles;
+use crate::tosnake_search::{EIGHT, TEN};
 use modl::interpret::Mode;
 use modl::plan::verify::verify;
-use modl::plan::{self, Body, CheckKind, Ground, Plan, Status, Tracks, World};
+use modl::plan::{self, Body, CheckKind, Ground, Plan, Status, World};
 use modl::planners::tosnake::tree::Tree;
 use modl::planners::tosnake::{Bond, Dock, Doing, Refusal, Robot, Settings, Weight, unwind_under};
 use modl::source::code;
@@ -54,11 +55,6 @@ config Mast(n: Int = 4) {
 fn planned(call: &str) -> Plan {
     let text = format!("{SHAPES}\nemit({call}, \"p.plan.json\")\n");
     plan::file::read(run_clean(&text).text("p.plan.json")).expect("it was written to be read")
-}
-
-fn tracks(plan: &Plan) -> &Tracks {
-    let Body::Tracks(tracks) = &plan.body else { panic!("a plan of joints") };
-    tracks
 }
 
 /// By virtual work: the greatest torque of any joint at any of some instants, N·m. The base's shoe A is
@@ -160,40 +156,11 @@ fn plans_keep_every_torque_within_its_limit() {
     }
 }
 
-/// The shapes of the paper by their numbers of modules, held by their first module.
-const PAPER: [&str; 25] = [
-    "Chair",
-    "Snake(n: 8)",
-    "Spider",
-    "Spider(gap: true)",
-    "Spider(gap: true, straight: true)",
-    "Crab",
-    "Crab(folded: true)",
-    "Ball",
-    "Board",
-    "Caterpillar",
-    "Chain",
-    "HighChair",
-    "Circle",
-    "Column",
-    "DoubleWheel",
-    "Dumbbell",
-    "Eight",
-    "Fan",
-    "Human",
-    "Infant",
-    "Puppy",
-    "Rectangle",
-    "RoundRectangle",
-    "Snake(n: 10)",
-    "Stool",
-];
-
-/// All 25 with `MODL_WHOLE=1`, otherwise every sixth. The open circle is too heavy: five modules bent upwards.
+/// The shapes of the paper, held by their first module: all 25 with `MODL_WHOLE=1`, otherwise every sixth. The open circle is too heavy: five modules bent upwards.
 #[test]
 fn shapes_of_the_paper_unwind_under_gravity() {
     let each = if std::env::var_os("MODL_WHOLE").is_some() { 1 } else { 6 };
-    for shape in PAPER.into_iter().step_by(each) {
+    for shape in EIGHT.into_iter().chain(TEN).step_by(each) {
         let name = shape.split('(').next().unwrap_or(shape);
         let text = format!("use std.rofi.{name}\nemit(tosnake({shape}, gravity: on), \"p.plan.json\")\n");
         let (observed, desk, _) = run(&MapFiles::of(&text), Mode::Run);

@@ -24,7 +24,7 @@ const TOP: Place = [0.5, HIGH / 3.0, 0.8];
 const FREE: World = World::FREE;
 const STANDING: World = World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0 };
 
-fn knot(time: f64, way: Way, nodes: &[Place]) -> Knot {
+pub fn knot(time: f64, way: Way, nodes: &[Place]) -> Knot {
     Knot { time, way, nodes: nodes.to_vec(), cause: CauseId(0), margins: Margins::default() }
 }
 

@@ -39,10 +39,6 @@ const POINTS_MIN: usize = 4;
 /// The centre of mass goes so far in a step, in struts, and is at a place when it is so near.
 const STRIDE: f64 = 0.05;
 const NEAR: f64 = 0.25;
-/// How much the motion of nodes weighs beside that of lengths: below 1 runs were seen to get stuck.
-const STILL: f64 = 1.0;
-/// The same where few struts are to move: enough that there is one best step.
-const STILL_FEWEST: f64 = 1e-3;
 /// A robot that falls over an edge turns about so fast, rad/s. Nothing depends on it.
 const FALL: f64 = 1.0;
 /// No step is shorter, s.
@@ -179,9 +175,9 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         near: NEAR * unit,
         stride: STRIDE * unit,
         aim: match call.word(2) {
-            Some("lengths") => Aim::Lengths { still: STILL },
-            Some("restoring") => Aim::Restoring { still: STILL },
-            Some("fewest") => Aim::Fewest { still: STILL_FEWEST },
+            Some("lengths") => Aim::LENGTHS,
+            Some("restoring") => Aim::RESTORING,
+            Some("fewest") => Aim::FEWEST,
             _ => Aim::Springs,
         },
         hold: if call.word(3) == Some("all") { Hold::All } else { Hold::Three },

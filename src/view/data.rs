@@ -2,7 +2,7 @@
 
 use super::number::number;
 use super::solids::Meshes;
-use super::{Showing, findings, lattice, robot, stand, truss};
+use super::{Showing, findings, lattice, robot, stand, surroundings, truss};
 use crate::plan::verify::{CONTACTS_MAX, clearances, history};
 use crate::plan::{Body, Bound, Ground, Plan, file};
 use crate::units::{Dimension, display, quantity};
@@ -34,15 +34,13 @@ pub fn data(showing: &Showing) -> Value {
         notes.push(format!("of the contacts with the ground {CONTACTS_MAX} at most are marked"));
     }
     let clearance = clearance(plan, end, &mut notes);
-    let uneven = matches!(&plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
-    let ground = !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor());
     json!({
         "title": showing.title,
         "summary": findings::summary(showing),
         "duration": number(plan.body.duration()),
         "end": number(end),
         "floor": 0,
-        "ground": ground,
+        "ground": surroundings::floor(plan),
         "verdict": findings::verdict(plan),
         "causes": findings::causes(&plan.causes),
         "sources": sources(showing.texts),

@@ -3,9 +3,8 @@
 use super::bodies::{Drawn, drawn};
 use super::colour::Rgb;
 use super::raster::{Canvas, Eye};
-use super::{Showing, findings, palette};
+use super::{Showing, findings, palette, surroundings};
 use crate::geometry::Vec3;
-use crate::plan::Body;
 
 /// Pixels of a picture are the mean of so many by so many.
 const FINE: usize = 3;
@@ -79,9 +78,7 @@ pub fn small_png(showing: &Showing, still: &Still) -> Vec<u8> {
 fn canvas(showing: &Showing, still: &Still) -> Canvas {
     let time = still.time.clamp(0.0, findings::end(showing.plan));
     let bodies = drawn(showing, time);
-    let uneven = matches!(&showing.plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
-    let grounded = !uneven && showing.plan.worlds.first().is_none_or(|w| w.world.has_floor());
-    Scene::new(bodies, grounded, still).canvas()
+    Scene::new(bodies, surroundings::floor(showing.plan), still).canvas()
 }
 
 struct Scene {

@@ -1,12 +1,18 @@
 //! What is around a truss, as solids to draw: its obstacles, and the part of its ground that it is on.
 
 use crate::geometry::{HeightField, Placed, Pose, Shape, Vec3};
-use crate::plan::NodePaths;
+use crate::plan::{Body, NodePaths, Plan};
 
 /// Squares of ground that are drawn each way.
 const SQUARES_MAX: usize = 48;
 /// How far the ground is drawn around where the nodes are, in the width of the truss at the start.
 const AROUND: f64 = 0.5;
+
+/// Whether a level floor is drawn: there is ground, and no uneven one in its place.
+pub fn floor(plan: &Plan) -> bool {
+    let uneven = matches!(&plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
+    !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor())
+}
 
 /// Each with its name.
 pub fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {

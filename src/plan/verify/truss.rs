@@ -9,7 +9,7 @@
 use super::ledger::{Ledger, lower};
 use super::truss_standing::Standing;
 use super::{truss_around, truss_distance, truss_lengths, truss_shape, truss_standing};
-use crate::geometry::Vec3;
+use crate::geometry::{HeightField, Vec3};
 use crate::interrupt;
 use crate::plan::{CheckKind, Failure, NodePaths, Plan, Status, Verdict, Way, World, Worst};
 use crate::robot::Strut;
@@ -34,13 +34,16 @@ pub struct Judged<'a> {
     pub corners: Vec<truss_shape::Corner>,
     pub strut: &'a Strut,
     pub obstacles: Vec<truss_around::Obstacle>,
+    /// The greatest slope of uneven ground.
+    pub steepest: f64,
 }
 
 pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, paths.duration());
     let corners = if paths.limits.angle > 0.0 { truss_shape::corners(paths) } else { Vec::new() };
     let strut = &plan.library.struts[paths.strut];
-    let mut judged = Judged { paths, corners, strut, obstacles: Vec::new() };
+    let steepest = paths.surroundings.terrain.as_ref().map_or(0.0, HeightField::steepest);
+    let mut judged = Judged { paths, corners, strut, obstacles: Vec::new(), steepest };
     match truss_around::obstacles(paths) {
         Ok(obstacles) => judged.obstacles = obstacles,
         Err(why) => ledger.fail(judged.failure(CheckKind::Form, 0.0, vec![], format!("an obstacle: {why}"))),

@@ -119,14 +119,19 @@ impl Judged<'_> {
 
     /// How near the struts are to the obstacles, m.
     pub fn nearest_obstacle(&self, x: &[Vec3]) -> Option<f64> {
-        let parts = self.obstacles.iter().flat_map(|obstacle| &obstacle.solid.parts);
-        let distance = |part: &Part| {
-            let segment =
-                |&(a, b): &(usize, usize)| Part::capsule((x[a] + x[b]) / 2.0, (x[b] - x[a]) / 2.0, 0.0);
-            let apart = |strut: Part| near(&strut, part, &Pose::identity(), None, f64::MAX).distance;
-            self.paths.struts.iter().map(segment).map(apart).reduce(f64::min)
-        };
-        parts.filter_map(distance).reduce(f64::min)
+        let parts = || self.obstacles.iter().flat_map(|obstacle| &obstacle.solid.parts);
+        let mut least = None;
+        for &(a, b) in &self.paths.struts {
+            let segment = Part::capsule((x[a] + x[b]) / 2.0, (x[b] - x[a]) / 2.0, 0.0);
+            for part in parts() {
+                let gap = (segment.centre - part.centre).norm() - segment.radius - part.radius;
+                if least.is_none_or(|least| gap < least) {
+                    let apart = near(&segment, part, &Pose::identity(), None, f64::MAX).distance;
+                    least = Some(least.map_or(apart, |least: f64| least.min(apart)));
+                }
+            }
+        }
+        least
     }
 
     /// A truss that begins inside a hollow obstacle is in it, though it may be far from its walls.
@@ -172,7 +177,7 @@ impl Judged<'_> {
             return (height < -TOL_GROUND).then_some((-height, at));
         }
         let fastest = ends.iter().map(|&node| way(leg, node)).fold(0.0, f64::max);
-        let falls = fastest * libm::hypot(1.0, terrain.steepest());
+        let falls = fastest * libm::hypot(1.0, self.steepest);
         let look = |at: f64| match *ends {
             [node] => terrain.above(place(leg, node, at)),
             [a, b, ..] => terrain.lowest(place(leg, a, at), place(leg, b, at)).1,

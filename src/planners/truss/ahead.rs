@@ -81,7 +81,7 @@ fn ended(mut walk: Walk, end: Option<End>) -> Walk {
 fn manners(walk: &Walk) -> Vec<Manner> {
     let Manner { aim, impact } = walk.manner;
     let own = walk.wish.aim;
-    let aims = [aim, own, Aim::Springs, Aim::Lengths { still: 1.0 }, Aim::Restoring { still: 1.0 }];
+    let aims = [aim, own, Aim::Springs, Aim::LENGTHS, Aim::RESTORING];
     let mut found: Vec<Manner> = Vec::new();
     let falls = aims.into_iter().map(|aim| Manner { aim, impact: walk.wish.impact });
     for manner in [Manner { aim, impact }].into_iter().chain(falls).chain([Manner { aim, impact: false }]) {

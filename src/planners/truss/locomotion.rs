@@ -5,6 +5,11 @@ use super::step::Objective;
 use super::structure::Structure;
 use crate::geometry::Vec3;
 
+/// How much the motion of nodes weighs beside that of lengths: below 1 runs were seen to get stuck.
+const STILL: f64 = 1.0;
+/// The same where few struts are to move: enough that there is one best step.
+const STILL_FEWEST: f64 = 1e-3;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Aim {
     /// (17): every node goes where its struts, as springs of their first length, pull it.
@@ -16,6 +21,12 @@ pub enum Aim {
     Restoring { still: f64 },
     /// The rates' sizes add up to as little as possible, so that few struts move; `still` as before.
     Fewest { still: f64 },
+}
+
+impl Aim {
+    pub const LENGTHS: Aim = Aim::Lengths { still: STILL };
+    pub const RESTORING: Aim = Aim::Restoring { still: STILL };
+    pub const FEWEST: Aim = Aim::Fewest { still: STILL_FEWEST };
 }
 
 /// For a step in which a speed of one unit a second means `pace` seconds.

@@ -2,11 +2,8 @@
 //! certificate, as of what is [`between`](super::between) its struts.
 
 use super::bound::{Bound, DIP, POINTS};
-use super::structure::Structure;
+use super::structure::{ROUNDING, Structure};
 use crate::geometry::Vec3;
-
-/// Heights below this part of the unit are below 0.
-const ROUNDING: f64 = 1e-10;
 
 /// Distances to obstacles that fall short by more than half a cushion between x and y, with by how much, m.
 pub fn obstacles(truss: &Structure, x: &[Vec3], y: &[Vec3], cushion: f64) -> Vec<(Bound, f64)> {

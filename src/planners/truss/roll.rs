@@ -4,12 +4,10 @@
 use super::bound::Bound;
 use super::structure::Structure;
 use super::support;
-use super::turning::{self, Line};
+use super::turning::{self, Line, ON_LINE};
 use crate::geometry::Vec3;
 use std::f64::consts::TAU;
 
-/// Nodes this near to the edge (parts of the unit) stay where they are.
-const ON_EDGE: f64 = 1e-9;
 /// Falls from edge to edge until it rests: a truss that still falls is a wheel.
 pub const FALLS_MAX: usize = 50;
 /// It rests if its centre of mass is farther inside its support than this part of the unit.
@@ -40,7 +38,7 @@ pub fn over(truss: &Structure, x: &[Vec3], edge: (usize, usize)) -> Option<Roll>
         let (level, ahead) = (across.z, along.cross(&arm).z);
         let middle = p.z - level;
         let reach = libm::hypot(level, ahead);
-        if across.norm() <= ON_EDGE * truss.unit || middle.abs() >= reach {
+        if across.norm() <= ON_LINE * truss.unit || middle.abs() >= reach {
             return None;
         }
         let angle = libm::atan2(ahead, level) + libm::acos(-middle / reach);
@@ -97,7 +95,7 @@ pub fn rested(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
 fn tipped(truss: &Structure, x: &[Vec3], node: usize) -> Option<Vec<Vec3>> {
     let arm = truss.centre(x) - x[node];
     let aside = Vec3::new(-arm.y, arm.x, 0.0);
-    let along = aside.try_normalize(ON_EDGE * truss.unit).unwrap_or_else(Vec3::y);
+    let along = aside.try_normalize(ON_LINE * truss.unit).unwrap_or_else(Vec3::y);
     let mut with_axis = x.to_vec();
     with_axis.push(x[node] + along * truss.unit);
     // Turned about the axis by the right hand, what is ahead comes down.

@@ -10,7 +10,7 @@ use super::bound::Bound;
 use super::nearby::Nearby;
 use super::passing;
 use super::stiffness::{self, Mode};
-use super::structure::Structure;
+use super::structure::{ROUNDING, Structure};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::linear::Unsolved;
@@ -34,8 +34,6 @@ const SOLVED: f64 = 1e-9;
 const PART_MIN: f64 = 0.02;
 /// Singular values that are looked at: the least often come several together.
 const MODES: usize = 4;
-/// A value is below zero if it is by more than this part of the unit.
-const ROUNDING: f64 = 1e-10;
 /// Struts whose angle has a smaller sine are nearly parallel.
 const PARALLEL: f64 = 0.1;
 

@@ -4,6 +4,9 @@ use super::surroundings::Surroundings;
 use crate::geometry::Vec3;
 use crate::robot::Strut;
 
+/// A value is below zero if it is by more than this part of the unit.
+pub const ROUNDING: f64 = 1e-10;
+
 /// Lengths in metres; `unit` is the mean length of a strut at the start, by which steps are measured.
 #[derive(Clone, Debug)]
 pub struct Structure {

@@ -13,8 +13,8 @@ const LANDED: f64 = 1e-11;
 const LEFT: f64 = 2e-4;
 /// How much nearer than the clearance an obstacle may come, in units.
 const CUSHION: f64 = 1e-4;
-/// Nodes this near to the line (parts of the unit) stay where they are.
-const ON_LINE: f64 = 1e-9;
+/// Nodes this near to the line of a turn (parts of the unit) stay where they are.
+pub const ON_LINE: f64 = 1e-9;
 /// Looks at a turn.
 const LOOKS_MAX: usize = 20_000;
 
