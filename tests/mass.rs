@@ -67,6 +67,25 @@ fn a_box_by_other_means() {
     same(of(Shape::Union { parts: vec![half(-0.15), half(0.0)] }));
 }
 
+/// Sheets and needles weigh what their product of sides says, whichever way they lie; corners of a micrometre
+/// at metres from the middle are rounded to 1e-9 of it.
+#[test]
+fn thin_hulls_weigh_what_they_should() {
+    for size in [[1.0, 0.5, 1e-3], [1.0, 2.0, 1e-5], [2e-5, 3.0, 1e-3], [1e-5, 1e-5, 2.0], [0.3, 10.0, 2e-6]]
+    {
+        let size = Vec3::from(size);
+        for (axis, angle) in
+            [(Vec3::x(), 0.0), (Vec3::new(1.0, 2.0, 3.0), 1.1), (Vec3::new(-3.0, 1.0, 0.2), 2.5)]
+        {
+            let lies = turned(axis, angle);
+            let points = corners(size, Vec3::zeros()).iter().map(|p| lies.rotation * (p + size)).collect();
+            let found = of(Shape::Hull { points }).mass;
+            let expected = 1000.0 * size.x * size.y * size.z;
+            assert!((found / expected - 1.0).abs() < 1e-7, "{size:?}: {found} is not {expected}");
+        }
+    }
+}
+
 /// Turning a shape turns its inertia: `R I Rᵀ` leaves trace and determinant.
 #[test]
 fn a_turned_box_keeps_its_invariants() {

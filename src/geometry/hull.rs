@@ -1,7 +1,9 @@
 //! Convex hulls of points.
 
 use super::Vec3;
+use nalgebra::Matrix3;
 use parry3d_f64::transformation::try_convex_hull;
+use std::collections::BTreeMap;
 
 /// The surface of a convex hull: only the points that are its corners, and triangles
 /// counter-clockwise from outside.
@@ -13,7 +15,33 @@ pub struct Faces {
 
 /// `None` where the points do not span a volume.
 pub fn faces(points: &[Vec3]) -> Option<Faces> {
-    let points: Vec<_> = points.iter().map(|p| (*p).into()).collect();
-    let (points, triangles) = try_convex_hull(&points).ok()?;
-    Some(Faces { points: points.into_iter().map(Vec3::from).collect(), triangles })
+    // An affine map changes nothing in which points are corners; what is thin is as thick as wide in it, or
+    // it would be taken for flat.
+    let [along, across, up] = extents(points, 0.0)?;
+    let even = Matrix3::from_columns(&[along, across, up]).try_inverse()?;
+    let evened: Vec<_> = points.iter().map(|p| (even * (p - points[0])).into()).collect();
+    let (corners, triangles) = try_convex_hull(&evened).ok()?;
+    let bits = |p: [f64; 3]| p.map(f64::to_bits);
+    let own: BTreeMap<[u64; 3], Vec3> =
+        evened.iter().map(|p| bits((*p).into())).zip(points.iter().copied()).collect();
+    let corners = corners.into_iter().map(|corner| own.get(&bits(corner.into())).copied());
+    Some(Faces { points: corners.collect::<Option<_>>()?, triangles })
+}
+
+/// How far points reach from the first of them, and in which direction, m: where most; across that; and
+/// across both, which is the flattest direction among the planes through three far apart points. The
+/// three are right-handed. `None` where one is shorter than `least`, or has no length.
+pub fn extents(points: &[Vec3], least: f64) -> Option<[Vec3; 3]> {
+    let first = points.first()?;
+    let farthest = |measure: &dyn Fn(&Vec3) -> f64| {
+        let (reach, p) =
+            points.iter().map(|p| (measure(p), *p)).fold((0.0, *first), |m, x| if x.0 > m.0 { x } else { m });
+        (reach > 0.0 && reach >= least).then_some((reach, p))
+    };
+    let (length, a) = farthest(&|p| (p - first).norm())?;
+    let along = (a - first) / length;
+    let (width, b) = farthest(&|p| (p - first).cross(&along).norm())?;
+    let normal = along.cross(&(b - first)).normalize();
+    let (height, _) = farthest(&|p| (p - first).dot(&normal).abs())?;
+    Some([along * length, normal.cross(&along) * width, normal * height])
 }

@@ -1,5 +1,6 @@
 //! Which shapes are solids: refusals as values.
 
+use super::hull::extents;
 use super::{Shape, Vec3};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -98,26 +99,10 @@ fn direction(axis: &Vec3) -> Result<(), Unsound> {
     if axis.norm() < THICKNESS_MIN { Err(Unsound::NoAxis) } else { Ok(()) }
 }
 
-/// The points' extent across their flattest direction must show; that direction is found among the
-/// planes through three far apart points.
+/// The points' extent across their flattest direction must show.
 fn hull(points: &[Vec3]) -> Result<(), Unsound> {
     points.iter().flat_map(|p| p.iter()).try_for_each(|v| finite(*v))?;
-    let first = points.first().ok_or(Unsound::Flat)?;
-    let farthest = |measure: &dyn Fn(&Vec3) -> f64| {
-        points.iter().map(|p| (measure(p), *p)).fold((0.0, *first), |m, x| if x.0 > m.0 { x } else { m })
-    };
-    let (length, a) = farthest(&|p| (p - first).norm());
-    if length < THICKNESS_MIN {
-        return Err(Unsound::Flat);
-    }
-    let along = (a - first) / length;
-    let (width, b) = farthest(&|p| (p - first).cross(&along).norm());
-    if width < THICKNESS_MIN {
-        return Err(Unsound::Flat);
-    }
-    let normal = along.cross(&(b - first)).normalize();
-    let (height, _) = farthest(&|p| (p - first).dot(&normal).abs());
-    if height < THICKNESS_MIN { Err(Unsound::Flat) } else { Ok(()) }
+    extents(points, THICKNESS_MIN).map(|_| ()).ok_or(Unsound::Flat)
 }
 
 /// Closed and oriented: every directed edge has its opposite, as often.
