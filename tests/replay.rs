@@ -2,7 +2,7 @@
 //! degree, and with arithmetic of its own.
 #![allow(non_snake_case)]
 
-use modl::plan::{Body, DockKind, Plan, Tracks};
+use modl::plan::{DockKind, Tracks};
 use modl::robot::{Bond, PortRef};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -19,11 +19,6 @@ pub struct Replay<'a> {
 }
 
 pub type Matrix = [[f64; 4]; 4];
-
-pub fn tracks(plan: &Plan) -> &Tracks {
-    let Body::Tracks(tracks) = &plan.body else { panic!("a plan of joints") };
-    tracks
-}
 
 /// How a shoe is found from one that is known.
 pub enum Hop {

@@ -2,7 +2,7 @@
 //! their own; what is refused; plans that are spoilt.
 
 use crate::desk::{run, run_clean};
-use crate::replay::{Replay, tracks};
+use crate::replay::Replay;
 use crate::suite::MapFiles;
 use modl::interpret::Mode;
 use modl::plan::{self, Body, DockKind, Plan, Tracks};
@@ -48,6 +48,11 @@ const EXPRESSIONS: [&str; 6] = ["Snake(n: 3)", "Ring(n: 6)", "Star", "Raft", "Ta
 fn planned(expression: &str) -> Plan {
     let text = format!("{SHAPES}\nemit(tosnake({expression}), \"p.plan.json\")\n");
     plan::file::read(run_clean(&text).text("p.plan.json")).expect("it was written to be read")
+}
+
+pub fn tracks(plan: &Plan) -> &Tracks {
+    let Body::Tracks(tracks) = &plan.body else { panic!("a plan of joints") };
+    tracks
 }
 
 #[test]

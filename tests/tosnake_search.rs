@@ -2,8 +2,9 @@
 //! paper's own method beside it.
 
 use crate::desk::{Desk, run_clean};
-use crate::replay::{Replay, tracks};
+use crate::replay::Replay;
 use crate::suite::MapFiles;
+use crate::tosnake::tracks;
 use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
 use modl::interrupt::Interrupt;
 use modl::plan::{self, Body};

@@ -2,8 +2,9 @@
 //! against closed forms and virtual work; plans that keep every joint's torque within its limit; refusals.
 
 use crate::desk::{run, run_clean};
-use crate::replay::{Replay, tracks};
+use crate::replay::Replay;
 use crate::suite::MapFiles;
+use crate::tosnake::tracks;
 use crate::tosnake_search::{EIGHT, TEN};
 use modl::interpret::Mode;
 use modl::plan::verify::verify;
