@@ -67,6 +67,7 @@ fn tori_are_cut_into_strips() {
             solids: &solids,
             must: &[],
             roots: &roots,
+            cheap: &[],
             seed: 0,
             left: 400_000_000,
         };

@@ -1,7 +1,7 @@
 //! What panels are in each other's way of, whatever the layout; and layouts made so that nothing is.
 
 use super::call::Call;
-use super::fold_method::Question;
+use super::fold_method::{Found, Question};
 use super::fold_options::{HINGES, MODULE, TARGET};
 use super::fold_plan::{Outcome, Task};
 use super::fold_supply::Panels;
@@ -50,7 +50,7 @@ pub fn must_hinge(call: &Call, target: &Target, panels: &Panels) -> Eval<Vec<usi
 
 impl Task<'_> {
     /// A layout that was made so that it folds with the leaves first and nothing in the way.
-    pub fn cleared(&self, interpreter: &mut Interpreter) -> Eval<Option<Outcome>> {
+    pub fn cleared(&self, interpreter: &mut Interpreter, found: &Found) -> Eval<Option<Outcome>> {
         let Question { call, target, objective, options, .. } = self.question;
         if !call.is_missing(HINGES) {
             return Ok(None);
@@ -61,6 +61,7 @@ impl Task<'_> {
             solids: &self.panels.solids,
             must: &self.must,
             roots: &options.roots,
+            cheap: &found.layouts,
             seed: options.seed,
             left: STATES_MAX,
         };

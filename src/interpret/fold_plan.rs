@@ -86,7 +86,7 @@ impl Task<'_> {
                 .hint("another `sequence` or `root` may let it fold")
                 .into());
         }
-        let cleared = self.cleared(interpreter)?;
+        let cleared = self.cleared(interpreter, found)?;
         let mut reordering = Reordering::new(&self);
         let reordered = reordering.first(interpreter, found)?;
         if let Some(outcome) = self.lesser(cleared, reordered) {

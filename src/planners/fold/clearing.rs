@@ -3,7 +3,8 @@
 //! Cheap layouts are stars of many arms: rings close between lumps that have folded already, and these
 //! meet. Nothing meets where a ring is cut into strips that curl up each in its own sector, on one strip
 //! that curls up last. Such layouts are found by what hinges are: trees of those that are longest, most
-//! convex, or fold the most or the least, and of nearly equal trees those that cost the least.
+//! convex, or fold the most or the least, and of nearly equal trees those that cost the least. Where little is
+//! in the way, the cheap layouts themselves are a beginning.
 //! What still overlaps in the plane or meets on the way is parted by exchanges of one hinge for another
 //! between the two, as in [`flatten`](super::flatten); and what is clear is made cheaper by exchanges that
 //! keep it so. Nothing is proved, and what is looked at are samples: the judge decides.
@@ -46,6 +47,9 @@ const SLACKS: [f64; 4] = [0.002, 0.02, 0.08, 0.25];
 const STEPS_IMPROVING: u64 = 2_000_000;
 const ROOTS_TRIED: usize = 3;
 
+/// Cheap layouts that are exchanged as well.
+const CHEAP_MAX: usize = 2;
+
 /// Layouts that are exchanged until nothing meets, and how often, with other dice.
 const PARTED_MAX: usize = 6;
 const TURNS: u64 = 8;
@@ -75,6 +79,8 @@ pub struct Clearing<'t> {
     pub must: &'t [usize],
     /// Faces that may be the root.
     pub roots: &'t [usize],
+    /// Cheap layouts, in which little may be in the way.
+    pub cheap: &'t [Layout],
     pub seed: u64,
     /// States of pairs of panels that may be looked at.
     pub left: usize,
@@ -99,7 +105,7 @@ impl Clearing<'_> {
     /// Layouts in which nothing is seen to meet, the cheapest first.
     pub fn layouts(&mut self) -> Vec<Layout> {
         let mut starts: Vec<(Trouble, Layout)> = Vec::new();
-        for layout in self.trees() {
+        for layout in self.trees().into_iter().chain(self.cheap.iter().take(CHEAP_MAX).cloned()) {
             if starts.iter().all(|(_, other)| *other != layout) {
                 starts.push((self.trouble(&layout, None).0, layout));
             }
