@@ -7,7 +7,7 @@ use super::fold_plan::{Outcome, Task};
 use super::fold_supply::Panels;
 use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop};
-use crate::planners::fold::clearing::Clearing;
+use crate::planners::fold::clearing::{Clearing, Pieces};
 use crate::planners::fold::{Target, meeting, steps};
 use crate::source::{Diagnostic, code};
 
@@ -21,8 +21,7 @@ const STATES_MAX: usize = 1_500_000_000;
 /// Where no layout can have them all, or the panels share no edge, the shape is refused.
 pub fn must_hinge(call: &Call, target: &Target, panels: &Panels) -> Eval<Vec<usize>> {
     let mut hinges = Vec::new();
-    // By face: the least face that such hinges join it to.
-    let mut piece: Vec<usize> = (0..target.faces.len()).collect();
+    let mut pieces = Pieces::new(target.faces.len());
     let refuse = |message: String| -> Stop {
         Diagnostic::error(code::UNFOLDABLE, message)
             .label(call.at(TARGET), "does not fold")
@@ -34,15 +33,13 @@ pub fn must_hinge(call: &Call, target: &Target, panels: &Panels) -> Eval<Vec<usi
         let Some(hinge) = target.hinge_between(a, b) else {
             return Err(refuse(format!("in the folded shape panels {a} and {b} are in each other")));
         };
-        let [x, y] = [piece[a], piece[b]];
-        if x == y {
+        if !pieces.join([a, b]) {
             let message = format!(
                 "around a ring of panels, {a} and {b} of it, edges close farther than the thickness leaves room: \
                  only hinges do, and one edge of a ring is none"
             );
             return Err(refuse(message));
         }
-        piece.iter_mut().filter(|p| **p == x.max(y)).for_each(|p| *p = x.min(y));
         hinges.push(hinge);
     }
     Ok(hinges)

@@ -9,7 +9,7 @@
 //! between the two, as in [`flatten`](super::flatten); and what is clear is made cheaper by exchanges that
 //! keep it so. Nothing is proved, and what is looked at are samples: the judge decides.
 
-use super::flatten::joining;
+use super::flatten::Parting;
 use super::layout::Layout;
 use super::local::{self, Rules};
 use super::meeting::{Look, Solids};
@@ -18,7 +18,6 @@ use super::steps;
 use super::target::{Hinge, Target};
 use super::weights::Weights;
 use crate::interrupt;
-use crate::planners::random::Dice;
 use std::cell::RefCell;
 
 /// States of each step that are looked at, of panels without and with thickness.
@@ -60,9 +59,6 @@ const LOOKS: usize = 12;
 /// So many exchanges may be made that do not leave fewer pairs of faces than ever before.
 const PATIENCE: usize = 12;
 
-/// A hinge that was given up stays out for so many exchanges.
-const TABU: usize = 12;
-
 /// With so many layouts that are clear no more are sought.
 const CLEAR_ENOUGH: usize = 8;
 
@@ -96,6 +92,8 @@ struct Trouble {
 }
 
 impl Trouble {
+    const NONE: Trouble = Trouble { overlaps: 0, thin: 0, thick: 0, energy: f64::INFINITY };
+
     fn is_clear(&self) -> bool {
         self.overlaps + self.thin + self.thick == 0
     }
@@ -225,8 +223,7 @@ impl Clearing<'_> {
     /// Exchanges hinges between faces that overlap or meet until none do, as long as more than `kept` is left.
     fn parted(&mut self, layout: Layout, seed: u64, kept: usize) -> Option<Layout> {
         let target = self.target;
-        let mut dice = Dice(seed);
-        let mut out_until = vec![0usize; target.hinges.len()];
+        let mut parting = Parting::new(target, seed);
         let mut now = layout;
         let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
         for round in 1.. {
@@ -239,7 +236,7 @@ impl Clearing<'_> {
             if patience == 0 {
                 break;
             }
-            let Some(&[a, b]) = pairs.get(dice.below(pairs.len().max(1))) else { return Some(now) };
+            let Some([a, b]) = parting.one_of(&pairs) else { return Some(now) };
             let between: Vec<usize> =
                 local::path(&now, a, b).into_iter().filter(|hinge| !self.must.contains(hinge)).collect();
             if between.is_empty() {
@@ -250,21 +247,14 @@ impl Clearing<'_> {
                 if self.left <= kept {
                     return None;
                 }
-                let dropped = between[dice.below(between.len())];
-                let mut ways = joining(target, &now, dropped);
-                ways.retain(|hinge| *hinge != dropped && out_until[*hinge] < round);
-                if ways.is_empty() {
-                    continue;
-                }
-                let added = ways[dice.below(ways.len())];
-                let next = exchanged(target, &now, dropped, added);
+                let Some((next, dropped)) = parting.exchange(&now, &between, round) else { continue };
                 let (trouble, _) = self.trouble(&next, best.as_ref().map(|best| &best.0));
                 if best.as_ref().is_none_or(|(least, ..)| trouble < *least) {
                     best = Some((trouble, next, dropped));
                 }
             }
             if let Some((_, next, dropped)) = best {
-                out_until[dropped] = round + TABU;
+                parting.give_up(dropped, round);
                 now = next;
             }
         }
@@ -287,26 +277,31 @@ impl Clearing<'_> {
     }
 }
 
-impl Trouble {
-    const NONE: Trouble = Trouble { overlaps: 0, thin: 0, thick: 0, energy: f64::INFINITY };
-}
+/// Faces that hang together.
+pub struct Pieces(
+    /// By face: the least face that it is joined to.
+    Vec<usize>,
+);
 
-fn exchanged(target: &Target, layout: &Layout, dropped: usize, added: usize) -> Layout {
-    let hinges: Vec<usize> =
-        layout.hinges().into_iter().map(|hinge| if hinge == dropped { added } else { hinge }).collect();
-    Layout::of_hinges(target, &hinges, layout.root).expect("it joins the two parts")
+impl Pieces {
+    /// None do.
+    pub fn new(faces: usize) -> Pieces {
+        Pieces((0..faces).collect())
+    }
+
+    /// Joins two faces, and tells whether they did not hang together before.
+    pub fn join(&mut self, faces: [usize; 2]) -> bool {
+        let [a, b] = faces.map(|face| self.0[face]);
+        self.0.iter_mut().filter(|piece| **piece == a.max(b)).for_each(|piece| *piece = a.min(b));
+        a != b
+    }
 }
 
 /// The hinges of the spanning tree whose worths come to the most; of equal ones the first.
 fn heaviest_tree(target: &Target, worths: &[f64]) -> Vec<usize> {
     let mut by_worth: Vec<usize> = (0..worths.len()).collect();
     by_worth.sort_by(|a, b| worths[*b].total_cmp(&worths[*a]));
-    // By face: the least face that it is joined to so far.
-    let mut piece: Vec<usize> = (0..target.faces.len()).collect();
-    by_worth.retain(|hinge| {
-        let [a, b] = target.hinges[*hinge].faces.map(|face| piece[face]);
-        piece.iter_mut().filter(|p| **p == a.max(b)).for_each(|p| *p = a.min(b));
-        a != b
-    });
+    let mut pieces = Pieces::new(target.faces.len());
+    by_worth.retain(|hinge| pieces.join(target.hinges[*hinge].faces));
     by_worth
 }

@@ -34,13 +34,12 @@ pub fn flattened(
     steps: &mut u64,
 ) -> Option<Layout> {
     let n = target.faces.len();
-    let mut dice = Dice(seed);
-    let mut out_until = vec![0usize; target.hinges.len()];
+    let mut parting = Parting::new(target, seed);
     let mut now = layout;
     for round in 1..=MOVES * n {
         crate::interrupt::checkpoint();
         let overlaps = Pattern::of(target, &now).overlaps();
-        let Some(&[a, b]) = overlaps.get(dice.below(overlaps.len().max(1))) else {
+        let Some([a, b]) = parting.one_of(&overlaps) else {
             let flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
             return Some(local::improved_among(target, weights, now, steps, &flat));
         };
@@ -48,33 +47,58 @@ pub fn flattened(
         let mut best: Option<((usize, f64), Layout, usize)> = None;
         for _ in 0..LOOKS {
             *steps = steps.checked_sub((n * n / PAIRS + n) as u64)?;
-            let dropped = between[dice.below(between.len())];
-            let ways: Vec<usize> = joining(target, &now, dropped)
-                .into_iter()
-                .filter(|hinge| *hinge != dropped && out_until[*hinge] < round)
-                .collect();
-            if ways.is_empty() {
-                continue;
-            }
-            let added = ways[dice.below(ways.len())];
-            let hinges: Vec<usize> =
-                now.hinges().into_iter().map(|h| if h == dropped { added } else { h }).collect();
-            let next = Layout::of_hinges(target, &hinges, now.root).expect("it joins the two parts");
+            let Some((next, dropped)) = parting.exchange(&now, &between, round) else { continue };
             let worth = (Pattern::of(target, &next).overlaps().len(), next.energy(weights));
             if best.as_ref().is_none_or(|(least, ..)| worth < *least) {
                 best = Some((worth, next, dropped));
             }
         }
         if let Some((_, next, dropped)) = best {
-            out_until[dropped] = round + TABU;
+            parting.give_up(dropped, round);
             now = next;
         }
     }
     None
 }
 
+/// Exchanges at random between two faces that are in each other's way, in rounds.
+pub struct Parting<'t> {
+    target: &'t Target,
+    dice: Dice,
+    /// By hinge: the round in which it may come back.
+    out_until: Vec<usize>,
+}
+
+impl<'t> Parting<'t> {
+    pub fn new(target: &'t Target, seed: u64) -> Parting<'t> {
+        Parting { target, dice: Dice(seed), out_until: vec![0; target.hinges.len()] }
+    }
+
+    /// One of the pairs, if there are any.
+    pub fn one_of(&mut self, pairs: &[[usize; 2]]) -> Option<[usize; 2]> {
+        pairs.get(self.dice.below(pairs.len().max(1))).copied()
+    }
+
+    /// A layout without one of these hinges, and which: another that may come back joins the two parts, if one
+    /// does.
+    pub fn exchange(&mut self, now: &Layout, between: &[usize], round: usize) -> Option<(Layout, usize)> {
+        let dropped = between[self.dice.below(between.len())];
+        let mut ways = joining(self.target, now, dropped);
+        ways.retain(|hinge| *hinge != dropped && self.out_until[*hinge] < round);
+        if ways.is_empty() {
+            return None;
+        }
+        let added = ways[self.dice.below(ways.len())];
+        Some((now.exchanged(self.target, dropped, added), dropped))
+    }
+
+    pub fn give_up(&mut self, hinge: usize, round: usize) {
+        self.out_until[hinge] = round + TABU;
+    }
+}
+
 /// The hinges between the two parts into which a layout falls without one of its own.
-pub fn joining(target: &Target, layout: &Layout, without: usize) -> Vec<usize> {
+fn joining(target: &Target, layout: &Layout, without: usize) -> Vec<usize> {
     let mut below = vec![false; layout.parent.len()];
     for &face in &layout.order[1..] {
         below[face] = layout.hinge[face] == Some(without) || below[layout.parent[face]];

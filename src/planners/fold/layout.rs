@@ -72,6 +72,13 @@ impl Layout {
         hinges
     }
 
+    /// With one hinge in another's place, which closes a cycle with it.
+    pub fn exchanged(&self, target: &Target, dropped: usize, added: usize) -> Layout {
+        let hinges: Vec<usize> =
+            self.hinges().into_iter().map(|hinge| if hinge == dropped { added } else { hinge }).collect();
+        Layout::of_hinges(target, &hinges, self.root).expect("it joins the two parts")
+    }
+
     /// The same tree hung up at another face.
     pub fn rerooted(&self, target: &Target, root: usize) -> Layout {
         Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")

@@ -168,11 +168,7 @@ fn exchange(
     }
     // Of equal ones the first.
     better.sort_by(|x, y| x.0.total_cmp(&y.0));
-    let exchanged = |&(_, added, dropped): &(f64, usize, usize)| {
-        let hinges: Vec<usize> =
-            layout.hinges().into_iter().map(|h| if h == dropped { added } else { h }).collect();
-        Layout::of_hinges(target, &hinges, layout.root).expect("an exchange on a cycle keeps a tree")
-    };
+    let exchanged = |&(_, added, dropped): &(f64, usize, usize)| layout.exchanged(target, dropped, added);
     better.iter().take(TRIED_MAX).map(exchanged).find(|layout| (rules.allowed)(layout))
 }
 

@@ -158,8 +158,7 @@ fn exchanged(
             interrupt::progress(|| {
                 format!("{left} layouts may still be measured, {} at best", number(least))
             });
-            let hinges: Vec<usize> = folding.iter().map(|&h| if h == dropped { added } else { h }).collect();
-            let other = Layout::of_hinges(target, &hinges, layout.root).expect("a cycle lost a hinge");
+            let other = layout.exchanged(target, dropped, added);
             let found = value(&other);
             kept.offer(other.clone(), found);
             if order(&found, &best).is_lt() {

@@ -1,7 +1,7 @@
 //! Balls that are near each other while a loop closes, followed from step to step: which pairs to look
 //! at is worked out anew only when balls have gone far enough for that to matter.
 
-use super::near::{self, touch_always};
+use super::near;
 use super::rigid::{Rigid, Vec3};
 use super::sweep::Scene;
 
@@ -72,7 +72,7 @@ impl<'a> Contacts<'a> {
         list.clear();
         near::pairs(poses, *reach, &mut |a, b, _| {
             let meet = (a, b) == *meeting || (b, a) == *meeting;
-            if parts[a] != parts[b] && !meet && !touch_always(scene.tree, a, b, &scene.docked) {
+            if !meet && scene.may_meet(parts, a, b) {
                 list.push((a as u32, b as u32));
             }
         });

@@ -70,6 +70,11 @@ impl<'a> Scene<'a> {
         Scene { tree, docked: near::docked(robot, tree), burden: None }
     }
 
+    /// Whether two places' balls move against each other ([`Tree::parts`]) and do not always touch.
+    pub fn may_meet(&self, parts: &[usize], a: usize, b: usize) -> bool {
+        parts[a] != parts[b] && !touch_always(self.tree, a, b, &self.docked)
+    }
+
     /// Whether the straight way between two positions of the joints is free, and no load on it too
     /// great. `work` counts poses.
     pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
@@ -113,7 +118,7 @@ impl Walk<'_> {
         GLANCES.iter().all(|&t| {
             self.at(t, &mut poses);
             let mut apart = true;
-            near::pairs(&poses, APART, &mut |a, b, _| apart &= !self.may_meet(a, b));
+            near::pairs(&poses, APART, &mut |a, b, _| apart &= !self.scene.may_meet(&self.rigid, a, b));
             apart
         })
     }
@@ -176,15 +181,11 @@ impl Walk<'_> {
     fn list(&self, poses: &[Rigid]) -> Vec<(u32, u32)> {
         let mut list = Vec::new();
         near::pairs(poses, 1.0 + SKIN, &mut |a, b, _| {
-            if self.may_meet(a, b) {
+            if self.scene.may_meet(&self.rigid, a, b) {
                 list.push((a as u32, b as u32));
             }
         });
         list
-    }
-
-    fn may_meet(&self, a: usize, b: usize) -> bool {
-        self.rigid[a] != self.rigid[b] && !touch_always(self.scene.tree, a, b, &self.scene.docked)
     }
 }
 
