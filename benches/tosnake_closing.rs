@@ -5,7 +5,7 @@
 //! squares close to 1e-11 with no ball in another, or fail. So what FABRIK closes is counted twice: as it
 //! is, and where no ball is in another.
 
-use modl::planners::random::Dice;
+use modl::planners::random::SplitMix64;
 use modl::planners::tosnake::closing::{self, Manner};
 use modl::planners::tosnake::fabrik::{self, Chain, TOUCHING};
 use modl::planners::tosnake::merging::{self, Attempt, Pair, Side};
@@ -80,7 +80,7 @@ fn opened(modules: usize, seed: u64) -> State {
         state.undock(bond);
     }
     state.regrow();
-    opening::straighten(&mut state, &mut Dice(seed));
+    opening::straighten(&mut state, &mut SplitMix64(seed));
     state
 }
 
@@ -96,7 +96,7 @@ fn least_squares(state: &State, pair: &Pair, times: &mut Times) {
     };
     let (scene, mut work) = (state.scene(), 0);
     let start = Instant::now();
-    let closed = attempt.leap(&scene, &state.robot.joints, &mut Dice(1), &mut work).is_some();
+    let closed = attempt.leap(&scene, &state.robot.joints, &mut SplitMix64(1), &mut work).is_some();
     times.count(microseconds(start), closed, closed);
 }
 

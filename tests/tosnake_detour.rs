@@ -1,6 +1,6 @@
 //! Unwinding: a way around where the straight one is not free.
 
-use modl::planners::random::Dice;
+use modl::planners::random::SplitMix64;
 use modl::planners::tosnake::closing::Loop;
 use modl::planners::tosnake::detour::Detour;
 use modl::planners::tosnake::near;
@@ -31,11 +31,11 @@ fn least(state: &State, from: &Joints, to: &Joints) -> f64 {
 /// Two postures of a tentacle of a tangle, both without overlap, with something between them.
 fn hindered(seed: u64) -> Option<(State, Vec<JointRef>, Joints)> {
     let state = State::new(tangled(10, 60, seed));
-    let mut dice = Dice(seed);
-    let [a, b] = [0, 1].map(|_| Dock::red(dice.below(state.tree.shoes())));
+    let mut rng = SplitMix64(seed);
+    let [a, b] = [0, 1].map(|_| Dock::red(rng.below(state.tree.shoes())));
     let joints: Vec<JointRef> = Loop::new(&state.tree, a, b).joints.iter().map(|(joint, _)| *joint).collect();
     let mut to = state.robot.joints.clone();
-    joints.iter().for_each(|j| to[j.module][j.joint] = FRAC_PI_2 * dice.signed());
+    joints.iter().for_each(|j| to[j.module][j.joint] = FRAC_PI_2 * rng.next_signed());
     let mut poses = Vec::new();
     state.tree.poses(&to, &mut poses);
     let stands = near::least(&state.tree, &state.docked, &poses, 1.1) > APART;
@@ -52,11 +52,11 @@ fn a_detour_goes_around_what_is_in_the_way() {
         let scene = state.scene();
         let from = &state.robot.joints;
         let detour = Detour { scene: &scene, joints };
-        let way = |seed: u64| detour.way(from, to, &mut Dice(seed), &mut 0);
+        let way = |seed: u64| detour.way(from, to, &mut SplitMix64(seed), &mut 0);
         let Some(stops) = way(1) else { continue };
         found += 1;
         assert!(stops.len() >= 2 && stops.last() == Some(to));
-        assert_eq!(Some(&stops), way(1).as_ref(), "the same dice, the same way");
+        assert_eq!(Some(&stops), way(1).as_ref(), "the same rng, the same way");
         let mut before = from;
         for stop in &stops {
             let distance = least(state, before, stop);

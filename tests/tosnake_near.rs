@@ -1,7 +1,7 @@
 //! Unwinding: which balls are near each other, and which ways are free, beside all pairs of balls at many
 //! instants.
 
-use modl::planners::random::Dice;
+use modl::planners::random::SplitMix64;
 use modl::planners::tosnake::contacts::Contacts;
 use modl::planners::tosnake::near;
 use modl::planners::tosnake::rigid::{Mat, Rigid, Vec3};
@@ -23,13 +23,13 @@ fn touch(state: &State, a: usize, b: usize) -> bool {
 
 #[test]
 fn cubes_find_the_pairs_that_are_near() {
-    let mut dice = Dice(7);
+    let mut rng = SplitMix64(7);
     // Wide and narrow clouds, and balls that stand on the edges of cubes.
     for (spread, reach, on_lattice) in
         [(3.0, 1.0, false), (30.0, 2.5, false), (4.0, 1.0, true), (1.0, 9.0, true)]
     {
         let mut coordinate = || {
-            let x = spread * dice.signed();
+            let x = spread * rng.next_signed();
             if on_lattice { x.round() } else { x }
         };
         let poses: Vec<Rigid> = (0..200)
@@ -53,13 +53,13 @@ fn contacts_are_followed_from_step_to_step() {
     // Modules of a third of the robot turn; in a flow all do.
     for turning in [10, 30] {
         let parts = state.tree.parts(|module| module < turning);
-        let (meeting, mut dice) = ((0, count - 1), Dice(5));
+        let (meeting, mut rng) = ((0, count - 1), SplitMix64(5));
         let mut contacts = Contacts::new(&scene, meeting, parts.clone());
         let (mut joints, mut poses) = (state.robot.joints.clone(), Vec::new());
         for step in 0..60 {
             // Few large steps, then many small ones, and another reach at every third.
             let size = if step % 20 < 3 { 0.3 } else { 0.002 };
-            joints[..turning].iter_mut().flatten().for_each(|q| *q += size * dice.signed());
+            joints[..turning].iter_mut().flatten().for_each(|q| *q += size * rng.next_signed());
             state.tree.poses(&joints, &mut poses);
             let reach = if step % 3 == 0 { 1.6 } else { 1.2 };
             let mut found: Vec<(usize, usize)> =
@@ -76,7 +76,7 @@ fn contacts_are_followed_from_step_to_step() {
 #[test]
 fn a_way_is_free_where_nothing_meets_at_any_instant() {
     const INSTANTS: usize = 300;
-    let mut dice = Dice(11);
+    let mut rng = SplitMix64(11);
     let (mut free, mut hindered, mut poses) = (0, 0, Vec::new());
     for seed in 0..60 {
         let state = State::new(tangled(12, 120, seed));
@@ -84,9 +84,9 @@ fn a_way_is_free_where_nothing_meets_at_any_instant() {
         let mut to = from.clone();
         // One module turns, or several do.
         for _ in 0..1 + seed % 4 {
-            let module = dice.below(to.len());
+            let module = rng.below(to.len());
             for q in &mut to[module] {
-                *q = (*q + 0.5 * dice.signed()).clamp(-FRAC_PI_2, FRAC_PI_2);
+                *q = (*q + 0.5 * rng.next_signed()).clamp(-FRAC_PI_2, FRAC_PI_2);
             }
         }
         let mut least = f64::INFINITY;

@@ -1,5 +1,10 @@
 //! Planners: each a room of its own that turns a problem into a plan. What they find goes before the
 //! same judge as everything else, and none of them is believed.
+//!
+//! Each planner has one entry of the same shape,
+//! `plan(&Problem, &Settings, &mut dyn Progress) -> Result<Solution<Report>, Refusal>`: a problem in
+//! numbers (SI units, the world's frame), settings with defaults, and a body of a plan beside a report of
+//! the search, or an enum that says why there is none. No entry knows spans or diagnostics.
 
 pub mod random;
 
@@ -7,3 +12,63 @@ pub mod fold;
 pub mod squeeze;
 pub mod tosnake;
 pub mod truss;
+
+use crate::interrupt;
+use crate::plan;
+
+/// The result of a planner: the motion, the program it came from, and the figures of the search.
+#[derive(Clone, Debug)]
+pub struct Solution<R> {
+    /// The motion: joint tracks, lattice stages or node paths. All its causes are cause 0 unless the
+    /// planner's documentation says otherwise.
+    pub body: plan::Body,
+    /// The series-parallel program that `body` executes; `None` from planners that give a motion only.
+    pub program: Option<plan::Program>,
+    /// Figures of the search, of the planner's own type: method, bounds, counts of steps.
+    pub report: R,
+}
+
+/// An observer of a search: it receives reports of progress and may end the search early, for instance
+/// at a time limit.
+///
+/// An observer never changes what is computed but by ending it: a planner that is told to stop returns
+/// the best solution so far, or its refusal for an exhausted limit if there is none. To unwind without
+/// any result is another matter, [`interrupt::checkpoint`].
+pub trait Progress {
+    /// Receives how far the search is. `how_far` builds one short line of text, such as
+    /// `12 of 40 places reached`; an observer that shows nothing does not call it. Called at least
+    /// every few milliseconds, so it must be cheap.
+    fn report(&mut self, how_far: &dyn Fn() -> String);
+
+    /// Returns false if the search has to end with the best solution so far. Asked between two steps
+    /// of the search.
+    fn should_continue(&mut self) -> bool;
+}
+
+/// The observer that ignores all reports and never ends the search, for callers who do not care.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoProgress;
+
+impl Progress for NoProgress {
+    fn report(&mut self, _how_far: &dyn Fn() -> String) {}
+
+    fn should_continue(&mut self) -> bool {
+        true
+    }
+}
+
+/// The observer that answers requests for progress made through [`interrupt`], and never ends the search
+/// otherwise than by unwinding at a checkpoint.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RequestedProgress;
+
+impl Progress for RequestedProgress {
+    fn report(&mut self, how_far: &dyn Fn() -> String) {
+        interrupt::progress(how_far);
+    }
+
+    fn should_continue(&mut self) -> bool {
+        interrupt::checkpoint();
+        true
+    }
+}

@@ -1,38 +1,44 @@
-//! SplitMix64: a seed, and ever the same numbers.
+//! SplitMix64, a pseudorandom number generator of 64 bits of state (Steele, Lea, Flood: "Fast Splittable
+//! Pseudorandom Number Generators", OOPSLA 2014): the same seed gives the same numbers on every platform.
 
+/// The SplitMix64 generator; its field is the state, at first the seed. Any seed is valid.
 #[derive(Clone, Debug)]
-pub struct Dice(pub u64);
+pub struct SplitMix64(pub u64);
 
-const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+/// The increment of the state: the golden ratio times 2⁶⁴, made odd.
+const GAMMA: u64 = 0x9E37_79B9_7F4A_7C15;
 
-impl Dice {
-    pub fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(STEP);
+impl SplitMix64 {
+    /// Returns the next number, uniform over all of `u64`.
+    pub fn next_u64(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(GAMMA);
         let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         x ^ (x >> 31)
     }
 
-    /// As if so many numbers had been taken.
-    pub fn skip(&mut self, numbers: usize) {
-        self.0 = self.0.wrapping_add(STEP.wrapping_mul(numbers as u64));
+    /// Advances the state as if `count` numbers had been taken, in constant time.
+    pub fn skip(&mut self, count: usize) {
+        self.0 = self.0.wrapping_add(GAMMA.wrapping_mul(count as u64));
     }
 
-    /// A number below `limit`, which is far below the range of a word: none is noticeably preferred.
+    /// Returns the next integer, uniform in `0..limit` up to a bias of `limit` / 2⁶⁴ (multiply and
+    /// shift); 0 if `limit` is 0.
     pub fn below(&mut self, limit: usize) -> usize {
-        ((u128::from(self.word()) * limit as u128) >> 64) as usize
+        ((u128::from(self.next_u64()) * limit as u128) >> 64) as usize
     }
 
-    /// From -1 to 1.
-    pub fn signed(&mut self) -> f64 {
-        (self.word() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    /// Returns the next number, uniform in [-1, 1), a multiple of 2⁻⁵².
+    pub fn next_signed(&mut self) -> f64 {
+        (self.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// From 0 on, below 1.
-    pub fn part(&mut self) -> f64 {
-        (self.word() >> 11) as f64 / (1u64 << 53) as f64
+    /// Returns the next number, uniform in [0, 1), a multiple of 2⁻⁵³.
+    pub fn next_f64(&mut self) -> f64 {
+        (self.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
+    /// Permutes a list in place, every permutation equally likely (Fisher and Yates).
     pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for last in (1..list.len()).rev() {
             list.swap(last, self.below(last + 1));

@@ -11,7 +11,7 @@ use super::local;
 use super::pattern::Pattern;
 use super::target::Target;
 use super::weights::Weights;
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 
 /// Exchanges that are looked at before one is made.
 const LOOKS: usize = 24;
@@ -64,31 +64,31 @@ pub fn flattened(
 /// Exchanges at random between two faces that are in each other's way, in rounds.
 pub struct Parting<'t> {
     target: &'t Target,
-    dice: Dice,
+    rng: SplitMix64,
     /// By hinge: the round in which it may come back.
     out_until: Vec<usize>,
 }
 
 impl<'t> Parting<'t> {
     pub fn new(target: &'t Target, seed: u64) -> Parting<'t> {
-        Parting { target, dice: Dice(seed), out_until: vec![0; target.hinges.len()] }
+        Parting { target, rng: SplitMix64(seed), out_until: vec![0; target.hinges.len()] }
     }
 
     /// One of the pairs, if there are any.
     pub fn one_of(&mut self, pairs: &[[usize; 2]]) -> Option<[usize; 2]> {
-        pairs.get(self.dice.below(pairs.len().max(1))).copied()
+        pairs.get(self.rng.below(pairs.len().max(1))).copied()
     }
 
     /// A layout without one of these hinges, and which: another that may come back joins the two parts, if one
     /// does.
     pub fn exchange(&mut self, now: &Layout, between: &[usize], round: usize) -> Option<(Layout, usize)> {
-        let dropped = between[self.dice.below(between.len())];
+        let dropped = between[self.rng.below(between.len())];
         let mut ways = joining(self.target, now, dropped);
         ways.retain(|hinge| *hinge != dropped && self.out_until[*hinge] < round);
         if ways.is_empty() {
             return None;
         }
-        let added = ways[self.dice.below(ways.len())];
+        let added = ways[self.rng.below(ways.len())];
         Some((now.exchanged(self.target, dropped, added), dropped))
     }
 

@@ -14,7 +14,7 @@ use super::meeting::Solids;
 use super::plane::{Corners, Plane, Point as Cell, Stroke, across, bond, cell};
 use super::rearrange::{Goal, Panels, pair, rearranged};
 use super::target::Target;
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How often growth that is stuck takes panels away before it begins anew.
@@ -105,7 +105,7 @@ pub fn sheets(
         return Err(NoRefolding::Counts);
     }
     let mut left = settings.budget / 2;
-    let mut random = Random(Dice(settings.seed));
+    let mut random = Random(SplitMix64(settings.seed));
     let mut pairs: Vec<(usize, Pair)> = Vec::new();
     while left > 0 {
         crate::interrupt::checkpoint();
@@ -587,10 +587,10 @@ fn groups(target: &Target, gone: impl Fn(usize) -> bool, first: impl Iterator<It
 }
 
 /// Choices among few: the remainder prefers none noticeably.
-struct Random(Dice);
+struct Random(SplitMix64);
 
 impl Random {
     fn below(&mut self, limit: usize) -> usize {
-        (self.0.word() % limit as u64) as usize
+        (self.0.next_u64() % limit as u64) as usize
     }
 }

@@ -4,7 +4,7 @@ use super::layout::Layout;
 use super::steps;
 use super::words;
 use crate::interrupt;
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 
 /// Random orders are worse where they take more by this part.
 const TOL_EQUAL: f64 = 1e-9;
@@ -28,14 +28,14 @@ pub fn sample(
     reference: f64,
     mut takes: impl FnMut(&[Vec<usize>]) -> f64,
 ) -> Sample {
-    let mut dice = Dice(seed);
+    let mut rng = SplitMix64(seed);
     let mut order: Vec<usize> = layout.order[1..].to_vec();
     order.sort_unstable();
     let mut found = Sample { orders, worse: 0, least: f64::INFINITY, mean: 0.0, greatest: f64::NEG_INFINITY };
     for done in 0..orders {
         let least = (done > 0).then_some(found.least);
         interrupt::progress(|| words::counted(done, &orders, "orders", least));
-        dice.shuffle(&mut order);
+        rng.shuffle(&mut order);
         let taken = takes(&steps::of_order(layout, &order));
         found.worse += u64::from(taken > reference * (1.0 + TOL_EQUAL));
         found.least = found.least.min(taken);

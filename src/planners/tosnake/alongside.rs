@@ -5,7 +5,7 @@ use super::closing::{self, Manner};
 use super::merging::{Attempt, Pair, Side};
 use super::robot::Dock;
 use super::state::{Joints, State};
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 
 /// Pairs that come together in one turn, and where the joints are then.
 pub struct Party {
@@ -28,7 +28,7 @@ impl Party {
         pairs: &[Pair],
         at_once: usize,
         closing: &closing::Settings,
-        dice: &mut Dice,
+        rng: &mut SplitMix64,
         (tried, work): (&mut u64, &mut u64),
     ) -> Party {
         let scene = state.scene();
@@ -46,7 +46,7 @@ impl Party {
             *tried += 1;
             let attempt =
                 Attempt { pair, manner: Manner::Leap, detour: false, size: SIZE, side: Side::Both, closing };
-            let next = attempt.leap(&scene, &self.joints, dice, work);
+            let next = attempt.leap(&scene, &self.joints, rng, work);
             match next.filter(|next| scene.is_free(here, next, work)) {
                 Some(next) => {
                     self.joints = next;

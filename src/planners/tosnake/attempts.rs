@@ -1,6 +1,6 @@
 //! Attempts at bringing pairs together, several at a time on threads.
 //!
-//! What is found does not depend on how many threads there are. Each attempt throws the dice that it
+//! What is found does not depend on how many threads there are. Each attempt throws the rng that it
 //! would throw if those before it had been made one after the other; and they count in their order up to
 //! the first that succeeds. What later ones have done by then is forgotten.
 
@@ -8,16 +8,16 @@ use super::merging::Attempt;
 use super::state::{Joints, State};
 use super::sweep::Scene;
 use crate::interrupt::{self, Interrupt};
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::thread;
 
-/// An attempt with the dice that it throws.
+/// An attempt with the rng that it throws.
 pub struct Job<'a> {
     pub attempt: Attempt<'a>,
-    pub dice: Dice,
+    pub rng: SplitMix64,
 }
 
 /// What came of a job.
@@ -35,9 +35,9 @@ pub struct Made {
 pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMut(Made) -> bool) {
     let (tree, docked, here) = (&state.tree, &state.docked, &state.robot.joints);
     let made = |job: usize, scene: &Scene| {
-        let Job { attempt, dice } = &jobs[job];
+        let Job { attempt, rng } = &jobs[job];
         let mut work = 0;
-        let way = attempt.way(scene, here, &mut dice.clone(), &mut work);
+        let way = attempt.way(scene, here, &mut rng.clone(), &mut work);
         Made { job, way, work }
     };
     // What comes first often succeeds: threads would only get in each other's way.

@@ -6,7 +6,7 @@ use super::robot::GAMMA;
 use super::state::Joints;
 use super::sweep::Scene;
 use super::tree::JointRef;
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Postures that the trees grow towards, at most.
@@ -27,10 +27,16 @@ pub struct Detour<'a> {
 
 impl Detour<'_> {
     /// Postures from the first, which is left out, to the last; the straight way from each to the next is free.
-    pub fn way(&self, from: &Joints, to: &Joints, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
+    pub fn way(
+        &self,
+        from: &Joints,
+        to: &Joints,
+        rng: &mut SplitMix64,
+        work: &mut u64,
+    ) -> Option<Vec<Joints>> {
         let mut trees: [Vec<Node>; 2] = [vec![(from.clone(), 0)], vec![(to.clone(), 0)]];
         for round in 0..SAMPLES {
-            let sample = self.sample(from, to, dice);
+            let sample = self.sample(from, to, rng);
             let (growing, other) = (round % 2, 1 - round % 2);
             let Some(grown) = self.grow(&mut trees[growing], &sample, work) else { continue };
             let goal = trees[growing][grown].0.clone();
@@ -46,14 +52,14 @@ impl Detour<'_> {
     }
 
     /// Somewhere about the straight way.
-    fn sample(&self, from: &Joints, to: &Joints, dice: &mut Dice) -> Joints {
-        let part = dice.part();
+    fn sample(&self, from: &Joints, to: &Joints, rng: &mut SplitMix64) -> Joints {
+        let part = rng.next_f64();
         let mut sample = from.clone();
         for joint in self.joints {
             let (k, m) = (joint.joint, joint.module);
             let range = if k == GAMMA { PI } else { FRAC_PI_2 };
             let straight = from[m][k] + part * (to[m][k] - from[m][k]);
-            sample[m][k] = limited(k, straight + SPREAD * range * dice.signed());
+            sample[m][k] = limited(k, straight + SPREAD * range * rng.next_signed());
         }
         sample
     }

@@ -7,7 +7,7 @@ use super::robot::{Bond, Dock, FACES, GAMMA, RED};
 use super::state::{Joints, State};
 use super::sweep::Scene;
 use super::tree::{JointRef, Tree};
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Two free red docks of different chains.
@@ -144,16 +144,22 @@ pub enum Side {
 impl Attempt<'_> {
     /// Positions of the joints one after the other, the last of them with the docks together, and the
     /// ways between them free.
-    pub fn way(&self, scene: &Scene, here: &Joints, dice: &mut Dice, work: &mut u64) -> Option<Vec<Joints>> {
+    pub fn way(
+        &self,
+        scene: &Scene,
+        here: &Joints,
+        rng: &mut SplitMix64,
+        work: &mut u64,
+    ) -> Option<Vec<Joints>> {
         if self.manner == Manner::Leap {
-            let there = self.leap(scene, here, dice, work)?;
+            let there = self.leap(scene, here, rng, work)?;
             if scene.is_free(here, &there, work) {
                 return Some(vec![there]);
             }
             if !self.detour {
                 return None;
             }
-            let mut own = Dice(dice.word());
+            let mut own = SplitMix64(rng.next_u64());
             let joints: Vec<JointRef> =
                 self.bending(scene.tree).joints.iter().map(|(joint, _)| *joint).collect();
             let detour = Detour { scene, joints: &joints };
@@ -162,7 +168,7 @@ impl Attempt<'_> {
         let lp = self.bending(scene.tree);
         let mut drift = vec![0.0; 3 * here.len()];
         for (joint, _) in &lp.joints {
-            drift[3 * joint.module + joint.joint] = DRIFT * self.size * dice.signed();
+            drift[3 * joint.module + joint.joint] = DRIFT * self.size * rng.next_signed();
         }
         let way = self.closing(scene, &lp).close(here, &drift, work)?;
         let last = way.last()?.clone();
@@ -175,18 +181,18 @@ impl Attempt<'_> {
 
     /// Where the loop's joints bring the docks together, set out from near given positions; whatever is
     /// on the way there.
-    pub fn leap(&self, scene: &Scene, from: &Joints, dice: &mut Dice, work: &mut u64) -> Option<Joints> {
+    pub fn leap(&self, scene: &Scene, from: &Joints, rng: &mut SplitMix64, work: &mut u64) -> Option<Joints> {
         let lp = self.bending(scene.tree);
         let mut start = from.clone();
         for (joint, _) in &lp.joints {
             let q = &mut start[joint.module][joint.joint];
             let range = if joint.joint == GAMMA { PI } else { FRAC_PI_2 };
-            *q = closing::limited(joint.joint, *q + self.size * range * dice.signed());
+            *q = closing::limited(joint.joint, *q + self.size * range * rng.next_signed());
         }
         self.closing(scene, &lp).close(&start, &[], work)?.pop()
     }
 
-    /// How many numbers of the dice the way takes.
+    /// How many numbers of the rng the way takes.
     pub fn throws(&self, tree: &Tree) -> usize {
         self.bending(tree).joints.len() + usize::from(self.detour)
     }

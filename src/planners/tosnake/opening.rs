@@ -6,7 +6,7 @@ use super::state::State;
 use super::sweep::APART;
 use super::tree::JointRef;
 use super::turn;
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use std::f64::consts::FRAC_PI_4;
 
 /// Balls of single turns stay a little farther apart than those of sweeps, so that these may begin there.
@@ -16,7 +16,7 @@ const TURN_APART: f64 = APART + 2e-4;
 const STRAIGHT: f64 = 1e-12;
 
 /// Turns tilts to zero until none is free to; gives how many are left.
-pub fn straighten(state: &mut State, dice: &mut Dice) -> usize {
+pub fn straighten(state: &mut State, rng: &mut SplitMix64) -> usize {
     loop {
         let joints = bent(state);
         if joints.is_empty() {
@@ -25,7 +25,7 @@ pub fn straighten(state: &mut State, dice: &mut Dice) -> usize {
         let before = joints.len();
         together(state, &joints);
         let mut joints = bent(state);
-        dice.shuffle(&mut joints);
+        rng.shuffle(&mut joints);
         for joint in joints {
             let q = state.robot.joints[joint.module][joint.joint];
             if free(state, joint, -q) && bears(state, joint, 0.0) {
@@ -89,16 +89,16 @@ fn bears(state: &mut State, joint: JointRef, to: f64) -> bool {
 }
 
 /// Random turns that spread the robot, or do not draw it together much. Gives how many were made.
-pub fn shake(state: &mut State, dice: &mut Dice, turns: usize, slack: f64) -> usize {
+pub fn shake(state: &mut State, rng: &mut SplitMix64, turns: usize, slack: f64) -> usize {
     let joints = state.tree.all_joints();
     let mut made = 0;
     for _ in 0..turns {
-        let joint = joints[dice.below(joints.len())];
+        let joint = joints[rng.below(joints.len())];
         let q = state.robot.joints[joint.module][joint.joint];
         let target = if joint.joint == GAMMA {
-            q + FRAC_PI_4 * (dice.below(7) as f64 - 3.0)
+            q + FRAC_PI_4 * (rng.below(7) as f64 - 3.0)
         } else {
-            FRAC_PI_4 * (dice.below(5) as f64 - 2.0)
+            FRAC_PI_4 * (rng.below(5) as f64 - 2.0)
         };
         if target == q || !free(state, joint, target - q) || !bears(state, joint, target) {
             continue;
@@ -109,7 +109,7 @@ pub fn shake(state: &mut State, dice: &mut Dice, turns: usize, slack: f64) -> us
         let mut poses = Vec::new();
         state.work += 1;
         state.tree.poses(&joints, &mut poses);
-        if super::state::spread(&poses) >= before * (1.0 - slack * (1.0 + dice.signed()) / 2.0) {
+        if super::state::spread(&poses) >= before * (1.0 - slack * (1.0 + rng.next_signed()) / 2.0) {
             state.turn(joint.module, joint.joint, target);
             made += 1;
         }

@@ -13,7 +13,7 @@ use super::sound;
 use super::state::{Joints, State};
 use super::weight::{Load, Weight};
 use super::{Collisions, Doing, Found, Heavy, Progress, Refusal, Settings};
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -66,17 +66,17 @@ pub fn unwind_under(
     sound::check(robot)?;
     let Some(weight) = weight else {
         let state = opened(robot, None);
-        return Search::new(state, Dice(settings.seed), settings, watch).found(robot);
+        return Search::new(state, SplitMix64(settings.seed), settings, watch).found(robot);
     };
     let weight = Arc::new(weight.clone());
-    let mut dice = Dice(settings.seed);
+    let mut rng = SplitMix64(settings.seed);
     let mut spent = Progress::default();
     let mut nearest: Option<Heavy> = None;
     for _ in 0..FRESH_STARTS {
-        let mut search = Search::new(opened(robot, Some(&weight)), dice, settings, watch);
+        let mut search = Search::new(opened(robot, Some(&weight)), rng, settings, watch);
         (search.progress.tried, search.state.work) = (spent.tried, spent.work);
         let found = search.try_found(robot);
-        (dice, spent) = (search.dice, search.progress);
+        (rng, spent) = (search.rng, search.progress);
         let (heavy, over) = match found {
             Err(Refusal::Heavy(heavy)) => (heavy, matches!(heavy.doing, Doing::Standing | Doing::Opening)),
             // The budget is spent because everything was too heavy.
@@ -128,7 +128,7 @@ const VAIN_COST: f64 = 0.7;
 
 struct Search<'a> {
     state: State,
-    dice: Dice,
+    rng: SplitMix64,
     settings: &'a Settings,
     watch: &'a mut dyn FnMut(&Progress) -> bool,
     progress: Progress,
@@ -141,13 +141,13 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(
         state: State,
-        dice: Dice,
+        rng: SplitMix64,
         settings: &'a Settings,
         watch: &'a mut dyn FnMut(&Progress) -> bool,
     ) -> Search<'a> {
         let mut progress = Progress { needed: state.bad_bonds(), ..Progress::default() };
         progress.see(&state);
-        Search { state, dice, settings, watch, progress, heavy: None, vain: BTreeMap::new() }
+        Search { state, rng, settings, watch, progress, heavy: None, vain: BTreeMap::new() }
     }
 
     fn found(mut self, robot: &Robot) -> Result<Found, Refusal> {
@@ -234,7 +234,7 @@ impl<'a> Search<'a> {
         let last = self.state.bad_bonds() == 0;
         let now = self.state.load().map_or(0.0, |load| load.ratio);
         self.state.share = if last { 1.0 } else { f64::max(EASY, now) };
-        let tilted = opening::straighten(&mut self.state, &mut self.dice);
+        let tilted = opening::straighten(&mut self.state, &mut self.rng);
         self.state.share = 1.0;
         if last {
             blame(&mut self.heavy, &self.state, Doing::Straightening);
@@ -246,7 +246,7 @@ impl<'a> Search<'a> {
     /// Brings the ends of two chains together, whichever first. `idle` rounds before found none.
     fn merge(&mut self, idle: usize) -> Result<bool, Refusal> {
         let pairs = self.pairs(idle);
-        let (jobs, dice) = self.jobs(&pairs);
+        let (jobs, rng) = self.jobs(&pairs);
         let Search { state, settings, watch, progress, heavy, vain, .. } = self;
         let (mut work, mut won, mut refusal) = (0, None, None);
         let alone = state.weight.is_some() || state.robot.modules() < PARALLEL_MIN;
@@ -269,11 +269,11 @@ impl<'a> Search<'a> {
             refusal.is_some()
         });
         let (pair, next) = match &won {
-            Some((job, _)) => (Some(*jobs[*job].attempt.pair), jobs.get(job + 1).map(|job| job.dice.clone())),
+            Some((job, _)) => (Some(*jobs[*job].attempt.pair), jobs.get(job + 1).map(|job| job.rng.clone())),
             None => (None, None),
         };
         self.state.work += work;
-        self.dice = next.unwrap_or(dice);
+        self.rng = next.unwrap_or(rng);
         match (refusal, pair, won) {
             (Some(refusal), ..) => Err(refusal),
             (None, Some(pair), Some((_, way))) => Ok(self.take(&pair, way, &pairs)),
@@ -281,14 +281,14 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// All attempts in their order, each with its dice; and the dice after them.
-    fn jobs<'p>(&self, pairs: &'p [Pair]) -> (Vec<Job<'p>>, Dice)
+    /// All attempts in their order, each with its rng; and the rng after them.
+    fn jobs<'p>(&self, pairs: &'p [Pair]) -> (Vec<Job<'p>>, SplitMix64)
     where
         'a: 'p,
     {
         let (sides, most) =
             if self.state.weight.is_some() { (&SIDES[..], HEAVY_PAIRS) } else { (&SIDES[..1], usize::MAX) };
-        let mut dice = self.dice.clone();
+        let mut rng = self.rng.clone();
         let mut jobs = Vec::new();
         let straight = ATTEMPTS.map(|(manner, size, many)| (manner, false, size, many));
         let around = (Manner::Leap, true, DETOUR_SIZE, self.settings.detours);
@@ -298,12 +298,12 @@ impl<'a> Search<'a> {
                     let attempt =
                         Attempt { pair, manner, detour, size, side, closing: &self.settings.closing };
                     let throws = attempt.throws(&self.state.tree);
-                    jobs.push(Job { attempt, dice: dice.clone() });
-                    dice.skip(throws);
+                    jobs.push(Job { attempt, rng: rng.clone() });
+                    rng.skip(throws);
                 }
             }
         }
-        (jobs, dice)
+        (jobs, rng)
     }
 
     /// Where descent brought nothing together, short loops close on the lattice of quarter turns.
@@ -341,7 +341,7 @@ impl<'a> Search<'a> {
             let Settings { at_once, closing, .. } = self.settings;
             let party = Party { pairs: together, joints: std::mem::take(joints) };
             let counts = (&mut self.progress.tried, &mut work);
-            let party = party.grown(&self.state, pairs, *at_once, closing, &mut self.dice, counts);
+            let party = party.grown(&self.state, pairs, *at_once, closing, &mut self.rng, counts);
             self.state.work += work;
             (together, *joints) = (party.pairs, party.joints);
         }
@@ -370,7 +370,7 @@ impl<'a> Search<'a> {
                 let vain = self.vain.get(&[pair.a, pair.b]).filter(|(length, _)| *length == pair.length);
                 pair.cost += VAIN_COST * vain.map_or(0.0, |(_, times)| f64::from(*times));
             }
-            pair.cost *= 1.0 + 0.5 * NOISE * idle as f64 * (1.0 + self.dice.signed());
+            pair.cost *= 1.0 + 0.5 * NOISE * idle as f64 * (1.0 + self.rng.next_signed());
         }
         pairs.sort_by(|p, q| p.cost.total_cmp(&q.cost).then((p.a, p.b).cmp(&(q.a, q.b))));
         pairs
@@ -381,7 +381,7 @@ impl<'a> Search<'a> {
         let Settings { shake_turns, shake_slack, .. } = *self.settings;
         let now = self.state.load().map_or(0.0, |load| load.ratio);
         self.state.share = f64::max(EASY, now);
-        opening::shake(&mut self.state, &mut self.dice, shake_turns, shake_slack);
+        opening::shake(&mut self.state, &mut self.rng, shake_turns, shake_slack);
         self.state.share = 1.0;
         self.state.refused.take();
     }

@@ -6,7 +6,7 @@ use super::robot::{Bond, DOCKS, Dock, FACES, GAMMA, Robot, mate};
 use super::sweep::APART;
 use super::tree::{JointRef, Tree};
 use super::turn;
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Of so many actions one docks, and one lets go; the others turn a joint.
@@ -26,15 +26,15 @@ pub fn tangled(modules: usize, actions: usize, seed: u64) -> Robot {
     let bonds: Vec<Bond> = (0..modules.saturating_sub(1)).map(bond).collect();
     let holds = vec![true; bonds.len()];
     let mut tangle = Tangle::new(Robot { joints: vec![[0.0; 3]; modules], bonds, holds });
-    let mut dice = Dice(seed);
+    let mut rng = SplitMix64(seed);
     let (mut done, mut tried) = (0, 0);
     while done < actions && tried < actions.saturating_mul(ATTEMPTS_MAX) {
         tried += 1;
         crate::interrupt::progress(|| format!("{done} of {actions} actions"));
-        let did = match dice.below(DOCKING_OF) {
-            0 => tangle.dock(&mut dice),
-            1 => tangle.undock(&mut dice),
-            _ => tangle.turn(&mut dice),
+        let did = match rng.below(DOCKING_OF) {
+            0 => tangle.dock(&mut rng),
+            1 => tangle.undock(&mut rng),
+            _ => tangle.turn(&mut rng),
         };
         done += usize::from(did);
     }
@@ -58,9 +58,9 @@ impl Tangle {
         Tangle { joints: tree.all_joints(), robot, tree, poses }
     }
 
-    fn turn(&mut self, dice: &mut Dice) -> bool {
-        let joint = self.joints[dice.below(self.joints.len())];
-        let turn = if dice.below(2) == 0 { FRAC_PI_2 } else { -FRAC_PI_2 };
+    fn turn(&mut self, rng: &mut SplitMix64) -> bool {
+        let joint = self.joints[rng.below(self.joints.len())];
+        let turn = if rng.below(2) == 0 { FRAC_PI_2 } else { -FRAC_PI_2 };
         let mut to = self.robot.joints[joint.module][joint.joint] + turn;
         if joint.joint == GAMMA {
             to = if to > PI + TOL_MEET {
@@ -91,23 +91,23 @@ impl Tangle {
         })
     }
 
-    fn dock(&mut self, dice: &mut Dice) -> bool {
+    fn dock(&mut self, rng: &mut SplitMix64) -> bool {
         let meeting = self.meeting();
         if meeting.is_empty() {
             return false;
         }
-        let bond = meeting[dice.below(meeting.len())];
+        let bond = meeting[rng.below(meeting.len())];
         self.robot.dock(bond);
         self.regrow();
         true
     }
 
-    fn undock(&mut self, dice: &mut Dice) -> bool {
+    fn undock(&mut self, rng: &mut SplitMix64) -> bool {
         let held: Vec<usize> = self.robot.held().map(|(bond, _)| bond).collect();
         if held.is_empty() {
             return false;
         }
-        let bond = held[dice.below(held.len())];
+        let bond = held[rng.below(held.len())];
         self.robot.holds[bond] = false;
         let whole = Tree::grow(&self.robot, 0).is_some();
         self.robot.holds[bond] = !whole;

@@ -7,7 +7,7 @@ use super::step::{CUSHION, Memory, Stuck, Task, step};
 use super::structure::Structure;
 use super::surface;
 use crate::geometry::Vec3;
-use crate::planners::random::Dice;
+use crate::planners::random::SplitMix64;
 use nalgebra::UnitQuaternion;
 use std::f64::consts::TAU;
 
@@ -69,9 +69,9 @@ pub fn morph(
     let mut best = (f64::INFINITY, UnitQuaternion::identity());
     if wish.orientations > 0 {
         let short = Wish { steps_max: SCREEN.min(wish.steps_max), ..wish.clone() };
-        let mut dice = Dice(wish.seed);
+        let mut rng = SplitMix64(wish.seed);
         for i in 0..=wish.orientations {
-            let turn = if i == 0 { UnitQuaternion::identity() } else { turn(&mut dice) };
+            let turn = if i == 0 { UnitQuaternion::identity() } else { turn(&mut rng) };
             let tried = towards(truss, start, &faces, &placed(&turn), &short, going);
             if tried.distance.both() < best.0 {
                 best = (tried.distance.both(), turn);
@@ -144,8 +144,8 @@ fn towards(
 }
 
 /// Every orientation alike (Shoemake).
-fn turn(dice: &mut Dice) -> UnitQuaternion<f64> {
-    let (u, v, w) = (dice.part(), TAU * dice.part(), TAU * dice.part());
+fn turn(rng: &mut SplitMix64) -> UnitQuaternion<f64> {
+    let (u, v, w) = (rng.next_f64(), TAU * rng.next_f64(), TAU * rng.next_f64());
     let ((sv, cv), (sw, cw)) = (libm::sincos(v), libm::sincos(w));
     let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
     UnitQuaternion::new_normalize(nalgebra::Quaternion::new(b * cw, a * sv, a * cv, b * sw))
