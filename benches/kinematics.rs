@@ -6,11 +6,15 @@
 
 #![allow(non_snake_case)]
 
-#[path = "../tests/robots.rs"]
-mod robots;
+#[path = "../tests/support"]
+mod support {
+    pub mod robots;
+}
 #[allow(dead_code, unused_imports)]
-#[path = "../tests/urdf.rs"]
+#[path = "../tests/robots/urdf.rs"]
 mod urdf;
+
+use support::robots;
 
 use modl::geometry::{Placed, Pose, Shape};
 use modl::plan::verify::Precision;

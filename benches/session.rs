@@ -4,7 +4,7 @@
 
 mod generate;
 #[cfg(unix)]
-#[path = "../tests/terminal.rs"]
+#[path = "../tests/support/terminal.rs"]
 mod terminal;
 
 #[cfg(unix)]

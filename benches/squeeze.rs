@@ -4,7 +4,7 @@
 //! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells; with names of methods,
 //! those only.
 
-#[path = "../tests/lattices.rs"]
+#[path = "../tests/support/lattices.rs"]
 mod lattices;
 
 use lattices::{PAPER, TERMS, judged_plan, plan_of, stages_of};

@@ -11,7 +11,7 @@
 //! `--memory` tells the most memory that was taken. `--modules=50,100` instead: one tangle for each number of
 //! modules, of `--actions=1000` actions, with the seed 1.
 
-#[path = "../tests/replay.rs"]
+#[path = "../tests/support/replay.rs"]
 mod replay;
 
 use modl::interpret::{self, Host, Mode, Options, WriteError};

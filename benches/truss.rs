@@ -6,7 +6,7 @@
 //! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions, with `around`
 //! only walks with and without looking ahead: on flat ground, through gates, over hills.
 
-#[path = "../tests/trusses.rs"]
+#[path = "../tests/support/trusses.rs"]
 #[allow(dead_code)]
 mod trusses;
 

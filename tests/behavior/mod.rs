@@ -1,0 +1,7 @@
+//! Behaviours: schedules, conflicts, gaits.
+
+pub mod behaviors_of_designs;
+pub mod conflicts;
+pub mod faithful;
+pub mod gaits;
+pub mod schedule;

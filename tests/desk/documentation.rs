@@ -1,0 +1,147 @@
+//! `modl doc` and the examples that `modl test` runs.
+
+use crate::desk::cli::Sandbox;
+use std::fs;
+
+const ARM: &str = "\
+//! An arm of [`Hinge`]s.
+use \"hinge.mod\".{Hinge}
+
+/// Two hinges in a row; see [the hinge](Hinge), [`Hinge.bend`] and <b>no markup</b>.
+///
+/// ```modl
+/// use \"arm.mod\".{Arm}
+/// expect count(Arm()) == 2
+/// emit(Arm().curl(), \"nobody_wants_this.plan.json\")
+/// ```
+config Arm {
+  part h[2]: Hinge(length: 60mm)
+  connect h[0].front -- h[1].back
+
+  /// From the shoulder to the tip.
+  let reach = 120mm
+  /// Where a tool docks.
+  port hand = h[1].front
+
+  /// Bends by `a`.
+  behavior curl(a: Angle = 20deg) = move(h[1].bend, to: a)
+}
+
+/// Private, so it is not told.
+fn _hidden() = 1
+
+/// What every arm may carry.
+let load = 200g
+
+/// Needs a number.
+config Chain(n: Int) { part h[n]: Hinge  for i in 0..n - 1 { connect h[i].front -- h[i + 1].back } }
+";
+
+fn project() -> Sandbox {
+    Sandbox::new(&[("hinge.mod", crate::desk::transcripts::HINGE.as_bytes()), ("arm.mod", ARM.as_bytes())])
+}
+
+#[test]
+fn a_site_tells_of_the_project_and_the_library() {
+    let sandbox = project();
+    let ran = sandbox.run(&["doc"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    let page = |name: &str| {
+        let path = sandbox.path(&format!("out/doc/{name}"));
+        fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"))
+    };
+    let arm = page("arm-mod.html");
+    for words in [
+        "config Arm",
+        "config Chain(n: Int)",
+        "order 1 · 2 modules · 300g",
+        "<code>curl(a: Angle = 20deg)</code>",
+        "<p>Bends by <code>a</code>.</p>",
+        "<code>h[]: Hinge</code>",
+        "<h3>values</h3>\n<dl>\n<dt id=\"Arm.reach\"><code>reach: Length</code></dt>\n<dd><p>From the shoulder to the tip.</p>",
+        "<h2><a href=\"#load\">load</a> <small>let</small></h2>",
+        "let load: Mass</pre>\n<p>What every arm may carry.</p>",
+        "<h3>ports</h3>\n<dl>\n<dt id=\"Arm.hand\"><code>hand</code></dt>\n<dd><p>Where a tool docks.</p>",
+        "<h3>parameters</h3>\n<dl>\n<dt id=\"Chain.n\"><code>n: Int</code></dt>",
+        "<a href=\"hinge-mod.html#Hinge\"><code>Hinge</code></a>",
+        "<a href=\"hinge-mod.html#Hinge.bend\">",
+        "&lt;b&gt;no markup&lt;/b&gt;",
+        "<img src=\"pictures/arm-mod-Arm.png\"",
+    ] {
+        assert!(arm.contains(words), "no `{words}` in\n{arm}");
+    }
+    assert!(!arm.contains("_hidden") && !arm.contains("arm-mod-Chain.png"), "{arm}");
+    let picture = fs::read(sandbox.path("out/doc/pictures/arm-mod-Arm.png")).expect("a picture");
+    assert!(picture.starts_with(b"\x89PNG"));
+    let hinge = page("hinge-mod.html");
+    assert!(
+        hinge.contains("<code>bend: Joint&lt;Angle&gt;</code>") && hinge.contains("<code>back</code>"),
+        "{hinge}"
+    );
+    // Planners and robots of the library.
+    assert!(page("prelude.html").contains("method: exact | heuristic | enumerate = exact"));
+    assert!(page("std-smores.html").contains("pictures/std-smores-Chain3.png"));
+    let guide = page("guide.html");
+    let (first, second) = (guide.find("Order 1").expect("order 1"), guide.find("Order 2").expect("order 2"));
+    let at = |name: &str| {
+        guide.find(&format!("#{name}\">")).unwrap_or_else(|| panic!("{name} is not in the guide"))
+    };
+    let open = guide.find("Of a size to be given").expect("there is one");
+    assert!(guide.find("arm-mod.html#Chain\">").is_some_and(|at| at > open), "{guide}");
+    assert!(first < at("Arm") && at("Arm") < second && second < at("FourLeg17"));
+    assert!(page("index.js").contains("\"Arm.curl\"") && page("index.html").contains("arm-mod.html#Arm"));
+    // Every address leads to a page that is there, and to a place on it.
+    for name in ["index.html", "guide.html", "arm-mod.html", "std-smores.html", "prelude.html"] {
+        for address in page(name).split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+            let (file, place) = address.split_once('#').unwrap_or((address, ""));
+            let text = if file.is_empty() { page(name) } else { page(file) };
+            assert!(place.is_empty() || text.contains(&format!("id=\"{place}\"")), "{name}: {address}");
+        }
+    }
+}
+
+#[test]
+fn a_link_that_leads_nowhere_is_an_error() {
+    let sandbox =
+        Sandbox::new(&[
+            ("a.mod", b"/// As [`Nothing`], [there](nowhere.md), [here](#nobody), ![see](no.png), [a note](note.md#x) and [a list].\nlet a = 1\n"),
+            ("note.md", b"x"),
+        ]);
+    let ran = sandbox.run(&["doc", "--only"]);
+    assert_eq!(ran.code, 1);
+    assert!(ran.err.contains("a.mod, a: the link ``Nothing`` leads nowhere"), "{}", ran.err);
+    assert!(
+        ran.err.contains("the link `nowhere.md` leads nowhere") && !ran.err.contains("a list"),
+        "{}",
+        ran.err
+    );
+    for lost in ["#nobody", "no.png"] {
+        assert!(ran.err.contains(&format!("the link `{lost}` leads nowhere")), "{}", ran.err);
+    }
+    let page = fs::read_to_string(sandbox.path("out/doc/a-mod.html")).expect("it was written");
+    assert!(page.contains("href=\"files/note.md#x\"") && sandbox.path("out/doc/files/note.md").exists());
+}
+
+#[test]
+fn examples_in_documentation_are_tests() {
+    let sandbox = project();
+    let ran = sandbox.run(&["test", "arm.mod"]);
+    assert_eq!(
+        (ran.code, ran.out.as_str()),
+        (0, "test \"example in line 7\" ... ok\n1 passed, 0 failed\n"),
+        "{}",
+        ran.err
+    );
+    assert!(!sandbox.path("out").exists(), "an example writes nothing");
+    fs::write(sandbox.path("arm.mod"), ARM.replace("== 2", "== 3")).expect("a file can be written");
+    let ran = sandbox.run(&["test", "arm.mod"]);
+    assert_eq!(ran.code, 1);
+    assert!(
+        ran.out.contains("test \"example in line 7\" ... FAILED") && ran.err.contains("[arm.mod:8:12]"),
+        "{}",
+        ran.err
+    );
+    // What only the file itself would do is not done.
+    let ran = sandbox.run(&["test", "hinge.mod"]);
+    assert_eq!((ran.code, ran.out.as_str()), (0, "0 passed, 0 failed\n"));
+}

@@ -1,0 +1,80 @@
+//! Ctrl-C at a real terminal, while something works that would take minutes: the prompt is back at once, and
+//! the session as it was. Before, the work says how far it is.
+#![cfg(unix)]
+
+use crate::desk::cli::Sandbox;
+use crate::support::terminal::{PROMPT, Terminal};
+use std::time::Duration;
+
+/// What a person does not notice.
+const AT_ONCE: Duration = Duration::from_millis(100);
+
+const WORM: &str = "\
+use std.smores.Chain3
+config Worm(n: Int) {
+  part seg[n]: Chain3
+  for i in 0..n - 1 { connect seg[i].tail -- seg[i + 1].head }
+  behavior bend(to: Angle) = Pc([move(m.tilt, to: to) for s in seg for m in s.m])
+  behavior crawl(times: Int = 100) = repeat(Sc(bend(1deg), bend(-1deg)), times)
+}
+let kept = 2
+";
+
+fn begin(sandbox: &Sandbox) -> Terminal {
+    let mut command = sandbox.command(&["repl", "worm.mod"]);
+    command.env("MODL_HISTORY", sandbox.path("history"));
+    let mut terminal = Terminal::begin(command);
+    terminal.sees(PROMPT);
+    terminal
+}
+
+const LOOP: &str = "truss Loop(n: Int = 3) of PneumaticReel { let r = n * 0.16m  for i in 0..n { node p[i] = \
+    [r * cos(i / n * 1turn), r * sin(i / n * 1turn), 0m] }  for i in 0..n { strut p[i] -- p[(i + 1) % n] } }";
+
+/// The quickest of three, for a machine that does much else.
+fn stops(terminal: &mut Terminal, entry: &str, at: &str) {
+    let quickest = (0..3).map(|_| terminal.stop(entry, at)).min().expect("there are three");
+    assert!(quickest < AT_ONCE, "{entry}: {quickest:?}");
+    terminal.ask("kept + 1", "3: Int");
+}
+
+#[test]
+fn ctrl_c_ends_whatever_takes_long() {
+    let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
+    let mut terminal = begin(&sandbox);
+    terminal.ask("use std.mori.Mori", "");
+    terminal.ask("use std.shapes.icosahedron", "");
+    // A plain loop, a planner, the judge.
+    stops(&mut terminal, "for i in 0..40000000 { let x = i }", "evaluating: ");
+    let fold = "fold(icosahedron(edge: 80mm), Mori, method: enumerate, budget: 1000000000)";
+    stops(&mut terminal, fold, "of 5184000 layouts, ");
+    stops(&mut terminal, "verify(Worm(60).crawl())", "walked ");
+}
+
+#[test]
+fn a_solver_that_does_not_listen_is_not_waited_for() {
+    let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
+    let mut terminal = begin(&sandbox);
+    terminal.ask("use std.truss.PneumaticReel", "");
+    // Of three struts it is rigid, of more it is not, and which motions are free is found by one
+    // decomposition of a matrix of 1,200 columns.
+    terminal.ask(LOOP, "truss Loop");
+    stops(&mut terminal, "rigidity(Loop(400))", "hold each other");
+}
+
+#[test]
+fn what_is_typed_meanwhile_is_not_lost() {
+    let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
+    let mut terminal = begin(&sandbox);
+    terminal.types("for i in 0..200000 { let x = i }\r1 + 10\r1 + 20\r1 + 30\r");
+    for answer in ["11: Int", "21: Int", "31: Int"] {
+        terminal.sees(answer);
+    }
+}
+
+#[test]
+fn who_reads_no_terminal_hears_nothing_of_progress() {
+    let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
+    let ran = sandbox.run(&["-e", "use \"worm.mod\".{Worm}", "-e", "verify(Worm(2).crawl(2)).ok"]);
+    assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "true\n", ""));
+}

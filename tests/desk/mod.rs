@@ -1,0 +1,10 @@
+//! The program as its users meet it: command line, session, pages, sites.
+
+pub mod acceptance;
+pub mod browser;
+pub mod cli;
+pub mod documentation;
+pub mod interrupt;
+pub mod repl;
+pub mod transcripts;
+pub mod view;

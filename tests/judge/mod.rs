@@ -1,0 +1,7 @@
+//! The judge: plans that must fail, each with a twin that must pass.
+
+pub mod collision;
+pub mod ground;
+pub mod lattice_judge;
+pub mod truss_judge;
+pub mod verify;

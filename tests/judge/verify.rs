@@ -1,0 +1,402 @@
+//! The judge: each kind of failure has a plan that must fail and a twin that must pass.
+
+use crate::support::motions::{self, Motion};
+use crate::support::robots::{self, FRONT, LEFT, RIGHT, TILT};
+use modl::plan::verify::{verify, verify_state};
+use modl::plan::{
+    Body, CauseId, CheckKind, Dock, DockKind, Exemption, ExemptionKind, Ground, Plan, Settings, Stability,
+    Status, Tracks, Verdict, World,
+};
+use modl::robot::Assembly;
+use std::sync::Arc;
+
+fn judged(motion: Motion) -> Verdict {
+    verify(&motion.plan(World::default()))
+}
+
+fn kinds(verdict: &Verdict) -> Vec<CheckKind> {
+    verdict.failures.iter().map(|f| f.kind).collect()
+}
+
+#[track_caller]
+fn passes(verdict: &Verdict) {
+    assert!(verdict.ok(), "{:#?}", verdict.failures);
+}
+
+#[track_caller]
+fn fails(verdict: &Verdict, kind: CheckKind) {
+    assert!(kinds(verdict).contains(&kind), "{verdict:#?}");
+}
+
+fn status(verdict: &Verdict, kind: CheckKind) -> &Status {
+    &verdict.checks.iter().find(|c| c.kind == kind).expect("the check was made").status
+}
+
+/// The paper's SQUARE: four drives and four turns.
+fn square() -> Motion {
+    let spread = 92.7 / (2.0 * 45.3);
+    let turn = std::f64::consts::FRAC_PI_2 * spread;
+    let mut m = Motion::new(robots::chain(1));
+    let (mut t, mut left, mut right) = (0.0, 0.0, 0.0);
+    for _ in 0..4 {
+        m = m.spin("m0", LEFT, 2.0, t, t + 5.0).spin("m0", RIGHT, 2.0, t, t + 5.0);
+        (t, left, right) = (t + 5.0, left + 10.0 - turn, right + 10.0 + turn);
+        let (l, r) = (f64::to_degrees(left), f64::to_degrees(right));
+        m = m.smooth("m0", LEFT, l, t, t + 2.0).smooth("m0", RIGHT, r, t, t + 2.0);
+        t += 2.0;
+    }
+    m
+}
+
+#[test]
+fn the_square_comes_back() {
+    let verdict = judged(square());
+    passes(&verdict);
+    let [x, y, z] = verdict.travel;
+    assert!(libm::hypot(x, y) < 0.02 && z.abs() < 1e-6, "{:?}", verdict.travel);
+    assert!((verdict.heading - std::f64::consts::TAU).abs() < 0.01, "{}", verdict.heading);
+}
+
+#[test]
+fn joints_keep_to_their_range() {
+    fails(&judged(Motion::new(robots::chain(3)).smooth("m1", TILT, 95.0, 0.0, 4.0)), CheckKind::JointRange);
+    let verdict = judged(Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 4.0));
+    passes(&verdict);
+    assert_eq!(status(&verdict, CheckKind::JointRange), &Status::Proved);
+}
+
+#[test]
+fn a_peak_between_two_samples_is_seen() {
+    // It passes 90° by 0.1° for a few milliseconds.
+    let over = |peak: f64| {
+        let m = Motion::new(robots::chain(1)).smooth("m0", TILT, 89.0, 0.0, 2.0);
+        let (joint, from) = (TILT, 89f64.to_radians());
+        // A quadratic over 4 ms whose middle is halfway between its ends and its middle point.
+        let middle = (2.0 * peak - 89.0).to_radians();
+        m.segment(joint, 3.0, 3.2, vec![from, middle, from])
+    };
+    fails(&judged(over(90.1)), CheckKind::JointRange);
+    passes(&judged(over(89.9)));
+}
+
+#[test]
+fn joints_keep_to_their_speed() {
+    let spin = |rate| {
+        judged(
+            Motion::new(robots::chain(1)).spin("m0", LEFT, rate, 0.0, 1.0).spin("m0", RIGHT, rate, 0.0, 1.0),
+        )
+    };
+    fails(&spin(6.0), CheckKind::Speed);
+    let verdict = spin(2.0);
+    passes(&verdict);
+    let margin = verdict.speed_margin.expect("wheels have a greatest speed").value;
+    assert!((margin - (1.0 - 2.0 / 2.4086)).abs() < 1e-12);
+}
+
+fn dig(arm: usize) -> Plan {
+    let m = Motion::new(robots::backhoe(arm)).set("a0", TILT, 90.0);
+    m.linear("a1", TILT, -90.0, 0.0, 2.0).plan(World::default())
+}
+
+#[test]
+fn a_backhoe_falls_over_its_nose() {
+    let verdict = verify(&dig(8));
+    fails(&verdict, CheckKind::Stability);
+    let fall = verdict.failures.iter().find(|f| f.kind == CheckKind::Stability).expect("it falls");
+    assert!((fall.time - 0.9207).abs() < 5e-4, "{fall:?}");
+    let stability = |verdict: &Verdict| kinds(verdict).contains(&CheckKind::Stability);
+    assert!(!stability(&verify(&dig(4))));
+}
+
+fn ratio(verdict: &Verdict) -> f64 {
+    1.0 - verdict.torque_margin.as_ref().expect("joints have limits").value
+}
+
+fn at_rest(robot: Assembly) -> Verdict {
+    verify_state(&robot, &robots::at_rest(&robot), &World::default(), &Settings::default())
+}
+
+/// What the joint of `a1` has to hold with so many modules and its own block beyond it, level.
+fn held_out(modules: usize) -> f64 {
+    let m = Motion::new(hold_nothing(robots::backhoe(modules + 2))).set("a0", TILT, 90.0);
+    let verdict = judged(m.set("a1", TILT, -90.0));
+    let own = |f: &&modl::plan::Failure| f.at == ["a1.tilt"];
+    verdict.failures.iter().find(own).map_or(f64::NAN, |f| f.value)
+}
+
+/// The same robot, its bonds without limits.
+fn hold_nothing(mut robot: Assembly) -> Assembly {
+    let mut library = (*robot.library).clone();
+    library.connectors[0].holds_force = None;
+    library.connectors[0].holds_moment = None;
+    robot.library = Arc::new(library);
+    robot
+}
+
+const MASS: f64 = 0.5572924;
+const G: f64 = 9.80665;
+
+#[test]
+fn a_joint_holds_modules_out_by_their_lever() {
+    // m g p n(n+1)/2; the centres of mass lie a little further out; and there is the own block and disc.
+    let own = 0.309551 * 0.0082 + 0.045716 * 0.0437;
+    for n in [3.0, 4.0] {
+        let further = n * (own - 0.127498 * 0.0307);
+        let expected = G * (MASS * 0.1 * n * (n + 1.0) / 2.0 + further + own);
+        let held = held_out(n as usize);
+        assert!((held - expected).abs() < 1e-4, "{held} {expected}");
+    }
+}
+
+#[test]
+fn loads_of_designs() {
+    assert!(ratio(&at_rest(robots::chain(3))) < 0.12);
+    assert!(ratio(&at_rest(robots::snake(6))) < 0.22);
+    assert!((ratio(&at_rest(robots::car())) - 0.02).abs() < 0.005);
+    let stowed = judged(Motion::new(robots::backhoe(8)).set("a0", TILT, 90.0));
+    assert!((ratio(&stowed) - 0.92).abs() < 0.005, "{}", ratio(&stowed));
+}
+
+const LEGS: [&str; 4] = ["fl", "fr", "bl", "br"];
+
+fn standing(robot: Assembly) -> Motion {
+    LEGS.iter().fold(Motion::new(robot), |m, leg| m.set(&format!("{leg}_hip"), TILT, -90.0))
+}
+
+fn on_two_legs(robot: Assembly) -> Motion {
+    ["fl", "br"].iter().fold(standing(robot), |m, leg| {
+        m.set(&format!("{leg}_knee"), TILT, 30.0).set(&format!("{leg}_ankle"), TILT, -30.0)
+    })
+}
+
+#[test]
+fn two_diagonal_legs_carry_a_walker_only_with_friction() {
+    let verdict = judged(on_two_legs(hold_nothing(robots::walk4())));
+    passes(&verdict);
+    assert!((ratio(&verdict) - 0.95).abs() < 0.005, "{}", ratio(&verdict));
+    assert!(verdict.notes.iter().any(|n| n.contains("needs friction: 1.90")), "{:?}", verdict.notes);
+    let icy = World { friction: 0.0, ..World::default() };
+    let slippery = verify(&on_two_legs(hold_nothing(robots::walk4())).plan(icy));
+    fails(&slippery, CheckKind::Torque);
+    // That no forces do is proved by the multipliers.
+    assert!(slippery.notes.iter().all(|n| !n.contains("not proved")), "{:?}", slippery.notes);
+}
+
+#[test]
+fn bonds_hold_what_they_hold() {
+    let verdict = judged(on_two_legs(robots::walk4()));
+    fails(&verdict, CheckKind::BondLoad);
+    passes(&judged(standing(robots::walk4())));
+}
+
+#[test]
+fn a_heavy_arm_is_blamed_on_who_lifts_it_out() {
+    let plan = dig(6);
+    let verdict = verify(&plan);
+    fails(&verdict, CheckKind::Torque);
+    let overload = verdict.failures.iter().find(|f| f.at == ["a1.tilt"]).expect("the joint that digs");
+    assert_eq!(overload.blame, [CauseId(0)]);
+    assert!(!overload.blames_start);
+    // The same arm that starts level is the fault of the start pose.
+    let m = Motion::new(robots::backhoe(6)).set("a0", TILT, 90.0).set("a1", TILT, -90.0);
+    let verdict = judged(m);
+    assert!(verdict.failures.iter().all(|f| f.blames_start));
+}
+
+#[test]
+fn a_fall_is_blamed_on_the_joint_that_leaned_out() {
+    let mut m = Motion::new(robots::backhoe(8)).set("a0", TILT, 90.0).linear("a1", TILT, -90.0, 0.0, 2.0);
+    // Something else that moves meanwhile, and has nothing to do with it.
+    m = m.linear("a7", FRONT, 45.0, 0.5, 1.5);
+    let verdict = judged(m);
+    let fall = verdict.failures.iter().find(|f| f.kind == CheckKind::Stability).expect("it falls");
+    assert_eq!(fall.blame, [CauseId(0)]);
+    assert!(fall.at.contains(&"a0".to_owned()), "{:?}", fall.at);
+}
+
+/// `dig` with an exemption over a stretch.
+fn excused(arm: usize, kind: ExemptionKind, from: f64, to: f64) -> Verdict {
+    let mut plan = dig(arm);
+    plan.exemptions.push(Exemption { kind, from, to, cause: CauseId(0) });
+    verify(&plan)
+}
+
+#[test]
+fn exemptions_excuse_but_not_the_end() {
+    let verdict = excused(8, ExemptionKind::Unstable, 0.0, 2.0);
+    assert!(!kinds(&verdict).contains(&CheckKind::Stability), "{:?}", verdict.failures);
+    assert_eq!(status(&verdict, CheckKind::Stability), &Status::Exempt);
+    assert!(verdict.events.iter().any(|e| e.1.contains("tips over")));
+    // The arm is still out at the end, and that is not excused.
+    let verdict = excused(6, ExemptionKind::Overload(None), 0.0, 2.0);
+    let overload = verdict.failures.iter().find(|f| f.kind == CheckKind::Torque).expect("at the end");
+    assert_eq!(overload.time, 2.0);
+    // One that nothing needed is told.
+    let verdict = excused(2, ExemptionKind::Unstable, 0.0, 2.0);
+    assert_eq!(verdict.unneeded_exemptions, [0]);
+    // Another joint's overload is not excused.
+    let verdict = excused(6, ExemptionKind::Overload(Some(0)), 0.0, 2.0);
+    fails(&verdict, CheckKind::Torque);
+}
+
+/// A chain that throws its head over and back: how long it is without support.
+#[test]
+fn support_may_be_missing_for_as_long_as_is_said() {
+    // The backhoe leans out beyond its edge and back.
+    let lean = |unstable_for: f64| {
+        let m = Motion::new(hold_nothing(robots::backhoe(8))).set("a0", TILT, 90.0);
+        let m = m.linear("a1", TILT, -44.0, 0.0, 1.0).linear("a1", TILT, 0.0, 1.0, 2.0);
+        let mut plan = m.plan(World::default());
+        plan.settings.unstable_for = unstable_for;
+        verify(&plan)
+    };
+    let stability = |v: &Verdict| v.failures.iter().any(|f| f.kind == CheckKind::Stability);
+    // It crosses the edge at -41.42°: 2.58 of 44 degrees before and after the turning point.
+    let away = 2.0 * 2.58 / 44.0;
+    assert!(stability(&lean(0.0)));
+    assert!(stability(&lean(away - 0.02)));
+    assert!(!stability(&lean(away + 0.03)));
+}
+
+#[test]
+fn a_held_base_may_not_go_underground() {
+    let fixed = World { ground: Ground::Fixed, ..World::default() };
+    let down = |degrees| Motion::new(robots::chain(3)).smooth("m1", TILT, degrees, 0.0, 2.0);
+    fails(&verify(&down(-30.0).plan(fixed)), CheckKind::Ground);
+    assert!(!kinds(&verify(&down(30.0).plan(fixed))).contains(&CheckKind::Ground));
+    let off = World { ground: Ground::Off, ..World::default() };
+    let verdict = verify(&down(-30.0).plan(off));
+    passes(&verdict);
+    assert!(matches!(status(&verdict, CheckKind::Torque), Status::NotChecked(_)));
+}
+
+/// The paper's rule rejects a straight chain and takes a car.
+#[test]
+fn the_rule_of_centres_is_kept_by_name() {
+    let settings = Settings { stability: Stability::Centres, ..Settings::default() };
+    let judged =
+        |robot: Assembly| verify_state(&robot, &robots::at_rest(&robot), &World::default(), &settings);
+    let chain = judged(robots::chain(3));
+    fails(&chain, CheckKind::Stability);
+    assert_eq!(chain.margin.expect("a chain in a line has no room").value, 0.0);
+    let car = judged(robots::car());
+    passes(&car);
+    assert!((car.margin.expect("a car stands").value - 0.1).abs() < 1e-9);
+}
+
+#[test]
+fn loops_stay_closed() {
+    let ring = || {
+        let m = Motion::new(hold_nothing(robots::ring12_closed()));
+        (0..12).fold(m, |m, i| m.set(&format!("r{i}"), TILT, 30.0))
+    };
+    assert!(!kinds(&judged(ring())).contains(&CheckKind::Closure));
+    let driven = ring().smooth("r3", TILT, 20.0, 0.0, 1.0);
+    let verdict = judged(driven);
+    fails(&verdict, CheckKind::Closure);
+    let failure = verdict.failures.iter().find(|f| f.kind == CheckKind::Closure).expect("just found");
+    assert_eq!(failure.blame, [CauseId(0)]);
+}
+
+fn docked(angle: f64) -> Verdict {
+    let mut m = Motion::new(hold_nothing(robots::ring12_closed()));
+    m = (0..12).fold(m, |m, i| m.set(&format!("r{i}"), TILT, 30.0));
+    m = m.set("r3", TILT, angle).smooth("r3", FRONT, 0.0, 0.0, 1.0);
+    m.tracks.start.bonds[11] = false;
+    m.tracks.docks = vec![Dock { time: 1.0, kind: DockKind::Dock, bond: 11, cause: CauseId(0) }];
+    judged(m)
+}
+
+#[test]
+fn ports_dock_within_capture() {
+    assert!(!kinds(&docked(30.0)).contains(&CheckKind::Docking));
+    fails(&docked(24.0), CheckKind::Docking);
+}
+
+#[test]
+fn nothing_falls_off() {
+    let undock = |bond| {
+        let mut m = Motion::new(hold_nothing(robots::ring12_closed()));
+        m = (0..12).fold(m, |m, i| m.set(&format!("r{i}"), TILT, 30.0));
+        m.tracks.docks = vec![Dock { time: 0.5, kind: DockKind::Undock, bond, cause: CauseId(0) }];
+        m.tracks.duration = 1.0;
+        m.tracks.tracks = vec![];
+        let mut plan = m.plan(World::default());
+        plan.causes = vec![motions::cause(0)];
+        plan
+    };
+    assert!(!kinds(&verify(&undock(3))).contains(&CheckKind::Connectedness));
+    let mut twice = undock(3);
+    let Body::Tracks(tracks) = &mut twice.body else { unreachable!("a plan of tracks") };
+    tracks.docks.push(Dock { time: 0.7, kind: DockKind::Undock, bond: 7, cause: CauseId(0) });
+    let verdict = verify(&twice);
+    fails(&verdict, CheckKind::Connectedness);
+    let apart = verdict.failures.iter().find(|f| f.kind == CheckKind::Connectedness).expect("just found");
+    assert_eq!((apart.time, &apart.blame[..]), (0.7, &[CauseId(0)][..]));
+}
+
+#[test]
+fn a_limit_on_samples_ends_the_judgement_with_a_refusal() {
+    let mut plan = square().plan(World::default());
+    plan.settings.samples_max = 10;
+    fails(&verify(&plan), CheckKind::Form);
+}
+
+/// Corrupts a good plan and wants it refused.
+fn refused(corrupt: impl FnOnce(&mut Plan, &mut Tracks)) {
+    let mut plan = square().plan(World::default());
+    let Body::Tracks(mut tracks) = plan.body.clone() else { unreachable!("a plan of tracks") };
+    corrupt(&mut plan, &mut tracks);
+    plan.body = Body::Tracks(tracks);
+    let verdict = verify(&plan);
+    assert!(!verdict.ok());
+    fails(&verdict, CheckKind::Form);
+}
+
+#[test]
+fn corrupted_plans_are_refused_as_values() {
+    refused(|_, t| t.tracks[0].segments[1].start -= 1.0);
+    refused(|_, t| t.tracks[0].segments[1].control[2] = f64::NAN);
+    refused(|_, t| t.tracks[0].segments[0].end = f64::INFINITY);
+    refused(|_, t| t.tracks[0].segments[1].control[0] += 0.1);
+    refused(|_, t| t.tracks[0].segments[1].control.clear());
+    refused(|_, t| t.tracks[0].joint = modl::robot::JointId(99));
+    refused(|_, t| t.tracks.swap(0, 1));
+    refused(|_, t| t.start.joints.truncate(1));
+    refused(|_, t| t.start.base.translation.vector.x = f64::NAN);
+    refused(|_, t| t.robot.base = 7);
+    refused(|_, t| t.robot.modules[0].kind = 7);
+    refused(|_, t| t.duration = -1.0);
+    refused(|_, t| t.duration = f64::NAN);
+    refused(|_, t| t.docks.push(Dock { time: 1.0, kind: DockKind::Dock, bond: 3, cause: CauseId(0) }));
+    refused(|p, _| p.causes.clear());
+    refused(|p, _| p.worlds.clear());
+    refused(|p, _| p.worlds[0].world.gravity = f64::NAN);
+    refused(|p, _| p.settings.sample = 0.0);
+    refused(|p, _| p.settings.sample = f64::NAN);
+    refused(|p, _| {
+        let cause = CauseId(99);
+        p.exemptions.push(Exemption { kind: ExemptionKind::Slip, from: 0.0, to: 1.0, cause });
+    });
+    refused(|p, t| {
+        let mut library = (*p.library).clone();
+        library.modules[0].links[0].mass = -1.0;
+        p.library = Arc::new(library);
+        t.robot.library = p.library.clone();
+    });
+}
+
+#[test]
+fn a_long_snake_is_carried_by_contact_forces_that_are_spread_as_it_needs() {
+    // Spread as over elastic ground, the loads would bend the middle of three hundred modules by
+    // more than the joints hold: the whole leans by the half pitch between its contacts' centre and
+    // its centre of mass.
+    let n = 300;
+    let snake = (0..n).fold(Motion::new(hold_nothing(robots::snake(n))), |m, i| {
+        m.set(&format!("s{i}"), TILT, if i % 2 == 0 { -2.0 } else { 2.0 })
+    });
+    let verdict = judged(snake);
+    passes(&verdict);
+    assert!(verdict.notes.iter().any(|n| n.contains("spread evenly")), "{:?}", verdict.notes);
+    assert!(verdict.notes.iter().all(|n| !n.contains("needs friction")), "{:?}", verdict.notes);
+}

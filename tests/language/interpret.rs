@@ -1,0 +1,190 @@
+//! The room `interpret` through its door: programs with what they print, and what is said of them.
+
+use crate::support::suite::{MapFiles, Observed};
+use modl::check::typed::DefKind;
+use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
+use modl::source::{FileId, Sources};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A host that keeps what it is given.
+#[derive(Default)]
+pub struct Buffer {
+    pub printed: Vec<String>,
+    pub written: BTreeMap<String, Vec<u8>>,
+    pub progress: Vec<String>,
+}
+
+impl Host for Buffer {
+    fn print(&mut self, line: &str) {
+        self.printed.push(line.to_string());
+    }
+
+    fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
+        self.written.insert(path.to_string(), bytes.to_vec());
+        Ok(path.to_string())
+    }
+
+    fn progress(&mut self, line: &str) {
+        self.progress.push(line.to_string());
+    }
+}
+
+/// What came of a program: what `check` says, and what running it says where that was no error.
+pub struct Ran {
+    pub sources: Sources,
+    pub file: Option<FileId>,
+    pub outcome: Outcome,
+    pub host: Buffer,
+}
+
+pub fn ran(files: &MapFiles, main: &str, mode: Mode, options: &Options) -> Ran {
+    let checked = modl::check::check(files, main);
+    let mut host = Buffer::default();
+    let mut outcome = Outcome::default();
+    if !checked.has_errors() {
+        outcome = interpret::run(&checked, mode, files, &mut host, options);
+    }
+    outcome.diagnostics.splice(0..0, checked.diagnostics.iter().cloned());
+    let file = checked.sources.files().find(|(_, f)| &*f.name == main).map(|(id, _)| id);
+    Ran { sources: checked.sources, file, outcome, host }
+}
+
+pub fn run_text(text: &str, mode: Mode) -> Ran {
+    ran(&MapFiles::of(text), "main.mod", mode, &Options::default())
+}
+
+fn observe(text: &str, mode: Mode) -> Observed {
+    let Ran { sources, file, outcome, host } = run_text(text, mode);
+    Observed { sources, file, diagnostics: outcome.diagnostics, printed: host.printed }
+}
+
+#[test]
+fn programs_do_what_they_say() {
+    crate::support::suite::run("run", |text| observe(text, Mode::Run));
+}
+
+#[test]
+fn declarations_are_judged_as_they_say() {
+    crate::support::suite::run("elaborate", |text| observe(text, Mode::Check));
+}
+
+/// Every built-in that is declared has a body, or says that it is not yet available; every body is
+/// declared, with as many parameters.
+#[test]
+fn declarations_and_bodies_of_built_ins_agree() {
+    // The prelude is always there; of the rest, only RoFI's file declares a built-in.
+    let checked = modl::check::check(&MapFiles::of("use std.rofi\n"), "main.mod");
+    let bodies: BTreeMap<&str, usize> = interpret::all_natives().map(|n| (n.key, n.params)).collect();
+    let mut declared = BTreeSet::new();
+    for def in &checked.program.defs {
+        let DefKind::Native(native) = &def.kind else { continue };
+        let key = native.key.as_str();
+        declared.insert(key);
+        assert_eq!(bodies.get(key), Some(&native.params.len()), "the body of `{key}` and its parameters");
+    }
+    let undeclared: Vec<_> = bodies.keys().filter(|key| !declared.contains(*key)).collect();
+    assert!(undeclared.is_empty(), "bodies without a declaration: {undeclared:?}");
+    assert!(declared.len() > 80, "the prelude was read");
+}
+
+#[test]
+fn fields_of_records_are_those_that_are_declared() {
+    let checked = modl::check::check(&MapFiles::of(""), "main.mod");
+    let mut compared = 0;
+    for def in &checked.program.defs {
+        let DefKind::Record(record) = &def.kind else { continue };
+        let Some(fields) = interpret::fields_of(def.name.as_str()) else { continue };
+        let declared: Vec<&str> = record.fields.iter().map(|f| f.name.as_str()).collect();
+        assert_eq!(declared, fields, "fields of `{}`", def.name);
+        compared += 1;
+    }
+    assert_eq!(compared, 14);
+}
+
+#[test]
+fn a_limit_on_steps_ends_the_run() {
+    let mut options = Options::default();
+    options.limits.steps = 10_000;
+    let ran = ran(&MapFiles::of("print(sum([i for i in 0..1_000_000]))\n"), "main.mod", Mode::Run, &options);
+    let codes: Vec<_> = ran.outcome.diagnostics.iter().map(|d| d.code.0).collect();
+    assert_eq!(codes, ["E0504"]);
+    assert!(ran.host.printed.is_empty());
+}
+
+#[test]
+fn a_test_fails_where_what_it_depends_on_failed_before() {
+    let program = "let a = 1 / (1 - 1)\n\
+                   test \"one\" {\n  expect a > 0\n}\n\
+                   test \"two\" {\n  expect a > 0\n}\n\
+                   test \"three\" {\n  expect 1 + 1 == 2\n}\n";
+    let ran = run_text(program, Mode::Test);
+    let passed: Vec<bool> = ran.outcome.tests.iter().map(|t| t.passed).collect();
+    assert_eq!(passed, [false, false, true]);
+    let codes: Vec<_> = ran.outcome.diagnostics.iter().map(|d| d.code.0).collect();
+    assert_eq!(codes, ["E0502"], "one finding, told once");
+}
+
+#[test]
+fn a_program_writes_the_same_bytes_every_time() {
+    let program = "use std.smores.Smores\n\
+                   config C { part m: Smores\n  behavior b = move(m.tilt, to: 10deg)\n}\n\
+                   emit(C().b(), \"b.plan.json\")\n";
+    let (first, second) = (run_text(program, Mode::Run), run_text(program, Mode::Run));
+    assert_eq!(first.outcome.written, ["b.plan.json"], "{:?}", first.outcome.diagnostics);
+    assert_eq!(first.host.written, second.host.written);
+}
+
+#[test]
+fn what_is_verified_and_then_written_is_judged_once() {
+    let program = "use std.smores.Smores\n\
+                   config C { part m: Smores\n  behavior b = move(m.tilt, to: 10deg)\n}\n\
+                   print(verify(C().b()).ok)\nemit(C().b(), \"b.plan.json\")\n";
+    let ran = run_text(program, Mode::Run);
+    assert_eq!(ran.host.printed, ["true"], "{:?}", ran.outcome.diagnostics);
+    assert_eq!(ran.host.progress, ["verifying C"]);
+}
+
+/// The length of a line's last word, in millimetres.
+fn last_length(line: &str) -> f64 {
+    let word = line.rsplit(' ').next().expect("a line has words");
+    word.trim_end_matches("mm").parse().expect("a length in millimetres")
+}
+
+#[test]
+fn the_square_comes_back_to_where_it_began() {
+    let text = include_str!("../../examples/square.mod");
+    let ran = run_text(text, Mode::Run);
+    assert_eq!(ran.host.printed[0], "order 1 modules 1 mass 557.292g");
+    let line = &ran.host.printed[1];
+    // 45.3 mm of wheel radius at 2 rad/s for 5 s.
+    let side = line.split(" once").next().expect("a line has a beginning");
+    assert!((last_length(side) - 453.0).abs() < 0.1, "{line}");
+    assert!(last_length(line) < 20.0, "{line}");
+}
+
+/// The planner is not there yet; what is wrong with its argument is told all the same.
+#[test]
+fn a_lattice_in_two_pieces_is_refused_where_it_is_made() {
+    let program = "use std.crystal.ExpandingCube\n\
+                   lattice Row of ExpandingCube = row(9)\n\
+                   lattice Split of ExpandingCube = cells(\"##.##\")\n\
+                   let p = squeeze(Row(), Split())\n";
+    let ran = run_text(program, Mode::Run);
+    let [diagnostic] = &ran.outcome.diagnostics[..] else { panic!("{:?}", ran.outcome.diagnostics) };
+    assert_eq!(diagnostic.code.0, "E0313");
+    let span = diagnostic.span().expect("a place");
+    assert_eq!(ran.sources.text(span), "Split()");
+}
+
+#[test]
+fn a_snake_of_three_hundred_modules_is_elaborated_at_once() {
+    // Steps stand in for time: they do not depend on the machine.
+    let program = "use std.smores.Chain3\n\
+                   config Snake(n: Int) {\n  part seg[n]: Chain3\n  \
+                   for i in 0..n - 1 { connect seg[i].head -- seg[i + 1].tail }\n}\n\
+                   print(count(Snake(100)), order(Snake(100)))\n";
+    let mut options = Options::default();
+    options.limits.steps = 20_000;
+    let ran = ran(&MapFiles::of(program), "main.mod", Mode::Run, &options);
+    assert_eq!(ran.host.printed, ["300 2"], "{:?}", ran.outcome.diagnostics);
+}

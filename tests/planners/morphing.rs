@@ -1,0 +1,224 @@
+//! `morph`: how near the robot of the paper comes to its two targets, both ways, and what it never does.
+
+use crate::support::trusses::{cube, distance, ell, looked_at, robot, truth};
+use modl::geometry::Vec3;
+use modl::planners::truss::fit::Distance;
+use modl::planners::truss::goal::Goal;
+use modl::planners::truss::morph::{End, Morph, Wish, morph};
+use modl::planners::truss::surface::{Surface, outer};
+use modl::planners::truss::{Limits, Loop};
+
+fn morphed(goal: &Goal, steps_max: usize) -> Morph {
+    let (truss, start) = robot();
+    let wish = Wish { steps_max, tolerance: 0.0, orientations: 0, seed: 0 };
+    morph(&truss, &start, goal, &wish, &|_, _| true).expect("it has a surface")
+}
+
+fn near(found: f64, wanted: f64, within: f64) {
+    assert!((found - wanted).abs() < within, "{found} and not {wanted}");
+}
+
+#[test]
+fn the_outer_surface_is_the_known_one() {
+    let (truss, start) = robot();
+    let mut found: Vec<[usize; 3]> = outer(&truss, &start).expect("closed");
+    let mut wanted: Vec<[usize; 3]> =
+        serde_json::from_value(truth()["outer_triangles_oriented_outward"].clone()).expect("triangles");
+    // The same triangle may begin at any corner.
+    let turned = |t: &mut [usize; 3]| {
+        let first = (0..3).min_by_key(|&k| t[k]).expect("three");
+        t.rotate_left(first);
+    };
+    found.iter_mut().chain(&mut wanted).for_each(turned);
+    found.sort_unstable();
+    wanted.sort_unstable();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn the_start_is_as_far_as_known() {
+    let initial = truth()["initial_rms"].clone();
+    near(morphed(&cube(), 0).start.there, initial["cube"].as_f64().expect("a number"), 1e-12);
+    near(morphed(&ell(), 0).start.there, initial["L"].as_f64().expect("a number"), 1e-12);
+}
+
+/// What the best known method reaches (`final_rms_by_method` and the aims beside it), and better.
+#[test]
+fn a_cube_and_an_ell_are_reached() {
+    let Distance { there, back, .. } = morphed(&cube(), 150).distance;
+    assert!(there <= 0.0140 && back <= 0.015, "cube {there} {back}");
+    let Distance { there, back, .. } = morphed(&ell(), 300).distance;
+    assert!(there <= 0.0095 && back <= 0.0105, "ell {there} {back}");
+}
+
+#[test]
+fn what_is_said_of_the_distance_holds() {
+    let (truss, start) = robot();
+    let found = morphed(&ell(), 60);
+    let last = found.steps.last().expect("steps");
+    let faces = outer(&truss, &start).expect("closed");
+    let surface = Surface::new(faces.iter().map(|f| f.map(|node| last[node])).collect());
+    // The goal's middle is the middle of the nodes at the start.
+    let goal = ell();
+    let shift = start.iter().sum::<Vec3>() / start.len() as f64 - goal.centre();
+    let squares = goal.points.iter().map(|p| {
+        // The nearest of all triangles, none left out.
+        let to = |t: &[Vec3; 3]| Surface::new(vec![*t]).nearest(p + shift, None).distance;
+        surface.triangles().iter().map(to).fold(f64::INFINITY, f64::min)
+    });
+    let rms = libm::sqrt(squares.map(|d| d * d).sum::<f64>() / goal.points.len() as f64);
+    near(rms, found.distance.there, 1e-12);
+}
+
+#[test]
+fn struts_keep_their_limits_between_the_samples() {
+    let (truss, start) = robot();
+    let found = morphed(&cube(), 60);
+    let mut x = start;
+    for y in &found.steps {
+        let (apart, _, (shortest, longest)) = looked_at(&truss, &x, y, 50);
+        assert!(apart > 0.1 - 1e-9, "{apart}");
+        assert!(shortest > 0.3 - 1e-9 && longest < 3.0 + 1e-9, "{shortest} {longest}");
+        x.clone_from(y);
+    }
+}
+
+/// Limits beside those of the struts, looked at between the samples by other arithmetic. The bounds on the
+/// distances are those of the best known method with an angle (`final_rms_with_min_angle`), and better.
+#[test]
+fn limits_of_the_shape_are_kept_between_the_samples() {
+    let (truss, start) = robot();
+    let angle = 10f64.to_radians();
+    let around = |struts: &[usize]| Loop { struts: struts.to_vec(), range: (0.0, 0.0) };
+    let loops = vec![around(&[0, 1, 2]), around(&[50, 51, 60, 61])];
+    let cases = [
+        (Limits { angle, ..Limits::default() }, cube(), 150, 0.0140),
+        (Limits { angle, ..Limits::default() }, ell(), 300, 0.0080),
+        (Limits { still: vec![3, 40, 77], ..Limits::default() }, cube(), 60, 0.05),
+        (Limits { loops, ..Limits::default() }, cube(), 60, 0.05),
+        (Limits { rigidity: 0.2, ..Limits::default() }, cube(), 15, 0.2),
+    ];
+    for (limits, goal, steps_max, within) in cases {
+        let truss = truss.clone().limited(&start, limits.clone());
+        let wish = Wish { steps_max, tolerance: 0.0, orientations: 0, seed: 0 };
+        let found = morph(&truss, &start, &goal, &wish, &|_, _| true).expect("it has a surface");
+        assert!(found.distance.there <= within, "{limits:?}: {}", found.distance.there);
+        let slack = 2e-3 + 1e-9;
+        let mut x = start.clone();
+        for y in &found.steps {
+            for part in (0..=20).map(|i| i as f64 / 20.0) {
+                let at: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect();
+                let long = |strut: usize, at: &[Vec3]| {
+                    let (a, b) = truss.struts[strut];
+                    (at[a] - at[b]).norm()
+                };
+                for &strut in &limits.still {
+                    assert!((long(strut, &at) - long(strut, &start)).abs() < slack);
+                }
+                for around in &limits.loops {
+                    let sum = |at: &[Vec3]| around.struts.iter().map(|&s| long(s, at)).sum::<f64>();
+                    assert!((sum(&at) - sum(&start)).abs() < slack, "{}", sum(&at) - sum(&start));
+                }
+                if limits.angle > 0.0 {
+                    assert!(sharpest(&truss.struts, &at) > angle - 1e-9);
+                }
+            }
+            x.clone_from(y);
+        }
+        if limits.rigidity > 0.0 {
+            assert!(
+                found.steps.len() > 5 && weakest(&truss.struts, &x) > 0.2 - 1e-9,
+                "{}",
+                weakest(&truss.struts, &x)
+            );
+        }
+    }
+}
+
+/// The least angle between struts that share a node, by the law of cosines.
+fn sharpest(struts: &[(usize, usize)], x: &[Vec3]) -> f64 {
+    let mut least = f64::INFINITY;
+    for (i, &(a, b)) in struts.iter().enumerate() {
+        for &(c, d) in &struts[i + 1..] {
+            let shared = [a, b].into_iter().find(|node| [c, d].contains(node));
+            let Some(node) = shared else { continue };
+            let (p, q) = (a + b - node, c + d - node);
+            let (u, v, w) = ((x[p] - x[node]).norm(), (x[q] - x[node]).norm(), (x[p] - x[q]).norm());
+            least = least.min(libm::acos(((u * u + v * v - w * w) / (2.0 * u * v)).clamp(-1.0, 1.0)));
+        }
+    }
+    least
+}
+
+/// The seventh least singular value of the matrix of unit rows, by a decomposition of the matrix itself.
+fn weakest(struts: &[(usize, usize)], x: &[Vec3]) -> f64 {
+    let mut matrix = nalgebra::DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
+    for (row, &(a, b)) in struts.iter().enumerate() {
+        let along = (x[a] - x[b]) / (x[a] - x[b]).norm();
+        for k in 0..3 {
+            matrix[(row, 3 * a + k)] = along[k];
+            matrix[(row, 3 * b + k)] = -along[k];
+        }
+    }
+    let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    values[6]
+}
+
+/// As many directions as the study has (`orientations_4`), at its 200 steps: no worse than its median of
+/// twelve, one by one.
+#[test]
+fn other_orientations_are_reached_as_well() {
+    let turns: Vec<[[f64; 3]; 3]> =
+        serde_json::from_value(truth()["orientations_4"].clone()).expect("matrices");
+    for (name, goal, median) in [("cube", cube(), 0.0150), ("L", ell(), 0.0155)] {
+        let centre = goal.centre();
+        let mut found: Vec<f64> = turns
+            .iter()
+            .map(|turn| {
+                let row = |k: usize| Vec3::from(turn[k]);
+                let turned = goal.moved(|p| {
+                    let d = p - centre;
+                    Vec3::new(row(0).dot(&d), row(1).dot(&d), row(2).dot(&d))
+                });
+                morphed(&turned, 200).distance.there
+            })
+            .collect();
+        found.sort_by(f64::total_cmp);
+        assert!((found[1] + found[2]) / 2.0 <= median, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn targets_too_large_and_too_small_end_well() {
+    for scale in [0.2, 4.0] {
+        let goal = cube().moved(|p| p * scale);
+        let found = morphed(&goal, 80);
+        assert!(!matches!(found.end, End::Done), "{:?}", found.end);
+        assert!(found.distance.there < found.start.there);
+    }
+}
+
+#[test]
+fn orientations_are_tried_and_the_same_seed_finds_the_same() {
+    let (truss, start) = robot();
+    let turned = ell().moved(|p| Vec3::new(p.y, -p.x, p.z));
+    let with = |orientations: usize| {
+        let wish = Wish { steps_max: 40, tolerance: 0.0, orientations, seed: 3 };
+        morph(&truss, &start, &turned, &wish, &|_, _| true).expect("it has a surface")
+    };
+    let (one, again) = (with(2), with(2));
+    assert_eq!(one.steps, again.steps);
+    assert!(one.distance.both() <= with(0).distance.both() + 1e-12);
+}
+
+/// The tests' own distance against a case known by hand.
+#[test]
+fn skew_segments_are_one_apart() {
+    let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
+    near(
+        distance([at(-1.0, 0.0, 0.0), at(1.0, 0.0, 0.0)], [at(0.0, -1.0, 1.0), at(0.0, 2.0, 1.0)]),
+        1.0,
+        1e-12,
+    );
+}

@@ -1,0 +1,297 @@
+//! From shape to shape through a flat sheet: the plan passes the judge, ends as the second shape, and
+//! changes as many connections as it says.
+
+use crate::planners::fold::target;
+use crate::language::interpret::{Ran, run_text};
+use modl::geometry::Part;
+use modl::geometry::{Pose, Vec3};
+use modl::interpret::Mode;
+use modl::plan::{Body, DockKind, Plan, Tracks};
+use modl::planners::fold::meeting::Solids;
+use modl::planners::fold::pattern::{Pattern, lattice_corners};
+use modl::planners::fold::refold::{Found, NoRefolding, Settings};
+use modl::planners::fold::{Target, enumerate};
+use modl::robot::Kinematics;
+use modl::source::code;
+
+const SETTINGS: Settings = Settings { budget: 200_000, seed: 0, kept: 4 };
+
+/// Of panels that are almost triangles; the middle of side 0 is on the x axis.
+fn sheets(from: &Target, to: &Target) -> Result<Found, NoRefolding> {
+    let corner = |degrees: f64| {
+        let (sine, cosine) = libm::sincos(degrees.to_radians());
+        Vec3::new(cosine, sine, 0.0) * (0.98 * 0.08 / libm::sqrt(3.0))
+    };
+    let plate = Part::points(&[corner(-60.0), corner(60.0), corner(180.0), Vec3::new(0.0, 0.0, 1e-5)]);
+    let solids = Solids { parts: vec![vec![plate]; from.faces.len()], touch: 1e-5 };
+    modl::planners::fold::refold::sheets(from, to, &solids, &SETTINGS, |_| 0.0)
+}
+
+fn run(from: &str, to: &str, rest: &str) -> Ran {
+    run_text(
+        &format!(
+            "use std.mori.Mori
+use std.shapes.{{tetrahedron, octahedron, boat, icosahedron, tube}}
+let there = refold({from}, {to}, module: Mori{rest})
+print(there.changes, there.bound, there.becomes)
+emit(there, \"there.plan.json\")
+"
+        ),
+        Mode::Run,
+    )
+}
+
+fn plan(ran: &Ran) -> Plan {
+    assert!(ran.outcome.diagnostics.is_empty(), "{:?}", ran.outcome.diagnostics);
+    let text = String::from_utf8_lossy(&ran.host.written["there.plan.json"]);
+    modl::plan::file::read(&text).expect("it reads back")
+}
+
+/// Middles of the edges that meet in a shape: pairs of (face, side).
+fn edges(target: &Target) -> Vec<[(usize, usize); 2]> {
+    target.hinges.iter().map(|h| [(h.faces[0], h.sides[0]), (h.faces[1], h.sides[1])]).collect()
+}
+
+/// Middles of all panels, m.
+fn panels(tracks: &Tracks, end: bool) -> Vec<Vec3> {
+    let state = if end { tracks.end() } else { tracks.start.clone() };
+    let robot = &tracks.robot;
+    let kinematics = Kinematics::new(robot, &state.bonds, robot.base);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(&state.joints, &Pose::identity(), &mut poses);
+    (0..robot.modules.len()).map(|m| poses[kinematics.link(m, 0)].translation.vector).collect()
+}
+
+/// Middles of faces with sides of 80 mm, m.
+fn middles(points: &[Vec3], faces: &[[usize; 3]]) -> Vec<Vec3> {
+    faces.iter().map(|f| f.iter().map(|v| points[*v]).sum::<Vec3>() * (0.08 / 3.0)).collect()
+}
+
+/// Whether two lists of places have the same distances, m.
+fn same_shape(a: &[Vec3], b: &[Vec3]) -> bool {
+    let pairs = (0..a.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    a.len() == b.len()
+        && pairs.into_iter().all(|(i, j)| ((a[i] - a[j]).norm() - (b[i] - b[j]).norm()).abs() < 1e-9)
+}
+
+#[test]
+fn a_shape_becomes_another_and_the_judge_agrees() {
+    let ran = run("octahedron(edge: 80mm)", "boat(edge: 80mm)", "");
+    let plan = plan(&ran);
+    assert!(modl::plan::verify::verify(&plan).ok());
+    let Body::Tracks(tracks) = &plan.body else { panic!("an articulated robot") };
+    let r = std::f64::consts::FRAC_1_SQRT_2;
+    let octahedron =
+        [[r, 0., 0.], [-r, 0., 0.], [0., r, 0.], [0., -r, 0.], [0., 0., r], [0., 0., -r]].map(Vec3::from);
+    let faces = [[0, 2, 4], [0, 5, 2], [0, 4, 3], [0, 3, 5], [1, 4, 2], [1, 2, 5], [1, 3, 4], [1, 5, 3]];
+    assert!(same_shape(&panels(tracks, false), &middles(&octahedron, &faces)));
+    // Three tetrahedra about the edge between the first two points.
+    let mut boat = vec![Vec3::new(0., 0., 0.5), Vec3::new(0., 0., -0.5)];
+    boat.extend((0..4).map(|i| {
+        let (sine, cosine) = libm::sincos(f64::from(i) * libm::acos(1.0 / 3.0));
+        Vec3::new(cosine, sine, 0.0) * libm::sqrt(0.75)
+    }));
+    let faces = [[2, 0, 1], [0, 2, 3], [0, 3, 4], [0, 4, 5], [1, 3, 2], [1, 4, 3], [1, 5, 4], [5, 1, 0]];
+    let faces = middles(&boat, &faces);
+    let (numbers, becomes) = ran.host.printed[0].split_once('[').expect("a list");
+    let becomes = becomes.trim_end_matches(']').split(", ").map(|f| f.parse::<usize>().expect("a face"));
+    let wanted: Vec<Vec3> = becomes.map(|face| faces[face]).collect();
+    assert!(same_shape(&panels(tracks, true), &wanted));
+    let docks = |kind: DockKind| tracks.docks.iter().filter(|d| d.kind == kind).count();
+    let changes: usize = numbers.split(' ').next().expect("a number").parse().expect("a number");
+    assert_eq!((docks(DockKind::Dock), docks(DockKind::Undock)), (changes, changes));
+}
+
+/// Panels that lie in one plane: a connection goes and another comes at the same instant.
+#[test]
+fn a_change_of_connections_passes_the_judge() {
+    let mut files = crate::support::suite::MapFiles::of(
+        "use std.mori.Mori
+let there = refold(load_mesh(\"a.off\", scale: 80mm), load_mesh(\"b.off\", scale: 80mm), module: Mori)
+print(there.changes, there.bound)
+emit(there, \"there.plan.json\")
+",
+    );
+    for (name, open) in [("a.off", 2), ("b.off", 3)] {
+        let Target { vertices, faces, .. } = fan_with_tail(open);
+        let mut text = format!("OFF {} {} 0\n", vertices.len(), faces.len());
+        vertices.iter().map(|v| v / 0.08).for_each(|v| text += &format!("{} {} {}\n", v.x, v.y, v.z));
+        faces.iter().for_each(|f| text += &format!("3 {} {} {}\n", f[0], f[1], f[2]));
+        files.0.insert(name.to_owned(), text.into_bytes());
+    }
+    let ran = crate::language::interpret::ran(&files, "main.mod", Mode::Run, &modl::interpret::Options::default());
+    let plan = plan(&ran);
+    assert_eq!(ran.host.printed, ["1 1"]);
+    assert!(modl::plan::verify::verify(&plan).ok());
+    let Body::Tracks(tracks) = &plan.body else { panic!("an articulated robot") };
+    assert_eq!(tracks.docks.iter().map(|d| d.kind).collect::<Vec<_>>(), [DockKind::Dock, DockKind::Undock]);
+    assert_eq!(tracks.docks[0].time, tracks.docks[1].time);
+}
+
+#[test]
+fn plans_reverse_and_shapes_return() {
+    let text = "use std.mori.Mori
+use std.shapes.{octahedron, boat}
+let there = refold(octahedron(edge: 80mm), boat(edge: 80mm), module: Mori)
+emit(reverse(there), \"back.plan.json\")
+emit(there ++ reverse(there), \"both.plan.json\")
+";
+    let ran = run_text(text, Mode::Run);
+    assert!(ran.outcome.diagnostics.is_empty(), "{:?}", ran.outcome.diagnostics);
+}
+
+/// The sheets themselves: both layouts cover the same cells, and as many connections differ as said.
+#[test]
+fn both_layouts_of_a_sheet_cover_the_same_cells() {
+    for (from, to) in
+        [("octahedron", "octahedron"), ("snub_disphenoid", "snub_disphenoid"), ("icosahedron", "icosahedron")]
+    {
+        let (from, to) = (target(from), target(to));
+        let found = sheets(&from, &to).expect("a shape has a sheet in common with itself");
+        assert_eq!((found.best[0].strokes.len(), found.bound), (0, 0));
+        for sheet in &found.best {
+            check(&from, &to, sheet);
+        }
+    }
+}
+
+fn check(from: &Target, to: &Target, sheet: &modl::planners::fold::refold::Refolding) {
+    let n = from.faces.len();
+    let mut faces = sheet.becomes.clone();
+    faces.sort_unstable();
+    assert_eq!(faces, (0..n).collect::<Vec<_>>(), "every face once");
+    let first = lattice_corners(from, &sheet.from);
+    let second = lattice_corners(to, &sheet.to);
+    assert!(Pattern::of(from, &sheet.from).overlaps().is_empty());
+    assert!(Pattern::of(to, &sheet.to).overlaps().is_empty());
+    // Both hang at one panel, so a turn about it by thirds lays one on the other.
+    let root = sheet.from.root;
+    assert_eq!(sheet.becomes[root], sheet.to.root);
+    let turned = |[i, j]: [i64; 2], times: usize| (0..times).fold([i, j], |[i, j], _| [1 - i - j, i]);
+    let times = (0..3)
+        .find(|times| {
+            (0..3).all(|k| {
+                let side = (k + sheet.turns[root]) % 3;
+                turned(second[sheet.to.root][side], *times) == first[root][k]
+            })
+        })
+        .expect("the root's sides correspond");
+    for panel in 0..n {
+        for k in 0..3 {
+            let there = second[sheet.becomes[panel]][(k + sheet.turns[panel]) % 3];
+            assert_eq!(turned(there, times), first[panel][k], "panel {panel}");
+        }
+    }
+    let bonds_from: Vec<[(usize, usize); 2]> =
+        sheet.from.hinges().into_iter().map(|h| edges(from)[h]).collect();
+    let own = |(face, side): (usize, usize)| {
+        let panel = sheet.becomes.iter().position(|f| *f == face).expect("a panel");
+        (panel, sheet.side(panel, side))
+    };
+    let bonds_to = sheet.to.hinges().into_iter().map(|h| edges(to)[h].map(own));
+    let new = bonds_to.filter(|[a, b]| !bonds_from.contains(&[*a, *b]) && !bonds_from.contains(&[*b, *a]));
+    assert_eq!(new.count(), sheet.strokes.len());
+}
+
+#[test]
+fn shapes_with_different_numbers_of_panels_are_refused() {
+    let (from, to) = (target("tetrahedron"), target("octahedron"));
+    assert_eq!(sheets(&from, &to).err(), Some(NoRefolding::Counts));
+    let ran = run("tetrahedron(edge: 80mm)", "octahedron(edge: 80mm)", "");
+    let [said] = &ran.outcome.diagnostics[..] else { panic!("{:?}", ran.outcome.diagnostics) };
+    assert_eq!(said.code, code::BAD_VALUE);
+    assert!(said.message.contains("4 panels") && said.message.contains("8"), "{}", said.message);
+}
+
+/// A star of four triangles and a strip of four: the tetrahedron unfolds into both, but they cover
+/// different cells, so no sheet is common to them.
+#[test]
+fn a_star_is_no_strip() {
+    let lattice = |cells: &[[[i64; 2]; 3]]| {
+        let mut points: Vec<[i64; 2]> = cells.iter().flatten().copied().collect();
+        points.sort_unstable();
+        points.dedup();
+        let place = |p: &[i64; 2]| {
+            let [i, j] = p.map(|x| x as f64);
+            Vec3::new(0.08 * (i + j / 2.0), 0.08 * libm::sqrt(0.75) * j, 0.0)
+        };
+        let at = |p: &[i64; 2]| points.iter().position(|q| q == p).expect("it is one of them");
+        let faces: Vec<Vec<usize>> = cells.iter().map(|c| c.iter().map(at).collect()).collect();
+        Target::new(points.iter().map(place).collect(), &faces).expect("it folds")
+    };
+    let star = lattice(&[
+        [[0, 0], [1, 0], [0, 1]],
+        [[1, 0], [0, 0], [1, -1]],
+        [[0, 1], [1, 0], [1, 1]],
+        [[0, 0], [0, 1], [-1, 1]],
+    ]);
+    let strip = lattice(&[
+        [[0, 0], [1, 0], [0, 1]],
+        [[1, 0], [1, 1], [0, 1]],
+        [[1, 0], [2, 0], [1, 1]],
+        [[2, 0], [2, 1], [1, 1]],
+    ]);
+    // The tetrahedron unfolds into both.
+    for flat in [&star, &strip] {
+        let found = sheets(&target("tetrahedron"), flat).expect("there is one");
+        assert_eq!((found.best[0].strokes.len(), found.bound), (0, 0));
+        check(&target("tetrahedron"), flat, &found.best[0]);
+    }
+    // Star and strip have one layout each, and cover different cells: a panel moves.
+    for target in [&star, &strip] {
+        assert_eq!(enumerate::each(target, 9, |_| {}).expect("few faces").layouts, 1);
+    }
+    let found = sheets(&star, &strip).expect("a leaf goes about a corner of the star");
+    assert_eq!((found.best[0].strokes.len(), found.bound), (1, 1));
+    let stroke = &found.best[0].strokes[0];
+    // Three panels close as the tetrahedron does.
+    assert_eq!(stroke.fold.len(), 2);
+    assert!((stroke.angle.abs() - libm::acos(-1.0 / 3.0)).abs() < 1e-12);
+}
+
+/// Six triangles round a point without the hinge at one spoke, and a seventh at the outside of one of
+/// them: chains that turn the other way round the point cover the same cells.
+fn fan_with_tail(open: usize) -> Target {
+    let angle = |i: usize| std::f64::consts::FRAC_PI_3 * i as f64;
+    let mut points = vec![Vec3::zeros()];
+    points.extend((0..6).map(|i| Vec3::new(libm::cos(angle(i)), libm::sin(angle(i)), 0.0) * 0.08));
+    // The corner at which it is open is there twice, so that the faces on its two sides have no hinge.
+    let corner = |i: usize| if i == 6 { 7 } else { 1 + (open + i) % 6 };
+    points.push(points[corner(0)]);
+    points.push(points[1] + points[2]);
+    let mut faces: Vec<Vec<usize>> = (0..6).map(|i| vec![0, corner(i), corner(i + 1)]).collect();
+    faces.push(vec![2, 1, 8]);
+    Target::new(points, &faces).expect("it folds")
+}
+
+/// Open at one spoke or the next: one change, and none is not enough.
+#[test]
+fn one_change_is_found_and_proved_necessary() {
+    let (first, second) = (fan_with_tail(2), fan_with_tail(3));
+    let found = sheets(&first, &second).expect("they cover the same cells");
+    assert_eq!((found.best[0].strokes.len(), found.bound), (1, 1));
+    check(&first, &second, &found.best[0]);
+}
+
+/// Shapes without a common sheet: panels go from one to the other in the plane, each time that a fan
+/// closes and opens elsewhere, and the judge agrees.
+#[test]
+fn panels_walk_from_sheet_to_sheet() {
+    let ran = run("icosahedron(edge: 80mm)", "tube(sides: 5, rings: 2, edge: 80mm)", "");
+    let plan = plan(&ran);
+    assert!(modl::plan::verify::verify(&plan).ok());
+    let Body::Tracks(tracks) = &plan.body else { panic!("an articulated robot") };
+    let printed: Vec<usize> =
+        ran.host.printed[0].split(' ').take(2).map(|n| n.parse().expect("a number")).collect();
+    let docks = |kind: DockKind| tracks.docks.iter().filter(|d| d.kind == kind).count();
+    assert_eq!((docks(DockKind::Dock), docks(DockKind::Undock)), (printed[0], printed[0]));
+    assert!(0 < printed[1] && printed[1] <= printed[0], "{printed:?}");
+    let (middles, ends) = (panels(tracks, false), panels(tracks, true));
+    // An icosahedron's middles are on a ball; those of a tube of five are in four rows of five heights.
+    let centre = |places: &[Vec3]| places.iter().sum::<Vec3>() / places.len() as f64;
+    let spread = |places: &[Vec3]| {
+        let radii: Vec<f64> = places.iter().map(|p| (p - centre(places)).norm()).collect();
+        radii.iter().copied().fold(0.0, f64::max) - radii.iter().copied().fold(f64::MAX, f64::min)
+    };
+    assert!(spread(&middles) < 1e-9 && spread(&ends) > 1e-3);
+}

@@ -1,0 +1,242 @@
+//! Unwinding: plans from the planner before the judge, and replayed a second time with arithmetic of
+//! their own; what is refused; plans that are spoilt.
+
+use crate::support::desk::{run, run_clean};
+use crate::support::replay::Replay;
+use crate::support::suite::MapFiles;
+use modl::interpret::Mode;
+use modl::plan::{self, Body, DockKind, Plan, Tracks};
+use modl::source::code;
+
+/// Shapes that are no snake, with what they are made of.
+const SHAPES: &str = "
+use std.rofi.{Rofi, Snake, Ring}
+
+/// A middle with legs at its sides.
+config Star(length: Int = 2) {
+  part middle: Rofi
+  part leg[4]: Snake(n: length)
+  connect middle.a_plus_x -- leg[0].head
+  connect middle.a_minus_x -- leg[1].head turn 90deg
+  connect middle.b_plus_x -- leg[2].head turn 180deg
+  connect middle.b_minus_x -- leg[3].head
+}
+
+/// Modules side by side, each held by the next at its sides.
+config Raft(n: Int = 4) {
+  part m[n]: Rofi
+  for i in 0..n - 1 { connect m[i].a_plus_x -- m[i + 1].a_minus_x turn 180deg }
+}
+
+/// A ring with a tail: a loop, and a bond between them that is none of a snake.
+config Tailed closed {
+  part ring: Ring(n: 8)
+  part tail: Snake(n: 3)
+  connect ring.m[0].a_plus_x -- tail.head turn 90deg
+}
+
+/// Two snakes, end to end in a turn that is none of a snake.
+config Twisted {
+  part a: Snake(n: 3)
+  part b: Snake(n: 3)
+  connect a.tail -- b.head turn 90deg
+}
+";
+
+const EXPRESSIONS: [&str; 6] = ["Snake(n: 3)", "Ring(n: 6)", "Star", "Raft", "Tailed", "Twisted"];
+
+fn planned(expression: &str) -> Plan {
+    let text = format!("{SHAPES}\nemit(tosnake({expression}), \"p.plan.json\")\n");
+    plan::file::read(run_clean(&text).text("p.plan.json")).expect("it was written to be read")
+}
+
+pub fn tracks(plan: &Plan) -> &Tracks {
+    let Body::Tracks(tracks) = &plan.body else { panic!("a plan of joints") };
+    tracks
+}
+
+#[test]
+fn shapes_unwind_to_snakes_and_a_second_replay_agrees() {
+    for expression in EXPRESSIONS {
+        let plan = planned(expression);
+        assert!(plan::verify::verify(&plan).ok(), "{expression}");
+        let replay = Replay::new(tracks(&plan));
+        replay.judge().unwrap_or_else(|fault| panic!("{expression}: {fault}"));
+        replay.ends_as_snake().unwrap_or_else(|fault| panic!("{expression}: {fault}"));
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_plan_and_another_seed_a_plan() {
+    let text = |seed: u32| {
+        let program = format!(
+            "{SHAPES}\nlet p = tosnake(Star, seed: {seed})\nemit(p, \"p.plan.json\")\nprint(p.work)\n"
+        );
+        run_clean(&program)
+    };
+    assert_eq!(text(3).text("p.plan.json"), text(3).text("p.plan.json"));
+    assert_ne!(text(3).printed, text(4).printed, "the search depends on the seed");
+}
+
+#[test]
+fn what_can_not_be_unwound_is_refused_with_the_reason() {
+    let overlapping = "C\nM 0 0 0 0\nM 1 0 90 0\nM 2 0 90 0\nM 3 0 90 0\nM 4 0 90 0\nE 0 B -Z N -Z A 1\n\
+                       E 1 B -Z S -Z A 2\nE 2 B -Z S -Z A 3\nE 3 B -Z S -Z A 4\n";
+    for (call, wanted, words) in [
+        ("tosnake(Star, budget: 500)", code::NO_WAY, "0 of 4 connections were made"),
+        ("tosnake(Smores())", code::NOT_COVERED, "no RoFI module"),
+        ("tosnake(load(\"x.rofi\"))", code::NO_WAY, "in each other"),
+        ("reconfigure(Snake(n: 3), Snake(n: 4))", code::NO_WAY, "3 modules can't become one of 4"),
+        ("tosnake(Mixed)", code::NOT_COVERED, "another pitch"),
+        ("tosnake(Star, gravity: 200m/s^2)", code::NO_WAY, "too heavy: "),
+    ] {
+        let text = format!(
+            "{SHAPES}\nuse std.smores.Smores\nconfig Mixed {{\n  part a: Rofi\n  part b: Rofi(pitch: 50mm)\n  \
+             connect a.a_plus_x -- b.a_plus_x\n}}\nprint({call})\n"
+        );
+        let mut files = MapFiles::of(&text);
+        files.0.insert("x.rofi".into(), overlapping.as_bytes().to_vec());
+        let (observed, _, _) = run(&files, Mode::Run);
+        let errors: Vec<_> = observed.diagnostics.iter().filter(|d| d.code == wanted).collect();
+        let [error] = errors[..] else { panic!("{call}: {:?}", observed.diagnostics) };
+        assert!(error.message.contains(words), "{call}: {}", error.message);
+    }
+}
+
+/// The kinds of false plans that are known of other planners, each beside a true twin.
+#[test]
+fn only_ends_that_are_free_do_not_make_a_plan() {
+    let gate = |to: &str| {
+        format!(
+            "use std.rofi.Rofi
+config Gate {{
+  part m[2]: Rofi
+  part post: Rofi
+  connect m[0].b_minus_z -- m[1].a_minus_z
+  connect m[0].a_plus_x -- post.a_minus_z turn 90deg
+  set m[0].beta = 90deg
+  set post.alpha = 90deg
+  base m[0]
+  behavior swing(to: Angle) = move(m[0].gamma, to: to)
+}}
+let free = world(ground: off, gravity: off)
+print(verify(Gate().swing({to}), world: free).ok)
+"
+        )
+    };
+    // From the one side of the post to the other: past it, or the other way round.
+    assert_eq!(run_clean(&gate("180deg")).printed, ["false"]);
+    assert_eq!(run_clean(&gate("-180deg")).printed, ["true"]);
+}
+
+#[test]
+fn spoilt_plans_do_not_pass() {
+    let plan = planned("Star");
+    let spoil = |what: &str, how: &dyn Fn(&mut Tracks)| {
+        let mut spoilt = plan.clone();
+        let Body::Tracks(tracks) = &mut spoilt.body else { panic!("a plan of joints") };
+        how(tracks);
+        assert!(!plan::verify::verify(&spoilt).ok(), "{what} passes");
+    };
+    let first = |kind: DockKind, tracks: &Tracks| {
+        tracks.docks.iter().position(|dock| dock.kind == kind).expect("there is one")
+    };
+    spoil("a dock that does not meet", &|tracks| {
+        let dock = first(DockKind::Dock, tracks);
+        tracks.docks[dock].time *= 0.5;
+    });
+    spoil("letting go too early", &|tracks| {
+        let dock = first(DockKind::Undock, tracks);
+        tracks.docks[dock].time *= 0.5;
+        tracks.docks.swap(0, dock);
+    });
+    spoil("a joint that stays behind", &|tracks| {
+        let longest = tracks.tracks.iter_mut().max_by_key(|track| track.segments.len());
+        longest.expect("something moves").segments.remove(0);
+    });
+    spoil("a robot that lacks a module", &|tracks| {
+        tracks.robot.modules.pop();
+    });
+    spoil("a bond that is let go, and nothing else holds", &|tracks| {
+        let dock = first(DockKind::Dock, tracks);
+        tracks.docks.remove(dock);
+    });
+    spoil("only ends of moves: whoever is between them", &|tracks| {
+        for track in &mut tracks.tracks {
+            for segment in &mut track.segments {
+                // Half a turn off in the middle, and at the ends where it was.
+                let middle = segment.control.len() / 2;
+                segment.control[middle] += 20.0;
+            }
+        }
+    });
+    spoil("a joint beyond its range", &|tracks| {
+        let tilt = tracks.tracks.iter_mut().find(|track| track.joint.0 % 3 == 0).expect("a tilt moves");
+        let middle = tilt.segments[0].control.len() / 2;
+        tilt.segments[0].control[middle] += 3.0;
+    });
+}
+
+/// The judge proves motions, whatever they are for. That all modules are in the snake is for the replay.
+#[test]
+fn a_snake_that_lacks_a_module_is_none() {
+    let mut plan = planned("Star");
+    let Body::Tracks(tracks) = &mut plan.body else { panic!("a plan of joints") };
+    Replay::new(tracks).ends_as_snake().expect("as it was planned");
+    let last = |kind: DockKind, tracks: &Tracks| {
+        tracks.docks.iter().rposition(|dock| dock.kind == kind).expect("there is one")
+    };
+    // Before the last leg docked it hung on by another bond, and everything else held as it does in the end.
+    let undock = last(DockKind::Undock, tracks);
+    tracks.docks.remove(undock);
+    let dock = last(DockKind::Dock, tracks);
+    tracks.docks.remove(dock);
+    assert!(Replay::new(tracks).ends_as_snake().is_err());
+}
+
+#[test]
+fn a_robot_becomes_another() {
+    let printed = run_clean(&format!(
+        "{SHAPES}\nuse std.rofi.{{Chair, Spider}}
+let p = reconfigure(Star(length: 1), Snake(n: 5))
+print(verify(p).ok, p.docks, p.undocks)
+let q = tosnake(Chair()) ++ reverse(tosnake(Spider(), seed: 1))
+print(verify(q).ok)
+// It ends as the second robot: a motion of that robot goes on from there.
+config Waving closed {{
+  part s: Spider
+  behavior wave = move(s.foot[0].gamma, by: 30deg)
+}}
+let free = world(ground: off, gravity: off)
+print(verify(q ++ plan(Waving().wave(), world: free)).ok)
+emit(q, \"q.plan.json\")
+"
+    ));
+    assert_eq!(printed.printed, ["true 4 4", "true", "true"]);
+    // Its program does what its tracks say, whichever end of a bond it names first.
+    let plan = plan::file::read(printed.text("q.plan.json")).expect("it was written to be read");
+    assert_eq!(modl::behavior::unfaithful(&plan), None);
+}
+
+#[test]
+fn what_a_chair_became_crawls() {
+    let printed = run_clean(
+        "use std.rofi.{Chair, Spider}
+let r = verify(reconfigure(Chair(), Spider(), seed: 1) ++ Spider().crawl())
+print(r.ok, r.travel > 20mm)
+",
+    );
+    assert_eq!(printed.printed, ["true true"]);
+}
+
+#[test]
+fn the_shapes_of_the_paper_unwind() {
+    for shape in ["Chair", "Spider", "Ball", "Puppy", "Human", "Crab(folded: true)"] {
+        let name = shape.split('(').next().unwrap_or(shape);
+        let text = format!("use std.rofi.{name}\nemit(tosnake({shape}), \"p.plan.json\")\n");
+        let plan = plan::file::read(run_clean(&text).text("p.plan.json")).expect("it was written to be read");
+        let replay = Replay::new(tracks(&plan));
+        replay.judge().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
+        replay.ends_as_snake().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
+    }
+}

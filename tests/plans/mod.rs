@@ -1,0 +1,5 @@
+//! Plan files and operations on plans.
+
+pub mod plan_file;
+pub mod plan_operations;
+pub mod plans_stored;

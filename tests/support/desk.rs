@@ -1,0 +1,62 @@
+//! A host for tests: what a program prints and writes, kept.
+
+use crate::support::suite::{MapFiles, Observed};
+use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
+use std::collections::BTreeMap;
+
+#[derive(Default)]
+pub struct Desk {
+    pub printed: Vec<String>,
+    pub written: BTreeMap<String, Vec<u8>>,
+}
+
+impl Host for Desk {
+    fn print(&mut self, line: &str) {
+        self.printed.extend(line.split('\n').map(str::to_string));
+    }
+
+    fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
+        match modl::source::files::join("", path) {
+            Some(path) => {
+                self.written.insert(path.clone(), bytes.to_vec());
+                Ok(path)
+            }
+            None => Err(WriteError::Outside),
+        }
+    }
+
+    fn progress(&mut self, _: &str) {}
+}
+
+impl Desk {
+    /// The text of a written file.
+    pub fn text(&self, path: &str) -> &str {
+        let bytes = self.written.get(path).unwrap_or_else(|| panic!("{path} was not written"));
+        std::str::from_utf8(bytes).expect("plans are text")
+    }
+}
+
+/// Checks and runs a program; the diagnostics of both are in the first result.
+pub fn run(files: &MapFiles, mode: Mode) -> (Observed, Desk, Outcome) {
+    let checked = modl::check::check(files, "main.mod");
+    let mut desk = Desk::default();
+    let mut diagnostics = checked.diagnostics.clone();
+    let outcome = if checked.has_errors() {
+        Outcome::default()
+    } else {
+        interpret::run(&checked, mode, files, &mut desk, &Options::default())
+    };
+    diagnostics.extend(outcome.diagnostics.iter().cloned());
+    let file = checked.sources.files().find(|(_, f)| &*f.name == "main.mod").map(|(id, _)| id);
+    let observed = Observed { sources: checked.sources, file, diagnostics, printed: desk.printed.clone() };
+    (observed, desk, outcome)
+}
+
+/// What a program that must be without mistakes prints and writes.
+pub fn run_clean(text: &str) -> Desk {
+    let (observed, desk, _) = run(&MapFiles::of(text), Mode::Run);
+    let said: Vec<String> =
+        observed.diagnostics.iter().map(|d| format!("{} {}", d.code, d.message)).collect();
+    assert!(said.is_empty(), "{said:#?}\nin\n{text}");
+    desk
+}

@@ -1,0 +1,14 @@
+//! What the tests share: hosts, sandboxes, terminals, robots and programs made by plain Rust.
+
+pub mod desk;
+pub mod fences;
+pub mod generated;
+pub mod lattices;
+pub mod motions;
+pub mod programs;
+pub mod replay;
+pub mod robots;
+pub mod suite;
+pub mod terminal;
+pub mod tree;
+pub mod trusses;
