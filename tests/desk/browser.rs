@@ -4,10 +4,10 @@
 #![allow(non_snake_case)]
 
 use crate::desk::cli::Sandbox;
+use crate::judge::truss_judge::knot;
 use crate::plans::plan_operations::plan_of;
 use crate::support::programs::*;
 use crate::support::robots::{TILT, chain, reel};
-use crate::judge::truss_judge::knot;
 use modl::geometry::Pose;
 use modl::plan::{
     Body, CauseId, CellLimits, Counter, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages, TrussLimits,

@@ -2,8 +2,8 @@
 #![cfg(unix)]
 
 use crate::desk::cli::Sandbox;
-use crate::support::terminal::{PROMPT, Terminal};
 use crate::desk::transcripts::HINGE;
+use crate::support::terminal::{PROMPT, Terminal};
 use rexpect::session::{PtySession, spawn_command};
 use std::time::{Duration, Instant};
 

@@ -1,8 +1,8 @@
 //! `docs/library.md`: the robots of the library by order, with what they can do. The test compares it;
 //! `UPDATE_DOCS=1 cargo test --release library_guide` writes it.
 
-use crate::support::fences::files;
 use crate::language::interpret::ran;
+use crate::support::fences::files;
 use crate::support::suite::MapFiles;
 use modl::interpret::{Mode, Options};
 use modl::source::FileId;
@@ -115,5 +115,8 @@ fn the_guide_to_the_robots_is_that_of_the_declarations() {
         std::fs::write(&path, &page).expect("docs can be written");
     }
     let written = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(written == page, "docs/library.md is stale; UPDATE_DOCS=1 cargo test --release library_guide writes it");
+    assert!(
+        written == page,
+        "docs/library.md is stale; UPDATE_DOCS=1 cargo test --release library_guide writes it"
+    );
 }

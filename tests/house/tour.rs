@@ -4,8 +4,8 @@
 //! ` ```modl NAME.mod ` is a file; ` ```modl NAME.mod OTHER.mod ` is the other file with more at its end.
 
 use crate::desk::cli::Sandbox;
-use crate::support::fences::fences;
 use crate::desk::transcripts::Transcript;
+use crate::support::fences::fences;
 use std::collections::BTreeSet;
 use std::fs;
 

@@ -1,7 +1,7 @@
 //! The judge of lattice plans: what it must reject, each for its reason, and what it must accept.
 
-use crate::support::lattices::{BALANCED, PAPER, TERMS, UNIT, judged, judged_plan, plan_of, stages_of};
 use crate::planners::squeeze::{to_halves, truth};
+use crate::support::lattices::{BALANCED, PAPER, TERMS, UNIT, judged, judged_plan, plan_of, stages_of};
 use modl::plan::verify::verify;
 use modl::plan::{
     Body, CauseId, CheckKind, Ground, Law, Model, Plan, Ratio, Run, Snapshot, Stage, Stages, Verdict, World,

@@ -143,7 +143,8 @@ fn ten_thousand_programs_with_comments_anywhere_keep_their_meaning() {
     for seed in 0..GENERATED {
         let mut dice = Dice::new(seed);
         // Programs that mean something, and those that have every form of the grammar.
-        let plain = if seed % 2 == 0 { program(&mut dice) } else { crate::language::forms::program(&mut dice) };
+        let plain =
+            if seed % 2 == 0 { program(&mut dice) } else { crate::language::forms::program(&mut dice) };
         let text = commented(&plain, &mut dice, 1 + (seed % 40) as usize);
         let once = formatted(&text);
         assert_eq!(once, formatted(&once), "the second time is another:\n{text}");

@@ -1,8 +1,8 @@
 //! Panels that meet on the way: counts by another program for panels without thickness, found again
 //! by samples, and the judge's word on panels with thickness.
 
-use crate::planners::fold::{SIDE, TRUTH, index, mesh, pairs, target};
 use crate::language::interpret::run_text;
+use crate::planners::fold::{SIDE, TRUTH, index, mesh, pairs, target};
 use modl::geometry::{Part, Vec3};
 use modl::interpret::Mode;
 use modl::planners::fold::folded::poses_at;

@@ -1,8 +1,8 @@
 //! What folding writes for others: FOLD files, folded here from nothing but themselves, and the layers
 //! of patterns.
 
-use crate::planners::fold::{TRUTH, index, numbers};
 use crate::language::interpret::ran;
+use crate::planners::fold::{TRUTH, index, numbers};
 use crate::support::suite::MapFiles;
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};

@@ -1,8 +1,8 @@
 //! From shape to shape through a flat sheet: the plan passes the judge, ends as the second shape, and
 //! changes as many connections as it says.
 
-use crate::planners::fold::target;
 use crate::language::interpret::{Ran, run_text};
+use crate::planners::fold::target;
 use modl::geometry::Part;
 use modl::geometry::{Pose, Vec3};
 use modl::interpret::Mode;
@@ -119,7 +119,8 @@ emit(there, \"there.plan.json\")
         faces.iter().for_each(|f| text += &format!("3 {} {} {}\n", f[0], f[1], f[2]));
         files.0.insert(name.to_owned(), text.into_bytes());
     }
-    let ran = crate::language::interpret::ran(&files, "main.mod", Mode::Run, &modl::interpret::Options::default());
+    let ran =
+        crate::language::interpret::ran(&files, "main.mod", Mode::Run, &modl::interpret::Options::default());
     let plan = plan(&ran);
     assert_eq!(ran.host.printed, ["1 1"]);
     assert!(modl::plan::verify::verify(&plan).ok());

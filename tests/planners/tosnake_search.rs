@@ -1,10 +1,10 @@
 //! Unwinding: what the search tells while it looks, how it ends early, what it falls back on, and the
 //! paper's own method beside it.
 
+use crate::planners::tosnake::tracks;
 use crate::support::desk::{Desk, run_clean};
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
-use crate::planners::tosnake::tracks;
 use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
 use modl::interrupt::Interrupt;
 use modl::plan::{self, Body};

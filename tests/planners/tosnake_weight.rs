@@ -1,11 +1,11 @@
 //! Robots of RoFI modules that are held by one module and weigh something: what the judge says of them,
 //! against closed forms and virtual work; plans that keep every joint's torque within its limit; refusals.
 
+use crate::planners::tosnake::tracks;
+use crate::planners::tosnake_search::{EIGHT, TEN};
 use crate::support::desk::{run, run_clean};
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
-use crate::planners::tosnake::tracks;
-use crate::planners::tosnake_search::{EIGHT, TEN};
 use modl::interpret::Mode;
 use modl::plan::verify::verify;
 use modl::plan::{self, Body, CheckKind, Ground, Plan, Status, World};

@@ -1,8 +1,8 @@
 //! Plans reversed, cut and joined; programs told from tracks; random programs through all of it.
 
+use crate::judge::truss_judge::knot;
 use crate::support::programs::*;
 use crate::support::robots::{FRONT, LEFT, TILT, at_rest, chain, walk4};
-use crate::judge::truss_judge::knot;
 use modl::behavior::Scheduled;
 use modl::plan::{
     Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Law, Model, Node,
