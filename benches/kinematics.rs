@@ -17,8 +17,8 @@ mod urdf;
 use support::robots;
 
 use modl::geometry::{Placed, Pose, Shape};
-use modl::plan::verify::Precision;
-use modl::plan::verify::collision::judge;
+use modl::plan::verify::articulated::Precision;
+use modl::plan::verify::articulated::collision::judge;
 use modl::plan::{CauseId, Segment, Settings, Track, Tracks};
 use modl::robot::{Assembly, JointId, Kinematics};
 use serde_json::{Value, json};

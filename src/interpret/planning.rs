@@ -395,5 +395,5 @@ impl Interpreter<'_> {
 
 /// The corners of the area that a robot stands on, in the frame of its base as it rests.
 pub fn footprint(robot: &Robot) -> Vec<Vec3> {
-    crate::plan::verify::area(&robot.assembly, &robot.start)
+    crate::plan::verify::articulated::area(&robot.assembly, &robot.start)
 }

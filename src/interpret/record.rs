@@ -14,7 +14,7 @@ use super::truss::free_motions;
 use super::value::Value;
 use super::verdicts;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::base_at;
+use crate::plan::verify::articulated::base_at;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
 use crate::planners::fold::sampling::Sample;
 use crate::robot::State;

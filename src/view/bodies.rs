@@ -6,7 +6,7 @@ use super::primitives::along;
 use super::{Showing, findings, surroundings};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::base_at;
+use crate::plan::verify::articulated::base_at;
 use crate::plan::{Body, CellBox, NodePaths, Stages, Tracks};
 use crate::robot::{Kinematics, Library};
 

@@ -3,7 +3,7 @@
 use super::number::number;
 use super::solids::Meshes;
 use super::{Showing, findings, lattice, robot, stand, surroundings, truss};
-use crate::plan::verify::{CONTACTS_MAX, clearances, history};
+use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
 use crate::plan::{Body, Bound, Ground, Plan, file};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};

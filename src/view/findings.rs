@@ -3,7 +3,7 @@
 use super::Showing;
 use super::number::{number, vector};
 use crate::geometry::Vec3;
-use crate::plan::verify::collision_point;
+use crate::plan::verify::articulated::collision_point;
 use crate::plan::{Body, Cause, CheckKind, Failure, Plan, Verdict, Worst};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};

@@ -2,7 +2,7 @@
 
 use super::number::{list, number, place};
 use crate::geometry::Pose;
-use crate::plan::verify::{self, Moment};
+use crate::plan::verify::articulated::{self, Moment};
 use serde_json::{Value, json};
 
 /// A base pose is left out where those beside it give it to within this, m and (of quaternions) 1.
@@ -99,7 +99,7 @@ pub fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
         last = Some(&moment.contacts);
         told.push(json!([number(moment.time), list(moment.contacts.iter().flatten().map(|x| place(*x)))]));
     }
-    (told, most >= verify::CONTACTS_MAX)
+    (told, most >= articulated::CONTACTS_MAX)
 }
 
 /// Whether points are where others were, as far as an eye can tell.

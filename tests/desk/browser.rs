@@ -38,7 +38,7 @@ fn tools() -> Option<(PathBuf, PathBuf)> {
 /// The positions of all links at some times, by the kinematics of the judge.
 fn places(plan: &Plan, times: &[f64]) -> Value {
     let Body::Tracks(tracks) = &plan.body else { return json!([]) };
-    let walked = verify::history(plan, plan.body.duration());
+    let walked = verify::articulated::history(plan, plan.body.duration());
     let at = |t: f64| {
         let moment = walked.iter().min_by(|a, b| (a.time - t).abs().total_cmp(&(b.time - t).abs()));
         let (time, base) = moment.map_or((t, tracks.start.base), |m| (m.time, m.base));

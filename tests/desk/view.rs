@@ -309,7 +309,7 @@ fn posed(plan: &Plan, time: f64) -> (Vec<Pose>, Kinematics) {
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
-    let base = modl::plan::verify::base_at(plan, time).expect("it stands");
+    let base = modl::plan::verify::articulated::base_at(plan, time).expect("it stands");
     kinematics.link_poses(&state.joints, &base, &mut poses);
     (poses, kinematics)
 }

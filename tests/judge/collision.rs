@@ -3,8 +3,8 @@
 use crate::support::robots::{self, boxed};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
-use modl::plan::verify::collision::judge;
-use modl::plan::verify::{Bodies, Findings, Precision};
+use modl::plan::verify::articulated::collision::judge;
+use modl::plan::verify::articulated::{Bodies, Findings, Precision};
 use modl::plan::{
     CauseId, Dock, DockKind, Exemption, ExemptionKind, Segment, Settings, Status, Track, Tracks,
 };

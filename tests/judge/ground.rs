@@ -4,7 +4,7 @@
 use crate::support::motions::Motion;
 use crate::support::robots::{self, DISC, LEFT, LEFT_WHEEL, RIGHT, RIGHT_WHEEL, TILT};
 use modl::geometry::Vec3;
-use modl::plan::verify::{Course, Ended, Tip, Tolerances, walk};
+use modl::plan::verify::articulated::{Course, Ended, Tip, Tolerances, walk};
 use modl::plan::{Settings, World, WorldFrom};
 use std::collections::BTreeMap;
 

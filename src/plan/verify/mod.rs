@@ -1,84 +1,16 @@
 //! The one judge of plans. It knows no planner, and believes nothing that a plan says of itself.
 //!
-//! A plan's robot is walked over its ground from sample to sample ([`walk`]); each check watches it.
-//! Joint and motor limits are judged on the polynomials themselves.
+//! There is a judge for each family of plans: [`articulated`] robots are followed from sample to sample,
+//! [`lattice`]s are judged in whole numbers, [`truss`]es in closed form. Each family's module tells the
+//! order of its checks.
 #![allow(non_snake_case)]
 
-mod ledger;
-mod tolerances;
-
-mod extremum;
-mod limits;
-
-mod support;
-
-mod model;
-
-mod align;
-mod carry;
-mod contact;
-mod descend;
 mod footprint;
-mod stance;
+mod ledger;
 
-mod sample;
-mod walk;
-
-mod bolted;
-mod forces;
-mod programme;
-mod stability;
-mod statics;
-mod torque;
-mod travel;
-
-mod bodies;
-mod frame;
-mod levels;
-mod pairs;
-mod search;
-mod swing;
-
-pub mod collision;
-
-mod area;
-mod blame;
-mod docking;
-mod history;
-mod judge;
-mod meeting;
-mod nearness;
-mod thinned;
-
+pub mod articulated;
 pub mod lattice;
-mod lattice_bound;
-mod lattice_boxes;
-mod lattice_contacts;
-mod lattice_grid;
-mod lattice_lanes;
-mod lattice_law;
-mod lattice_moments;
-mod lattice_tiles;
-mod lattice_window;
-
 pub mod truss;
-mod truss_around;
-mod truss_distance;
-mod truss_lengths;
-mod truss_margins;
-mod truss_shape;
-mod truss_standing;
-
-pub use area::area;
-pub use bodies::{Bodies, UnsoundLink};
-pub use collision::{Collision, Findings, Precision};
-pub use contact::{Patch, Touch};
-pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
-pub use model::Model;
-pub use nearness::{clearances, collision_point};
-pub use stance::Stance;
-pub use tolerances::Tolerances;
-pub use walk::{Course, Ended, Sample, Tip, Waypoint, walk};
 
 use super::{
     Body, Check, CheckKind, Failure, Plan, Provenance, Settings, Status, Tracks, Verdict, World, WorldFrom,
@@ -93,7 +25,7 @@ pub fn verify(plan: &Plan) -> Verdict {
         return unsound(faults);
     }
     match &plan.body {
-        Body::Tracks(tracks) => judge::tracks(plan, tracks),
+        Body::Tracks(tracks) => articulated::judge(plan, tracks),
         Body::Stages(stages) => lattice::judge(plan, stages),
         Body::NodePaths(paths) => truss::judge(plan, paths),
     }

@@ -1,0 +1,59 @@
+//! How a robot stands in its new posture before it settles: turned as it was, its loaded contacts at
+//! their heights.
+
+use super::contact::Touch;
+use super::model::{Model, Posture};
+use super::support::{Feature, Mat3};
+use super::tolerances::Tolerances;
+use crate::geometry::{Vec3, pose::turned};
+
+/// Against degenerate sets of centres, the orientations of links count as much as this share of
+/// their mass at this distance (m²).
+const ORIENTATION_WEIGHT: f64 = 1e-3 * 0.04 * 0.04;
+
+/// Keeps a robot on one or two contacts from being turned about them, m².
+const TURN_WEIGHT: f64 = 1e-8;
+
+const GUESS_ROUNDS: usize = 4;
+
+/// The rotation by a rotation vector, radians.
+pub fn rotation(omega: Vec3) -> Mat3 {
+    *turned(omega, omega.norm()).rotation.to_rotation_matrix().matrix()
+}
+
+/// The rotation from the new robot frame to the old that moves the masses least about the centre of
+/// mass. It does not depend on which module is the base.
+pub fn align(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
+    let mut S = Mat3::zeros();
+    for &link in &model.attached {
+        let body = &model.bodies[link];
+        let a = old.R[link] * body.com + old.p[link] - old.centre;
+        let b = new.R[link] * body.com + new.p[link] - new.centre;
+        S += (a * b.transpose() + old.R[link] * new.R[link].transpose() * ORIENTATION_WEIGHT) * body.mass;
+    }
+    let svd = S.svd(true, true);
+    let (Some(U), Some(Vt)) = (svd.u, svd.v_t) else { return Mat3::identity() };
+    let mut flip = Vec3::new(1.0, 1.0, 1.0);
+    flip[svd.singular_values.imin()] = (U * Vt).determinant().signum();
+    U * Mat3::from_diagonal(&flip) * Vt
+}
+
+/// The rotation about a horizontal axis that keeps the loaded contacts of the sample before at their
+/// heights above the ground: without it a swinging arm would turn the guess.
+pub fn guess(features: &[Feature], touches: &[Touch], tolerances: &Tolerances) -> Mat3 {
+    let mut turn = Mat3::identity();
+    for _ in 0..GUESS_ROUNDS {
+        let up = turn.transpose() * Vec3::z();
+        let mut normal = Mat3::from_diagonal(&Vec3::new(TURN_WEIGHT, TURN_WEIGHT, 0.0));
+        let mut right = Vec3::zeros();
+        for touch in touches.iter().filter(|t| t.load > tolerances.load_min) {
+            let p = turn * features[touch.feature].point(touch.k, &up);
+            let row = Vec3::new(p.y, -p.x, 1.0);
+            normal += row * row.transpose() * touch.load;
+            right += row * ((touch.gap - p.z) * touch.load);
+        }
+        let Some(solved) = normal.cholesky().map(|c| c.solve(&right)) else { break };
+        turn = rotation(Vec3::new(solved.x, solved.y, 0.0)) * turn;
+    }
+    turn
+}

@@ -1,0 +1,44 @@
+//! The area that a robot stands on.
+
+use super::contact;
+use super::tolerances::Tolerances;
+use super::walk::{Course, walk};
+use crate::geometry::Vec3;
+use crate::plan::verify::footprint::hull;
+use crate::plan::{Settings, Tracks, World, WorldFrom};
+use crate::robot::{Assembly, State};
+
+/// Corners of the hull of what touches the ground, counter-clockwise from above, in the frame of the
+/// base module's body as it rests; m. Fewer than three where the contacts span no area.
+pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
+    let tracks = Tracks {
+        robot: robot.clone(),
+        start: state.clone(),
+        tracks: vec![],
+        docks: vec![],
+        duration: 0.0,
+        start_causes: vec![],
+        bond_causes: vec![],
+    };
+    let course = Course {
+        tracks: &tracks,
+        worlds: &[WorldFrom { from: 0.0, world: World::default() }],
+        exemptions: &[],
+        settings: &Settings::default(),
+        tolerances: &Tolerances::default(),
+        held: None,
+    };
+    let mut corners = Vec::new();
+    walk(course, None, 0.0, &mut |sample, _| {
+        let stance = sample.stance;
+        let touching = stance.touches.iter().filter(|touch| contact::counts(sample.model, touch));
+        // The heading is zero at the start, so the levelled frame is the world's but for its origin.
+        let points: Vec<_> =
+            touching.map(|touch| [stance.place.x + touch.p.x, stance.place.y + touch.p.y]).collect();
+        let X_BW = stance.base_pose(sample.model).inverse();
+        let on_ground = |i: usize| X_BW.transform_point(&[points[i][0], points[i][1], 0.0].into()).coords;
+        corners = hull(&points).into_iter().map(on_ground).collect();
+        false
+    });
+    corners
+}

@@ -1,0 +1,145 @@
+//! Who is to blame for a failure: an action whose joint, held still from its start, removes it.
+//!
+//! The plan is walked again up to the failure with the joint held, so that the answer takes
+//! everything into account: where the robot stands, what it tips over, what it then has to hold.
+
+use super::docking;
+use super::stability;
+use super::torque;
+use super::travel::sunk;
+use super::walk::{Course, Sample, Waypoint, walk};
+use crate::plan::verify::ledger::Ledger;
+use crate::plan::{CauseId, CheckKind, Failure, Tracks};
+use crate::robot::{JointId, JointOwner};
+
+/// Actions that are named, and that are tried.
+pub const BLAMED_MAX: usize = 3;
+const TRIED_MAX: usize = 24;
+
+/// Failures for which the blame is sought; the rest name whoever moves.
+const FAILURES_MAX: usize = 12;
+
+/// Segments of each joint that are looked at, the latest first.
+const SEGMENTS_EACH: usize = 2;
+
+/// An action that may be to blame.
+pub struct Suspect {
+    pub joint: usize,
+    pub start: f64,
+    pub cause: CauseId,
+    /// Whether it moves at the time of the failure.
+    moving: bool,
+}
+
+/// Names who is to blame for the failures that do not say so themselves.
+pub fn blame(course: &Course, waypoints: &[Waypoint], failures: &mut [Failure]) {
+    let mut sought = 0;
+    for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {
+        let suspects = suspects(course.tracks, failure.time);
+        if failure.kind == CheckKind::Form {
+            continue;
+        }
+        sought += 1;
+        if sought <= FAILURES_MAX && ![CheckKind::JointRange, CheckKind::Collision].contains(&failure.kind) {
+            for suspect in suspects.iter().take(TRIED_MAX) {
+                let named = failure.blame.contains(&suspect.cause);
+                if !named && removes(course, waypoints, suspect, failure) {
+                    failure.blame.push(suspect.cause);
+                }
+                if failure.blame.len() == BLAMED_MAX {
+                    break;
+                }
+            }
+        }
+        if failure.blame.is_empty() && failure.time > 0.0 {
+            // No one alone: those who move then do it together.
+            let moving = suspects.iter().filter(|s| s.moving).map(|s| s.cause);
+            failure.blame = distinct(moving);
+        }
+        if failure.blame.is_empty() {
+            failure.blames_start = true;
+            failure.blame = of_start(course.tracks, failure);
+        }
+    }
+}
+
+/// Actions begun before a time, latest first.
+pub fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
+    let mut found = Vec::new();
+    for track in &tracks.tracks {
+        let begun = track.segments.partition_point(|s| s.start < t);
+        for segment in track.segments[..begun].iter().rev().take(SEGMENTS_EACH) {
+            found.push(Suspect {
+                joint: track.joint.0 as usize,
+                start: segment.start,
+                cause: segment.cause,
+                moving: segment.end >= t,
+            });
+        }
+    }
+    found.sort_by(|a, b| b.start.total_cmp(&a.start).then(a.joint.cmp(&b.joint)));
+    found
+}
+
+/// Whether the failure is gone when the suspect's joint stays where it was.
+fn removes(course: &Course, waypoints: &[Waypoint], suspect: &Suspect, failure: &Failure) -> bool {
+    let held = Course { held: Some((suspect.joint, suspect.start)), ..*course };
+    let from = waypoints.iter().rev().find(|w| w.time <= suspect.start);
+    let until = course.tracks.duration.min(failure.time + course.settings.sample);
+    let mut standing = stability::Watch::new(course.settings, course.tolerances);
+    let mut ledger = Ledger::new(course.exemptions, course.tracks.duration);
+    let mut failed = false;
+    walk(held, from, course.tracks.duration, &mut |sample, _| {
+        if sample.time > until {
+            return false;
+        }
+        let late = sample.time >= failure.time;
+        failed |= match failure.kind {
+            CheckKind::Stability => {
+                standing.see(sample, &mut ledger).is_some() || (late && standing.lacking())
+            }
+            _ => late && still(sample, failure, course, &mut ledger),
+        };
+        // A later sample says nothing about a load that was too great for a moment.
+        !failed && (failure.kind == CheckKind::Stability || !late)
+    });
+    !failed
+}
+
+/// Whether what failed fails in this sample, too.
+fn still(sample: &Sample, failure: &Failure, course: &Course, ledger: &mut Ledger) -> bool {
+    match failure.kind {
+        CheckKind::Torque | CheckKind::BondLoad => {
+            torque::overloaded(sample, &failure.at[0], course.tolerances, ledger)
+        }
+        CheckKind::Closure => docking::is_open(sample, &failure.at[0], course.tolerances),
+        CheckKind::Ground => sunk(sample).is_some(),
+        _ => true,
+    }
+}
+
+/// The `set` lines of the modules concerned, or all; or else the `connect` lines.
+fn of_start(tracks: &Tracks, failure: &Failure) -> Vec<CauseId> {
+    let owners: Vec<JointOwner> = tracks.robot.joints().collect();
+    let concerned = |joint: JointId| match owners[joint.0 as usize] {
+        JointOwner::Module { module, .. } => {
+            let name = &tracks.robot.modules[module].name;
+            failure.at.iter().any(|at| at.strip_prefix(name.as_str()).is_some_and(|r| !r.starts_with('[')))
+        }
+        JointOwner::Bond(_) => false,
+    };
+    let near = tracks.start_causes.iter().filter(|(joint, _)| concerned(*joint)).map(|c| c.1);
+    let all = tracks.start_causes.iter().map(|c| c.1);
+    let bonds = tracks.bond_causes.iter().map(|c| c.1);
+    [distinct(near), distinct(all), distinct(bonds)].into_iter().find(|c| !c.is_empty()).unwrap_or_default()
+}
+
+fn distinct(causes: impl Iterator<Item = CauseId>) -> Vec<CauseId> {
+    let mut found = Vec::new();
+    for cause in causes {
+        if !found.contains(&cause) && found.len() < BLAMED_MAX {
+            found.push(cause);
+        }
+    }
+    found
+}

@@ -1,0 +1,182 @@
+//! What touches the ground, and how the weight spreads over it.
+
+use super::model::Model;
+use super::support::Feature;
+use super::tolerances::Tolerances;
+use crate::geometry::Vec3;
+use crate::plan::verify::footprint::{self, Margin};
+
+/// A point of a feature near the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    pub feature: usize,
+    /// Which point of the feature.
+    pub k: u8,
+    pub link: usize,
+    /// From the centre of mass; +z up, m.
+    pub p: Vec3,
+    /// Height above the ground, m.
+    pub gap: f64,
+    /// Normal force as a part of the weight, without friction.
+    pub load: f64,
+}
+
+/// A link's contact as a whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    pub link: usize,
+    /// Part of the weight.
+    pub load: f64,
+    /// Centre of pressure, horizontally from the centre of mass, m.
+    pub x: f64,
+    pub y: f64,
+    /// Load-weighted mean square distance from there, m².
+    pub spread: f64,
+}
+
+/// Everything within its module's contact tolerance of the ground, which is `height` below the
+/// centre of mass; loads spread as over elastic ground.
+pub fn touches(model: &Model, features: &[Feature], height: f64, tolerances: &Tolerances) -> Vec<Touch> {
+    let up = Vec3::z();
+    let mut found = Vec::new();
+    for (index, feature) in features.iter().enumerate() {
+        let link = model.link_of[index];
+        let limit = model.bodies[link].contact.max(tolerances.gap_loaded);
+        if feature.lowest(&up) + height > limit {
+            continue;
+        }
+        for k in 0..feature.points() {
+            let p = feature.point(k, &up);
+            let gap = p.z + height;
+            if gap <= limit {
+                found.push(Touch { feature: index, k, link, p, gap, load: 0.0 });
+            }
+        }
+    }
+    spread(&mut found, tolerances);
+    found
+}
+
+/// Whether a touch counts as a contact of its module.
+pub fn counts(model: &Model, touch: &Touch) -> bool {
+    touch.gap <= model.bodies[touch.link].contact
+}
+
+/// Margin of the centre of mass in the hull of the touches for which `chosen` says true; the edge is
+/// in indices of `touches`.
+pub fn margin(touches: &[Touch], chosen: impl Fn(&Touch) -> bool) -> Option<Margin> {
+    let indices: Vec<usize> = (0..touches.len()).filter(|&i| chosen(&touches[i])).collect();
+    let points: Vec<_> = indices.iter().map(|&i| [touches[i].p.x, touches[i].p.y]).collect();
+    let found = footprint::margin(&points, [0.0, 0.0])?;
+    Some(Margin { edge: (indices[found.edge.0], indices[found.edge.1]), ..found })
+}
+
+/// Touches gathered by link, in order of link: one patch a link, since a wheel with two rims that
+/// each stuck would track as wide as its outer rim.
+pub fn patches(touches: &[Touch]) -> Vec<Patch> {
+    let mut found: Vec<Patch> = Vec::new();
+    let loaded = || touches.iter().filter(|t| t.load > 0.0);
+    for touch in loaded() {
+        let at = match found.binary_search_by_key(&touch.link, |patch| patch.link) {
+            Ok(at) => at,
+            Err(at) => {
+                found.insert(at, Patch { link: touch.link, load: 0.0, x: 0.0, y: 0.0, spread: 0.0 });
+                at
+            }
+        };
+        let patch = &mut found[at];
+        patch.load += touch.load;
+        patch.x += touch.load * touch.p.x;
+        patch.y += touch.load * touch.p.y;
+    }
+    for patch in &mut found {
+        patch.x /= patch.load;
+        patch.y /= patch.load;
+    }
+    for touch in loaded() {
+        if let Ok(at) = found.binary_search_by_key(&touch.link, |patch| patch.link) {
+            let patch = &mut found[at];
+            let (dx, dy) = (touch.p.x - patch.x, touch.p.y - patch.y);
+            patch.spread += touch.load * (dx * dx + dy * dy) / patch.load;
+        }
+    }
+    found
+}
+
+/// How much the dual solution is held back, so that it exists whatever the touches are.
+const HELD_BACK: f64 = 1e-8;
+const PROXIMAL_ROUNDS: usize = 3;
+const NEWTON_ROUNDS_MAX: usize = 60;
+const HALVINGS_MAX: usize = 40;
+/// Gradient at which the dual is solved, in parts of the weight.
+const GRADIENT_MIN: f64 = 1e-14;
+
+/// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass
+/// and N ≥ 0, where κ falls with the gap. By its dual in three unknowns: `N = κ max(0, λ·g)` with
+/// `g = (1, x, y)`. Where no such loads exist, the moment left is least.
+fn spread(touches: &mut [Touch], tolerances: &Tolerances) {
+    let near = |t: &Touch| t.gap <= tolerances.gap_loaded;
+    let size = touches.iter().filter(|t| near(t)).fold(0.0_f64, |s, t| s.max(t.p.x.abs()).max(t.p.y.abs()));
+    let size = if size > 0.0 { size } else { 1.0 };
+    let springs: Vec<(f64, Vec3, usize)> = touches
+        .iter()
+        .enumerate()
+        .filter(|(_, t)| near(t))
+        .map(|(i, t)| {
+            let stiffness = (1.0 - t.gap / tolerances.gap_loaded).max(tolerances.stiffness_min);
+            (stiffness * stiffness, Vec3::new(1.0, t.p.x / size, t.p.y / size), i)
+        })
+        .collect();
+    let total: f64 = springs.iter().map(|s| s.0).sum();
+    if springs.is_empty() {
+        return;
+    }
+    let mut lambda = Vec3::new(1.0 / total, 0.0, 0.0);
+    for _ in 0..PROXIMAL_ROUNDS {
+        lambda = newton(&springs, lambda);
+    }
+    let loads = springs.iter().map(|(kappa, g, _)| kappa * lambda.dot(g).max(0.0));
+    let sum: f64 = loads.clone().sum();
+    for (load, (_, _, i)) in loads.zip(&springs) {
+        touches[*i].load = if sum > 0.0 { load / sum } else { 0.0 };
+    }
+}
+
+/// Minimizes `½ Σ κ max(0, λ·g)² - λ₀ + δ/2 |λ - λ'|²` by Newton's method with halving: it is convex
+/// and made of quadratic pieces, so it ends exactly.
+fn newton(springs: &[(f64, Vec3, usize)], before: Vec3) -> Vec3 {
+    let value = |lambda: &Vec3| {
+        let bent: f64 =
+            springs.iter().map(|(k, g, _)| k * lambda.dot(g).max(0.0) * lambda.dot(g).max(0.0)).sum();
+        0.5 * bent - lambda.x + 0.5 * HELD_BACK * (lambda - before).norm_squared()
+    };
+    let mut lambda = before;
+    for _ in 0..NEWTON_ROUNDS_MAX {
+        let mut gradient = (lambda - before) * HELD_BACK - Vec3::x();
+        let mut hessian = super::support::Mat3::from_diagonal_element(HELD_BACK);
+        for (kappa, g, _) in springs {
+            let pressed = lambda.dot(g);
+            if pressed > 0.0 {
+                gradient += g * (kappa * pressed);
+                hessian += g * g.transpose() * *kappa;
+            }
+        }
+        if gradient.norm() < GRADIENT_MIN {
+            break;
+        }
+        let Some(step) = hessian.cholesky().map(|c| c.solve(&gradient)) else { break };
+        let now = value(&lambda);
+        let mut part = 1.0;
+        let shortened = (0..HALVINGS_MAX).find_map(|_| {
+            let next = lambda - step * part;
+            part *= 0.5;
+            (value(&next) <= now).then_some(next)
+        });
+        let Some(next) = shortened else { break };
+        if next == lambda {
+            break;
+        }
+        lambda = next;
+    }
+    lambda
+}

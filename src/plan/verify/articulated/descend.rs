@@ -1,0 +1,239 @@
+//! Settling: the attitude in which the centre of mass is lowest near a given one.
+//!
+//! Standing on level ground with its own "up" `u`, a robot's centre of mass is at the height
+//! `H(u) = max u·(c - p)` over its points p. Rest is a local minimum of H. It is found by a proximal
+//! bundle method: the points near the ground make planes under H, and the lowest point of those
+//! planes, not too far away, is the next trial.
+
+use super::align::rotation;
+use super::support::{Feature, Mat3};
+use super::tolerances::Tolerances;
+use crate::geometry::Vec3;
+use crate::plan::verify::footprint;
+
+/// Longest trial turn, rad (2°).
+const STEP_MAX: f64 = 0.034_906_585_039_886_59;
+/// Of the predicted fall, a trial must show this part.
+const ACCEPTED_PART: f64 = 0.1;
+/// Weight of long turns at the beginning, rad²/m, for robots of up to a metre.
+const REACH_START: f64 = 1e3;
+/// A plane is violated when it lies above the model by more than this, m.
+const VIOLATION: f64 = 1e-12;
+/// Rounding allowed in multipliers.
+const MULTIPLIER: f64 = 1e-10;
+/// Lowest points that a refused trial adds to the bundle, and how many it holds.
+const KEPT_POINTS: usize = 6;
+const BUNDLE_MAX: usize = 60;
+/// Limits of the loops: rounds of descent, changes of the basis, shortenings of a step.
+const ROUNDS_MAX: usize = 400;
+const BASES_MAX: usize = 500;
+const SHORTENINGS_MAX: usize = 60;
+
+/// Where the descent ended.
+#[derive(Clone, Debug)]
+pub struct Rest {
+    /// The rotation from where it began.
+    pub turn: Mat3,
+    /// Height of the centre of mass above the lowest point, m.
+    pub height: f64,
+}
+
+/// Height of the centre of mass (the origin) over the lowest point, with `up` pointing up.
+pub fn height(features: &[Feature], up: &Vec3) -> f64 {
+    -features.iter().map(|feature| feature.lowest(up)).fold(f64::INFINITY, f64::min)
+}
+
+/// Settles a robot from its present attitude; `features` have the centre of mass at the origin and
+/// +z up.
+pub fn descend(features: &[Feature], tolerances: &Tolerances) -> Rest {
+    let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);
+    let mut turn = Mat3::identity();
+    let mut level = height(features, &Vec3::z());
+    let mut bundle: Vec<Vec3> = Vec::new();
+    let mut step = STEP_MAX;
+    let mut rounds = 0;
+    while rounds < ROUNDS_MAX {
+        rounds += 1;
+        let planes = planes(features, &bundle, &turn, level, 2.0 * reach * step);
+        let (omega, bottom) = trial(&planes, step, reach);
+        if level - bottom < tolerances.fall_min {
+            match shaken(features, &turn, level, tolerances) {
+                Some((shaken, lower)) => {
+                    (turn, level) = (shaken, lower);
+                    continue;
+                }
+                None => break,
+            }
+        }
+        let tried = rotation(omega) * turn;
+        let up = tried.transpose() * Vec3::z();
+        let lower = height(features, &up);
+        if level - lower >= ACCEPTED_PART * (level - bottom) {
+            (turn, level) = (tried, lower);
+            step = STEP_MAX.min(2.0 * step);
+        } else {
+            keep_lowest(&mut bundle, features, &up, lower);
+            step = step.min(omega.norm()) / 2.0;
+        }
+    }
+    Rest { turn, height: level }
+}
+
+/// A point near the ground as a plane under H: `a + b·ω` for a small turn ω = (x, y).
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Plane {
+    a: f64,
+    b: [f64; 2],
+}
+
+impl Plane {
+    fn of(p: &Vec3) -> Plane {
+        Plane { a: -p.z, b: [-p.y, p.x] }
+    }
+
+    fn at(&self, omega: &[f64; 2]) -> f64 {
+        self.a + self.b[0] * omega[0] + self.b[1] * omega[1]
+    }
+}
+
+/// Planes of the points that a turn of the present step could bring down to the ground.
+fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_max: f64) -> Vec<Plane> {
+    let up = turn.transpose() * Vec3::z();
+    let mut planes = Vec::new();
+    for feature in features {
+        if feature.lowest(&up) + level <= gap_max {
+            planes.extend((0..feature.points()).map(|k| Plane::of(&(turn * feature.point(k, &up)))));
+        }
+    }
+    planes.extend(bundle.iter().map(|p| Plane::of(&(turn * p))));
+    planes
+}
+
+/// The turn to try, not longer than `step`, and the height that the planes promise there.
+fn trial(planes: &[Plane], step: f64, reach: f64) -> (Vec3, f64) {
+    let mut tau = REACH_START / reach.max(1.0) / reach.max(1.0);
+    let mut basis = lowest_bundle(planes, tau);
+    for _ in 0..SHORTENINGS_MAX {
+        let n = libm::hypot(basis.omega[0], basis.omega[1]);
+        if n <= step {
+            break;
+        }
+        tau *= 0.95 * step / n;
+        basis = lowest_bundle(planes, tau);
+    }
+    (Vec3::new(basis.omega[0], basis.omega[1], 0.0), basis.t)
+}
+
+/// A solution of `min t + |ω|²/2τ` with t above a few planes.
+#[derive(Clone, Debug)]
+struct Basis {
+    planes: Vec<Plane>,
+    omega: [f64; 2],
+    t: f64,
+    value: f64,
+}
+
+/// Solves `min t + |ω|²/2τ` with t above all planes: at most three of them decide.
+fn lowest_bundle(planes: &[Plane], tau: f64) -> Basis {
+    let highest = planes.iter().copied().reduce(|h, p| if p.a > h.a { p } else { h });
+    let first = highest.unwrap_or(Plane { a: 0.0, b: [0.0; 2] });
+    let mut basis = solved(&[first], tau).expect("one plane is always a basis");
+    for _ in 0..BASES_MAX {
+        let worst =
+            planes.iter().copied().reduce(|w, p| if p.at(&basis.omega) > w.at(&basis.omega) { p } else { w });
+        let Some(worst) = worst.filter(|w| w.at(&basis.omega) > basis.t + VIOLATION) else { break };
+        match exchanged(&basis, worst, tau).filter(|next| next.value > basis.value) {
+            Some(next) => basis = next,
+            None => break,
+        }
+    }
+    basis
+}
+
+/// The best basis among the new plane and up to two of the old.
+fn exchanged(basis: &Basis, plane: Plane, tau: f64) -> Option<Basis> {
+    let old = &basis.planes;
+    let mut best: Option<Basis> = None;
+    for subset in 0..1u32 << old.len() {
+        if subset.count_ones() > 2 {
+            continue;
+        }
+        let mut chosen = vec![plane];
+        chosen.extend(old.iter().enumerate().filter(|(i, _)| subset & (1 << i) != 0).map(|(_, p)| *p));
+        let all = old.iter().chain([&plane]);
+        let Some(next) = solved(&chosen, tau) else { continue };
+        let valid = all.clone().all(|p| p.at(&next.omega) <= next.t + VIOLATION);
+        if valid && best.as_ref().is_none_or(|b| next.value > b.value) {
+            best = Some(next);
+        }
+    }
+    best
+}
+
+/// Solves `τ B Bᵀ λ + t = a`, `Σλ = 1` for up to three planes; `None` where a multiplier is negative
+/// or the planes are dependent.
+fn solved(planes: &[Plane], tau: f64) -> Option<Basis> {
+    let n = planes.len();
+    let mut matrix = nalgebra::Matrix4::<f64>::identity();
+    let mut right = nalgebra::Vector4::<f64>::zeros();
+    for i in 0..n {
+        for j in 0..n {
+            let dot = planes[i].b[0] * planes[j].b[0] + planes[i].b[1] * planes[j].b[1];
+            matrix[(i, j)] = tau * dot;
+        }
+        matrix[(i, n)] = 1.0;
+        matrix[(n, i)] = 1.0;
+        right[i] = planes[i].a;
+    }
+    matrix[(n, n)] = 0.0;
+    right[n] = 1.0;
+    let solution = matrix.lu().solve(&right)?;
+    if !(0..=n).all(|i| solution[i].is_finite()) || (0..n).any(|i| solution[i] < -MULTIPLIER) {
+        return None;
+    }
+    let mut omega = [0.0; 2];
+    for (i, plane) in planes.iter().enumerate() {
+        omega[0] -= tau * solution[i] * plane.b[0];
+        omega[1] -= tau * solution[i] * plane.b[1];
+    }
+    let t = solution[n];
+    let value = t + (omega[0] * omega[0] + omega[1] * omega[1]) / (2.0 * tau);
+    Some(Basis { planes: planes.to_vec(), omega, t, value })
+}
+
+/// Adds the lowest points of a refused trial, as points of the robot where it began.
+fn keep_lowest(bundle: &mut Vec<Vec3>, features: &[Feature], up: &Vec3, level: f64) {
+    let mut low: Vec<(f64, usize)> =
+        features.iter().enumerate().map(|(i, feature)| (feature.lowest(up) + level, i)).collect();
+    let kept = KEPT_POINTS.min(low.len());
+    if kept < low.len() {
+        low.select_nth_unstable_by(kept, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    }
+    low.truncate(kept);
+    bundle.extend(low.iter().map(|&(_, i)| features[i].point(0, up)));
+    let excess = bundle.len().saturating_sub(BUNDLE_MAX);
+    bundle.drain(..excess);
+}
+
+/// An unstable balance, on one point or one edge exactly under the centre of mass, is left by
+/// shaking: the first of eight small turns that lets the centre of mass fall. A robot that stands
+/// must not be shaken: it could be pushed over its edge.
+fn shaken(features: &[Feature], turn: &Mat3, level: f64, tolerances: &Tolerances) -> Option<(Mat3, f64)> {
+    let up = turn.transpose() * Vec3::z();
+    let mut support = Vec::new();
+    for feature in features.iter().filter(|f| f.lowest(&up) + level < tolerances.gap_shaken) {
+        let points = (0..feature.points()).map(|k| turn * feature.point(k, &up));
+        let low = points.filter(|p| p.z + level < tolerances.gap_shaken);
+        support.extend(low.map(|p| [p.x, p.y]));
+    }
+    let stands = footprint::margin(&support, [0.0, 0.0]).is_some_and(|m| m.distance > tolerances.inside_min);
+    if stands {
+        return None;
+    }
+    (0..8u8).find_map(|k| {
+        let (s, c) = libm::sincos(std::f64::consts::FRAC_PI_4 * f64::from(k));
+        let tried = rotation(Vec3::new(c, s, 0.0) * tolerances.shake) * turn;
+        let lower = height(features, &(tried.transpose() * Vec3::z()));
+        (level - lower > tolerances.shake_fall).then_some((tried, lower))
+    })
+}

@@ -1,0 +1,201 @@
+//! Bonds: whether ports are near enough when they dock, loops stay closed, and nothing falls off.
+
+use super::tolerances::Tolerances;
+use super::walk::{Course, Sample, positions};
+use crate::geometry::Pose;
+use crate::plan::verify::ledger::Ledger;
+use crate::plan::{CauseId, CheckKind, Dock, DockKind, Failure, Status, Tracks};
+use crate::robot::{Assembly, Bond, Kinematics, Residual};
+use crate::units::{Dimension, quantity};
+
+/// Judges every docking, and that the robot is one piece from the start to the end. Returns the bonds
+/// that missed.
+pub fn judge(course: &Course, ledger: &mut Ledger) -> Vec<usize> {
+    let tracks = course.tracks;
+    let mut missed = Vec::new();
+    let mut bonds = tracks.start.bonds.clone();
+    in_one_piece(tracks, &bonds, None, ledger);
+    let mut docks = tracks.docks.iter().peekable();
+    while let Some(dock) = docks.next() {
+        if dock.kind == DockKind::Dock && !near_enough(course, &bonds, dock, ledger) {
+            missed.push(dock.bond);
+        }
+        bonds[dock.bond] = dock.kind == DockKind::Dock;
+        if docks.peek().is_none_or(|next| next.time > dock.time) {
+            in_one_piece(tracks, &bonds, Some(dock), ledger);
+        }
+    }
+    ledger.check(CheckKind::Docking, Status::Proved);
+    ledger.check(CheckKind::Connectedness, Status::Proved);
+    missed
+}
+
+fn in_one_piece(tracks: &Tracks, bonds: &[bool], dock: Option<&Dock>, ledger: &mut Ledger) {
+    let robot = &tracks.robot;
+    let tree = Kinematics::new(robot, bonds, robot.base).tree;
+    if tree.loose.is_empty() {
+        return;
+    }
+    let at: Vec<String> = tree.loose.iter().map(|&m| robot.modules[m].name.clone()).collect();
+    let message = format!("{} of {} modules hang on nothing: {}", at.len(), robot.modules.len(), listed(&at));
+    ledger.fail(Failure {
+        kind: CheckKind::Connectedness,
+        time: dock.map_or(0.0, |d| d.time),
+        until: None,
+        value: at.len() as f64,
+        at,
+        message,
+        limit: 0.0,
+        blame: dock.map(|d| d.cause).into_iter().collect(),
+        blames_start: dock.is_none(),
+    });
+}
+
+/// Names that a message shows.
+const NAMES_SHOWN: usize = 4;
+
+fn listed(names: &[String]) -> String {
+    let shown = names.iter().take(NAMES_SHOWN).cloned().collect::<Vec<_>>().join(", ");
+    if names.len() > NAMES_SHOWN { format!("{shown}, ...") } else { shown }
+}
+
+/// Whether a dock's ports are near enough; reports it where they are not.
+fn near_enough(course: &Course, bonds: &[bool], dock: &Dock, ledger: &mut Ledger) -> bool {
+    let robot = &course.tracks.robot;
+    let kinematics = Kinematics::new(robot, bonds, robot.base);
+    let Bond { a, b, .. } = robot.bonds[dock.bond];
+    // What hangs on nothing is nowhere: that is another failure.
+    if [a, b].iter().any(|port| kinematics.tree.loose.contains(&port.module)) {
+        return true;
+    }
+    let mut joints = Vec::new();
+    positions(course, dock.time, &mut joints);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
+    let residual = kinematics.residual(robot, dock.bond, &joints, &poses);
+    if within(robot, &residual, course.tolerances) {
+        return true;
+    }
+    let message = format!("{} does not dock: {}", bond_name(robot, dock.bond), apart(&residual));
+    ledger.fail(failure(CheckKind::Docking, robot, &residual, dock.time, message, vec![dock.cause], course));
+    false
+}
+
+/// Watches the loops that the bonds close: mated faces must not be driven against each other.
+pub struct Watch<'a> {
+    course: &'a Course<'a>,
+    /// Bonds that did not dock: that their loops are open is no news.
+    missed: Vec<usize>,
+    samples: usize,
+    open: Vec<Failure>,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(course: &'a Course<'a>, missed: Vec<usize>) -> Watch<'a> {
+        Watch { course, missed, samples: 0, open: vec![] }
+    }
+
+    pub fn see(&mut self, sample: &Sample) {
+        if sample.model.kinematics.tree.closing.is_empty() {
+            return;
+        }
+        self.samples += 1;
+        if !sample.moved && sample.time > 0.0 {
+            return;
+        }
+        for residual in residuals(sample) {
+            let fits = within(sample.model.robot, &residual, self.course.tolerances);
+            if fits || self.missed.iter().any(|&missed| on_loop(sample, residual.bond, missed)) {
+                continue;
+            }
+            let name = bond_name(sample.model.robot, residual.bond);
+            match self.open.iter_mut().find(|f| f.at[0] == name) {
+                Some(failure) => failure.until = Some(sample.time),
+                None => {
+                    let message = format!("{name} is driven apart: {}", apart(&residual));
+                    let robot = sample.model.robot;
+                    let kind = CheckKind::Closure;
+                    let found = failure(kind, robot, &residual, sample.time, message, vec![], self.course);
+                    self.open.push(found);
+                }
+            }
+        }
+    }
+
+    pub fn finish(self, ledger: &mut Ledger) {
+        self.open.into_iter().for_each(|failure| ledger.fail(failure));
+        let status = if self.samples == 0 { Status::Proved } else { Status::Sampled(self.samples) };
+        ledger.check(CheckKind::Closure, status);
+    }
+}
+
+/// Whether a bond is part of the loop that another closes.
+fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
+    let (robot, kinematics) = (sample.model.robot, &sample.model.kinematics);
+    let ends = |bond: usize| {
+        let Bond { a, b, .. } = robot.bonds[bond];
+        [a, b].map(|p| kinematics.link(p.module, robot.module_type(p.module).ports[p.port].link))
+    };
+    let [from, to] = ends(closing);
+    let path = kinematics.path(from, to).unwrap_or_default();
+    bond == closing || ends(bond).iter().all(|link| path.contains(link))
+}
+
+/// Whether a loop is open in a sample, by the name of its bond.
+pub fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> bool {
+    residuals(sample)
+        .iter()
+        .any(|r| bond_name(sample.model.robot, r.bond) == name && !within(sample.model.robot, r, tolerances))
+}
+
+fn residuals(sample: &Sample) -> Vec<Residual> {
+    let kinematics = &sample.model.kinematics;
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(sample.joints, &Pose::identity(), &mut poses);
+    kinematics.residuals(sample.model.robot, sample.joints, &poses)
+}
+
+fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> bool {
+    let (distance, angle) = allowed(robot, residual.bond, tolerances);
+    residual.distance <= distance && residual.angle <= angle
+}
+
+fn allowed(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> (f64, f64) {
+    let a = robot.bonds[bond].a;
+    let connector = robot.module_type(a.module).ports[a.port].connector;
+    let capture = robot.library.connectors[connector].capture;
+    capture.map_or((tolerances.closure_distance, tolerances.closure_angle), |c| (c.distance, c.angle))
+}
+
+fn bond_name(robot: &Assembly, bond: usize) -> String {
+    let declared = &robot.bonds[bond];
+    format!("{} -- {}", robot.port_name(declared.a), robot.port_name(declared.b))
+}
+
+fn apart(residual: &Residual) -> String {
+    let distance = quantity(residual.distance, Dimension::LENGTH);
+    format!("the ports are {distance} and {} apart", quantity(residual.angle, Dimension::ANGLE))
+}
+
+fn failure(
+    kind: CheckKind,
+    robot: &Assembly,
+    residual: &Residual,
+    time: f64,
+    message: String,
+    blame: Vec<CauseId>,
+    course: &Course,
+) -> Failure {
+    let (distance, _) = allowed(robot, residual.bond, course.tolerances);
+    Failure {
+        kind,
+        time,
+        until: None,
+        at: vec![bond_name(robot, residual.bond)],
+        message,
+        value: residual.distance,
+        limit: distance,
+        blame,
+        blames_start: false,
+    }
+}

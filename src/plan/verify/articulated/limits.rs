@@ -1,0 +1,253 @@
+//! Range, speed and acceleration of joints and motors, from the polynomials themselves: proved at
+//! every instant.
+
+use super::extremum::{elevated, greatest};
+use super::tolerances::Tolerances;
+use crate::plan::polynomial::derivative;
+use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
+use crate::robot::{Assembly, JointId, JointKind, JointOwner, Limits};
+use crate::units::{Dimension, quantity};
+
+/// A joint, or a motor that drives several.
+struct Drive {
+    name: String,
+    limits: Limits,
+    /// Position as a sum of joints times factors.
+    terms: Vec<(usize, f64)>,
+    turns: bool,
+}
+
+/// A piece of motion of one drive over the time of one piece of each of its joints.
+struct Piece {
+    start: f64,
+    end: f64,
+    control: Vec<f64>,
+    cause: Option<CauseId>,
+}
+
+pub fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
+    let drives = drives(&tracks.robot);
+    for drive in &drives {
+        let pieces = pieces(tracks, drive);
+        range(tracks, drive, &pieces, tolerances, ledger);
+        speed(drive, &pieces, tolerances, ledger);
+        acceleration(drive, &pieces, tolerances, ledger);
+    }
+    let status = |stated: bool| if stated { Status::Proved } else { Status::NoLimit };
+    ledger.check(CheckKind::JointRange, status(drives.iter().any(|d| d.limits.range.is_some())));
+    ledger.check(CheckKind::Speed, status(drives.iter().any(|d| d.limits.speed.is_some())));
+    ledger.check(CheckKind::Acceleration, status(drives.iter().any(|d| d.limits.acceleration.is_some())));
+}
+
+fn drives(robot: &Assembly) -> Vec<Drive> {
+    let mut first = 0;
+    let mut firsts = Vec::new();
+    for module in 0..robot.modules.len() {
+        firsts.push(first);
+        first += robot.module_type(module).joints.len();
+    }
+    let joints = robot.joints().enumerate().filter_map(|(id, owner)| {
+        let name = robot.joint_name(owner);
+        match owner {
+            JointOwner::Module { module, joint } => {
+                let declared = &robot.module_type(module).joints[joint];
+                let kind = declared.kind;
+                let terms = crate::robot::step::driven(robot.module_type(module), joint, firsts[module]);
+                let turns = kind == JointKind::Revolute;
+                (kind != JointKind::Fixed).then_some(Drive { name, limits: declared.limits, terms, turns })
+            }
+            JointOwner::Bond(bond) => {
+                let limits = robot.hinge(bond)?.limits;
+                Some(Drive { name, limits, terms: vec![(id, 1.0)], turns: true })
+            }
+        }
+    });
+    let motors = (0..robot.modules.len()).flat_map(|module| {
+        let firsts = &firsts;
+        robot.module_type(module).motors.iter().map(move |motor| Drive {
+            name: format!("{}.{}", robot.modules[module].name, motor.name),
+            limits: motor.limits,
+            terms: motor.joints.iter().map(|&(joint, factor)| (firsts[module] + joint, factor)).collect(),
+            turns: true,
+        })
+    });
+    joints.chain(motors).collect()
+}
+
+/// The motion of a drive: the sum of its joints' pieces, cut where any of them begins or ends.
+fn pieces(tracks: &Tracks, drive: &Drive) -> Vec<Piece> {
+    let moving: Vec<_> = drive
+        .terms
+        .iter()
+        .filter_map(|&(joint, factor)| Some((tracks.track(JointId(joint as u32))?, joint, factor)))
+        .collect();
+    let mut cuts: Vec<f64> =
+        moving.iter().flat_map(|(t, ..)| t.segments.iter().flat_map(|s| [s.start, s.end])).collect();
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
+    let still: f64 = drive
+        .terms
+        .iter()
+        .filter(|(joint, _)| tracks.track(JointId(*joint as u32)).is_none())
+        .map(|&(joint, factor)| factor * tracks.start.joints[joint])
+        .sum();
+    let mut next = vec![0; moving.len()];
+    let mut found = Vec::new();
+    for pair in cuts.windows(2) {
+        let (start, end) = (pair[0], pair[1]);
+        let mut control = vec![still];
+        let mut cause: Option<(f64, CauseId)> = None;
+        for ((track, joint, factor), next) in moving.iter().zip(&mut next) {
+            while track.segments.get(*next).is_some_and(|s| s.end <= start) {
+                *next += 1;
+            }
+            let within = track.segments.get(*next).filter(|s| s.start <= start);
+            let piece = match within.and_then(|s| s.between(start, end)) {
+                Some(piece) => {
+                    let begun = within.map_or(start, |s| s.start);
+                    if cause.is_none_or(|(t, _)| begun > t) {
+                        cause = Some((begun, piece.cause));
+                    }
+                    piece.control
+                }
+                None => vec![track.position(tracks.start.joints[*joint], start)],
+            };
+            control = sum(&control, &piece, *factor);
+        }
+        if let Some((_, cause)) = cause {
+            found.push(Piece { start, end, control, cause: Some(cause) });
+        }
+    }
+    found
+}
+
+fn sum(a: &[f64], b: &[f64], factor: f64) -> Vec<f64> {
+    let degree = a.len().max(b.len()) - 1;
+    let (a, b) = (elevated(a, degree), elevated(b, degree));
+    a.iter().zip(&b).map(|(a, b)| a + factor * b).collect()
+}
+
+fn range(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
+    let Some((low, high)) = drive.limits.range else { return };
+    let at_start: f64 = drive.terms.iter().map(|&(joint, factor)| factor * tracks.start.joints[joint]).sum();
+    let slack = tolerances.limit * (high - low).max(1.0);
+    let start = Piece { start: 0.0, end: 0.0, control: vec![at_start], cause: None };
+    let mut worst: Option<(f64, f64, f64, &Piece)> = None;
+    for piece in std::iter::once(&start).chain(pieces) {
+        let (above, u) = greatest(&piece.control);
+        let negated: Vec<f64> = piece.control.iter().map(|c| -c).collect();
+        let (below, v) = greatest(&negated);
+        for (position, limit, excess, u) in [(above, high, above - high, u), (-below, low, low + below, v)] {
+            let t = piece.start + u * (piece.end - piece.start);
+            if excess > slack && worst.is_none_or(|(p, l, ..)| excess > (p - l).abs()) {
+                worst = Some((position, limit, t, piece));
+            }
+        }
+    }
+    if let Some((position, limit, time, piece)) = worst {
+        let dimension = if drive.turns { Dimension::ANGLE } else { Dimension::LENGTH };
+        let words = |v| quantity(v, dimension);
+        let message = format!(
+            "{} goes to {}; its range is {} to {}",
+            drive.name,
+            words(position),
+            words(low),
+            words(high)
+        );
+        ledger.fail(failure(CheckKind::JointRange, drive, time, message, (position, limit), piece));
+    }
+}
+
+fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
+    let Some(limit) = drive.limits.speed else { return };
+    let mut worst: Option<(f64, f64, &Piece)> = None;
+    for piece in pieces {
+        let (value, u) = greatest_size(&derivative(&piece.control));
+        let length = piece.end - piece.start;
+        if worst.is_none_or(|(w, ..)| value / length > w) {
+            worst = Some((value / length, piece.start + u * length, piece));
+        }
+    }
+    let Some((value, time, piece)) = worst else { return };
+    lower(&mut ledger.verdict.speed_margin, 1.0 - value / limit, time, || vec![drive.name.clone()]);
+    if value > limit * (1.0 + tolerances.limit) {
+        let dimension = if drive.turns { Dimension::ANGULAR_SPEED } else { Dimension::SPEED };
+        let message = format!(
+            "{} moves at {}; it can do {}",
+            drive.name,
+            quantity(value, dimension),
+            quantity(limit, dimension)
+        );
+        ledger.fail(failure(CheckKind::Speed, drive, time, message, (value, limit), piece));
+    }
+}
+
+fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
+    let Some(limit) = drive.limits.acceleration else { return };
+    let mut worst: Option<(f64, f64, &Piece)> = None;
+    let mut take = |value: f64, time: f64, piece| {
+        if worst.is_none_or(|(w, ..): (f64, f64, &Piece)| value > w) {
+            worst = Some((value, time, piece));
+        }
+    };
+    let mut before = (f64::NEG_INFINITY, 0.0);
+    for piece in pieces {
+        let length = piece.end - piece.start;
+        let rates = derivative(&piece.control);
+        let (value, u) = greatest_size(&derivative(&rates));
+        take(value / (length * length), piece.start + u * length, piece);
+        let (first, last) = (rates[0] / length, rates[rates.len() - 1] / length);
+        let was = if before.0 == piece.start { before.1 } else { 0.0 };
+        if (first - was).abs() > tolerances.speed_jump {
+            take(f64::INFINITY, piece.start, piece);
+        }
+        before = (piece.end, last);
+    }
+    // After the last piece, and before a pause, the joint stands still at once.
+    for (piece, next) in pieces.iter().zip(pieces.iter().skip(1).map(Some).chain([None])) {
+        let rates = derivative(&piece.control);
+        let last = rates[rates.len() - 1] / (piece.end - piece.start);
+        if next.is_none_or(|n| n.start > piece.end) && last.abs() > tolerances.speed_jump {
+            take(f64::INFINITY, piece.end, piece);
+        }
+    }
+    let Some((value, time, piece)) = worst.filter(|w| w.0 > limit * (1.0 + tolerances.limit)) else { return };
+    let dimension = if drive.turns { Dimension::ANGULAR_ACCELERATION } else { Dimension::ACCELERATION };
+    let found = if value.is_finite() {
+        format!("accelerates by {}", quantity(value, dimension))
+    } else {
+        "changes its speed at once".to_owned()
+    };
+    let message = format!("{} {found}; it can do {}", drive.name, quantity(limit, dimension));
+    let value = if value.is_finite() { value } else { f64::MAX };
+    ledger.fail(failure(CheckKind::Acceleration, drive, time, message, (value, limit), piece));
+}
+
+fn greatest_size(control: &[f64]) -> (f64, f64) {
+    let up = greatest(control);
+    let negated: Vec<f64> = control.iter().map(|c| -c).collect();
+    let down = greatest(&negated);
+    if down.0 > up.0 { down } else { up }
+}
+
+fn failure(
+    kind: CheckKind,
+    drive: &Drive,
+    time: f64,
+    message: String,
+    (value, limit): (f64, f64),
+    piece: &Piece,
+) -> Failure {
+    Failure {
+        kind,
+        time,
+        until: None,
+        at: vec![drive.name.clone()],
+        message,
+        value,
+        limit,
+        blame: piece.cause.into_iter().collect(),
+        blames_start: false,
+    }
+}

@@ -1,0 +1,68 @@
+//! Self-collision in the judgement of a plan: what was found, and who is to blame for it.
+
+use super::blame::{self, BLAMED_MAX};
+use super::bodies::Bodies;
+use super::collision::{self, Collision, Precision};
+use super::walk::Course;
+use crate::geometry::Pose;
+use crate::plan::verify::ledger::Ledger;
+use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
+use crate::robot::{JointId, Kinematics};
+
+/// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
+pub fn judge(course: &Course, ledger: &mut Ledger) {
+    let tracks = course.tracks;
+    let precision = Precision::default();
+    let found = match collision::judge(tracks, course.settings, course.exemptions, &precision) {
+        Ok(found) => found,
+        Err(unsound) => {
+            let message =
+                format!("the shape of {}.{} can't be judged: {}", unsound.module, unsound.link, unsound.why);
+            return ledger.fail(Failure::form(message));
+        }
+    };
+    for index in &found.used {
+        ledger.use_exemption(*index, CheckKind::Collision);
+    }
+    for meeting in found.collisions.iter().filter(|c| !c.exempt) {
+        let mut failure = meeting.failure(&tracks.robot);
+        failure.blame = blamed(tracks, meeting);
+        ledger.fail(failure);
+    }
+    if let Status::Sampled(samples) = found.status {
+        let message = format!(
+            "whether modules meet was not decided within {samples} stretches of time, the most allowed"
+        );
+        ledger.fail(Failure { value: samples as f64, limit: samples as f64, ..Failure::form(message) });
+    }
+    ledger.verdict.clearance = found.clearance;
+    ledger.verdict.samples += found.samples;
+    ledger.check(CheckKind::Collision, found.status);
+}
+
+/// The actions whose joint, held still from its start, keeps the two links apart where they would be
+/// deepest in each other; latest first.
+fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
+    let state = tracks.state(meeting.deepest);
+    let kinematics = Kinematics::new(&tracks.robot, &state.bonds, 0);
+    let Ok(bodies) = Bodies::new(&tracks.robot, &kinematics) else { return vec![] };
+    let links = (
+        kinematics.link(meeting.modules.0, meeting.links.0),
+        kinematics.link(meeting.modules.1, meeting.links.1),
+    );
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let mut blamed = vec![];
+    for suspect in blame::suspects(tracks, meeting.deepest) {
+        if blamed.len() == BLAMED_MAX || blamed.contains(&suspect.cause) {
+            continue;
+        }
+        let mut joints = state.joints.clone();
+        let track = tracks.track(JointId(suspect.joint as u32)).expect("a suspect moves on a track");
+        joints[suspect.joint] = track.position(tracks.start.joints[suspect.joint], suspect.start);
+        kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
+        if bodies.distance(links.0, links.1, &poses, 0.0) >= -meeting.allowed {
+            blamed.push(suspect.cause);
+        }
+    }
+    blamed
+}

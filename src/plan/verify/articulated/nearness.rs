@@ -1,0 +1,86 @@
+//! How near links come to each other, and where they meet, told to whoever draws it. Nothing is judged
+//! here.
+
+use super::bodies::{Bodies, Body, UnsoundLink};
+use super::collision::Precision;
+use super::history::base_at;
+use super::search::{Search, mated};
+use crate::geometry::distance::between_parts;
+use crate::geometry::meeting::meeting_point;
+use crate::geometry::{Pose, Vec3};
+use crate::plan::{Body as Form, Plan, Tracks, sound};
+use crate::robot::Kinematics;
+
+/// Pairs of modules that are looked at for one curve of clearances, if that leaves it enough points.
+const PAIRS_MAX: usize = 4_000_000;
+
+/// Points of a curve that are not saved on.
+const POINTS_MIN: usize = 20;
+
+/// Least signed distance of links that may not touch, m, at evenly spaced times from the start to
+/// `until` (s): (time, distance). As many as asked for, or fewer for robots of more than a few hundred
+/// modules, but at least 20; none where no two such links are.
+pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
+    let Form::Tracks(tracks) = &plan.body else { return vec![] };
+    if until <= 0.0 || !sound::faults(plan).is_empty() {
+        return vec![];
+    }
+    let modules = tracks.robot.modules.len();
+    let afforded = PAIRS_MAX / (modules * modules).max(1);
+    let count = count.min(afforded.max(POINTS_MIN)).max(1);
+    let Ok(bodies) = bodies(tracks) else { return vec![] };
+    let mut search = Search::new(tracks, bodies, Precision::default(), usize::MAX);
+    let at = |i: usize| {
+        let time = until * i as f64 / count as f64;
+        Some((time, search.clearance_at(&tracks.state(time).bonds, time)?))
+    };
+    (0..=count).filter_map(at).collect()
+}
+
+fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
+    Bodies::new(&tracks.robot, &Kinematics::new(&tracks.robot, &tracks.start.bonds, 0))
+}
+
+/// Where two modules, or two links of one, are deepest in each other at a time (s): a point of the
+/// world, m. `None` where they do not meet.
+pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Option<Vec3> {
+    let Form::Tracks(tracks) = &plan.body else { return None };
+    if !sound::faults(plan).is_empty() {
+        return None;
+    }
+    let bodies = bodies(tracks).ok()?;
+    let state = tracks.state(time);
+    let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let base = base_at(plan, time).unwrap_or(state.base);
+    kinematics.link_poses(&state.joints, &base, &mut poses);
+    let relative = |a: &Body, b: &Body| poses[a.carrier].inverse() * poses[b.carrier];
+    let depth = |(a, b, allowed): &(usize, usize, f64)| {
+        let (a, b) = (&bodies.bodies[*a], &bodies.bodies[*b]);
+        -between_parts(&a.part, &b.part, &relative(a, b)).distance - allowed
+    };
+    let pairs = pairs(tracks, &bodies, &mated(&tracks.robot, &state.bonds, &kinematics), modules);
+    let deepest = pairs.into_iter().map(|pair| (depth(&pair), pair)).max_by(|x, y| x.0.total_cmp(&y.0));
+    let (_, (a, b, _)) = deepest.filter(|(depth, (.., allowed))| depth + allowed >= 0.0)?;
+    let (a, b) = (&bodies.bodies[a], &bodies.bodies[b]);
+    let met = meeting_point(&a.part, &b.part, &relative(a, b));
+    Some(poses[a.carrier].transform_point(&met.into()).coords)
+}
+
+/// The pairs of bodies that may not meet, with how deep they may be in each other, m.
+fn pairs(
+    tracks: &Tracks,
+    bodies: &Bodies,
+    mated: &std::collections::BTreeSet<(usize, usize)>,
+    (m, n): (usize, usize),
+) -> Vec<(usize, usize, f64)> {
+    debug_assert!(m < tracks.robot.modules.len() && n < tracks.robot.modules.len());
+    if m == n {
+        let first = bodies.of(m).start;
+        return bodies.inner(m).iter().map(|i| (first + i.a, first + i.b, i.allowed)).collect();
+    }
+    let allowed = bodies.touch(m, n);
+    let all = bodies.of(m).flat_map(|a| bodies.of(n).map(move |b| (a, b)));
+    let link = |body: usize| bodies.bodies[body].link;
+    all.filter(|(a, b)| !mated.contains(&(link(*a), link(*b)))).map(|(a, b)| (a, b, allowed)).collect()
+}

@@ -1,0 +1,76 @@
+//! When a plan is looked at: at every instant at which something begins or ends, and between those
+//! often enough that no joint turns far from one sample to the next.
+
+use super::tolerances::Tolerances;
+use crate::plan::{Exemption, Settings, Tracks, WorldFrom};
+use crate::robot::JointId;
+
+/// Every instant that is a sample whatever the settings say, in order: starts and ends of segments,
+/// docking, changes of the world, ends of exemptions, the start and the end.
+pub fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
+    let mut all = tracks.instants();
+    all.extend(worlds.iter().map(|w| w.from));
+    all.extend(exemptions.iter().flat_map(|e| [e.from, e.to]));
+    all.retain(|t| (0.0..=tracks.duration).contains(t));
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+/// Into how many samples the stretch between two neighbouring instants is divided; 0 where no joint
+/// moves.
+pub fn divisions(tracks: &Tracks, t0: f64, t1: f64, settings: &Settings, tolerances: &Tolerances) -> usize {
+    let travel = tracks.tracks.iter().map(|track| travel(tracks, track.joint, t0, t1)).fold(0.0, f64::max);
+    if travel == 0.0 {
+        return 0;
+    }
+    let by_time = libm::ceil((t1 - t0) / settings.sample - ROUNDING);
+    let by_turn = libm::ceil(travel / tolerances.turn_sample - ROUNDING);
+    // Beyond what a machine counts, all of it.
+    by_time.max(by_turn).max(1.0) as usize
+}
+
+/// How many samples a plan takes, refinements not included.
+pub fn count(
+    tracks: &Tracks,
+    worlds: &[WorldFrom],
+    exemptions: &[Exemption],
+    settings: &Settings,
+    tolerances: &Tolerances,
+) -> usize {
+    let instants = instants(tracks, worlds, exemptions);
+    let between = instants.windows(2).map(|w| divisions(tracks, w[0], w[1], settings, tolerances).max(1));
+    between.fold(1, usize::saturating_add)
+}
+
+/// A stretch that is this little longer than a whole number of samples is not divided once more.
+const ROUNDING: f64 = 1e-6;
+
+/// An upper bound on how far a joint moves, back and forth: the length of its control polygon.
+fn travel(tracks: &Tracks, joint: JointId, t0: f64, t1: f64) -> f64 {
+    let Some(track) = tracks.track(joint) else { return 0.0 };
+    let first = track.segments.partition_point(|s| s.end <= t0);
+    let within = track.segments[first..].iter().take_while(|s| s.start < t1);
+    let start = tracks.start.joints[joint.0 as usize];
+    let mut sum = (track.position(start, t0) - before(tracks, joint, t0)).abs();
+    for segment in within {
+        let share = ((t1.min(segment.end) - t0.max(segment.start)) / (segment.end - segment.start)).min(1.0);
+        if segment.control.iter().all(|c| *c == segment.control[0]) {
+            continue;
+        }
+        let steps = segment.control.windows(2).map(|w| (w[1] - w[0]).abs());
+        let degree = (segment.control.len() - 1) as f64;
+        // The greatest rate over the share of time, and never more than the whole polygon.
+        let fastest = steps.clone().fold(0.0, f64::max) * degree * share;
+        sum += fastest.min(steps.sum());
+    }
+    sum
+}
+
+/// Position just before a time: where the joint jumps, not where it jumps to.
+fn before(tracks: &Tracks, joint: JointId, t: f64) -> f64 {
+    let start = tracks.start.joints[joint.0 as usize];
+    let Some(track) = tracks.track(joint) else { return start };
+    let begun = track.segments.partition_point(|s| s.start < t);
+    begun.checked_sub(1).map_or(start, |i| track.segments[i].position(t))
+}

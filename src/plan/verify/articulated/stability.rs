@@ -1,0 +1,251 @@
+//! Whether the robot stands: tips, and the margin of the centre of mass in what supports it.
+
+use super::contact;
+use super::tolerances::Tolerances;
+use super::walk::Sample;
+use crate::plan::verify::footprint::{self, Margin};
+use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Stability, Status};
+use crate::units::{Dimension, quantity};
+
+/// Watches a walk for the loss of support.
+pub struct Watch<'a> {
+    settings: &'a Settings,
+    tolerances: &'a Tolerances,
+    /// The present lack of support.
+    lack: Option<Lack>,
+    samples: usize,
+    /// Whether every step so far was proved to be free of tips.
+    proved: bool,
+    standing: bool,
+    /// Whether any part of the plan has a ground, and whether the base is bolted down in any.
+    ground: bool,
+    bolted: bool,
+}
+
+/// A stretch of time without support.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lack {
+    pub since: f64,
+    pub until: f64,
+    /// By how much the robot falls; of no meaning without a tip, m.
+    pub drop: Option<f64>,
+    /// Least margin, m, or none where the contacts span no area.
+    pub margin: Option<f64>,
+    /// The parts at the edge, in words, and their modules.
+    pub edge: String,
+    pub modules: Vec<String>,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(settings: &'a Settings, tolerances: &'a Tolerances) -> Watch<'a> {
+        Watch {
+            settings,
+            tolerances,
+            lack: None,
+            samples: 0,
+            proved: true,
+            standing: false,
+            ground: false,
+            bolted: false,
+        }
+    }
+
+    /// Judges a sample. Returns a lack of support that lasted longer than is allowed, where it ends.
+    pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<Lack> {
+        self.bolted |= sample.world.ground == Ground::Held;
+        if matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0 {
+            self.standing = false;
+            return self.ended(sample.time);
+        }
+        self.ground = true;
+        self.samples += 1;
+        self.tell(sample, ledger);
+        let support = self.support(sample);
+        if !sample.stance.held {
+            // What spans no area leaves no room at all.
+            let distance = support.as_ref().map_or(0.0, |s| s.0.distance);
+            let edge = || support.as_ref().map_or_else(Vec::new, |s| edge_names(sample, &s.1));
+            lower(&mut ledger.verdict.margin, distance, sample.time, edge);
+        }
+        self.prove(sample);
+        let excuse = |kind: &ExemptionKind| *kind == ExemptionKind::Unstable;
+        let stands = support.as_ref().is_some_and(|s| s.0.distance >= -self.tolerances.margin);
+        if let Some(tip) = sample.tip.filter(|tip| !tip.excused) {
+            let (edge, modules) = (edge_words(sample, &tip.edge), edge_names(sample, &tip.edge));
+            let (since, drop) = (tip.time, Some(tip.fall));
+            self.lack = Some(Lack { since, until: since, drop, margin: None, edge, modules });
+        }
+        if sample.tip.is_some_and(|tip| tip.excused) {
+            ledger.excuses(CheckKind::Stability, sample.tip.map_or(0.0, |t| t.time), excuse);
+        }
+        if sample.stance.held || (!stands && !ledger.excuses(CheckKind::Stability, sample.time, excuse)) {
+            self.lacks(sample, support);
+            return None;
+        }
+        self.ended(sample.time)
+    }
+
+    /// Whether support is missing at the moment.
+    pub fn lacking(&self) -> bool {
+        self.lack.is_some()
+    }
+
+    /// What is left at the end of the plan: support must be back by then.
+    pub fn end(&mut self, t: f64) -> Option<Lack> {
+        self.lack.take().map(|lack| Lack { until: t, ..lack })
+    }
+
+    pub fn finish(&self, ledger: &mut Ledger) {
+        let why = if self.bolted { "what is held fast does not fall" } else { "there is no ground" };
+        let none = || Status::NotChecked(why.to_owned());
+        let status = match (self.ground, self.proved) {
+            (false, _) => none(),
+            (true, true) => Status::Proved,
+            (true, false) => Status::Sampled(self.samples),
+        };
+        ledger.check(CheckKind::Stability, status);
+    }
+
+    fn lacks(&mut self, sample: &Sample, support: Option<(Margin, [usize; 2])>) {
+        let links = support.as_ref().map_or(&[][..], |s| &s.1);
+        let (edge, modules) = (edge_words(sample, links), edge_names(sample, links));
+        let margin = support.as_ref().map(|s| s.0.distance);
+        let lack = self.lack.get_or_insert(Lack {
+            since: sample.time,
+            until: sample.time,
+            drop: None,
+            margin,
+            edge,
+            modules,
+        });
+        lack.until = sample.time;
+        lack.margin = match (lack.margin, margin) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+    }
+
+    /// Support is back at `t`: was it away for too long?
+    fn ended(&mut self, t: f64) -> Option<Lack> {
+        let lack = self.lack.take()?;
+        (t - lack.since > self.settings.unstable_for).then_some(Lack { until: t, ..lack })
+    }
+
+    /// Margin in the support by the rule of the settings, and the modules' links at its edge.
+    fn support(&self, sample: &Sample) -> Option<(Margin, [usize; 2])> {
+        match self.settings.stability {
+            Stability::Footprint => {
+                let touches = &sample.stance.touches;
+                let margin = contact::margin(touches, |t| contact::counts(sample.model, t))?;
+                let links = [touches[margin.edge.0].link, touches[margin.edge.1].link];
+                Some((margin, links))
+            }
+            Stability::Centres => centres(sample, self.tolerances),
+        }
+    }
+
+    /// Between two samples no tip is possible where the centre of mass is further inside its support
+    /// than any motion of the step can bring it.
+    fn prove(&mut self, sample: &Sample) {
+        let stance = sample.stance;
+        let safe = self.settings.stability == Stability::Footprint
+            && stance.margin_exact(self.tolerances).is_some_and(|m| {
+                m.distance > 2.0 * sample.motion * (1.0 + stance.height / m.width.max(f64::MIN_POSITIVE))
+            });
+        let standing = safe && !stance.held;
+        let first = sample.before == sample.time;
+        if sample.moved && sample.world.ground == Ground::Settle {
+            self.proved &= standing && (self.standing || first);
+        } else if sample.moved {
+            self.proved &= first;
+        }
+        self.standing = standing;
+    }
+
+    fn tell(&self, sample: &Sample, ledger: &mut Ledger) {
+        if let Some(angle) = sample.settling.filter(|_| sample.fall > self.tolerances.fall_floor) {
+            let angle = quantity(angle, Dimension::ANGLE);
+            ledger.note(match sample.time == 0.0 {
+                true => format!("the start settles by {angle}"),
+                false => {
+                    format!("at {} it settles by {angle}", quantity(sample.time, Dimension::TIME))
+                }
+            });
+        }
+        if let Some(tip) = sample.tip {
+            let edge = edge_words(sample, &tip.edge);
+            let drop = quantity(tip.fall, Dimension::LENGTH);
+            ledger.verdict.events.push((tip.time, format!("tips over {edge}, drops {drop}")));
+        }
+    }
+}
+
+impl Lack {
+    pub fn failure(&self) -> Failure {
+        let time = |t| quantity(t, Dimension::TIME);
+        let edge = if self.edge.is_empty() { String::new() } else { format!(" over {}", self.edge) };
+        let (message, value) = match (self.drop, self.margin) {
+            (Some(drop), _) => {
+                let words = quantity(drop, Dimension::LENGTH);
+                (format!("the robot falls{edge} at {}, by {words}", time(self.since)), -drop)
+            }
+            (None, Some(margin)) => {
+                let out = quantity(-margin, Dimension::LENGTH);
+                let from = time(self.since);
+                (format!("the centre of mass is {out} outside the support{edge} from {from}"), margin)
+            }
+            (None, None) => {
+                let from = time(self.since);
+                (format!("what supports the robot spans no area from {from}"), 0.0)
+            }
+        };
+        Failure {
+            kind: CheckKind::Stability,
+            time: self.since,
+            until: Some(self.until),
+            at: self.modules.clone(),
+            message,
+            value,
+            limit: 0.0,
+            blame: vec![],
+            blames_start: false,
+        }
+    }
+}
+
+/// Modules of the links at an edge.
+fn edge_names(sample: &Sample, links: &[usize]) -> Vec<String> {
+    let mut names: Vec<String> = links.iter().map(|&l| sample.model.module_name(l).to_owned()).collect();
+    names.dedup();
+    names
+}
+
+/// An edge by the modules at its ends; where they are one module, by its parts.
+fn edge_words(sample: &Sample, links: &[usize]) -> String {
+    let names = edge_names(sample, links);
+    let [module] = names.as_slice() else { return names.join(" and ") };
+    let part = |&link: &usize| {
+        let body = &sample.model.bodies[link];
+        let index = link - sample.model.kinematics.link(body.module, 0);
+        sample.model.robot.module_type(body.module).links[index].name.clone()
+    };
+    format!("{module} ({})", links.iter().map(part).collect::<Vec<_>>().join(" and "))
+}
+
+/// The paper's rule: the mean of the modules' centres (it takes them for equally heavy) in the hull
+/// of the lowest centres. It rejects a straight chain and a single module.
+fn centres(sample: &Sample, tolerances: &Tolerances) -> Option<(Margin, [usize; 2])> {
+    let kinematics = &sample.model.kinematics;
+    let bodies: Vec<usize> = kinematics.tree.order.iter().map(|&(m, _)| kinematics.link(m, 0)).collect();
+    let places: Vec<_> =
+        bodies.iter().map(|&link| sample.stance.link_pose(link).translation.vector).collect();
+    let lowest = places.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let low: Vec<usize> = (0..places.len()).filter(|&i| places[i].z - lowest < tolerances.centres).collect();
+    let points: Vec<_> = low.iter().map(|&i| [places[i].x, places[i].y]).collect();
+    let count = places.len() as f64;
+    let mean = places.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p.x / count, sum[1] + p.y / count]);
+    let margin = footprint::margin(&points, mean)?;
+    let links = [bodies[low[margin.edge.0]], bodies[low[margin.edge.1]]];
+    Some((margin, links))
+}

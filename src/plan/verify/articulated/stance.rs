@@ -1,0 +1,237 @@
+//! How a robot stands on the ground, and how it stands after a small change of posture.
+
+use super::align::{align, guess};
+use super::carry::{Place, carry};
+use super::contact::{self, Patch, Touch};
+use super::descend::{Rest, descend, height};
+use super::model::{Model, Posture};
+use super::support::{Feature, Mat3};
+use super::tolerances::Tolerances;
+use crate::geometry::{Pose, Vec3};
+use crate::plan::verify::footprint::Margin;
+use nalgebra::{Rotation3, UnitQuaternion};
+
+/// A robot on the ground (or held over it), with all that the next sample needs.
+#[derive(Clone, Debug)]
+pub struct Stance {
+    pub posture: Posture,
+    /// Orientation of the base's frame, before the turn by the place's yaw.
+    pub R: Mat3,
+    /// Height of the centre of mass, m.
+    pub height: f64,
+    /// Where the centre of mass is, and the heading.
+    pub place: Place,
+    /// The features with the centre of mass at the origin, turned by `R`.
+    pub features: Vec<Feature>,
+    pub touches: Vec<Touch>,
+    pub patches: Vec<Patch>,
+    /// Whether the base is held because the support was lost.
+    pub held: bool,
+    /// While it is held: what stood on the ground before, each as if it carried the same.
+    anchors: Vec<Touch>,
+}
+
+/// What a change of posture does to a stance, before it is decided whether that is a tip.
+pub struct Attempt {
+    posture: Posture,
+    /// Orientation without any fall.
+    R: Mat3,
+    features: Vec<Feature>,
+    /// Height with that orientation, m.
+    height: f64,
+    rest: Rest,
+    /// Upper bound on how far any point moves about the centre of mass, joints' motion only, m.
+    pub motion: f64,
+    /// By how much the centre of mass falls with the joints held, m.
+    pub fall: f64,
+}
+
+/// Whether an attempt is a tip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    Steady,
+    /// The fall is more than the motion can explain.
+    Tip,
+    /// To be tried again with a shorter step.
+    Undecided,
+}
+
+impl Stance {
+    /// Stands a robot on the ground as `X_WB` has it turned, lowered; then settled unless `kept`.
+    /// Returns how far the centre of mass fell and by which angle the robot turned.
+    pub fn start(
+        model: &Model,
+        posture: Posture,
+        X_WB: &Pose,
+        kept: Kept,
+        tolerances: &Tolerances,
+    ) -> (Stance, f64, f64) {
+        let R = *X_WB.rotation.to_rotation_matrix().matrix();
+        let features = model.placed(&posture, &R);
+        let up = height(&features, &Vec3::z());
+        let c = X_WB.transform_point(&posture.centre.into());
+        let place = Place { x: c.x, y: c.y, yaw: 0.0 };
+        let level = match kept {
+            Kept::Pose => c.z,
+            Kept::Nothing | Kept::Orientation => up,
+        };
+        let mut stance = Stance {
+            posture,
+            R,
+            height: level,
+            place,
+            features,
+            touches: vec![],
+            patches: vec![],
+            held: false,
+            anchors: vec![],
+        };
+        if kept != Kept::Nothing {
+            stance.touch(model, tolerances);
+            return (stance, 0.0, 0.0);
+        }
+        let rest = descend(&stance.features, tolerances);
+        let turned =
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rest.turn)).angle();
+        stance.turn(&rest);
+        // The base stays over the place where it was drawn, whatever the settling did.
+        let drift = stance.base_pose(model).translation.vector - X_WB.translation.vector;
+        stance.place.x -= drift.x;
+        stance.place.y -= drift.y;
+        stance.touch(model, tolerances);
+        (stance, up - rest.height, turned)
+    }
+
+    /// Follows a change of posture: turned as the masses and contacts were, then settled. While a
+    /// robot is held, the contacts are those that it stood on before.
+    pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Attempt {
+        let mut R = self.R * align(model, &self.posture, &posture);
+        let mut features = model.placed(&posture, &R);
+        let contacts = if self.held { &self.anchors } else { &self.touches };
+        let turn = guess(&features, contacts, tolerances);
+        R = turn * R;
+        features = features.iter().map(|f| f.placed(&turn, &Vec3::zeros())).collect();
+        let moved = self.features.iter().zip(&features).map(|(a, b)| a.moved(b));
+        let motion = moved.fold(0.0, f64::max);
+        let up = height(&features, &Vec3::z());
+        let rest = descend(&features, tolerances);
+        Attempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
+    }
+
+    /// The robot settled as attempted. Returns the slip of each loaded link with its part of the
+    /// weight.
+    pub fn settled(
+        &self,
+        model: &Model,
+        attempt: Attempt,
+        tolerances: &Tolerances,
+    ) -> (Stance, Vec<(usize, f64, f64)>) {
+        let rest = attempt.rest.clone();
+        let mut next = self.lowered(attempt);
+        next.held = false;
+        next.anchors.clear();
+        next.turn(&rest);
+        next.touch(model, tolerances);
+        let (place, slips) = carry(model, self, &next.posture, &next.R, next.height, &next.patches);
+        next.place = place;
+        (next, slips)
+    }
+
+    /// The robot held as it would be without falling, lowered to touch the ground.
+    pub fn holding(&self, model: &Model, attempt: Attempt, tolerances: &Tolerances) -> Stance {
+        let mut next = self.lowered(attempt);
+        if !self.held {
+            // Loads say little where the centre of mass leaves the edge: all that stood there counts.
+            let near = self.touches.iter().filter(|t| t.gap <= tolerances.gap_loaded);
+            next.anchors = near.map(|t| Touch { load: 1.0, ..*t }).collect();
+        }
+        next.held = true;
+        next.touch(model, tolerances);
+        next
+    }
+
+    /// The base keeps its pose; only the posture changes.
+    pub fn kept(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Stance {
+        let X_WB = self.base_pose(model);
+        Stance::start(model, posture, &X_WB, Kept::Pose, tolerances).0
+    }
+
+    /// Margin of the centre of mass in the hull of the contacts; `None` where they span no area.
+    pub fn margin(&self, model: &Model) -> Option<Margin> {
+        contact::margin(&self.touches, |touch| contact::counts(model, touch))
+    }
+
+    /// The same with nothing but what support really is.
+    pub fn margin_exact(&self, tolerances: &Tolerances) -> Option<Margin> {
+        contact::margin(&self.touches, |touch| touch.gap <= tolerances.gap_exact)
+    }
+
+    /// `X_WB`, the pose of the base module's body.
+    pub fn base_pose(&self, model: &Model) -> Pose {
+        let link = model.base_link();
+        self.link_pose(link)
+    }
+
+    /// `X_WL`
+    pub fn link_pose(&self, link: usize) -> Pose {
+        let (s, c) = libm::sincos(self.place.yaw);
+        let turned = Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * self.R;
+        let p = turned * (self.posture.p[link] - self.posture.centre)
+            + Vec3::new(self.place.x, self.place.y, self.height);
+        let R = turned * self.posture.R[link];
+        let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(R));
+        Pose::from_parts(p.into(), rotation)
+    }
+
+    fn lowered(&self, attempt: Attempt) -> Stance {
+        Stance {
+            posture: attempt.posture,
+            R: attempt.R,
+            height: attempt.height,
+            place: self.place,
+            features: attempt.features,
+            touches: vec![],
+            patches: vec![],
+            held: self.held,
+            anchors: self.anchors.clone(),
+        }
+    }
+
+    fn turn(&mut self, rest: &Rest) {
+        self.R = rest.turn * self.R;
+        self.height = rest.height;
+        for feature in &mut self.features {
+            *feature = feature.placed(&rest.turn, &Vec3::zeros());
+        }
+    }
+
+    fn touch(&mut self, model: &Model, tolerances: &Tolerances) {
+        self.touches = contact::touches(model, &self.features, self.height, tolerances);
+        self.patches = contact::patches(&self.touches);
+    }
+}
+
+/// What of a given base pose is kept when a robot is stood up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// It is lowered to the ground and settles.
+    Nothing,
+    /// It is lowered to the ground.
+    Orientation,
+    /// It stays where it is.
+    Pose,
+}
+
+impl Attempt {
+    /// The centre of mass' height over its attitude moves by no more than the points do, so following
+    /// the old minimum releases at most twice that; a fall of more is a minimum that vanished.
+    pub fn judged(&self, tolerances: &Tolerances) -> Judged {
+        if self.fall <= tolerances.fall_floor {
+            Judged::Steady
+        } else if self.fall > 2.0 * self.motion {
+            Judged::Tip
+        } else {
+            Judged::Undecided
+        }
+    }
+}

@@ -1,0 +1,477 @@
+//! Whether joints, motors and bonds hold what they have to: quasi-static loads against their limits.
+//!
+//! First with the loads that the ground takes without friction: where nothing is overloaded with
+//! those, forces exist. Loads whose far side touches nothing are the same whatever the forces are.
+//! Only for others, and only where the first answer is no, the best contact forces are sought.
+
+use super::bolted::Between;
+use super::contact::Touch;
+use super::forces::{Best, Question, Recipe};
+use super::model::Model;
+use super::statics::{LoadKind, Push, Section, Structure, effects};
+use super::tolerances::Tolerances;
+use super::walk::{Course, Sample, bonds_at};
+use crate::geometry::Vec3;
+use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
+use crate::units::{Dimension, quantity};
+
+pub struct Watch<'a> {
+    tolerances: &'a Tolerances,
+    compiled: Option<Compiled>,
+    /// Loads over their limits at the last sample that moved, with their ratios.
+    over: Vec<(usize, f64)>,
+    /// Overloads so far: one for each load.
+    failures: Vec<Overload>,
+    recipes: [Recipe; 2],
+    joints: Vec<f64>,
+    efforts: Vec<f64>,
+    samples: usize,
+    /// Samples at which the forces of the ground do not carry the robot, so that loads are unknown.
+    unknown: usize,
+    /// Work done for programmes so far.
+    effort: usize,
+    /// Samples at which it was not decided whether forces exist that overload nothing.
+    undecided: usize,
+    uneven: Option<Uneven>,
+    energy: f64,
+    /// Whether loads were bounded between the samples, too.
+    proved: bool,
+}
+
+struct Compiled {
+    bonds: Vec<bool>,
+    structure: Structure,
+    effects: Vec<Vec<(usize, f64)>>,
+}
+
+/// Where the best forces found are too much, and yet no proof was found that there are none.
+const UNDECIDED: &str =
+    "an overload was not proved: the best contact forces found are within rounding of the limit";
+
+/// A load over its limit.
+#[derive(Clone, Debug)]
+pub struct Overload {
+    pub name: String,
+    pub kind: LoadKind,
+    pub since: f64,
+    pub until: f64,
+    /// The greatest so far, and the limit; N·m or N.
+    pub value: f64,
+    pub limit: f64,
+}
+
+/// Where the contact forces must not be spread evenly.
+struct Uneven {
+    time: f64,
+    name: String,
+    /// Greatest load by its limit with even forces without friction, and with the best forces.
+    even: f64,
+    best: f64,
+    needs_friction: bool,
+}
+
+/// Another such place is looked at only where it is that much worse.
+const UNEVEN_STEP: f64 = 1.1;
+
+/// What the loads of one stance are.
+struct Loads {
+    /// Load by limit, of all loads.
+    ratios: Vec<f64>,
+    held: Vec<f64>,
+    /// Loads that are judged: for all of them it is known what they hold.
+    judged: Vec<usize>,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(tolerances: &'a Tolerances) -> Watch<'a> {
+        Watch {
+            tolerances,
+            compiled: None,
+            over: vec![],
+            failures: vec![],
+            recipes: Default::default(),
+            joints: vec![],
+            efforts: vec![],
+            samples: 0,
+            unknown: 0,
+            effort: 0,
+            undecided: 0,
+            uneven: None,
+            energy: 0.0,
+            proved: false,
+        }
+    }
+
+    pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
+            self.over.clear();
+            return;
+        }
+        self.samples += 1;
+        if sample.moved || self.compiled.is_none() {
+            self.compile(sample);
+            self.weigh(sample, ledger);
+        }
+        self.record(sample, ledger);
+    }
+
+    fn compile(&mut self, sample: &Sample) {
+        if self.compiled.as_ref().is_none_or(|c| c.bonds != sample.bonds) {
+            let structure = Structure::new(sample.model);
+            let effects = effects(sample.model);
+            self.compiled = Some(Compiled { bonds: sample.bonds.to_vec(), structure, effects });
+        }
+    }
+
+    fn weigh(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        // Taken out while it is used, so that the rest can be written to.
+        let Some(compiled) = self.compiled.take() else { return };
+        self.weigh_in(sample, &compiled, ledger);
+        self.compiled = Some(compiled);
+    }
+
+    fn weigh_in(&mut self, sample: &Sample, compiled: &Compiled, ledger: &mut Ledger) {
+        let structure = &compiled.structure;
+        let sections = structure.sections(sample.stance);
+        let pushed_down = weights(sample);
+        let weights = structure.held(sample.model, &sections, &pushed_down);
+        let loads = loads(structure, sample, &sections, self.tolerances);
+        if loads.judged.len() < structure.loads.len() {
+            self.unknown += 1;
+        }
+        self.work(sample, compiled, &loads.held);
+        self.over.clear();
+        for (slot, bonds) in [(0, false), (1, true)] {
+            let own = |i: &usize| bonds != matches!(structure.loads[*i].kind, LoadKind::Joint { .. });
+            let judged: Vec<usize> = loads.judged.iter().copied().filter(own).collect();
+            let Some(worst) = greatest(&judged, |i| loads.ratios[i]) else { continue };
+            if loads.ratios[worst] <= 1.0 {
+                self.margin(sample, structure, worst, loads.ratios[worst], ledger);
+                continue;
+            }
+            let question = Question {
+                model: sample.model,
+                structure,
+                stance: sample.stance,
+                sections: &sections,
+                pushed_down: &pushed_down,
+                weights: &weights,
+                loads: &judged,
+                weight: sample.model.mass * sample.world.gravity,
+                friction: sample.world.friction,
+                bolted: sample.world.ground == Ground::Held,
+                tolerances: self.tolerances,
+            };
+            let sure = settled_loads(structure, sample, &judged, true, self.tolerances);
+            let sure = greatest(&sure, |i| loads.ratios[i]).filter(|&i| loads.ratios[i] > 1.0);
+            let seen = if bonds { &ledger.verdict.bond_margin } else { &ledger.verdict.torque_margin };
+            let seen = seen.as_ref().map_or(0.0, |w| 1.0 - w.value);
+            let best = match sure {
+                Some(_) => None,
+                None => best(&question, &mut self.recipes[slot], seen, &mut self.effort),
+            };
+            if sure.is_none() && best.is_none() {
+                self.undecided += 1;
+                continue;
+            }
+            match best {
+                Some(best) if best.ratio <= 1.0 => {
+                    self.margin(sample, structure, best.load, best.ratio, ledger);
+                    self.uneven(sample.time, question, (worst, loads.ratios[worst]), &best);
+                }
+                best => {
+                    if best.as_ref().is_some_and(|b| b.bound <= 1.0) {
+                        ledger.note(UNDECIDED.to_owned());
+                    }
+                    let (load, ratio) = best
+                        .map_or((sure.unwrap_or(worst), loads.ratios[sure.unwrap_or(worst)]), |b| {
+                            (b.load, b.ratio)
+                        });
+                    self.margin(sample, structure, load, ratio, ledger);
+                    let all = judged.iter().copied().filter(|&i| sure.is_some() && loads.ratios[i] > 1.0);
+                    let sures: Vec<_> = all.map(|i| (i, loads.ratios[i])).collect();
+                    self.over.extend(if sures.is_empty() { vec![(load, ratio)] } else { sures });
+                }
+            }
+        }
+    }
+
+    fn margin(&self, sample: &Sample, structure: &Structure, load: usize, ratio: f64, ledger: &mut Ledger) {
+        let load = &structure.loads[load];
+        let worst = match load.kind {
+            LoadKind::Joint { .. } => &mut ledger.verdict.torque_margin,
+            LoadKind::Pull | LoadKind::Moment => &mut ledger.verdict.bond_margin,
+        };
+        lower(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
+    }
+
+    /// Remembers where the loads of even contact forces were too great, and whether others without
+    /// friction would do.
+    fn uneven(&mut self, time: f64, question: Question, worst: (usize, f64), best: &Best) {
+        if self.uneven.as_ref().is_some_and(|u| worst.1 <= UNEVEN_STEP * u.even) {
+            return;
+        }
+        let name = question.structure.loads[worst.0].name.clone();
+        let slippery = Question { friction: 0.0, ..question };
+        let needs_friction = slippery.best().is_none_or(|b| b.ratio > 1.0);
+        self.uneven = Some(Uneven { time, even: worst.1, best: best.ratio, name, needs_friction });
+    }
+
+    /// Work of the motors since the sample before: what they give, not what they get back.
+    fn work(&mut self, sample: &Sample, compiled: &Compiled, held: &[f64]) {
+        let effort = |joint| compiled.structure.joint_effort(joint, held, &compiled.effects);
+        let efforts: Vec<f64> = (0..sample.joints.len()).map(effort).collect();
+        if self.joints.len() == efforts.len() {
+            for (joint, effort) in efforts.iter().enumerate() {
+                let mean = (effort + self.efforts[joint]) / 2.0;
+                self.energy += (mean * (sample.joints[joint] - self.joints[joint])).max(0.0);
+            }
+        }
+        (self.joints, self.efforts) = (sample.joints.to_vec(), efforts);
+    }
+
+    fn record(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        let Some(compiled) = &self.compiled else { return };
+        for &(index, ratio) in &self.over {
+            let load = &compiled.structure.loads[index];
+            if let LoadKind::Joint { joint, .. } = load.kind {
+                let of = |kind: &ExemptionKind| match kind {
+                    ExemptionKind::Overload(only) => only.is_none_or(|j| j as usize == joint),
+                    _ => false,
+                };
+                if ledger.excuses(CheckKind::Torque, sample.time, of) {
+                    continue;
+                }
+            }
+            let value = ratio * load.limit;
+            match self.failures.iter_mut().find(|f| f.name == load.name && f.kind == load.kind) {
+                Some(failure) => {
+                    failure.until = sample.time;
+                    failure.value = failure.value.max(value);
+                }
+                None => self.failures.push(Overload {
+                    name: load.name.clone(),
+                    kind: load.kind,
+                    since: sample.time,
+                    until: sample.time,
+                    value,
+                    limit: load.limit,
+                }),
+            }
+        }
+    }
+
+    /// What is known of the time between the samples.
+    pub fn between(&mut self, between: &Between, course: &Course) {
+        self.proved = *between == Between::Proved;
+        if let (Between::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
+            let model = Model::new(&course.tracks.robot, &bonds_at(course.tracks, *time));
+            let load = &Structure::new(&model).loads[*load];
+            let (since, until) = (*time, *time);
+            let (name, value) = (load.name.clone(), ratio * load.limit);
+            self.failures.push(Overload { name, kind: load.kind, since, until, value, limit: load.limit });
+        }
+    }
+
+    /// The overloads found, in order of time.
+    pub fn overloaded(&self) -> &[Overload] {
+        &self.failures
+    }
+
+    pub fn finish(&self, ledger: &mut Ledger) {
+        ledger.verdict.energy = self.energy;
+        if let Some(uneven) = &self.uneven {
+            let (time, name) = (quantity(uneven.time, Dimension::TIME), &uneven.name);
+            let ratios = format!("{:.2} of its limit", uneven.even);
+            ledger.note(match uneven.needs_friction {
+                true => {
+                    format!("at {time} {name} needs friction: {ratios} without, {:.2} at best with it", uneven.best)
+                }
+                false => format!(
+                    "at {time} {name} would hold {ratios} if the ground's forces were spread evenly, {:.2} at best",
+                    uneven.best
+                ),
+            });
+        }
+        if self.unknown > 0 {
+            ledger.note(format!(
+                "at {} samples the ground does not carry the robot: only what touches nothing was weighed",
+                self.unknown
+            ));
+        }
+        let stated = |bonds: bool| {
+            self.compiled.as_ref().is_some_and(|c| {
+                c.structure.loads.iter().any(|l| bonds != matches!(l.kind, LoadKind::Joint { .. }))
+            })
+        };
+        let status = |bonds| match (self.samples, stated(bonds)) {
+            (0, _) => Status::NotChecked("nothing is weighed without gravity and a ground".to_owned()),
+            (_, false) => Status::NoLimit,
+            (samples, true) if self.undecided > 0 => Status::NotChecked(format!(
+                "at {} of {samples} samples it was not decided whether contact forces exist that overload nothing",
+                self.undecided
+            )),
+            (_, true) if self.proved => Status::Proved,
+            (samples, true) => Status::Sampled(samples),
+        };
+        if self.compiled.as_ref().is_some_and(|c| c.structure.motors_open) {
+            ledger.note("torques of motors that are not as many as their joints were not checked".to_owned());
+        }
+        ledger.check(CheckKind::Torque, status(false));
+        ledger.check(CheckKind::BondLoad, status(true));
+    }
+}
+
+impl Overload {
+    pub fn failure(&self) -> Failure {
+        let (kind, dimension, what) = match self.kind {
+            LoadKind::Joint { turns: true, .. } => {
+                (CheckKind::Torque, Dimension::TORQUE, "would have to hold")
+            }
+            LoadKind::Joint { turns: false, .. } => {
+                (CheckKind::Torque, Dimension::FORCE, "would have to hold")
+            }
+            LoadKind::Pull => (CheckKind::BondLoad, Dimension::FORCE, "is pulled apart with"),
+            LoadKind::Moment => (CheckKind::BondLoad, Dimension::TORQUE, "is bent with"),
+        };
+        let words = |v| quantity(v, dimension);
+        Failure {
+            kind,
+            time: self.since,
+            until: Some(self.until),
+            at: vec![self.name.clone()],
+            message: format!(
+                "{} {what} up to {}; it holds {}",
+                self.name,
+                words(self.value),
+                words(self.limit)
+            ),
+            value: self.value,
+            limit: self.limit,
+            blame: vec![],
+            blames_start: false,
+        }
+    }
+}
+
+/// Reads loads without judging them.
+#[derive(Default)]
+pub struct Gauge {
+    compiled: Option<Compiled>,
+}
+
+impl Gauge {
+    /// Load by limit of every joint that states one, with the ground's forces spread evenly and
+    /// without friction: (joint, ratio). Empty where nothing is weighed.
+    pub fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
+        if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
+            return vec![];
+        }
+        if self.compiled.as_ref().is_none_or(|c| c.bonds != sample.bonds) {
+            let structure = Structure::new(sample.model);
+            let bonds = sample.bonds.to_vec();
+            self.compiled = Some(Compiled { bonds, structure, effects: effects(sample.model) });
+        }
+        let Some(Compiled { structure, .. }) = &self.compiled else { return vec![] };
+        let found = loads(structure, sample, &structure.sections(sample.stance), tolerances);
+        let of_joint = structure.loads.iter().zip(found.ratios).filter_map(|(load, ratio)| match load.kind {
+            LoadKind::Joint { joint, .. } => Some((joint, ratio)),
+            LoadKind::Pull | LoadKind::Moment => None,
+        });
+        of_joint.collect()
+    }
+}
+
+/// Whether something of this name is overloaded in a sample: for finding who is to blame.
+pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
+    let mut watch = Watch::new(tolerances);
+    watch.see(sample, ledger);
+    watch.failures.iter().any(|f| f.name == name)
+}
+
+/// Work (columns and loads of the programmes solved) that is done for the sake of an exact margin;
+/// after that only where it is open whether forces exist at all. About 500 programmes of a walker of
+/// 15 modules, 20 of a snake of 300.
+const EFFORT_FOR_MARGIN: usize = 60_000;
+
+/// The best forces: those of the sample before, brought to balance here, do if nothing is worse than
+/// what was seen already; otherwise by a programme.
+fn best(question: &Question, recipe: &mut Recipe, seen: f64, effort: &mut usize) -> Option<Best> {
+    // After much work, forces that will do are enough, and the margin is that of these.
+    let enough = if *effort < EFFORT_FOR_MARGIN { seen.min(1.0) } else { 1.0 };
+    if let Some(again) = question.again(recipe).filter(|again| again.ratio <= enough) {
+        return Some(again);
+    }
+    *effort += question.effort();
+    let best = question.best()?;
+    *recipe = best.recipe.clone();
+    Some(best)
+}
+
+/// The weights of all links.
+fn weights(sample: &Sample) -> Vec<Push> {
+    let (model, stance) = (sample.model, sample.stance);
+    let push = |&link: &usize| {
+        let body = &model.bodies[link];
+        let posture = &stance.posture;
+        let p = stance.R * (posture.R[link] * body.com + posture.p[link] - posture.centre);
+        let f = Vec3::new(0.0, 0.0, -body.mass * sample.world.gravity);
+        Push { link, p, f, m: Vec3::zeros() }
+    };
+    model.attached.iter().map(push).collect()
+}
+
+/// What the ground may push at.
+fn pushing<'s>(sample: &Sample<'s>) -> impl Iterator<Item = &'s Touch> {
+    let bolted = sample.world.ground == Ground::Held;
+    sample.stance.touches.iter().filter(move |_| !bolted)
+}
+
+/// Loads without friction, with the ground's pushes as they spread.
+fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerances: &Tolerances) -> Loads {
+    let weight = sample.model.mass * sample.world.gravity;
+    let mut pushes = weights(sample);
+    let (mut x, mut y, mut size) = (0.0, 0.0, 1e-3_f64);
+    for touch in pushing(sample).filter(|t| t.load > 0.0) {
+        let f = Vec3::new(0.0, 0.0, touch.load * weight);
+        pushes.push(Push { link: touch.link, p: touch.p, f, m: Vec3::zeros() });
+        (x, y) = (x + touch.load * touch.p.x, y + touch.load * touch.p.y);
+        size = size.max(touch.p.norm());
+    }
+    let held = structure.held(sample.model, sections, &pushes);
+    let ratios = structure.loads.iter().map(|load| structure.size(load, &held) / load.limit).collect();
+    let all: Vec<usize> = (0..structure.loads.len()).collect();
+    // What is bolted down is balanced by what holds it, whatever loops carry.
+    let balanced = match sample.world.ground {
+        Ground::Held => true,
+        _ => libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held,
+    };
+    let judged = if balanced { all } else { settled_loads(structure, sample, &all, false, tolerances) };
+    Loads { ratios, held, judged }
+}
+
+/// Of some loads those that no forces of the ground can change: nothing beyond their cuts, or
+/// everything, touches it, and no loop passes through them.
+fn settled_loads(
+    structure: &Structure,
+    sample: &Sample,
+    loads: &[usize],
+    balanced: bool,
+    tolerances: &Tolerances,
+) -> Vec<usize> {
+    let near: Vec<usize> =
+        pushing(sample).filter(|t| t.gap <= tolerances.gap_loaded).map(|t| t.link).collect();
+    let settled = |cut: usize| {
+        let at = structure.cut_link(cut);
+        let beyond = near.iter().filter(|&&link| structure.beyond(at, link)).count();
+        let looped = |&(_, a, b): &(usize, usize, usize)| structure.beyond(at, a) != structure.beyond(at, b);
+        (beyond == 0 || (beyond == near.len() && balanced)) && !structure.closing.iter().any(looped)
+    };
+    let all = |index: &usize| structure.loads[*index].terms.iter().all(|&(cut, _)| settled(cut));
+    loads.iter().copied().filter(all).collect()
+}
+
+fn greatest(loads: &[usize], ratio: impl Fn(usize) -> f64) -> Option<usize> {
+    loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })
+}

@@ -1,0 +1,151 @@
+//! Where the robot gets to, and what slips on the way; and with a held base, what goes underground.
+
+use super::contact::Touch;
+use super::tolerances::Tolerances;
+use super::walk::Sample;
+use crate::geometry::{Pose, Vec3};
+use crate::plan::verify::ledger::Ledger;
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
+use crate::units::{Dimension, quantity};
+
+pub struct Watch<'a> {
+    tolerances: &'a Tolerances,
+    start: Option<Pose>,
+    last: Pose,
+    yaw: f64,
+    /// Slip of each link with its part of the load, summed over the plan, m.
+    slips: Vec<f64>,
+    samples: usize,
+    /// Deepest penetration so far of the present stretch: (depth, time, links' names, since).
+    sunk: Option<(f64, f64, String, f64)>,
+    grounds: Vec<Ground>,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(tolerances: &'a Tolerances) -> Watch<'a> {
+        let identity = Pose::identity();
+        Watch {
+            tolerances,
+            start: None,
+            last: identity,
+            yaw: 0.0,
+            slips: vec![],
+            samples: 0,
+            sunk: None,
+            grounds: vec![],
+        }
+    }
+
+    pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        self.samples += 1;
+        if !self.grounds.contains(&sample.world.ground) {
+            self.grounds.push(sample.world.ground);
+        }
+        if sample.moved {
+            self.travel(sample);
+            self.slip(sample, ledger);
+        }
+        if sample.world.ground == Ground::Fixed {
+            self.sink(sample, ledger);
+        }
+    }
+
+    fn travel(&mut self, sample: &Sample) {
+        let pose = sample.stance.base_pose(sample.model);
+        if self.start.is_none() {
+            (self.start, self.last) = (Some(pose), pose);
+        }
+        // The turn since the sample before, about the vertical.
+        let x = (pose.rotation * self.last.rotation.inverse()) * Vec3::x();
+        self.yaw += libm::atan2(x.y, x.x);
+        self.last = pose;
+    }
+
+    fn slip(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        self.slips.resize(sample.model.bodies.len(), 0.0);
+        let mut excused = false;
+        for &(link, slip, load) in sample.slips {
+            if load >= self.tolerances.slip_load {
+                self.slips[link] += slip;
+                excused |= self.slips[link] > self.tolerances.slip;
+            }
+        }
+        if excused {
+            // Slip is reported, it fails nothing: an exemption is needed as soon as there is some.
+            ledger.excuses(CheckKind::Slip, sample.time, |kind| *kind == ExemptionKind::Slip);
+        }
+    }
+
+    fn sink(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        match sunk(sample) {
+            Some(touch) => {
+                let since = self.sunk.as_ref().map_or(sample.time, |s| s.3);
+                if self.sunk.as_ref().is_none_or(|s| -touch.gap > s.0) {
+                    let name = sample.model.module_name(touch.link).to_owned();
+                    self.sunk = Some((-touch.gap, sample.time, name, since));
+                }
+            }
+            None => self.risen(sample.time, ledger),
+        }
+    }
+
+    fn risen(&mut self, t: f64, ledger: &mut Ledger) {
+        let Some((depth, _, name, since)) = self.sunk.take() else { return };
+        let words = quantity(depth, Dimension::LENGTH);
+        ledger.fail(Failure {
+            kind: CheckKind::Ground,
+            time: since,
+            until: Some(t),
+            message: format!("{name} goes into the ground, {words} deep"),
+            at: vec![name],
+            value: depth,
+            limit: 0.0,
+            blame: vec![],
+            blames_start: false,
+        });
+    }
+
+    pub fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
+        let end = ledger.verdict.duration;
+        self.risen(end, ledger);
+        if let Some(start) = self.start {
+            let travel = self.last.translation.vector - start.translation.vector;
+            ledger.verdict.travel = [travel.x, travel.y, travel.z];
+            ledger.verdict.heading = self.yaw;
+        }
+        let worst =
+            (0..self.slips.len()).reduce(|w, link| if self.slips[link] > self.slips[w] { link } else { w });
+        ledger.verdict.slip = worst.filter(|_| self.grounds.contains(&Ground::Settle)).map(|link| Worst {
+            value: self.slips[link],
+            time: end,
+            at: vec![names(link)],
+        });
+        let settles = self.grounds.contains(&Ground::Settle);
+        let fixed = self.grounds.contains(&Ground::Fixed);
+        ledger.check(
+            CheckKind::Ground,
+            match (settles, fixed) {
+                (_, true) => Status::Sampled(self.samples),
+                (true, false) => Status::Proved,
+                (false, false) => Status::NotChecked("there is no ground".to_owned()),
+            },
+        );
+        // No limit on slip can be stated yet: it is measured where the robot travels.
+        ledger.check(
+            CheckKind::Slip,
+            match settles {
+                true => Status::NoLimit,
+                false => Status::NotChecked("the base is not carried by the ground".to_owned()),
+            },
+        );
+    }
+}
+
+/// The deepest touch that is further underground than its module may be.
+pub fn sunk<'s>(sample: &Sample<'s>) -> Option<&'s Touch> {
+    let deepest = sample.stance.touches.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
+    deepest.filter(|t| {
+        let module = sample.model.bodies[t.link].module;
+        -t.gap > sample.model.robot.module_type(module).touch
+    })
+}

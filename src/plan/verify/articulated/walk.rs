@@ -1,0 +1,421 @@
+//! A plan's robot on the ground from sample to sample.
+//!
+//! Everything here is sequential, and depends on nothing but the plan: the attitude of a sample
+//! follows from the sample before.
+
+use super::contact;
+use super::model::{Model, Posture};
+use super::sample;
+use super::stance::{Judged, Kept, Stance};
+use super::tolerances::Tolerances;
+use crate::geometry::Pose;
+use crate::interrupt;
+use crate::plan::{DockKind, Exemption, ExemptionKind, Ground, Settings, Tracks, World, WorldFrom};
+use crate::units::{Dimension, quantity};
+
+/// What is walked through, and how strictly.
+#[derive(Clone, Copy)]
+pub struct Course<'a> {
+    pub tracks: &'a Tracks,
+    pub worlds: &'a [WorldFrom],
+    pub exemptions: &'a [Exemption],
+    pub settings: &'a Settings,
+    pub tolerances: &'a Tolerances,
+    /// A joint that stays where it is from a time on: to find out who is to blame.
+    pub held: Option<(usize, f64)>,
+}
+
+/// The robot at one sample.
+pub struct Sample<'a> {
+    pub time: f64,
+    /// The sample before; the same as `time` at the start.
+    pub before: f64,
+    pub joints: &'a [f64],
+    pub bonds: &'a [bool],
+    pub model: &'a Model<'a>,
+    pub stance: &'a Stance,
+    pub world: &'a World,
+    /// Whether anything moved since the sample before.
+    pub moved: bool,
+    /// By how much the centre of mass fell with the joints held, m.
+    pub fall: f64,
+    /// Bound on the motion of points about the centre of mass since the sample before, m.
+    pub motion: f64,
+    pub tip: Option<&'a Tip>,
+    /// Slip of loaded links since the sample before, m, with their part of the weight.
+    pub slips: &'a [(usize, f64, f64)],
+    /// At the start, or where a ground begins: how far the robot turned to settle, rad.
+    pub settling: Option<f64>,
+}
+
+/// The support was lost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tip {
+    /// When the centre of mass crossed the edge, s.
+    pub time: f64,
+    /// By how much it falls, m.
+    pub fall: f64,
+    /// Bound on the motion of the step that showed it, m.
+    pub motion: f64,
+    /// Links at the two ends of the edge.
+    pub edge: Vec<usize>,
+    /// Whether an exemption covers it.
+    pub excused: bool,
+}
+
+/// Why a walk ended early.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ended {
+    AtEnd,
+    /// Too many samples; it got to this time.
+    Limit(f64),
+    /// Whoever watched had seen enough.
+    Stopped,
+}
+
+/// Halvings of one step: times are that close that nothing moves between them.
+const HALVINGS_MAX: usize = 50;
+
+/// From where a walk goes on, s.
+#[derive(Clone, Debug)]
+pub struct Waypoint {
+    pub time: f64,
+    pub stance: Stance,
+    held_since: Option<f64>,
+}
+
+struct Walker<'a> {
+    course: Course<'a>,
+    model: Model<'a>,
+    bonds: Vec<bool>,
+    stance: Stance,
+    /// Time of the last sample.
+    now: f64,
+    joints: Vec<f64>,
+    poses: Vec<Pose>,
+    world: World,
+    held_since: Option<f64>,
+    samples: usize,
+}
+
+/// Walks through a plan from its start, or from a waypoint, until `until`. `watch` sees every sample
+/// and says whether to go on.
+pub fn walk(
+    course: Course,
+    from: Option<&Waypoint>,
+    until: f64,
+    watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
+) -> Ended {
+    let mut walker = Walker::new(course, from);
+    if from.is_none() && !walker.begin(watch) {
+        return Ended::Stopped;
+    }
+    let first = walker.now;
+    let instants = sample::instants(course.tracks, course.worlds, course.exemptions);
+    for &instant in instants.iter().filter(|t| **t > first) {
+        interrupt::progress(|| {
+            let [now, until] = [walker.now, until].map(|t| quantity(t, Dimension::TIME));
+            format!("walked {now} of {until}, {} samples", walker.samples)
+        });
+        let target = instant.min(until);
+        if target > walker.now {
+            match walker.stretch(target, watch) {
+                Ended::AtEnd => {}
+                ended => return ended,
+            }
+        }
+        if instant >= until {
+            break;
+        }
+    }
+    Ended::AtEnd
+}
+
+impl<'a> Walker<'a> {
+    fn new(course: Course<'a>, from: Option<&Waypoint>) -> Walker<'a> {
+        let tracks = course.tracks;
+        let now = from.map_or(0.0, |w| w.time);
+        let bonds = bonds_at(tracks, now);
+        let model = Model::new(&tracks.robot, &bonds);
+        let world = world_at(course.worlds, now);
+        let mut poses = Vec::new();
+        let mut joints = Vec::new();
+        positions(&course, now, &mut joints);
+        let posture = model.posture(&joints, &mut poses);
+        let stance = match from {
+            Some(waypoint) => waypoint.stance.clone(),
+            None => {
+                Stance::start(&model, posture, &tracks.start.base, unsettled(&world), course.tolerances).0
+            }
+        };
+        let held_since = from.and_then(|w| w.held_since);
+        Walker { course, model, bonds, stance, now, joints, poses, world, held_since, samples: 0 }
+    }
+
+    /// The first sample.
+    fn begin(&mut self, watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool) -> bool {
+        let pose = self.course.tracks.start.base;
+        let kept = if self.on_ground() { Kept::Nothing } else { unsettled(&self.world) };
+        let (settling, fall) = self.stand(&pose, kept);
+        self.show(watch, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
+    }
+
+    /// Samples from `now` to `target`, between which nothing begins or ends.
+    fn stretch(
+        &mut self,
+        target: f64,
+        watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
+    ) -> Ended {
+        let (from, course) = (self.now, self.course);
+        let divisions = sample::divisions(course.tracks, from, target, course.settings, course.tolerances);
+        for i in 1..=divisions.max(1) {
+            let t =
+                if i >= divisions { target } else { from + (target - from) * i as f64 / divisions as f64 };
+            let ended = self.advance(t, divisions > 0, watch);
+            if ended != Ended::AtEnd {
+                return ended;
+            }
+        }
+        Ended::AtEnd
+    }
+
+    /// One sample, or several where a step has to be halved.
+    fn advance(
+        &mut self,
+        target: f64,
+        moving: bool,
+        watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
+    ) -> Ended {
+        let mut targets = vec![target];
+        while let Some(&t) = targets.last() {
+            if self.samples >= self.course.settings.samples_max {
+                return Ended::Limit(self.now);
+            }
+            self.samples += 1;
+            let before = self.now;
+            let Some(step) = self.step(t, moving, targets.len() < HALVINGS_MAX) else {
+                targets.push(before + (t - before) / 2.0);
+                continue;
+            };
+            targets.pop();
+            if !self.show(watch, before, &step) {
+                return Ended::Stopped;
+            }
+        }
+        Ended::AtEnd
+    }
+
+    /// Goes to time `t`; `None` where the step is too long.
+    fn step(&mut self, t: f64, moving: bool, may_halve: bool) -> Option<Step> {
+        let changes = self.changes(t);
+        if !moving && !changes.bonds && !changes.world && !self.stance.held {
+            self.now = t;
+            return Some(Step::default());
+        }
+        let mut joints = Vec::new();
+        positions(&self.course, t, &mut joints);
+        let posture = self.model.posture(&joints, &mut self.poses);
+        let step = match self.on_ground() {
+            true => self.step_on_ground(t, posture, may_halve)?,
+            false => {
+                self.stance = self.stance.kept(&self.model, posture, self.course.tolerances);
+                Step { moved: true, ..Step::default() }
+            }
+        };
+        (self.joints, self.now) = (joints, t);
+        Some(self.changed(t, changes, step))
+    }
+
+    fn step_on_ground(&mut self, t: f64, posture: Posture, may_halve: bool) -> Option<Step> {
+        let tolerances = self.course.tolerances;
+        let attempt = self.stance.attempt(&self.model, posture, tolerances);
+        let (fall, motion) = (attempt.fall, attempt.motion);
+        let mut judged = attempt.judged(tolerances);
+        if may_halve
+            && (judged == Judged::Undecided || motion > tolerances.motion_sample)
+            && !self.stance.held
+        {
+            if t - self.now > tolerances.time {
+                return None;
+            }
+            judged = if fall > tolerances.fall_floor { Judged::Tip } else { Judged::Steady };
+        }
+        let mut step = Step { moved: true, fall, motion, ..Step::default() };
+        let mut hold = false;
+        if self.stance.held {
+            let since = self.held_since.unwrap_or(t);
+            hold = fall > tolerances.fall_floor && t - since <= self.course.settings.unstable_for;
+        } else if judged != Judged::Steady {
+            let tip = self.tip(t, fall, motion);
+            hold = !tip.excused && t - tip.time <= self.course.settings.unstable_for;
+            self.held_since = hold.then_some(tip.time);
+            step.tip = Some(tip);
+        }
+        if hold {
+            self.stance = self.stance.holding(&self.model, attempt, tolerances);
+        } else {
+            (self.stance, step.slips) = self.stance.settled(&self.model, attempt, tolerances);
+            self.held_since = None;
+        }
+        Some(step)
+    }
+
+    /// When, and over which edge: by halving between the last sample that stood and this one.
+    fn tip(&mut self, t: f64, fall: f64, motion: f64) -> Tip {
+        let tolerances = self.course.tolerances;
+        let (mut standing, mut fallen) = (self.now, t);
+        let mut joints = Vec::new();
+        for _ in 0..HALVINGS_MAX {
+            if fallen - standing <= tolerances.time {
+                break;
+            }
+            let middle = standing + (fallen - standing) / 2.0;
+            positions(&self.course, middle, &mut joints);
+            let posture = self.model.posture(&joints, &mut self.poses);
+            let tried = self.stance.attempt(&self.model, posture, tolerances);
+            if tried.fall > tolerances.fall_floor {
+                fallen = middle;
+            } else {
+                standing = middle;
+            }
+        }
+        positions(&self.course, fallen, &mut joints);
+        let posture = self.model.posture(&joints, &mut self.poses);
+        let attempt = self.stance.attempt(&self.model, posture, tolerances);
+        let over = self.stance.holding(&self.model, attempt, tolerances);
+        let support = contact::margin(&over.touches, |touch| touch.gap <= tolerances.gap_exact);
+        let mut edge = match support {
+            Some(margin) => vec![over.touches[margin.edge.0].link, over.touches[margin.edge.1].link],
+            None => over.touches.iter().filter(|x| x.gap <= tolerances.gap_exact).map(|x| x.link).collect(),
+        };
+        edge.dedup();
+        let excused = fallen < self.course.tracks.duration && excused(self.course.exemptions, fallen);
+        Tip { time: fallen, fall, motion, edge, excused }
+    }
+
+    /// Bonds and worlds that begin at `t`.
+    fn changes(&self, t: f64) -> Changes {
+        let bonds = bonds_at(self.course.tracks, t) != self.bonds;
+        Changes { bonds, world: world_at(self.course.worlds, t) != self.world }
+    }
+
+    fn changed(&mut self, t: f64, changes: Changes, mut step: Step) -> Step {
+        if changes.bonds {
+            self.bonds = bonds_at(self.course.tracks, t);
+            self.model = Model::new(&self.course.tracks.robot, &self.bonds);
+            step.moved = true;
+            self.restand();
+        }
+        if changes.world {
+            let before = self.world.ground;
+            self.world = world_at(self.course.worlds, t);
+            step.moved = true;
+            if self.on_ground() && before != Ground::Settle {
+                let pose = self.stance.base_pose(&self.model);
+                let (settling, fall) = self.stand(&pose, Kept::Nothing);
+                (step.settling, step.fall) = (Some(settling), fall);
+            }
+        }
+        step
+    }
+
+    /// The same stance seen through another tree of bonds: nothing moves.
+    fn restand(&mut self) {
+        let pose = self.stance.base_pose(&self.model);
+        let held = self.stance.held;
+        let posture = self.model.posture(&self.joints, &mut self.poses);
+        self.stance = Stance::start(&self.model, posture, &pose, Kept::Pose, self.course.tolerances).0;
+        self.stance.held = held;
+    }
+
+    fn stand(&mut self, pose: &Pose, kept: Kept) -> (f64, f64) {
+        let posture = self.model.posture(&self.joints, &mut self.poses);
+        let (stance, fall, turn) = Stance::start(&self.model, posture, pose, kept, self.course.tolerances);
+        (self.stance, self.held_since) = (stance, None);
+        (turn, fall)
+    }
+
+    fn on_ground(&self) -> bool {
+        self.world.ground == Ground::Settle && self.world.gravity > 0.0
+    }
+
+    fn show(
+        &self,
+        watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
+        before: f64,
+        step: &Step,
+    ) -> bool {
+        let sample = Sample {
+            time: self.now,
+            before,
+            joints: &self.joints,
+            bonds: &self.bonds,
+            model: &self.model,
+            stance: &self.stance,
+            world: &self.world,
+            moved: step.moved,
+            fall: step.fall,
+            motion: step.motion,
+            tip: step.tip.as_ref(),
+            slips: &step.slips,
+            settling: step.settling,
+        };
+        let waypoint =
+            || Waypoint { time: self.now, stance: self.stance.clone(), held_since: self.held_since };
+        watch(&sample, &waypoint)
+    }
+}
+
+/// What is kept of the pose that a robot is drawn in, where it does not settle.
+fn unsettled(world: &World) -> Kept {
+    if world.ground == Ground::Held { Kept::Pose } else { Kept::Orientation }
+}
+
+#[derive(Clone, Copy)]
+struct Changes {
+    bonds: bool,
+    world: bool,
+}
+
+#[derive(Default)]
+struct Step {
+    moved: bool,
+    fall: f64,
+    motion: f64,
+    tip: Option<Tip>,
+    slips: Vec<(usize, f64, f64)>,
+    settling: Option<f64>,
+}
+
+/// Whether an exemption allows the robot to tip at `t`.
+pub fn excused(exemptions: &[Exemption], t: f64) -> bool {
+    exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.from <= t && t <= e.to)
+}
+
+/// Joint positions at a time, a blamed joint held.
+pub fn positions(course: &Course, t: f64, joints: &mut Vec<f64>) {
+    joints.clear();
+    joints.extend_from_slice(&course.tracks.start.joints);
+    for track in &course.tracks.tracks {
+        let index = track.joint.0 as usize;
+        let t = match course.held {
+            Some((joint, from)) if joint == index => t.min(from),
+            _ => t,
+        };
+        joints[index] = track.position(joints[index], t);
+    }
+}
+
+/// Which bonds hold just after a time.
+pub fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
+    let mut bonds = tracks.start.bonds.clone();
+    for dock in tracks.docks.iter().take_while(|d| d.time <= t) {
+        bonds[dock.bond] = dock.kind == DockKind::Dock;
+    }
+    bonds
+}
+
+/// The world just after a time.
+pub fn world_at(worlds: &[WorldFrom], t: f64) -> World {
+    worlds.iter().take_while(|w| w.from <= t).last().map_or_else(World::default, |w| w.world)
+}

@@ -1,0 +1,192 @@
+//! Stages in which cells move, or change, along several axes.
+//!
+//! Planes between which cells stay take the set apart: what is on two sides of one never meets. Of what
+//! can't be taken apart the pairs whose swept boxes overlap are judged one by one: two cells overlap at a
+//! progress where six linear inequalities hold.
+
+use super::contacts::Forest;
+use super::grid::Cube;
+use super::lanes::Meeting;
+use super::window::{self, Window};
+
+/// Pairs that are looked at, for each cell: cells that move by little have a few neighbours.
+const PAIRS_MAX: usize = 500;
+
+/// Judges the stage and joins the cells whose contact lasts. `None`: too entangled to be judged.
+pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Result<(), Meeting>> {
+    let contacts = pairs_near(before, |i, j| {
+        if lasts(before, after, i, j) {
+            let moved = |k: usize, axis: usize| after[k].middle(axis) - before[k].middle(axis);
+            let parting = (0..3).map(|axis| (moved(i, axis) - moved(j, axis)).abs()).max();
+            forest.touch(i as u32, j as u32, parting.unwrap_or(0));
+        }
+        None
+    });
+    contacts?.ok();
+    for group in groups(before, after) {
+        let hulls: Vec<Cube> =
+            group.iter().map(|&cell| hull(&before[cell as usize], &after[cell as usize])).collect();
+        let found = pairs_near(&hulls, |i, j| {
+            let cells = (group[i].min(group[j]), group[i].max(group[j]));
+            let (i, j) = (cells.0 as usize, cells.1 as usize);
+            let at_start = overlap(&before[i], &before[j]);
+            let meet = at_start || meet((&before[i], &after[i]), (&before[j], &after[j]));
+            meet.then_some(Meeting { cells, at_start })
+        })?;
+        if found.is_err() {
+            return Some(found);
+        }
+    }
+    Some(Ok(()))
+}
+
+/// Halvings of a set of cells by which it is taken apart, one within the other.
+const DEPTH_MAX: usize = 12;
+
+/// Groups of cells that are not known to stay apart: planes across an axis that no cell crosses, neither
+/// at the start nor at the end, take the set apart, then those of another axis each part, and so on. Gaps
+/// are linear in the progress, so between two sides of such a plane nothing meets. Groups of one are left
+/// out.
+fn groups(before: &[Cube], after: &[Cube]) -> Vec<Vec<u32>> {
+    let mut found = Vec::new();
+    let mut open = vec![((0..before.len() as u32).collect::<Vec<u32>>(), 0, DEPTH_MAX)];
+    while let Some((cells, idle, depth)) = open.pop() {
+        // After three axes without a plane there is none.
+        if idle == 3 || depth == 0 {
+            found.push(cells);
+            continue;
+        }
+        let axis = (DEPTH_MAX - depth + idle) % 3;
+        let count = cells.len();
+        let parts = parts(before, after, cells, axis);
+        let whole = parts.first().is_some_and(|part| part.len() == count);
+        let (idle, depth) = if whole { (idle + 1, depth) } else { (0, depth - 1) };
+        open.extend(parts.into_iter().map(|part| (part, idle, depth)));
+    }
+    found
+}
+
+/// The cells between planes across an axis, where there are several.
+fn parts(before: &[Cube], after: &[Cube], mut cells: Vec<u32>, axis: usize) -> Vec<Vec<u32>> {
+    let ends = |cell: u32| (&before[cell as usize], &after[cell as usize]);
+    cells.sort_by_key(|&cell| (ends(cell).0.lo[axis], ends(cell).1.lo[axis]));
+    // The lowest faces of all cells from one on, at both ends.
+    let mut lowest = vec![(i64::MAX, i64::MAX); cells.len() + 1];
+    for (i, &cell) in cells.iter().enumerate().rev() {
+        let (a, b) = ends(cell);
+        lowest[i] = (lowest[i + 1].0.min(a.lo[axis]), lowest[i + 1].1.min(b.lo[axis]));
+    }
+    let mut parts = Vec::new();
+    let mut highest = (i64::MIN, i64::MIN);
+    let mut first = 0;
+    for i in 0..cells.len() {
+        let (a, b) = ends(cells[i]);
+        highest = (highest.0.max(a.hi[axis]), highest.1.max(b.hi[axis]));
+        if highest.0 <= lowest[i + 1].0 && highest.1 <= lowest[i + 1].1 {
+            if i > first {
+                parts.push(cells[first..=i].to_vec());
+            }
+            first = i + 1;
+        }
+    }
+    parts
+}
+
+/// Looks at every pair of cells that come near each other in the stage. `None`: too many.
+pub fn pairs_near_on_the_way(
+    before: &[Cube],
+    after: &[Cube],
+    mut look: impl FnMut(usize, usize),
+) -> Option<()> {
+    let looked = pairs_near(&swept(before, after), |i, j| {
+        look(i, j);
+        None
+    });
+    looked.map(|_| ())
+}
+
+/// Boxes around all that each cell passes.
+fn swept(before: &[Cube], after: &[Cube]) -> Vec<Cube> {
+    before.iter().zip(after).map(|(a, b)| hull(a, b)).collect()
+}
+
+fn hull(a: &Cube, b: &Cube) -> Cube {
+    let mut hull = *a;
+    for axis in 0..3 {
+        hull.lo[axis] = a.lo[axis].min(b.lo[axis]);
+        hull.hi[axis] = a.hi[axis].max(b.hi[axis]);
+    }
+    hull
+}
+
+fn overlap(a: &Cube, b: &Cube) -> bool {
+    (0..3).all(|axis| a.lo[axis] < b.hi[axis] && b.lo[axis] < a.hi[axis])
+}
+
+/// Whether two cells are in contact over a face all the while: along one axis no gap at either end,
+/// along the others an overlap that is nowhere negative at the ends and not 0 at both.
+fn lasts(before: &[Cube], after: &[Cube], i: usize, j: usize) -> bool {
+    let gap = |cubes: &[Cube], a: usize, b: usize, axis: usize| cubes[b].lo[axis] - cubes[a].hi[axis];
+    let closed = |axis: usize| {
+        (gap(before, i, j, axis) == 0 && gap(after, i, j, axis) == 0)
+            || (gap(before, j, i, axis) == 0 && gap(after, j, i, axis) == 0)
+    };
+    let beside = |axis: usize| {
+        let common = |c: &[Cube]| c[i].hi[axis].min(c[j].hi[axis]) - c[i].lo[axis].max(c[j].lo[axis]);
+        let (start, end) = (common(before), common(after));
+        start >= 0 && end >= 0 && start + end > 0
+    };
+    (0..3).any(|axis| closed(axis) && beside((axis + 1) % 3) && beside((axis + 2) % 3))
+}
+
+/// Whether two cells overlap at some progress from 0 to 1.
+fn meet(a: (&Cube, &Cube), b: (&Cube, &Cube)) -> bool {
+    let axes = (0..3).try_fold(Window::WHOLE, |open, axis| window::overlap([a, b], axis, open));
+    axes.is_some()
+}
+
+/// Along z, y and x.
+type Tile = (i64, i64, i64);
+
+/// Looks at every pair of boxes that touch or overlap, until one gives a meeting. `None`: too many.
+fn pairs_near(
+    boxes: &[Cube],
+    mut look: impl FnMut(usize, usize) -> Option<Meeting>,
+) -> Option<Result<(), Meeting>> {
+    let tile = boxes.iter().flat_map(|b| (0..3).map(|axis| b.size(axis))).max().unwrap_or(1).max(1);
+    let key = |b: &Cube| -> Tile {
+        let [x, y, z] = [0, 1, 2].map(|axis| b.lo[axis].div_euclid(tile));
+        (z, y, x)
+    };
+    let mut order: Vec<(Tile, u32)> = boxes.iter().enumerate().map(|(i, b)| (key(b), i as u32)).collect();
+    order.sort_unstable();
+    let mut left = PAIRS_MAX.saturating_mul(boxes.len()).saturating_add(1000);
+    // Of the 27 tiles around one, those that come behind it: the rest of its row, and four rows.
+    const ROWS: [(i64, i64); 4] = [(0, 1), (1, -1), (1, 0), (1, 1)];
+    let mut ahead = [0_usize; ROWS.len()];
+    for (i, &((z, y, x), cell)) in order.iter().enumerate() {
+        let mut near: Vec<&[(Tile, u32)]> = Vec::with_capacity(5);
+        let rest = &order[i + 1..];
+        near.push(&rest[..rest.iter().take_while(|(tile, _)| *tile <= (z, y, x + 1)).count()]);
+        for (row, (dz, dy)) in ROWS.iter().enumerate() {
+            while ahead[row] < order.len() && order[ahead[row]].0 < (z + dz, y + dy, x - 1) {
+                ahead[row] += 1;
+            }
+            let rest = &order[ahead[row]..];
+            let last = (z + dz, y + dy, x + 1);
+            near.push(&rest[..rest.iter().take_while(|(tile, _)| *tile <= last).count()]);
+        }
+        for &(_, other) in near.into_iter().flatten() {
+            left = left.checked_sub(1)?;
+            let (a, b) = (&boxes[cell as usize], &boxes[other as usize]);
+            if !(0..3).all(|axis| a.lo[axis] <= b.hi[axis] && b.lo[axis] <= a.hi[axis]) {
+                continue;
+            }
+            let (i, j) = (cell.min(other), cell.max(other));
+            if let Some(meeting) = look(i as usize, j as usize) {
+                return Some(Err(meeting));
+            }
+        }
+    }
+    Some(Ok(()))
+}

@@ -1,0 +1,211 @@
+//! What one pass over the cells says of a stage, and the limits that it is held to: exact.
+
+use super::grid::Cube;
+use super::window::Window;
+use crate::plan::{Ratio, Stage};
+use num_bigint::BigInt;
+use std::cmp::Ordering;
+
+/// Sums and extremes of the change from one end of a stage to the other. Displacements are twice what
+/// they are, in lines of the grid: those of the sums of the two faces.
+#[derive(Clone, Debug, Default)]
+pub struct Change {
+    /// Axes along which a face moves.
+    pub axes: [bool; 3],
+    /// Greatest displacement along an axis, with its cell.
+    pub farthest: (i64, u32),
+    /// Sum of the displacements.
+    pub drift: [i128; 3],
+    /// Greatest change of a size, with its cell.
+    pub resized: (i64, u32),
+    /// Smallest and largest size at the end, with their cells.
+    pub smallest: (i64, u32),
+    pub largest: (i64, u32),
+    /// Twice twice the sum of place times displacement, as a cross product.
+    pub turning: [i128; 3],
+    /// Sum of the squares of the displacements.
+    pub squares: i128,
+    /// Greatest square of a displacement.
+    pub square: i128,
+}
+
+impl Change {
+    pub fn of(before: &[Cube], after: &[Cube]) -> Change {
+        let mut change = Change { smallest: (i64::MAX, 0), ..Change::default() };
+        for (cell, (old, new)) in before.iter().zip(after).enumerate() {
+            let cell = cell as u32;
+            let mut moved = [0_i128; 3];
+            for (axis, moved) in moved.iter_mut().enumerate() {
+                let displacement = new.middle(axis) - old.middle(axis);
+                let size = new.size(axis);
+                let resized = (size - old.size(axis)).abs();
+                if displacement != 0 {
+                    *moved = i128::from(displacement);
+                    change.drift[axis] += *moved;
+                    change.axes[axis] = true;
+                    keep(&mut change.farthest, displacement.abs(), cell);
+                }
+                if resized != 0 {
+                    change.axes[axis] = true;
+                    keep(&mut change.resized, resized, cell);
+                }
+                keep(&mut change.largest, size, cell);
+                if size < change.smallest.0 {
+                    change.smallest = (size, cell);
+                }
+            }
+            if moved == [0; 3] {
+                continue;
+            }
+            let square = moved.iter().map(|d| d * d).sum();
+            change.squares += square;
+            change.square = change.square.max(square);
+            for axis in 0..3 {
+                let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
+                if moved[b] != 0 || moved[c] != 0 {
+                    let (y, z) = (i128::from(old.middle(b)), i128::from(old.middle(c)));
+                    change.turning[axis] += y * moved[c] - z * moved[b];
+                }
+            }
+        }
+        change
+    }
+
+    pub fn is_none(&self) -> bool {
+        self.axes == [false; 3]
+    }
+}
+
+fn keep(worst: &mut (i64, u32), value: i64, cell: u32) {
+    if value > worst.0 {
+        *worst = (value, cell);
+    }
+}
+
+/// The time law of a stage, for comparisons without a rounding.
+pub struct Pace {
+    time_squared: Ratio,
+    /// Peak of `σ'` times the duration.
+    speed: (i64, i64),
+    ramps: (Ratio, Ratio),
+    /// The shorter ramp's part of the duration.
+    ramp: Ratio,
+}
+
+impl Pace {
+    pub fn of(stage: &Stage) -> Pace {
+        let (first, last) = stage.law.ramps();
+        // 2 / (2 - first - last)
+        let denominator = first.1 as i128 * last.1 as i128;
+        let rest = 2 * denominator - first.0 as i128 * last.1 as i128 - last.0 as i128 * first.1 as i128;
+        let speed = Ratio::new(2 * denominator, rest).unwrap_or(Ratio(i64::MAX, 1));
+        let ramp = match (first.0, last.0) {
+            (0, _) => last,
+            (_, 0) => first,
+            _ if first.order(last).is_le() => first,
+            _ => last,
+        };
+        Pace { time_squared: stage.time_squared, speed: (speed.0, speed.1), ramps: (first, last), ramp }
+    }
+
+    /// How the greatest acceleration (or force) of what moves by `distance / lines` compares with a
+    /// limit.
+    pub fn acceleration(&self, distance: i128, lines: i128, limit: Ratio) -> Ordering {
+        // distance · speed / (ramp · T²) against the limit
+        let product = |factors: &[i128]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
+        let big = i128::from;
+        let (t, ramp) = (self.time_squared, self.ramp);
+        let left = product(&[distance, big(self.speed.0), big(ramp.1), big(t.1), big(limit.1)]);
+        let right = product(&[lines, big(self.speed.1), big(ramp.0), big(t.0), big(limit.0)]);
+        left.cmp(&right)
+    }
+
+    /// How the square of the greatest acceleration compares with 1 of what moves by a distance with this
+    /// square, in lines.
+    pub fn acceleration_squared(&self, square: i128, lines: i128) -> Ordering {
+        let product = |factors: [i128; 3]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
+        let big = i128::from;
+        let (t, ramp) = (self.time_squared, self.ramp);
+        let left = product([big(self.speed.0), big(ramp.1), big(t.1)]);
+        let right = product([lines * big(self.speed.1), big(ramp.0), big(t.0)]);
+        (BigInt::from(square) * &left * &left).cmp(&(&right * &right))
+    }
+
+    /// How the square of the greatest speed of what moves by `distance / lines` compares with a limit.
+    pub fn speed_squared(&self, distance: i64, lines: i64, limit: Ratio) -> Ordering {
+        let product = |factors: &[i64]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
+        let (t, (up, down)) = (self.time_squared, self.speed);
+        let left = product(&[distance, distance, up, up, t.1, limit.1]);
+        let right = product(&[lines, lines, down, down, t.0, limit.0]);
+        left.cmp(&right)
+    }
+
+    /// The same of what moves by so much in the whole stage, while its progress is in a window. On a ramp
+    /// the square of `σ'` is linear in `σ`.
+    pub fn speed_squared_in(&self, window: Window, distance: i64, lines: i64, limit: Ratio) -> Ordering {
+        let product = |factors: &[i128]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
+        let (t, (up, down)) = (self.time_squared, self.speed);
+        let big = i128::from;
+        let left = product(&[big(distance), big(distance), big(up), big(t.1), big(limit.1)]);
+        let right = product(&[big(lines), big(lines), big(down), big(t.0), big(limit.0)]);
+        // Up to `σ` the square of `σ' T` is at most twice the speed times `σ` by the ramp.
+        let ramped = |ramp: Ratio, (above, below): (i128, i128)| {
+            let left: BigInt = &left * 2 * ramp.1 * above;
+            let right: BigInt = &right * ramp.0 * below;
+            if ramp.0 == 0 { Ordering::Greater } else { left.cmp(&right) }
+        };
+        let rest = (window.from.1 - window.from.0, window.from.1);
+        let (first, last) = (ramped(self.ramps.0, window.to), ramped(self.ramps.1, rest));
+        self.speed_squared(distance, lines, limit).min(first).min(last)
+    }
+
+    /// `σ''` at its peak times the square of the duration, as a fraction.
+    pub fn strain(&self) -> (i64, i64) {
+        (self.speed.0 * self.ramp.1, self.speed.1 * self.ramp.0)
+    }
+
+    /// `σ'` at its peak, in units of time.
+    pub fn rate(&self) -> f64 {
+        self.speed.0 as f64 / self.speed.1 as f64 / libm::sqrt(self.time_squared.to_f64())
+    }
+
+    /// `σ''` at its peak.
+    pub fn bend(&self) -> f64 {
+        self.speed.0 as f64 / self.speed.1 as f64 / self.ramp.to_f64() / self.time_squared.to_f64()
+    }
+}
+
+/// Whether the cells go on with the velocities that they had: where a stage does not end at rest, or
+/// the next does not begin at rest. Each says a cell that does not.
+pub fn carries_on(
+    (stage, before): (&Stage, &[Cube]),
+    between: &[Cube],
+    (next, after): (&Stage, &[Cube]),
+) -> Result<(), usize> {
+    let (_, out) = stage.law.ramps();
+    let (into, _) = next.law.ramps();
+    if out.0 != 0 && into.0 != 0 {
+        return Ok(());
+    }
+    let (first, second) = (Pace::of(stage), Pace::of(next));
+    // Velocities are displacement · speed / T; their squares and signs say whether they are equal.
+    let factor = |pace: &Pace, moves: bool| {
+        let t = pace.time_squared;
+        (
+            BigInt::from(pace.speed.0) * pace.speed.0 * t.1 * i64::from(moves),
+            BigInt::from(pace.speed.1) * pace.speed.1 * t.0,
+        )
+    };
+    let (left, right) = (factor(&first, out.0 == 0), factor(&second, into.0 == 0));
+    let (left, right) = (left.0 * right.1, right.0 * left.1);
+    let same = |cell: usize, axis: usize| {
+        let d = between[cell].middle(axis) - before[cell].middle(axis);
+        let e = after[cell].middle(axis) - between[cell].middle(axis);
+        let square = |d: i64, factor: &BigInt| factor * d * d * d.signum();
+        square(d, &left) == square(e, &right)
+    };
+    match (0..between.len()).find(|&cell| !(0..3).all(|axis| same(cell, axis))) {
+        Some(cell) => Err(cell),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,88 @@
+//! Cross-sections of lanes, found by where they are.
+//!
+//! The plane across the moving axis is tiled by cells. Where the tiles around all cells are about as many
+//! as the cells, a table holds them all; else a map does.
+
+use super::grid::Cube;
+use std::collections::BTreeMap;
+
+/// Cross-section: low and high along the two axes that do not change.
+pub type Section = [(i64, i64); 2];
+
+/// Along the second axis and the first.
+pub type Tile = (i64, i64);
+
+/// Tiles in the table, for each cell.
+const TABLE_MAX: usize = 4;
+const NONE: u32 = u32::MAX;
+
+pub struct Tiles {
+    lines: i64,
+    origin: (i64, i64),
+    /// Tiles along the first axis.
+    width: usize,
+    /// The first lane of each tile, if there is a table.
+    table: Option<Vec<u32>>,
+    map: BTreeMap<Tile, u32>,
+    pub sections: Vec<Section>,
+    /// Of each lane: the next of its tile.
+    next: Vec<u32>,
+}
+
+impl Tiles {
+    /// Without lanes, for the cross-sections of these cells along two axes.
+    pub fn over(cubes: &[Cube], (b, c): (usize, usize), lines: i64) -> Tiles {
+        let low = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).min().unwrap_or(0);
+        let high = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).max().unwrap_or(0);
+        let side = |axis: usize, low: i64| ((high(axis) - low) / lines + 1) as usize;
+        let origin = (low(b), low(c));
+        let (width, height) = (side(b, origin.0), side(c, origin.1));
+        let most = TABLE_MAX.saturating_mul(cubes.len());
+        let table = width.checked_mul(height).filter(|area| *area <= most).map(|area| vec![NONE; area]);
+        Tiles { lines, origin, width, table, map: BTreeMap::new(), sections: vec![], next: vec![] }
+    }
+
+    fn tile(&self, section: &Section) -> Tile {
+        let tile = |low: i64, origin: i64| (low - origin) / self.lines;
+        (tile(section[1].0, self.origin.1), tile(section[0].0, self.origin.0))
+    }
+
+    /// The number of a cross-section, a new one if it was not met before. `None` once there is nothing
+    /// left of `left`: each look at a lane takes one.
+    pub fn lane(&mut self, section: Section, left: &mut usize) -> Option<u32> {
+        let tile = self.tile(&section);
+        let first = match &mut self.table {
+            Some(table) => &mut table[tile.0 as usize * self.width + tile.1 as usize],
+            None => self.map.entry(tile).or_insert(NONE),
+        };
+        let mut at = *first;
+        while at != NONE {
+            if self.sections[at as usize] == section {
+                return Some(at);
+            }
+            *left = left.checked_sub(1)?;
+            at = self.next[at as usize];
+        }
+        let new = self.sections.len() as u32;
+        self.sections.push(section);
+        self.next.push(std::mem::replace(first, new));
+        Some(new)
+    }
+
+    /// All lanes by tile, row after row.
+    pub fn order(&self) -> Vec<(Tile, u32)> {
+        let mut order = Vec::with_capacity(self.sections.len());
+        let mut add = |first: u32| {
+            let mut at = first;
+            while at != NONE {
+                order.push((self.tile(&self.sections[at as usize]), at));
+                at = self.next[at as usize];
+            }
+        };
+        match &self.table {
+            Some(table) => table.iter().for_each(|&first| add(first)),
+            None => self.map.values().for_each(|&first| add(first)),
+        }
+        order
+    }
+}

@@ -1,0 +1,73 @@
+//! Whether the margins that a plan states at its knots are those that it has there.
+
+use super::judge::{Judged, Leg};
+use super::standing::{Standing, centre};
+use super::{distance, shape};
+use crate::geometry::Vec3;
+use crate::plan::verify::footprint;
+use crate::plan::{CheckKind, Failure, Margins, Way};
+use crate::units::display::number;
+
+/// How far a stated margin may be off: rounding, of the singular values of large trusses.
+const TOL_MARGIN: f64 = 1e-7;
+
+impl Judged<'_> {
+    /// What is wrong with the margins of a knot.
+    pub fn margins(&self, stated: &Margins, x: &[Vec3], time: f64, standing: &Standing) -> Option<Failure> {
+        let Margins { length, clearance, obstacle, support, angle, rigidity, sum } = *stated;
+        let found = |stated: Option<f64>, found: &dyn Fn() -> Option<f64>, what: &'static str| {
+            let stated = stated?;
+            let found = found().unwrap_or(f64::INFINITY);
+            ((stated - found).abs() > TOL_MARGIN).then_some((what, stated, found))
+        };
+        let lengths = || {
+            let (low, high) = self.strut.length;
+            let failed = |strut: &usize| {
+                self.paths.limits.sums.iter().find(|sum| sum.struts == [*strut]).map(|sum| sum.range)
+            };
+            let one = |strut: usize| {
+                let (low, high) = failed(&strut).unwrap_or((low, high));
+                (self.length(x, strut) - low).min(high - self.length(x, strut))
+            };
+            (0..self.paths.struts.len()).map(one).reduce(f64::min)
+        };
+        let apart = || {
+            let leg = Leg { from: x.to_vec(), to: x.to_vec(), way: Way::Straight, begins: time, lasts: 1.0 };
+            let near = distance::nearest(self.paths, &leg, self.strut.clearance);
+            near.iter().map(|near| near.distance - self.strut.clearance).reduce(f64::min)
+        };
+        let beside = || self.nearest_obstacle(x).map(|distance| distance - self.strut.clearance);
+        let inside = || {
+            let feet = x.iter().filter(|p| standing.touches(**p)).map(|p| [p.x, p.y]).collect::<Vec<_>>();
+            let middle = centre(self.paths, x);
+            footprint::margin(&feet, [middle.x, middle.y]).map(|margin| margin.distance)
+        };
+        let angles = || {
+            let angles = self.corners.iter().map(|corner| corner.angle(x) - self.paths.limits.angle);
+            angles.reduce(f64::min)
+        };
+        let weakest = || Some(shape::weakest(self.paths, x) - self.paths.limits.rigidity);
+        let sums = || {
+            let one = |sum: &crate::plan::LengthSum| {
+                let length: f64 = sum.struts.iter().map(|&strut| self.length(x, strut)).sum();
+                (length - sum.range.0).min(sum.range.1 - length)
+            };
+            self.paths.limits.sums.iter().map(one).reduce(f64::min)
+        };
+        let (what, stated, found) = found(length, &lengths, "of lengths")
+            .or_else(|| found(clearance, &apart, "between struts"))
+            .or_else(|| found(obstacle, &beside, "beside obstacles"))
+            .or_else(|| found(support, &inside, "of the support"))
+            .or_else(|| found(angle, &angles, "of angles"))
+            .or_else(|| found(rigidity, &weakest, "of rigidity"))
+            .or_else(|| found(sum, &sums, "of sums of lengths"))?;
+        let message =
+            format!("the plan states a margin {what} of {}; it is {}", number(stated), number(found));
+        Some(Failure { value: stated, limit: found, ..self.failure(CheckKind::Form, time, vec![], message) })
+    }
+
+    fn length(&self, x: &[Vec3], strut: usize) -> f64 {
+        let (a, b) = self.paths.struts[strut];
+        (x[a] - x[b]).norm()
+    }
+}

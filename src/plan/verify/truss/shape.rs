@@ -1,0 +1,206 @@
+//! What a plan of a truss keeps beside the limits of its struts: angles between struts that share a node,
+//! sums of lengths, and how far the truss is from losing its rigidity.
+//!
+//! Angles and sums are proved between the knots; rigidity is looked at where the knots are.
+
+use super::judge::{Judged, Leg};
+use super::lengths;
+use crate::geometry::Vec3;
+use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::{CheckKind, Failure, LengthSum, NodePaths, Way};
+use crate::units::display::number;
+use crate::units::{Dimension, quantity};
+use nalgebra::DMatrix;
+
+/// Rounding of angles, rad, of sums, m, and of singular values.
+const TOL_ANGLE: f64 = 1e-9;
+const TOL_SUM: f64 = 1e-9;
+const TOL_RIGIDITY: f64 = 1e-9;
+/// Looks at one corner on one leg, and at one sum.
+const LOOKS_MAX: usize = 100_000;
+/// Singular values of rigid motions.
+const MOTIONS: usize = 6;
+
+impl Judged<'_> {
+    pub fn shape(&self, leg: &Leg, ledger: &mut Ledger) {
+        if leg.way != Way::Straight {
+            return;
+        }
+        for corner in &self.corners {
+            self.angle(leg, corner, ledger);
+        }
+        for sum in &self.paths.limits.sums {
+            self.sum(leg, sum, ledger);
+        }
+        if self.paths.limits.rigidity > 0.0 {
+            if leg.begins == 0.0 {
+                self.rigidity(&leg.from, 0.0, ledger);
+            }
+            self.rigidity(&leg.to, leg.begins + leg.lasts, ledger);
+        }
+    }
+
+    /// The angle at a node between the directions to two others.
+    fn angle(&self, leg: &Leg, corner: &Corner, ledger: &mut Ledger) {
+        let &Corner { node, ends: (p, q), struts: (i, j) } = corner;
+        let limit = self.paths.limits.angle;
+        let arm = |x: &[Vec3], end: usize| x[end] - x[node];
+        let at = |end: usize, part: f64| arm(&leg.from, end) * (1.0 - part) + arm(&leg.to, end) * part;
+        // A direction turns at most at the speed of its end over the least length.
+        let turns = |end: usize| {
+            let way = (arm(&leg.to, end) - arm(&leg.from, end)).norm();
+            way / lengths::along(leg, end, node).least.0.max(f64::MIN_POSITIVE)
+        };
+        let speed = turns(p) + turns(q);
+        let (mut part, mut least) = (0.0, (between(at(p, 1.0), at(q, 1.0)), 1.0));
+        let mut proved = false;
+        for _ in 0..LOOKS_MAX {
+            let found = between(at(p, part), at(q, part));
+            if found < least.0 {
+                least = (found, part);
+            }
+            let spare = found - limit + TOL_ANGLE;
+            proved = spare >= 0.0 && (part >= 1.0 || spare >= speed * (1.0 - part));
+            if proved || spare < 0.0 {
+                break;
+            }
+            part = (part + spare / speed).min(1.0);
+        }
+        let time = leg.begins + leg.lasts * least.1;
+        let names = || vec![self.strut_name(i), self.strut_name(j)];
+        lower(&mut ledger.verdict.angle, least.0, time, names);
+        if proved {
+            return;
+        }
+        let [found, wanted] = [least.0, limit].map(|x| quantity(x, Dimension::ANGLE));
+        let message = format!(
+            "the struts {} and {} come to an angle of {found}; the plan keeps {wanted}",
+            self.strut_name(i),
+            self.strut_name(j)
+        );
+        let failure = self.failure(CheckKind::JointRange, time, names(), message);
+        ledger.fail(Failure { value: least.0, limit, ..failure });
+    }
+
+    /// Each length is between its extremes on a part of the leg; parts are halved until that is enough.
+    fn sum(&self, leg: &Leg, sum: &LengthSum, ledger: &mut Ledger) {
+        let lengths = |part: f64| -> f64 {
+            let at = |node: usize| leg.from[node] * (1.0 - part) + leg.to[node] * part;
+            let ends = sum.struts.iter().map(|&strut| self.paths.struts[strut]);
+            ends.map(|(a, b)| (at(a) - at(b)).norm()).sum()
+        };
+        let mut parts = vec![(0.0, 1.0)];
+        for _ in 0..LOOKS_MAX {
+            let Some((from, to)) = parts.pop() else { return };
+            let (low, high) = sum.range;
+            let ends = [(lengths(from), from), (lengths(to), to)];
+            let bad = ends.iter().find(|(length, _)| *length < low - TOL_SUM || *length > high + TOL_SUM);
+            if let Some(&(length, part)) = bad {
+                return self.sum_fails(leg, sum, (length, part), ledger);
+            }
+            let piece = Leg {
+                from: leg.from.iter().zip(&leg.to).map(|(p, q)| p * (1.0 - from) + q * from).collect(),
+                to: leg.from.iter().zip(&leg.to).map(|(p, q)| p * (1.0 - to) + q * to).collect(),
+                ..*leg
+            };
+            let extremes = sum.struts.iter().map(|&strut| {
+                let (a, b) = self.paths.struts[strut];
+                lengths::along(&piece, a, b)
+            });
+            let least: f64 = extremes.map(|found| found.least.0).sum();
+            // Lengths are convex, so their sum is greatest at an end.
+            if least < low - TOL_SUM {
+                let middle = (from + to) / 2.0;
+                parts.extend([(from, middle), (middle, to)]);
+            }
+        }
+        self.sum_fails(leg, sum, (lengths(0.5), 0.5), ledger);
+    }
+
+    fn sum_fails(&self, leg: &Leg, sum: &LengthSum, (length, part): (f64, f64), ledger: &mut Ledger) {
+        let names: Vec<String> = sum.struts.iter().map(|&strut| self.strut_name(strut)).collect();
+        let [found, low, high] = [length, sum.range.0, sum.range.1].map(|x| quantity(x, Dimension::LENGTH));
+        let what = match &names[..] {
+            [one] => format!("the strut {one} would be {found} long"),
+            _ => format!("the lengths of {} would add up to {found}", names.join(", ")),
+        };
+        let message = format!("{what}; the plan keeps {low} to {high}");
+        let failure = self.failure(CheckKind::JointRange, leg.begins + part * leg.lasts, names, message);
+        let limit = if length < sum.range.0 { sum.range.0 } else { sum.range.1 };
+        ledger.fail(Failure { value: length, limit, ..failure });
+    }
+
+    fn rigidity(&self, x: &[Vec3], time: f64, ledger: &mut Ledger) {
+        let limit = self.paths.limits.rigidity;
+        let weakest = weakest(self.paths, x);
+        lower(&mut ledger.verdict.rigidity, weakest, time, Vec::new);
+        if weakest < limit - TOL_RIGIDITY {
+            let message = format!(
+                "the truss is near to losing its rigidity: a singular value of {}; the plan keeps {}",
+                number(weakest),
+                number(limit)
+            );
+            let failure = self.failure(CheckKind::JointRange, time, vec![], message);
+            ledger.fail(Failure { value: weakest, limit, ..failure });
+        }
+    }
+}
+
+/// The least singular value but those of the motions of the whole.
+pub fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
+    let struts = &paths.struts;
+    let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
+    for (row, &(a, b)) in struts.iter().enumerate() {
+        let along = (x[a] - x[b]).normalize();
+        for k in 0..3 {
+            matrix[(row, 3 * a + k)] = along[k];
+            matrix[(row, 3 * b + k)] = -along[k];
+        }
+    }
+    let mut squares: Vec<f64> =
+        (matrix.transpose() * &matrix).symmetric_eigenvalues().iter().copied().collect();
+    squares.sort_by(f64::total_cmp);
+    squares.get(MOTIONS).map_or(0.0, |square| square.max(0.0).sqrt())
+}
+
+/// Two struts that share a node.
+pub struct Corner {
+    node: usize,
+    /// Their other nodes.
+    ends: (usize, usize),
+    struts: (usize, usize),
+}
+
+impl Corner {
+    /// Between its struts, rad.
+    pub fn angle(&self, x: &[Vec3]) -> f64 {
+        let (p, q) = self.ends;
+        between(x[p] - x[self.node], x[q] - x[self.node])
+    }
+}
+
+/// In order.
+pub fn corners(paths: &NodePaths) -> Vec<Corner> {
+    let mut at_node: Vec<Vec<(usize, usize)>> = vec![Vec::new(); paths.node_names.len()];
+    for (strut, &(a, b)) in paths.struts.iter().enumerate() {
+        at_node[a].push((strut, b));
+        at_node[b].push((strut, a));
+    }
+    let mut found = Vec::new();
+    for (node, around) in at_node.iter().enumerate() {
+        for (at, &(i, p)) in around.iter().enumerate() {
+            found.extend(around[at + 1..].iter().map(|&(j, q)| Corner {
+                node,
+                ends: (p, q),
+                struts: (i, j),
+            }));
+        }
+    }
+    found
+}
+
+/// By the halves of the sum and the difference of unit vectors: good for small angles, too (Kahan).
+fn between(u: Vec3, v: Vec3) -> f64 {
+    let (u, v) = (u.normalize(), v.normalize());
+    2.0 * libm::atan2((u - v).norm(), (u + v).norm())
+}
