@@ -3,7 +3,7 @@
 use super::arguments::Globals;
 use super::disk::Project;
 use super::report::{self, Report};
-use super::terminal::{interrupt, listen_for_cancel, print_error};
+use super::terminal::{cancel_state, listen_for_cancel, print_error};
 use super::{CallError, Ending, output, show};
 use crate::document::{self, Request, Site};
 use crate::interpret::WriteError;
@@ -25,7 +25,7 @@ pub fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -> Resul
         return Err(CallError(format!("no programs in `{}`", folder.display())));
     }
     listen_for_cancel();
-    let request = Request { files: &project, programs: &programs, library, interrupt: interrupt() };
+    let request = Request { files: &project, programs: &programs, library, cancel_state: cancel_state() };
     let Site { files, faults, wrong } = document::site(&request);
     let mut report = Report::default();
     let style = report::style(globals, &project.folder);

@@ -5,7 +5,7 @@ use super::terminal::Terminal;
 use crate::check::{self, Checked, Entry};
 use crate::document::examples::examples;
 use crate::interpret::{self, Host, Mode, Options, WriteError};
-use crate::interrupt::Interrupt;
+use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, Files};
 
 /// An example that was run.
@@ -19,7 +19,7 @@ pub struct Ran {
 }
 
 /// Nothing that an example prints or writes is wanted.
-struct Silent(Interrupt);
+struct Silent(CancelState);
 
 impl Host for Silent {
     fn print(&mut self, _: &str) {}
@@ -30,7 +30,7 @@ impl Host for Silent {
 
     fn progress(&mut self, _: &str) {}
 
-    fn interrupt(&self) -> Interrupt {
+    fn cancel_state(&self) -> CancelState {
         self.0.clone()
     }
 }
@@ -57,7 +57,7 @@ pub fn run(project: &Project, filter: Option<&str>, terminal: &Terminal, options
         let mut cancelled = false;
         if !diagnostics.iter().any(Diagnostic::is_error) {
             let mode = if example.only_checked { Mode::Check } else { Mode::Run };
-            let mut host = Silent(terminal.interrupt());
+            let mut host = Silent(terminal.cancel_state());
             let mut outcome = interpret::run(&checked, mode, project as &dyn Files, &mut host, options);
             diagnostics.append(&mut outcome.diagnostics);
             cancelled = outcome.cancelled;

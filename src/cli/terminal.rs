@@ -1,130 +1,130 @@
-//! The terminal: what a program prints, progress, and the wish to end.
+//! The terminal: printed lines, progress reports, and cancellation by Ctrl-C.
 
 use super::arguments::Globals;
 use super::output;
 use super::watch::Watched;
 use crate::interpret::{Host, WriteError};
-use crate::interrupt::Interrupt;
+use crate::interrupt::CancelState;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, Once, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Whether the user wants the command to end.
+/// True once Ctrl-C has cancelled the command.
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
-/// The wish that the run at hand ends; the user's, or that of a newer text.
-static INTERRUPT: LazyLock<Mutex<Interrupt>> = LazyLock::new(Mutex::default);
+/// The cancellation token of the current run, cancelled by the user or by a newer text.
+static CANCEL_STATE: LazyLock<Mutex<CancelState>> = LazyLock::new(Mutex::default);
 
-/// A run that is asked to end gets this long to do so by itself.
-const PATIENCE: Duration = Duration::from_millis(400);
+/// The time that a cancelled run gets to end at a checkpoint before it is abandoned.
+const CANCEL_GRACE: Duration = Duration::from_millis(400);
 
-/// Who presses Ctrl-C in a session waits no longer than this for work to end by itself.
-const PATIENCE_OF_SESSION: Duration = Duration::from_millis(50);
+/// The same in a session, where a user waits for the prompt.
+const CANCEL_GRACE_SESSION: Duration = Duration::from_millis(50);
 
-/// A Ctrl-C this soon after another was meant for the same work.
-const ECHO: Duration = Duration::from_secs(1);
+/// A second Ctrl-C within this time of the first is taken as the same one.
+const REPEAT_INTERVAL: Duration = Duration::from_secs(1);
 
-/// How often work is asked how far it is.
-const CURIOSITY: Duration = Duration::from_millis(100);
+/// The time between two progress requests.
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
-/// From here on Ctrl-C asks the run to end, and ends the process if it does not soon: files are
-/// written whole or not at all, so nothing is lost by that.
+/// Installs the Ctrl-C handler of a command: it cancels the run, and exits the process with code 130 after
+/// a grace period. Files are written whole or not at all, so nothing is lost by that.
 pub fn listen_for_cancel() {
     let on_signal = || {
         CANCELLED.store(true, Ordering::Relaxed);
-        interrupt().raise();
-        std::thread::park_timeout(PATIENCE);
+        cancel_state().cancel();
+        std::thread::park_timeout(CANCEL_GRACE);
         std::process::exit(130);
     };
-    // Where signals can't be had, Ctrl-C ends the process, which is as good.
+    // Where no handler can be installed, Ctrl-C ends the process, which is as good.
     drop(ctrlc::set_handler(on_signal));
 }
 
-/// What ends the run at hand.
-pub fn interrupt() -> Interrupt {
-    INTERRUPT.lock().unwrap_or_else(PoisonError::into_inner).clone()
+/// Returns the cancellation token of the current run.
+pub fn cancel_state() -> CancelState {
+    CANCEL_STATE.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-/// Whether nobody waits for somebody to type, in a session.
+/// False while a session waits for input.
 static BUSY: AtomicBool = AtomicBool::new(true);
 
-/// When somebody last typed something.
-static BEGUN: Mutex<Option<Instant>> = Mutex::new(None);
+/// The instant of the last input.
+static TYPED: Mutex<Option<Instant>> = Mutex::new(None);
 
-/// When Ctrl-C was last pressed while a session worked.
+/// The instant of the last Ctrl-C while a session worked.
 static PRESSED: Mutex<Option<Instant>> = Mutex::new(None);
 
-/// From here on Ctrl-C ends what a session works on; whatever else wants the process to end has its way
-/// while it waits for somebody to type.
+/// Installs the Ctrl-C handler of a session: it cancels the work at hand, and abandons it after a grace
+/// period. While the session waits for input, it exits the process with code 130.
 pub fn listen_for_interrupt() {
     let on_signal = || {
         let mut pressed = PRESSED.lock().unwrap_or_else(PoisonError::into_inner);
         if !BUSY.load(Ordering::Relaxed) {
-            if pressed.is_none_or(|before| before.elapsed() > ECHO) {
+            if pressed.is_none_or(|before| before.elapsed() > REPEAT_INTERVAL) {
                 std::process::exit(130);
             }
             return;
         }
         *pressed = Some(Instant::now());
-        let interrupt = interrupt();
-        interrupt.raise();
+        let cancel_state = cancel_state();
+        cancel_state.cancel();
         std::thread::spawn(move || {
-            std::thread::park_timeout(PATIENCE_OF_SESSION);
-            interrupt.give_up();
+            std::thread::park_timeout(CANCEL_GRACE_SESSION);
+            cancel_state.abandon();
         });
     };
     drop(ctrlc::set_handler(on_signal));
 }
 
-/// Waits for somebody to type, who may end the process by a signal.
+/// Calls `wait`, which waits for input; a signal meanwhile ends the process.
 pub fn idle<T>(wait: impl FnOnce() -> T) -> T {
     BUSY.store(false, Ordering::Relaxed);
     let typed = wait();
-    *BEGUN.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+    *TYPED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
     BUSY.store(true, Ordering::Relaxed);
     typed
 }
 
-/// Begins work that Ctrl-C ends: also one that was pressed since somebody typed what is to be done.
+/// Resets the cancellation token for new work. A Ctrl-C pressed since the last input still cancels it.
 pub fn begin_work() {
-    let interrupt = interrupt();
-    interrupt.lower();
+    let cancel_state = cancel_state();
+    cancel_state.reset();
     let at = |clock: &Mutex<Option<Instant>>| *clock.lock().unwrap_or_else(PoisonError::into_inner);
-    if at(&PRESSED) > at(&BEGUN) {
-        interrupt.raise();
+    if at(&PRESSED) > at(&TYPED) {
+        cancel_state.cancel();
     }
 }
 
-/// Waits for the end of work that was interrupted, but not for long; says whether it came. If it did not,
-/// what is begun now has another interrupt.
+/// Waits a grace period for cancelled work to end by `settle`, and returns whether it did. If it did not,
+/// work started from here on has a new cancellation token.
 pub fn settled(settle: impl FnOnce() -> bool) -> bool {
-    let old = interrupt();
-    let impatient = old.clone();
+    let old = cancel_state();
+    let overdue = old.clone();
     std::thread::spawn(move || {
-        std::thread::park_timeout(PATIENCE);
-        impatient.give_up();
+        std::thread::park_timeout(CANCEL_GRACE);
+        overdue.abandon();
     });
     let settled = settle();
     if !settled {
-        *INTERRUPT.lock().unwrap_or_else(PoisonError::into_inner) = Interrupt::default();
+        *CANCEL_STATE.lock().unwrap_or_else(PoisonError::into_inner) = CancelState::default();
     }
     settled
 }
 
-/// Asks whatever work goes on how far it is, again and again.
-fn be_curious() {
+/// Starts a thread that requests a progress report of the current run at each interval.
+fn poll_progress() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
-        let asking = || {
+        let poll = || {
             loop {
-                std::thread::park_timeout(CURIOSITY);
-                interrupt().ask();
+                std::thread::park_timeout(PROGRESS_INTERVAL);
+                cancel_state().request_progress();
             }
         };
-        // Without it nothing is told, and all else is the same.
-        drop(std::thread::Builder::new().name("curiosity".into()).spawn(asking));
+        // Without the thread there are no progress reports, and all else is the same.
+        drop(std::thread::Builder::new().name("progress".into()).spawn(poll));
     });
 }
 
@@ -160,7 +160,7 @@ impl Terminal {
     pub fn new(globals: &Globals) -> Terminal {
         let shows_progress = !globals.json && io::stderr().is_terminal();
         if shows_progress {
-            be_curious();
+            poll_progress();
         }
         Terminal {
             folder: globals.out.clone(),
@@ -203,8 +203,8 @@ impl Host for Terminal {
         }
     }
 
-    fn interrupt(&self) -> Interrupt {
-        interrupt()
+    fn cancel_state(&self) -> CancelState {
+        cancel_state()
     }
 
     fn elapsed(&self) -> f64 {

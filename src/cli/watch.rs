@@ -2,7 +2,7 @@
 
 use super::arguments::Globals;
 use super::program::{self, Task};
-use super::terminal::{cancelled, interrupt, print_error};
+use super::terminal::{cancel_state, cancelled, print_error};
 use super::{CallError, Ending, report};
 use std::collections::BTreeMap;
 use std::fs;
@@ -46,7 +46,7 @@ impl Watched {
         let changed = stamps.iter().any(|(file, before)| stamp(file) != *before);
         if changed {
             self.stale.store(true, Ordering::Relaxed);
-            interrupt().raise();
+            cancel_state().cancel();
         }
         changed
     }
@@ -67,7 +67,7 @@ pub fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, 
         let watched = Arc::new(Watched::default());
         // The wish to end the last run was that of this text.
         if !cancelled() {
-            interrupt().lower();
+            cancel_state().reset();
         }
         files.iter().for_each(|file| watched.note(file));
         if !first {

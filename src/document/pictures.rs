@@ -4,7 +4,7 @@
 use super::outline::{Entry, Page};
 use crate::check::{self, Entry as Cell};
 use crate::interpret::{self, Host, Mode, Options, WriteError};
-use crate::interrupt::Interrupt;
+use crate::interrupt::CancelState;
 use crate::source::Files;
 
 /// Width and height of a picture: it stands beside words.
@@ -14,7 +14,7 @@ const SIZE: (usize, usize) = (480, 300);
 struct Answers {
     lines: Vec<String>,
     picture: Option<Vec<u8>>,
-    interrupt: Interrupt,
+    cancel_state: CancelState,
 }
 
 impl Host for Answers {
@@ -29,13 +29,13 @@ impl Host for Answers {
 
     fn progress(&mut self, _: &str) {}
 
-    fn interrupt(&self) -> Interrupt {
-        self.interrupt.clone()
+    fn cancel_state(&self) -> CancelState {
+        self.cancel_state.clone()
     }
 }
 
 /// Finds out about every instance of a page that can be had without arguments; gives the pictures by name.
-pub fn drawn(page: &mut Page, files: &dyn Files, interrupt: &Interrupt) -> Vec<(String, Vec<u8>)> {
+pub fn drawn(page: &mut Page, files: &dyn Files, cancel_state: &CancelState) -> Vec<(String, Vec<u8>)> {
     let import = match page.title.strip_prefix("std.") {
         Some(_) => page.title.clone(),
         None => format!("\"{}\"", page.title),
@@ -43,7 +43,7 @@ pub fn drawn(page: &mut Page, files: &dyn Files, interrupt: &Interrupt) -> Vec<(
     let stem = page.file.trim_end_matches(".html").to_owned();
     let mut pictures = Vec::new();
     for entry in page.entries.iter_mut().filter(|entry| entry.has_default) {
-        let Some(answers) = asked(entry, &import, files, interrupt) else { continue };
+        let Some(answers) = asked(entry, &import, files, cancel_state) else { continue };
         if let Some(bytes) = answers.picture {
             let name = format!("pictures/{stem}-{}.png", entry.name);
             entry.picture = Some(name.clone());
@@ -59,7 +59,7 @@ pub fn drawn(page: &mut Page, files: &dyn Files, interrupt: &Interrupt) -> Vec<(
     pictures
 }
 
-fn asked(entry: &Entry, import: &str, files: &dyn Files, interrupt: &Interrupt) -> Option<Answers> {
+fn asked(entry: &Entry, import: &str, files: &dyn Files, cancel_state: &CancelState) -> Option<Answers> {
     let name = &entry.name;
     let facts = match entry.word {
         "config" => {
@@ -75,7 +75,7 @@ fn asked(entry: &Entry, import: &str, files: &dyn Files, interrupt: &Interrupt) 
     if checked.has_errors() {
         return None;
     }
-    let mut answers = Answers { lines: Vec::new(), picture: None, interrupt: interrupt.clone() };
+    let mut answers = Answers { lines: Vec::new(), picture: None, cancel_state: cancel_state.clone() };
     // A robot that does not stand is drawn all the same, and nobody said that it stands.
     let options = Options { picture: Some(SIZE), ..Options::default() };
     interpret::run(&checked, Mode::Run, files, &mut answers, &options);

@@ -5,7 +5,7 @@ use super::markdown::{Targets, to_html};
 use super::outline::{Entry, Page, page};
 use super::pictures::drawn;
 use crate::check::{self, Checked, Entry as Cell};
-use crate::interrupt::Interrupt;
+use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, FileId, Files, library};
 use crate::syntax;
 use std::cell::RefCell;
@@ -18,7 +18,7 @@ pub struct Request<'r> {
     pub programs: &'r [String],
     /// Whether to document the standard library, too.
     pub library: bool,
-    pub interrupt: Interrupt,
+    pub cancel_state: CancelState,
 }
 
 /// Files of the site by name, and what is wrong.
@@ -55,7 +55,7 @@ pub fn site(request: &Request) -> Site {
         pages.extend(library_pages(request.files));
     }
     for page in &mut pages {
-        site.files.extend(drawn(page, request.files, &request.interrupt));
+        site.files.extend(drawn(page, request.files, &request.cancel_state));
     }
     write(&pages, request, &mut site);
     site

@@ -1,6 +1,6 @@
 //! What a running program needs of the outside, and what comes back from a run.
 
-use crate::interrupt::Interrupt;
+use crate::interrupt::CancelState;
 use crate::source::Diagnostic;
 
 /// Why an output can't be written.
@@ -23,9 +23,9 @@ pub trait Host {
     /// A line about how far long work has come; shown on terminals only.
     fn progress(&mut self, line: &str);
 
-    /// The user's wish that the run ends; looked at every few milliseconds.
-    fn interrupt(&self) -> Interrupt {
-        Interrupt::default()
+    /// The token by which the user cancels the run; checked every few milliseconds.
+    fn cancel_state(&self) -> CancelState {
+        CancelState::default()
     }
 
     /// Seconds since some instant, for timeouts, which refuse and choose nothing. Without a clock there

@@ -139,16 +139,16 @@ impl<'a> Interpreter<'a> {
         if self.stage.cancelled() {
             return Err(Stop::Halt);
         }
-        if self.stage.interrupt.asked() {
+        if self.stage.cancel_state.is_progress_requested() {
             self.tell_steps();
         }
         Ok(())
     }
 
     fn tell_steps(&self) {
-        interrupt::begin(String::new());
+        interrupt::start_task(String::new());
         let (steps, most) = (self.steps, self.limits().steps);
-        interrupt::progress(|| format!("evaluating: {steps} steps of at most {most}"));
+        interrupt::progress_checkpoint(|| format!("evaluating: {steps} steps of at most {most}"));
     }
 
     /// Runs `body` one level of evaluation deeper; refuses where the stack would not bear it.

@@ -28,7 +28,7 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         fold_supply::panels(interpreter, &mut supply, [TARGET, PASSIVE, PASSIVE_MODULE], target)?;
     let options = Options::of(call, &panels.weakest, &target)?;
     let must = fold_clear::must_hinge(call, &target, &panels)?;
-    crate::interrupt::begin(format!("folding {} panels", target.faces.len()));
+    crate::interrupt::start_task(format!("folding {} panels", target.faces.len()));
     let objective = Objective::new(&target, panels.masses.clone(), options.conventions, options.minimise);
     let question =
         Question { call, target: &target, objective: &objective, options: &options, panel: &panels.weakest };
@@ -45,7 +45,7 @@ fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {
         return Err(call.refuse(1, format!("from 1 to {ORDERS_MAX} orders are compared")));
     }
     let seed = call.count(2, "a seed")? as u64;
-    crate::interrupt::begin(format!("comparing {orders} orders"));
+    crate::interrupt::start_task(format!("comparing {orders} orders"));
     let pattern = &folded.pattern;
     let objective =
         Objective::new(&pattern.target, folded.masses.clone(), folded.conventions, folded.minimise);

@@ -75,7 +75,7 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let seed = call.count(4, "a seed")? as u64;
     let budget = call.count(5, "a budget")? as u64;
-    crate::interrupt::begin(format!("refolding {} panels", from.faces.len()));
+    crate::interrupt::start_task(format!("refolding {} panels", from.faces.len()));
     let weights = [Weights::uniform(&from, panel.mass), Weights::uniform(&to, panel.mass)];
     let solids = Solids { parts: vec![panel.parts.clone(); from.faces.len()], touch: panel.touch };
     let task = Task { call, panel, solids, from, to, weights, step, seed };

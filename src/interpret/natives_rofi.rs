@@ -60,7 +60,7 @@ fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         return Err(fault(code::SIZE_LIMIT, call.at(1), message, "too many actions"));
     }
     let name = format!("tangle({modules}, {actions}, seed: {seed})");
-    crate::interrupt::begin(format!("tangling {modules} modules"));
+    crate::interrupt::start_task(format!("tangling {modules} modules"));
     let world = to_world(&tangled(modules, actions, seed as u64));
     made(interpreter, call, kinds, &name, &name, world)
 }

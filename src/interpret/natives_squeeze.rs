@@ -64,7 +64,7 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         max_force,
         euclidean: call.word(6) == Some("euclidean"),
     };
-    crate::interrupt::begin(format!("squeezing {} to {}", design.name, goal.name));
+    crate::interrupt::start_task(format!("squeezing {} to {}", design.name, goal.name));
     let found = squeeze::squeeze(cell, 0, &task).map_err(|refusal| refused(&refusal, call))?;
     let cell = cell.clone();
     Ok(planned(interpreter, call, design, cell, found))

@@ -269,15 +269,15 @@ impl Wild {
         }
         let stage = &interpreter.stage;
         let goes_on = stage.until(options.timeout);
-        interrupt::begin(format!("unwinding {}", self.design.name));
+        interrupt::start_task(format!("unwinding {}", self.design.name));
         let mut told = None;
         let mut watch = |progress: &Progress| {
             let Progress { needed, made, tried, .. } = progress;
             let words = || format!("{made} of {needed} connections made, {tried} pairs of ends tried");
             if told.replace(*made) == Some(*made) {
-                interrupt::progress(words)
+                interrupt::progress_checkpoint(words)
             } else {
-                interrupt::tell(words())
+                interrupt::report_progress(words())
             }
             goes_on()
         };

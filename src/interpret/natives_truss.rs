@@ -117,11 +117,11 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let name = task.design.name.clone();
     let stage = interpreter.stage.clone();
     let goes_on = stage.until(timeout);
-    interrupt::begin(format!("morphing {name}"));
+    interrupt::start_task(format!("morphing {name}"));
     let least = Cell::new(f64::INFINITY);
     let going = |step: usize, distance: &Distance| {
         least.set(least.get().min(distance.there));
-        interrupt::progress(|| {
+        interrupt::progress_checkpoint(|| {
             let [apart, least] = [distance.there, least.get()].map(|d| quantity(d, Dimension::LENGTH));
             format!("step {step} of at most {}, {apart} apart, {least} at best", wish.steps_max)
         });
@@ -190,13 +190,13 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let places = wish.path.len();
     let stage = interpreter.stage.clone();
     let goes_on = stage.until(call.positive_if(10, "a timeout")?);
-    interrupt::begin(format!("moving {name}"));
+    interrupt::start_task(format!("moving {name}"));
     let told = Cell::new(0usize);
     let going = |reached: usize| {
         let step = told.get();
         told.set(step + 1);
         let most = wish.steps_max;
-        interrupt::progress(|| {
+        interrupt::progress_checkpoint(|| {
             format!("step {step} of at most {most}, {reached} of {places} places reached")
         });
         goes_on()

@@ -350,7 +350,7 @@ impl Interpreter<'_> {
         if let Some(judged) = planned.judged.borrow().iter().find(known) {
             return judged.verdict.clone();
         }
-        crate::interrupt::begin(format!("verifying {}", planned.robot.name));
+        crate::interrupt::start_task(format!("verifying {}", planned.robot.name));
         let plan = Plan { settings, worlds: worlds.clone(), ..planned.plan.clone() };
         let verdict = Rc::new(crate::plan::verify::verify(&plan));
         planned.judged.borrow_mut().push(Judged { settings, worlds, verdict: verdict.clone() });

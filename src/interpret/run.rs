@@ -23,9 +23,9 @@ pub fn run(
     stage::run(files, host, |stage| {
         let mut interpreter = Interpreter::new(checked, mode, options, stage);
         // What halts a run has been reported, and nothing needs to be said of what the user halts.
-        let interrupt = interpreter.stage.interrupt.clone();
-        let hear = interpreter.stage.hear();
-        let _ = interrupt::catch(&interrupt, hear, || interpreter.drive());
+        let cancel_state = interpreter.stage.cancel_state.clone();
+        let progress_sink = interpreter.stage.progress_sink();
+        let _ = interrupt::catch(&cancel_state, progress_sink, || interpreter.drive());
         interpreter.report_unneeded();
         Outcome {
             diagnostics: in_order(std::mem::take(&mut interpreter.reports)),

@@ -16,7 +16,7 @@ use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Stmt, StmtKind, Test};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::{self, CancelState};
 use crate::source::{Diagnostic, FileId, Files, Span, code};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -84,8 +84,8 @@ pub struct Answer {
 }
 
 impl Evaluator {
-    pub fn new(interrupt: Interrupt) -> Evaluator {
-        Evaluator(Standing::new(interrupt, |stage| {
+    pub fn new(cancel_state: CancelState) -> Evaluator {
+        Evaluator(Standing::new(cancel_state, |stage| {
             let (mut memory, mut before) = (Memory::default(), Vec::new());
             move |task| work(&task, &stage, &mut memory, &mut before)
         }))
@@ -167,11 +167,11 @@ fn evaluate(
     let mut interpreter = Interpreter::new(&task.checked, Mode::Run, &task.options, stage.clone());
     interpreter.resume(memory.clone(), stale);
     let caught = catch_unwind(AssertUnwindSafe(|| {
-        interrupt::catch(&stage.interrupt, stage.hear(), || work(&mut interpreter))
+        interrupt::catch(&stage.cancel_state, stage.progress_sink(), || work(&mut interpreter))
     }));
     let defect = caught.is_err();
     let ended = caught.ok().flatten();
-    let interrupted = !defect && (ended.is_none() || stage.interrupt.raised());
+    let interrupted = !defect && (ended.is_none() || stage.cancel_state.is_cancelled());
     let ok = !interrupted && ended.is_some_and(|ended| ended.is_ok()) && interpreter.errors == 0;
     if !ok {
         interpreter.forget_failed();

@@ -4,7 +4,7 @@
 //! made. The outside (files and host) stays on the thread of the caller, which serves requests.
 
 use super::host::{Host, WriteError};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::{self, CancelState};
 use crate::source::{Files, ReadError};
 use std::cell::Cell;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
@@ -31,7 +31,7 @@ enum Request {
 #[derive(Clone)]
 pub struct Stage {
     requests: SyncSender<Request>,
-    pub interrupt: Interrupt,
+    pub cancel_state: CancelState,
 }
 
 impl Stage {
@@ -39,8 +39,8 @@ impl Stage {
         self.send(Request::Print(line));
     }
 
-    /// What is told of how far the work is goes this way to the host.
-    pub fn hear(&self) -> impl Fn(String) + 'static {
+    /// Returns a sink that sends progress reports to the host.
+    pub fn progress_sink(&self) -> impl Fn(String) + 'static {
         let stage = self.clone();
         move |line| stage.send(Request::Progress(line))
     }
@@ -55,7 +55,7 @@ impl Stage {
 
     /// Whether the user wants the run to end.
     pub fn cancelled(&self) -> bool {
-        self.interrupt.raised()
+        self.cancel_state.is_cancelled()
     }
 
     /// Seconds since some instant; see [`Host::elapsed`].
@@ -72,14 +72,14 @@ impl Stage {
     fn ask<T>(&self, request: impl FnOnce(Sender<T>) -> Request) -> T {
         let (sender, receiver) = channel();
         self.send(request(sender));
-        receiver.recv().unwrap_or_else(|_| interrupt::leave())
+        receiver.recv().unwrap_or_else(|_| interrupt::unwind())
     }
 
     /// Where the outside is gone, so is who wanted the work.
     fn send(&self, request: Request) {
         interrupt::checkpoint();
         if self.requests.send(request).is_err() {
-            interrupt::leave();
+            interrupt::unwind();
         }
     }
 }
@@ -87,7 +87,7 @@ impl Stage {
 /// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
 pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnce(Stage) -> T + Send) -> T {
     let (sender, requests) = sync_channel(WAITING_MAX);
-    let stage = Stage { requests: sender, interrupt: host.interrupt() };
+    let stage = Stage { requests: sender, cancel_state: host.cancel_state() };
     std::thread::scope(|scope| {
         let evaluator = std::thread::Builder::new()
             .name("evaluator".into())
@@ -104,7 +104,7 @@ pub struct Standing<J, R> {
     jobs: Sender<J>,
     requests: Receiver<Request>,
     results: Receiver<R>,
-    interrupt: Interrupt,
+    cancel_state: CancelState,
     /// Puts a request of the outside's own among those of the evaluator.
     waker: SyncSender<Request>,
     /// Whether a job is still being done that nobody waits for any more.
@@ -114,18 +114,18 @@ pub struct Standing<J, R> {
 impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
     /// `begin` is called on the evaluator's thread; what it gives does the jobs, one by one.
     pub fn new<W: FnMut(J) -> R>(
-        interrupt: Interrupt,
+        cancel_state: CancelState,
         begin: impl FnOnce(Stage) -> W + Send + 'static,
     ) -> Standing<J, R> {
         let (jobs, to_do) = channel::<J>();
         let (requests, asked) = sync_channel(WAITING_MAX);
         let (done, results) = channel();
-        let (waker, obeyed) = (requests.clone(), interrupt.clone());
+        let (waker, obeyed) = (requests.clone(), cancel_state.clone());
         std::thread::Builder::new()
             .name("evaluator".into())
             .stack_size(STACK_BYTES)
             .spawn(move || {
-                let mut work = begin(Stage { requests: requests.clone(), interrupt: obeyed });
+                let mut work = begin(Stage { requests: requests.clone(), cancel_state: obeyed });
                 for job in to_do {
                     let result = work(job);
                     // Whoever does not wait for the result any more has dropped the other end.
@@ -135,7 +135,7 @@ impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
                 }
             })
             .expect("the system can start a thread");
-        Standing { jobs, requests: asked, results, interrupt, waker, left: Cell::new(false) }
+        Standing { jobs, requests: asked, results, cancel_state, waker, left: Cell::new(false) }
     }
 
     /// Has a job done, and serves its requests here until it is, or until nobody is to wait any longer:
@@ -144,16 +144,16 @@ impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
         assert!(!self.left.get(), "the job before was settled");
         let waker = self.waker.clone();
         // Where so many requests wait, who serves them is awake.
-        self.interrupt.on_give_up(move || drop(waker.try_send(Request::GivenUp)));
+        self.cancel_state.on_abandon(move || drop(waker.try_send(Request::GivenUp)));
         self.jobs.send(job).expect("the evaluator waits for jobs");
         for request in &self.requests {
             match request {
                 Request::Done => break,
                 // Nobody wants to read on.
-                Request::Print(_) | Request::Progress(_) if self.interrupt.raised() => {}
+                Request::Print(_) | Request::Progress(_) if self.cancel_state.is_cancelled() => {}
                 request => answer(request, files, host),
             }
-            if self.interrupt.given_up() {
+            if self.cancel_state.is_abandoned() {
                 self.left.set(true);
                 return None;
             }
@@ -167,16 +167,16 @@ impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
     }
 
     /// Waits for a job that was left, and gives what came of it after all; `None` where nobody is to wait
-    /// any longer. The wish that it ends still stands.
+    /// any longer. It stays cancelled.
     pub fn settle(&self) -> Option<R> {
-        self.interrupt.wait_again();
+        self.cancel_state.resume_waiting();
         for request in &self.requests {
             match request {
                 Request::Done => {
                     self.left.set(false);
                     return Some(self.results.recv().expect("a job that is done has a result"));
                 }
-                _ if self.interrupt.given_up() => return None,
+                _ if self.cancel_state.is_abandoned() => return None,
                 // Who asks for anything is not answered, and ends.
                 _ => {}
             }

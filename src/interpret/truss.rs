@@ -104,7 +104,7 @@ impl Interpreter<'_> {
         let places: Vec<Vec3> = draft.nodes.iter().map(|n| n.place).collect();
         let struts: Vec<(usize, usize)> = draft.struts.iter().map(|(a, b, _)| (*a, *b)).collect();
         if places.len() > NODES_AT_ONCE {
-            interrupt::begin(format!("finding out how {} nodes hold each other", places.len()));
+            interrupt::start_task(format!("finding out how {} nodes hold each other", places.len()));
         }
         let rigidity = truss::rigidity(&places, &struts);
         let design = TrussDesign { of, nodes: draft.nodes, struts, rigidity };

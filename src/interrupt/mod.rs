@@ -1,14 +1,14 @@
-//! The wish that long work ends, and the question how far it is: raised from outside, obeyed and answered
-//! at checkpoints.
+//! Cooperative cancellation of long work, and progress reports from it.
 //!
-//! Planners and the judge give a whole result or none, so there is nothing between that a caller
-//! could take for one: a checkpoint that finds the wish raised unwinds the stack up to [`catch`]. What
-//! the work had changed outside of itself is the caller's to put back.
+//! Planners and the judge return a whole result or none. A [`checkpoint`] that finds the [`CancelState`]
+//! of its thread cancelled unwinds the stack to [`catch`], which returns `None`; no partial result can be
+//! mistaken for a whole one. The caller of `catch` restores what the work changed outside of itself.
 //!
-//! Where no checkpoint comes for a while (somebody else's solver is at work), whoever waits may give
-//! up: the work then ends at its next checkpoint, and nobody takes what comes of it.
+//! Where no checkpoint is passed for a while (inside a foreign solver), the waiting thread may abandon the
+//! work ([`CancelState::abandon`]): it stops waiting, the work ends at its next checkpoint, and its result
+//! is dropped.
 //!
-//! Nobody's answer to the question how far it is changes what is computed.
+//! A progress report never changes what is computed.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -17,161 +17,172 @@ use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A wish that any thread may raise; copies are one and the same.
+/// A cancellation token that any thread may set. Clones share one state.
 #[derive(Clone, Default)]
-pub struct Interrupt(Arc<Wish>);
+pub struct CancelState(Arc<Flags>);
 
 #[derive(Default)]
-struct Wish {
-    raised: AtomicBool,
-    given_up: AtomicBool,
-    asked: AtomicBool,
-    waker: Mutex<Option<Waker>>,
-    /// A wish that counts as this one, too.
-    above: Option<Interrupt>,
+struct Flags {
+    cancelled: AtomicBool,
+    abandoned: AtomicBool,
+    progress_requested: AtomicBool,
+    on_abandon: Mutex<Option<Waker>>,
+    /// The token whose cancellation cancels this one, too.
+    parent: Option<CancelState>,
 }
 
-/// Wakes who waits for the work.
+/// Wakes the thread that waits for the work.
 type Waker = Box<dyn Fn() + Send>;
 
-impl Interrupt {
-    pub fn raise(&self) {
-        self.0.raised.store(true, Ordering::Relaxed);
+impl CancelState {
+    /// Cancels the work: it unwinds at its next checkpoint.
+    pub fn cancel(&self) {
+        self.0.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Takes the wish back, before new work begins.
-    pub fn lower(&self) {
-        self.wait_again();
-        self.0.asked.store(false, Ordering::Relaxed);
-        self.0.raised.store(false, Ordering::Relaxed);
+    /// Clears cancellation, abandonment and progress requests, before new work starts.
+    pub fn reset(&self) {
+        self.resume_waiting();
+        self.0.progress_requested.store(false, Ordering::Relaxed);
+        self.0.cancelled.store(false, Ordering::Relaxed);
     }
 
-    /// Somebody waits once more for the end that is wished.
-    pub fn wait_again(&self) {
-        self.0.given_up.store(false, Ordering::Relaxed);
+    /// Clears abandonment only: a thread waits again for the cancelled work to end.
+    pub fn resume_waiting(&self) {
+        self.0.abandoned.store(false, Ordering::Relaxed);
     }
 
-    pub fn raised(&self) -> bool {
-        self.0.raised.load(Ordering::Relaxed) || self.0.above.as_ref().is_some_and(Interrupt::raised)
+    /// Returns whether this token or its parent is cancelled.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.cancelled.load(Ordering::Relaxed)
+            || self.0.parent.as_ref().is_some_and(CancelState::is_cancelled)
     }
 
-    /// A wish of its own, that is raised where this one is, too: for helpers at one piece of the work.
-    pub fn below(&self) -> Interrupt {
-        Interrupt(Arc::new(Wish { above: Some(self.clone()), ..Wish::default() }))
+    /// Returns a token of its own that is also cancelled whenever this one is, for helper threads.
+    pub fn child(&self) -> CancelState {
+        CancelState(Arc::new(Flags { parent: Some(self.clone()), ..Flags::default() }))
     }
 
-    /// Nobody is to wait any longer for work whose end is wished.
-    pub fn give_up(&self) {
-        self.0.given_up.store(true, Ordering::Relaxed);
-        if let Some(wake) = &*self.0.waker.lock().unwrap_or_else(PoisonError::into_inner) {
+    /// Abandons cancelled work: no thread waits for it any longer. Calls the function registered by
+    /// [`CancelState::on_abandon`].
+    pub fn abandon(&self) {
+        self.0.abandoned.store(true, Ordering::Relaxed);
+        if let Some(wake) = &*self.0.on_abandon.lock().unwrap_or_else(PoisonError::into_inner) {
             wake();
         }
     }
 
-    pub fn given_up(&self) -> bool {
-        self.raised() && self.0.given_up.load(Ordering::Relaxed)
+    /// Returns whether the work is cancelled and abandoned.
+    pub fn is_abandoned(&self) -> bool {
+        self.is_cancelled() && self.0.abandoned.load(Ordering::Relaxed)
     }
 
-    /// What [`Interrupt::give_up`] calls, in place of what it called before.
-    pub fn on_give_up(&self, wake: impl Fn() + Send + 'static) {
-        *self.0.waker.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(wake));
+    /// Registers the function that [`CancelState::abandon`] calls. It replaces the one before.
+    pub fn on_abandon(&self, wake: impl Fn() + Send + 'static) {
+        *self.0.on_abandon.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(wake));
     }
 
-    /// Asks the work how far it is. It answers at its next checkpoint that knows.
-    pub fn ask(&self) {
-        self.0.asked.store(true, Ordering::Relaxed);
+    /// Requests a progress report. The next [`progress_checkpoint`] of the work sends one.
+    pub fn request_progress(&self) {
+        self.0.progress_requested.store(true, Ordering::Relaxed);
     }
 
-    pub fn asked(&self) -> bool {
-        self.0.asked.load(Ordering::Relaxed)
+    /// Returns whether a progress request waits to be answered.
+    pub fn is_progress_requested(&self) -> bool {
+        self.0.progress_requested.load(Ordering::Relaxed)
+    }
+
+    /// Returns whether a progress request waits, and takes it.
+    fn take_progress_request(&self) -> bool {
+        self.is_progress_requested() && self.0.progress_requested.swap(false, Ordering::Relaxed)
     }
 }
 
-impl fmt::Debug for Interrupt {
+impl fmt::Debug for CancelState {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.debug_tuple("Interrupt").field(&self.raised()).finish()
+        f.debug_tuple("CancelState").field(&self.is_cancelled()).finish()
     }
 }
 
-/// What is thrown from a checkpoint to [`catch`].
-struct Interrupted;
+/// The payload that unwinds from a checkpoint to [`catch`].
+struct Cancelled;
 
-/// The work on a thread: what it obeys, who hears how far it is, and what it is about.
+/// The work on a thread.
 #[derive(Clone)]
 struct Work {
-    interrupt: Interrupt,
-    hear: Rc<dyn Fn(String)>,
-    about: String,
+    cancel_state: CancelState,
+    /// Receives progress reports.
+    progress_sink: Rc<dyn Fn(String)>,
+    /// The task at hand in words; the prefix of each report.
+    task: String,
 }
 
 thread_local! {
     static WORK: RefCell<Option<Work>> = const { RefCell::new(None) };
 }
 
-/// Does work that ends once the wish is raised, and then gives `None`. `hear` is told how far it is.
+/// Runs `work` on this thread under a cancellation token, and returns its result, or `None` when it was
+/// cancelled. `progress_sink` receives each progress report as one line of text. Calls may nest; a panic of
+/// the work goes on to the caller.
 pub fn catch<T>(
-    interrupt: &Interrupt,
-    hear: impl Fn(String) + 'static,
+    cancel_state: &CancelState,
+    progress_sink: impl Fn(String) + 'static,
     work: impl FnOnce() -> T,
 ) -> Option<T> {
-    let own = Work { interrupt: interrupt.clone(), hear: Rc::new(hear), about: String::new() };
-    let before = WORK.replace(Some(own));
+    let (cancel_state, progress_sink) = (cancel_state.clone(), Rc::new(progress_sink));
+    let before = WORK.replace(Some(Work { cancel_state, progress_sink, task: String::new() }));
     let ended = catch_unwind(AssertUnwindSafe(work));
     WORK.set(before);
     match ended {
         Ok(result) => Some(result),
-        Err(thrown) if thrown.is::<Interrupted>() => None,
+        Err(thrown) if thrown.is::<Cancelled>() => None,
         Err(panic) => resume_unwind(panic),
     }
 }
 
-/// Ends the work at hand if somebody wished it. Costs a few nanoseconds; every loop that may take
-/// long passes one at least every few milliseconds.
+/// Unwinds to [`catch`] if the work of this thread is cancelled; does nothing outside of `catch`. It costs
+/// a few nanoseconds; every loop that may take long passes one at least every few milliseconds.
 pub fn checkpoint() {
-    if WORK.with_borrow(|work| work.as_ref().is_some_and(|work| work.interrupt.raised())) {
-        leave();
+    if WORK.with_borrow(|work| work.as_ref().is_some_and(|work| work.cancel_state.is_cancelled())) {
+        unwind();
     }
 }
 
-/// The wish that the work at hand obeys.
-pub fn current() -> Option<Interrupt> {
-    WORK.with_borrow(|work| work.as_ref().map(|work| work.interrupt.clone()))
+/// Returns the cancellation token of this thread's work; `None` outside of [`catch`].
+pub fn current() -> Option<CancelState> {
+    WORK.with_borrow(|work| work.as_ref().map(|work| work.cancel_state.clone()))
 }
 
-/// Ends the work at hand.
-pub fn leave() -> ! {
-    resume_unwind(Box::new(Interrupted));
+/// Unwinds to [`catch`], cancelled or not.
+pub fn unwind() -> ! {
+    resume_unwind(Box::new(Cancelled));
 }
 
-/// The work at hand is now about this: `folding 20 panels`.
-pub fn begin(about: String) {
+/// Names the task that progress reports are about from here on (`folding 20 panels`), and reports the name
+/// alone unless it is empty.
+pub fn start_task(task: String) {
     let work = WORK.with_borrow_mut(|work| {
         let work = work.as_mut()?;
-        work.about.clone_from(&about);
+        work.task.clone_from(&task);
         Some(work.clone())
     });
-    if let Some(work) = work.filter(|work| !work.about.is_empty()) {
-        (work.hear)(about);
+    if let Some(work) = work.filter(|work| !work.task.is_empty()) {
+        (work.progress_sink)(task);
     }
 }
 
-/// A checkpoint that knows how far the work is, and what is best so far. Words are found only where
-/// somebody asked.
-pub fn progress(how_far: impl FnOnce() -> String) {
+/// Passes a [`checkpoint`], and reports progress if somebody requested it. `report` is called only then.
+pub fn progress_checkpoint(report: impl FnOnce() -> String) {
     checkpoint();
-    let asked = WORK.with_borrow(|work| {
-        let asked = work.as_ref().map(|work| &work.interrupt.0.asked);
-        asked.is_some_and(|asked| asked.load(Ordering::Relaxed) && asked.swap(false, Ordering::Relaxed))
-    });
-    if asked {
-        tell(how_far());
+    if WORK.with_borrow(|work| work.as_ref().is_some_and(|work| work.cancel_state.take_progress_request())) {
+        report_progress(report());
     }
 }
 
-/// Tells how far the work is, whether or not somebody asked: for what happens seldom.
-pub fn tell(how_far: String) {
+/// Reports progress, requested or not: for what happens seldom. The name of the task goes before it.
+pub fn report_progress(report: String) {
     if let Some(work) = WORK.with_borrow(Clone::clone) {
-        let both = if work.about.is_empty() { how_far } else { format!("{}: {how_far}", work.about) };
-        (work.hear)(both);
+        let line = if work.task.is_empty() { report } else { format!("{}: {report}", work.task) };
+        (work.progress_sink)(line);
     }
 }

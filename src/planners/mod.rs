@@ -64,7 +64,7 @@ pub struct RequestedProgress;
 
 impl Progress for RequestedProgress {
     fn report(&mut self, how_far: &dyn Fn() -> String) {
-        interrupt::progress(how_far);
+        interrupt::progress_checkpoint(how_far);
     }
 
     fn should_continue(&mut self) -> bool {

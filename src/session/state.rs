@@ -91,7 +91,7 @@ impl Reply {
 }
 
 impl Session {
-    /// An empty session in a project. `host` is asked for nothing but its interrupt.
+    /// An empty session in a project. `host` is asked for nothing but its cancellation token.
     pub fn new(project: Project, options: Options, host: &dyn Host) -> Session {
         let files = Arc::new(Kept::new(project));
         let checked = Arc::new(check::check_session(&*files, &[]));
@@ -101,7 +101,7 @@ impl Session {
             checked,
             last: None,
             loaded: Vec::new(),
-            evaluator: Evaluator::new(host.interrupt()),
+            evaluator: Evaluator::new(host.cancel_state()),
             options,
             before: Vec::new(),
             count: 0,
@@ -127,9 +127,9 @@ impl Session {
     }
 
     /// Leaves work that does not end to itself. All values are worked out again when they are needed.
-    /// `host` has another interrupt now.
+    /// `host` has another cancellation token now.
     pub fn renew(&mut self, host: &dyn Host) {
-        self.evaluator = Evaluator::new(host.interrupt());
+        self.evaluator = Evaluator::new(host.cancel_state());
         self.to_take_back.set(false);
     }
 

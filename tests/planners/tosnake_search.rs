@@ -6,7 +6,7 @@ use crate::support::desk::{Desk, run_clean};
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
 use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
-use modl::interrupt::Interrupt;
+use modl::interrupt::CancelState;
 use modl::plan::{self, Body};
 use modl::source::code;
 use std::cell::Cell;
@@ -19,7 +19,7 @@ struct Watcher {
     seen: Vec<String>,
     reads: Cell<u32>,
     enough_at: Option<&'static str>,
-    interrupt: Interrupt,
+    cancel_state: CancelState,
     had_enough: Option<Instant>,
 }
 
@@ -35,13 +35,13 @@ impl Host for Watcher {
     fn progress(&mut self, line: &str) {
         self.seen.push(line.to_owned());
         if self.enough_at.is_some_and(|words| line.contains(words)) {
-            self.interrupt.raise();
+            self.cancel_state.cancel();
             self.had_enough.get_or_insert_with(Instant::now);
         }
     }
 
-    fn interrupt(&self) -> Interrupt {
-        self.interrupt.clone()
+    fn cancel_state(&self) -> CancelState {
+        self.cancel_state.clone()
     }
 
     fn elapsed(&self) -> f64 {

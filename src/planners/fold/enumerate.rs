@@ -68,7 +68,7 @@ pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result
     let walked = each(target, settings.budget, |hinges| {
         looked_at += 1;
         let least = best.as_ref().map(|(least, ..)| *least);
-        interrupt::progress(|| words::counted(looked_at, &all, "layouts", least));
+        interrupt::progress_checkpoint(|| words::counted(looked_at, &all, "layouts", least));
         tree.hang(hinges);
         tree.energies(&sums, &mut energies);
         for (root, &energy) in energies.iter().enumerate() {

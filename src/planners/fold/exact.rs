@@ -288,7 +288,7 @@ impl<'s> Search<'s, '_> {
         while let Some(node) = self.waiting.pop() {
             let least = self.best.as_ref().map(|best| best.energy);
             let (nodes, wait) = (self.nodes, self.waiting.len());
-            crate::interrupt::progress(|| super::words::searched(nodes, wait, least, node.bound));
+            crate::interrupt::progress_checkpoint(|| super::words::searched(nodes, wait, least, node.bound));
             self.held -= node.size();
             if node.bound >= self.cutoff(node.root) {
                 continue;

@@ -87,7 +87,7 @@ pub fn survey(
         let (mut looked_at, all) = (0u64, count::layouts(target));
         let walked = enumerate::each(target, u64::MAX, |hinges| {
             looked_at += 1;
-            interrupt::progress(|| words::counted(looked_at, &all, "layouts", None));
+            interrupt::progress_checkpoint(|| words::counted(looked_at, &all, "layouts", None));
             if let Some((_, peaks)) = &mut glance {
                 peaks.hang(hinges);
             }
@@ -155,7 +155,7 @@ fn exchanged(
             *left = left.checked_sub(1)?;
             // An energy, a torque or a number of steps.
             let least = kept.least;
-            interrupt::progress(|| {
+            interrupt::progress_checkpoint(|| {
                 format!("{left} layouts may still be measured, {} at best", number(least))
             });
             let other = layout.exchanged(target, dropped, added);

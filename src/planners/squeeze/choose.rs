@@ -56,7 +56,7 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     candidates.sort_by(|a, b| a.way.duration().total_cmp(&b.way.duration()));
     let mut best: Option<(Method, bool, Stages)> = None;
     for candidate in candidates {
-        interrupt::progress(|| match &best {
+        interrupt::progress_checkpoint(|| match &best {
             Some((method, _, stages)) => {
                 format!("{} takes {}", method.name(), quantity(stages.duration(), Dimension::TIME))
             }

@@ -108,7 +108,7 @@ impl Tree {
 
     /// Swaps and passes along one axis; whether anything moved.
     fn round(&mut self, motion: &mut Listed, axis: usize) -> bool {
-        crate::interrupt::progress(|| format!("{} cells are left to melt", self.boxes.len()));
+        crate::interrupt::progress_checkpoint(|| format!("{} cells are left to melt", self.boxes.len()));
         let swapped = self.swap(motion, axis);
         let passed = self.pass(motion, axis);
         swapped || passed

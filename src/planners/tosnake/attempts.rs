@@ -7,7 +7,7 @@
 use super::merging::Attempt;
 use super::state::{Joints, State};
 use super::sweep::Scene;
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::{self, CancelState};
 use crate::planners::random::SplitMix64;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -46,12 +46,12 @@ pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMu
     if (0..alone).any(|job| take(made(job, &scene))) || alone == jobs.len() {
         return;
     }
-    let wish = interrupt::current().map_or_else(Interrupt::default, |user| user.below());
+    let cancel_state = interrupt::current().map_or_else(CancelState::default, |user| user.child());
     let next = AtomicUsize::new(alone);
     let (sender, results) = channel();
     thread::scope(|scope| {
         for _ in 0..threads.min(jobs.len() - alone) {
-            let (sender, next, wish, made) = (sender.clone(), &next, &wish, &made);
+            let (sender, next, cancel_state, made) = (sender.clone(), &next, &cancel_state, &made);
             scope.spawn(move || {
                 let scene = Scene { tree, docked: docked.clone(), burden: None };
                 let work = || {
@@ -62,12 +62,12 @@ pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMu
                         }
                     }
                 };
-                interrupt::catch(wish, |_| {}, work)
+                interrupt::catch(cancel_state, |_| {}, work)
             });
         }
         drop(sender);
         // Whichever way this is left, the threads are to end.
-        let _ends = Ends(&wish);
+        let _cancels = CancelOnDrop(&cancel_state);
         let mut early = BTreeMap::new();
         let mut awaited = alone;
         for made in results {
@@ -79,7 +79,7 @@ pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMu
                 }
             }
         }
-        // Before all results came only the user's wish ends the threads.
+        // Before all results came only the user's cancellation ends the threads.
         interrupt::checkpoint();
     });
 }
@@ -87,11 +87,11 @@ pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMu
 /// Jobs that are done before threads begin.
 const ALONE: usize = 1;
 
-/// Raises a wish when it goes.
-struct Ends<'a>(&'a Interrupt);
+/// Cancels its token when dropped.
+struct CancelOnDrop<'a>(&'a CancelState);
 
-impl Drop for Ends<'_> {
+impl Drop for CancelOnDrop<'_> {
     fn drop(&mut self) {
-        self.0.raise();
+        self.0.cancel();
     }
 }

@@ -30,7 +30,7 @@ pub fn tangled(modules: usize, actions: usize, seed: u64) -> Robot {
     let (mut done, mut tried) = (0, 0);
     while done < actions && tried < actions.saturating_mul(ATTEMPTS_MAX) {
         tried += 1;
-        crate::interrupt::progress(|| format!("{done} of {actions} actions"));
+        crate::interrupt::progress_checkpoint(|| format!("{done} of {actions} actions"));
         let did = match rng.below(DOCKING_OF) {
             0 => tangle.dock(&mut rng),
             1 => tangle.undock(&mut rng),

@@ -203,7 +203,7 @@ impl<'a> Search<'a> {
 
     /// Tells apart what can be over `from..to`, and goes on with the rest in two parts.
     fn examine(&mut self, region: &Region, from: f64, to: f64, open: Open) {
-        interrupt::progress(|| {
+        interrupt::progress_checkpoint(|| {
             let least = self.clearance.as_ref().map_or_else(String::new, |nearest| {
                 format!(", clearance {} so far", quantity(nearest.distance, Dimension::LENGTH))
             });

@@ -113,7 +113,7 @@ pub fn walk(
     let first = walker.now;
     let instants = sample::instants(course.tracks, course.worlds, course.exemptions);
     for &instant in instants.iter().filter(|t| **t > first) {
-        interrupt::progress(|| {
+        interrupt::progress_checkpoint(|| {
             let [now, until] = [walker.now, until].map(|t| quantity(t, Dimension::TIME));
             format!("walked {now} of {until}, {} samples", walker.samples)
         });

@@ -199,7 +199,7 @@ impl Judgement<'_> {
         let mut after = before.clone();
         for (index, stage) in self.stages.stages.iter().enumerate() {
             let stages = self.stages.stages.len();
-            crate::interrupt::progress(|| format!("stage {} of {stages}", index + 1));
+            crate::interrupt::progress_checkpoint(|| format!("stage {} of {stages}", index + 1));
             after.clone_from(&before);
             grid.place(&stage.end, &mut after)?;
             if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {

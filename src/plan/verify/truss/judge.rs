@@ -58,7 +58,7 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
     for (i, knot) in paths.knots.iter().enumerate().skip(1) {
-        interrupt::progress(|| format!("step {i} of {}", paths.knots.len() - 1));
+        interrupt::progress_checkpoint(|| format!("step {i} of {}", paths.knots.len() - 1));
         let begins = paths.knots[i - 1].time;
         let leg = Leg {
             from: places[i - 1].clone(),
