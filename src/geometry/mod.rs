@@ -6,6 +6,7 @@ pub mod height_field;
 pub mod json;
 pub mod polygon;
 pub mod pose;
+pub mod rigid_transform;
 pub mod shape;
 
 pub mod soundness;
@@ -25,6 +26,7 @@ pub use distance::Nearness;
 pub use height_field::HeightField;
 pub use part::Part;
 pub use pose::{Pose, Vec3};
+pub use rigid_transform::RigidTransform;
 pub use shape::{Placed, Shape};
 pub use solid::Solid;
 pub use soundness::Unsound;

@@ -1,18 +1,19 @@
 //! Unwinding: which balls are near each other, and which ways are free, beside all pairs of balls at many
 //! instants.
 
+use modl::geometry::{RigidTransform, Vec3};
 use modl::planners::random::SplitMix64;
 use modl::planners::tosnake::contacts::Contacts;
 use modl::planners::tosnake::near;
-use modl::planners::tosnake::rigid::{Mat, Rigid, Vec3};
 use modl::planners::tosnake::state::State;
 use modl::planners::tosnake::sweep::APART;
 use modl::planners::tosnake::tangle::tangled;
+use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
 /// Pairs of places that are nearer than `reach`, all of them looked at.
-fn all_pairs(poses: &[Rigid], reach: f64) -> Vec<(usize, usize)> {
-    let near = |a: usize, b: usize| (poses[a].place - poses[b].place).norm() < reach;
+fn all_pairs(poses: &[RigidTransform], reach: f64) -> Vec<(usize, usize)> {
+    let near = |a: usize, b: usize| (poses[a].translation - poses[b].translation).norm() < reach;
     let pairs = (0..poses.len()).flat_map(|a| (a + 1..poses.len()).map(move |b| (a, b)));
     pairs.filter(|&(a, b)| near(a, b)).collect()
 }
@@ -32,12 +33,15 @@ fn cubes_find_the_pairs_that_are_near() {
             let x = spread * rng.next_signed();
             if on_lattice { x.round() } else { x }
         };
-        let poses: Vec<Rigid> = (0..200)
-            .map(|_| Rigid { rotation: Mat::identity(), place: Vec3::from_fn(|_, _| coordinate()) })
+        let poses: Vec<RigidTransform> = (0..200)
+            .map(|_| RigidTransform {
+                rotation: Matrix3::identity(),
+                translation: Vec3::from_fn(|_, _| coordinate()),
+            })
             .collect();
         let mut found = Vec::new();
         near::pairs(&poses, reach, &mut |a, b, squared| {
-            assert_eq!(squared, (poses[b].place - poses[a].place).norm_squared());
+            assert_eq!(squared, (poses[b].translation - poses[a].translation).norm_squared());
             found.push((a, b));
         });
         found.sort_unstable();
@@ -100,7 +104,7 @@ fn a_way_is_free_where_nothing_meets_at_any_instant() {
             }
             state.tree.poses(&joints, &mut poses);
             for (a, b) in all_pairs(&poses, 1.1).into_iter().filter(|&(a, b)| !touch(&state, a, b)) {
-                least = least.min((poses[a].place - poses[b].place).norm());
+                least = least.min((poses[a].translation - poses[b].translation).norm());
             }
         }
         let says = scene.is_free(from, &to, &mut 0);

@@ -7,11 +7,12 @@
 
 use super::contacts::{Contact, Contacts};
 use super::linear::Square;
-use super::rigid::{Rigid, Vec3, rotation_vector};
 use super::robot::{Dock, GAMMA, RED, mate};
 use super::state::Joints;
 use super::sweep::{APART, Scene};
 use super::tree::{JointRef, Tree};
+use crate::geometry::rigid_transform::rotation_vector;
+use crate::geometry::{RigidTransform, Vec3};
 use nalgebra::Vector6;
 use std::f64::consts::FRAC_PI_2;
 
@@ -84,10 +85,10 @@ impl Loop {
     }
 
     /// What is missing: translation, then rotation vector, of the second shoe.
-    fn error(&self, poses: &[Rigid]) -> Vector6<f64> {
+    fn error(&self, poses: &[RigidTransform]) -> Vector6<f64> {
         let wanted = poses[self.from].then(&mate(RED, 0, RED));
         let found = &poses[self.to];
-        let place = wanted.place - found.place;
+        let place = wanted.translation - found.translation;
         let turn = rotation_vector(&(wanted.rotation * found.rotation.transpose()));
         Vector6::new(place.x, place.y, place.z, turn.x, turn.y, turn.z)
     }
@@ -200,7 +201,7 @@ struct Problem<'a> {
     manner: Manner,
     long: f64,
     tree: &'a Tree,
-    poses: &'a [Rigid],
+    poses: &'a [RigidTransform],
     joints: &'a [[f64; 3]],
     contacts: &'a [Contact],
     settings: &'a Settings,
@@ -289,7 +290,7 @@ impl Problem<'_> {
     fn closing_rows(&self, lp: &Loop, error: &Vector6<f64>) -> Vec<Row> {
         let (place, turn) = (error.fixed_rows::<3>(0).norm(), error.fixed_rows::<3>(3).norm());
         let scale = f64::min(1.0, f64::min(self.long / place.max(1e-30), 0.4 / turn.max(1e-30)));
-        let tip = self.poses[lp.to].place;
+        let tip = self.poses[lp.to].translation;
         let mut rows: Vec<Row> = (0..6)
             .map(|i| Row { terms: Vec::with_capacity(lp.joints.len()), goal: error[i] * scale })
             .collect();
@@ -307,7 +308,7 @@ impl Problem<'_> {
 
     /// How a contact's distance changes with the joints, and how much it must.
     fn row(&self, contact: &Contact) -> Row {
-        let at = self.poses[contact.b].place;
+        let at = self.poses[contact.b].translation;
         let between = joints_between(self.tree, contact.a, contact.b);
         let term = |(joint, sign): &(JointRef, f64)| {
             let (axis, point) = self.tree.axis(*joint, self.poses);
@@ -374,7 +375,7 @@ impl Problem<'_> {
                 }
             }
             twist[place] = (v, w);
-            going[place] = v + w.cross(&self.poses[place].place);
+            going[place] = v + w.cross(&self.poses[place].translation);
         }
         going
     }
@@ -427,7 +428,7 @@ struct Push {
 }
 
 impl Push {
-    fn new(poses: &[Rigid], contacts: &[Contact], reach: f64) -> Push {
+    fn new(poses: &[RigidTransform], contacts: &[Contact], reach: f64) -> Push {
         let mut force = vec![Vec3::zeros(); poses.len()];
         for contact in contacts.iter().filter(|c| c.distance < reach) {
             let push = contact.normal * (reach - contact.distance);
@@ -438,7 +439,7 @@ impl Push {
         let (mut forces, mut moments) = (vec![f], vec![m]);
         for (force, pose) in force.iter().zip(poses) {
             f += force;
-            m += pose.place.cross(force);
+            m += pose.translation.cross(force);
             forces.push(f);
             moments.push(m);
         }

@@ -2,8 +2,8 @@
 //! at is worked out anew only when balls have gone far enough for that to matter.
 
 use super::near;
-use super::rigid::{Rigid, Vec3};
 use super::sweep::Scene;
+use crate::geometry::{RigidTransform, Vec3};
 
 /// Two balls that are near each other.
 pub struct Contact {
@@ -40,9 +40,9 @@ impl<'a> Contacts<'a> {
     }
 
     /// All that are nearer than `reach`.
-    pub fn within(&mut self, reach: f64, poses: &[Rigid]) -> Vec<Contact> {
+    pub fn within(&mut self, reach: f64, poses: &[RigidTransform]) -> Vec<Contact> {
         let gone = |from: &[Vec3]| {
-            let squared = |(pose, from): (&Rigid, &Vec3)| (pose.place - from).norm_squared();
+            let squared = |(pose, from): (&RigidTransform, &Vec3)| (pose.translation - from).norm_squared();
             libm::sqrt(poses.iter().zip(from).map(squared).fold(0.0, f64::max))
         };
         if self.listed.is_empty() || self.reach - 2.0 * gone(&self.listed) < reach {
@@ -51,11 +51,11 @@ impl<'a> Contacts<'a> {
             self.renew(poses);
         }
         self.before.clear();
-        self.before.extend(poses.iter().map(|pose| pose.place));
+        self.before.extend(poses.iter().map(|pose| pose.translation));
         let mut all = Vec::new();
         for &(a, b) in &self.list {
             let (a, b) = (a as usize, b as usize);
-            let way = poses[b].place - poses[a].place;
+            let way = poses[b].translation - poses[a].translation;
             let squared = way.norm_squared();
             if squared < reach * reach {
                 let distance = libm::sqrt(squared);
@@ -67,7 +67,7 @@ impl<'a> Contacts<'a> {
         all
     }
 
-    fn renew(&mut self, poses: &[Rigid]) {
+    fn renew(&mut self, poses: &[RigidTransform]) {
         let Contacts { scene, meeting, parts, list, reach, listed, .. } = self;
         list.clear();
         near::pairs(poses, *reach, &mut |a, b, _| {
@@ -77,6 +77,6 @@ impl<'a> Contacts<'a> {
             }
         });
         listed.clear();
-        listed.extend(poses.iter().map(|pose| pose.place));
+        listed.extend(poses.iter().map(|pose| pose.translation));
     }
 }

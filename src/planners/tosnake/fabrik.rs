@@ -6,9 +6,9 @@
 //! joined on anew: its joints turn so that it comes as near as it can to where it was.
 
 use super::piece::Piece;
-use super::rigid::{Rigid, Vec3};
 use super::robot::{Dock, FACES, GAMMA, RED, across, mate};
 use super::state::{Joints, State};
+use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +31,8 @@ impl Default for Settings {
 pub struct Chain {
     pieces: Vec<Piece>,
     /// Where it begins and where it is to end.
-    base: Rigid,
-    goal: Rigid,
+    base: RigidTransform,
+    goal: RigidTransform,
     /// Balls of what does not move while the chain does.
     standing: Vec<Vec3>,
 }
@@ -64,7 +64,7 @@ impl Chain {
             pieces,
             base: state.poses[path.places[first]],
             goal: state.poses[path.places[last]],
-            standing: standing.map(|place| state.poses[place].place).collect(),
+            standing: standing.map(|place| state.poses[place].translation).collect(),
         }
     }
 
@@ -103,17 +103,17 @@ impl Chain {
 
     /// Whether the chain can be as long as the way that it has to go.
     pub fn reaches(&self) -> bool {
-        (self.goal.place - self.base.place).norm() <= self.pieces.len() as f64
+        (self.goal.translation - self.base.translation).norm() <= self.pieces.len() as f64
     }
 
-    fn missing(&self, frames: &[Rigid]) -> f64 {
+    fn missing(&self, frames: &[RigidTransform]) -> f64 {
         let end = frames[frames.len() - 1];
         let turn = (end.rotation - self.goal.rotation).amax();
-        turn.max((end.place - self.goal.place).amax())
+        turn.max((end.translation - self.goal.translation).amax())
     }
 
     /// Of all shoes along the chain.
-    fn frames(&self, joints: &Joints) -> Vec<Rigid> {
+    fn frames(&self, joints: &Joints) -> Vec<RigidTransform> {
         let mut frames = vec![self.base];
         for piece in &self.pieces {
             frames.push(frames[frames.len() - 1].then(&piece.pose(joints)));
@@ -121,7 +121,7 @@ impl Chain {
         frames
     }
 
-    fn walk_back(&self, joints: &mut Joints, frames: &mut [Rigid]) {
+    fn walk_back(&self, joints: &mut Joints, frames: &mut [RigidTransform]) {
         let last = frames.len() - 1;
         frames[last] = self.goal;
         for (index, piece) in self.pieces.iter().enumerate().rev() {
@@ -132,7 +132,7 @@ impl Chain {
         }
     }
 
-    fn walk_there(&self, joints: &mut Joints, frames: &mut [Rigid], avoid: bool) {
+    fn walk_there(&self, joints: &mut Joints, frames: &mut [RigidTransform], avoid: bool) {
         frames[0] = self.base;
         let standing: &[Vec3] = if avoid { &self.standing } else { &[] };
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -152,7 +152,13 @@ const ROUNDS: usize = 2;
 
 /// Turns a module's joints, seen from the shoe at `here`, so that its other shoe comes as near to `there`
 /// as it can. `order` are its tilts, that of `here` first; balls of `standing` are kept out of.
-fn relink(q: &mut [f64; 3], [near, far]: [usize; 2], here: &Rigid, there: &Rigid, standing: &[Vec3]) {
+fn relink(
+    q: &mut [f64; 3],
+    [near, far]: [usize; 2],
+    here: &RigidTransform,
+    there: &RigidTransform,
+    standing: &[Vec3],
+) {
     // In the frame of the shoe that stays.
     let wanted = here.inverse().then(there);
     let wanted: Vec<Vec3> = POINTS.iter().map(|p| at(&wanted, p)).collect();
@@ -160,9 +166,9 @@ fn relink(q: &mut [f64; 3], [near, far]: [usize; 2], here: &Rigid, there: &Rigid
         for joint in [near, GAMMA, far] {
             let other = across(q[near], q[far], q[GAMMA]);
             let (axis, point) = match joint {
-                GAMMA => (other.place, Vec3::zeros()),
+                GAMMA => (other.translation, Vec3::zeros()),
                 _ if joint == near => (Vec3::x(), Vec3::zeros()),
-                _ => (-other.rotation.column(0), other.place),
+                _ => (-other.rotation.column(0), other.translation),
             };
             let (mut along, mut aside) = (0.0, 0.0);
             for (p, want) in POINTS.iter().zip(&wanted) {
@@ -185,8 +191,8 @@ fn relink(q: &mut [f64; 3], [near, far]: [usize; 2], here: &Rigid, there: &Rigid
 /// Sums of products of lengths, in parts of the squared pitch.
 const INDIFFERENT: f64 = 1e-12;
 
-fn at(pose: &Rigid, point: &[f64; 3]) -> Vec3 {
-    pose.rotation * Vec3::from(*point) + pose.place
+fn at(pose: &RigidTransform, point: &[f64; 3]) -> Vec3 {
+    pose.rotation * Vec3::from(*point) + pose.translation
 }
 
 fn wrapped(angle: f64) -> f64 {
@@ -195,10 +201,13 @@ fn wrapped(angle: f64) -> f64 {
 
 /// The tilt nearest to a wanted one at which the ball that it carries, on a circle of radius 1 about the
 /// shoe at `here`, is in none that stands; the wanted one where there is none.
-fn evaded(wanted: f64, here: &Rigid, standing: &[Vec3]) -> f64 {
+fn evaded(wanted: f64, here: &RigidTransform, standing: &[Vec3]) -> f64 {
     let mut forbidden: Vec<(f64, f64)> = Vec::new();
     for ball in standing {
-        let p = here.inverse().then(&Rigid { place: *ball, ..Rigid::identity() }).place;
+        let p = here
+            .inverse()
+            .then(&RigidTransform { translation: *ball, ..RigidTransform::identity() })
+            .translation;
         let radius = libm::hypot(p.y, p.z);
         // The shoe itself is as near as it is.
         if p.norm() < 1e-6 || radius < 1e-9 {

@@ -4,9 +4,9 @@
 
 use super::merging::Pair;
 use super::piece::Piece;
-use super::rigid::Rigid;
 use super::robot::{GAMMA, RED, across, mate};
 use super::state::{Joints, State};
+use crate::geometry::RigidTransform;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Loops of more modules are left to descent: every module has 36 postures.
@@ -27,7 +27,7 @@ pub fn leap(state: &State, pair: &Pair, work: &mut u64) -> Option<Joints> {
         joints: here.clone(),
         closed: Vec::new(),
     };
-    found.look(0, Rigid::identity(), work);
+    found.look(0, RigidTransform::identity(), work);
     let turning = |to: &Joints| -> f64 {
         to.iter().zip(here).map(|(to, from)| (0..3).map(|k| (to[k] - from[k]).abs()).sum::<f64>()).sum()
     };
@@ -39,18 +39,18 @@ pub fn leap(state: &State, pair: &Pair, work: &mut u64) -> Option<Joints> {
 
 struct Postures {
     pieces: Vec<Piece>,
-    wanted: Rigid,
+    wanted: RigidTransform,
     joints: Joints,
     closed: Vec<Joints>,
 }
 
 impl Postures {
     /// All postures of the pieces from `next` on, where those before end at `pose`.
-    fn look(&mut self, next: usize, pose: Rigid, work: &mut u64) {
+    fn look(&mut self, next: usize, pose: RigidTransform, work: &mut u64) {
         crate::interrupt::checkpoint();
         let Some(piece) = self.pieces.get(next).copied() else {
             let turn = (pose.rotation - self.wanted.rotation).amax();
-            if turn.max((pose.place - self.wanted.place).amax()) < TOL {
+            if turn.max((pose.translation - self.wanted.translation).amax()) < TOL {
                 self.closed.push(self.joints.clone());
             }
             return;

@@ -57,7 +57,7 @@ pub fn free_ends(state: &State) -> Vec<[Dock; 2]> {
 
 /// The straight distance of two docks' shoes.
 fn gap(state: &State, a: Dock, b: Dock) -> f64 {
-    let place = |dock: Dock| state.poses[state.tree.place[dock.shoe()]].place;
+    let place = |dock: Dock| state.poses[state.tree.place[dock.shoe()]].translation;
     (place(a) - place(b)).norm()
 }
 

@@ -9,8 +9,6 @@
 //! straightened ([`opening`]), and in the end what is superfluous is left out ([`shortening`]). Every motion is checked on the way ([`sweep`], [`turn`]), not only where
 //! it ends. Lengths are in parts of the pitch, angles in radians.
 
-pub mod rigid;
-
 pub mod robot;
 
 pub mod tree;

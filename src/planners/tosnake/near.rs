@@ -1,21 +1,21 @@
 //! Pairs of balls that are near each other.
 
-use super::rigid::{Rigid, Vec3};
 use super::robot::Robot;
 use super::tree::Tree;
+use crate::geometry::{RigidTransform, Vec3};
 
 /// Calls `found` for every pair of places whose balls are nearer than `reach`, the smaller first.
 ///
 /// Balls are sorted into cubes of that size, cubes into columns, and columns by their places: so the three
 /// cubes of a column that may hold a ball's neighbours are one stretch of the list, and for each of
 /// the columns around the stretch goes on as the balls do.
-pub fn pairs(poses: &[Rigid], reach: f64, found: &mut dyn FnMut(usize, usize, f64)) {
+pub fn pairs(poses: &[RigidTransform], reach: f64, found: &mut dyn FnMut(usize, usize, f64)) {
     let cube = |x: f64| (libm::floor(x / reach) as i64 + CUBES_HALF) as u64;
     let key = |p: &Vec3| cube(p.x) * COLUMN * COLUMN + cube(p.y) * COLUMN + cube(p.z);
     let mut order: Vec<(u64, u32)> =
-        poses.iter().enumerate().map(|(place, pose)| (key(&pose.place), place as u32)).collect();
+        poses.iter().enumerate().map(|(place, pose)| (key(&pose.translation), place as u32)).collect();
     order.sort_unstable();
-    let sorted: Vec<Vec3> = order.iter().map(|(_, place)| poses[*place as usize].place).collect();
+    let sorted: Vec<Vec3> = order.iter().map(|(_, place)| poses[*place as usize].translation).collect();
     let mut see = |i: usize, j: usize| {
         let squared = (sorted[j] - sorted[i]).norm_squared();
         if squared < reach * reach {
@@ -69,7 +69,7 @@ pub fn docked(robot: &Robot, tree: &Tree) -> Vec<(usize, usize)> {
 }
 
 /// The least distance of two balls that need not touch; infinite where there are none within `reach`.
-pub fn least(tree: &Tree, docked: &[(usize, usize)], poses: &[Rigid], reach: f64) -> f64 {
+pub fn least(tree: &Tree, docked: &[(usize, usize)], poses: &[RigidTransform], reach: f64) -> f64 {
     let mut least = f64::INFINITY;
     pairs(poses, reach, &mut |a, b, squared| {
         if squared < least && !touch_always(tree, a, b, docked) {

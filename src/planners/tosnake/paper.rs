@@ -8,12 +8,12 @@
 use super::fabrik::{Chain, TOUCHING};
 use super::merging;
 use super::near;
-use super::rigid::Vec3;
 use super::robot::{Bond, Dock, Robot};
 use super::sound;
 use super::state::State;
 use super::tree::Tree;
 use super::{Collisions, Found, Progress, Refusal, Settings};
+use crate::geometry::Vec3;
 
 /// A state, and the pairs of tips that are still to be tried from there.
 struct Level {
@@ -101,10 +101,10 @@ fn connected_and_cut(state: &State, [a, b]: [Dock; 2], settings: &Settings, work
 
 /// Grows the tree from the module that is nearest to the middle of all.
 fn root(state: &mut State) {
-    let middle = state.poses.iter().fold(Vec3::zeros(), |sum, pose| sum + pose.place);
+    let middle = state.poses.iter().fold(Vec3::zeros(), |sum, pose| sum + pose.translation);
     let middle = middle / state.poses.len() as f64;
     let off = |module: usize| {
-        let balls = [2 * module, 2 * module + 1].map(|shoe| state.poses[state.tree.place[shoe]].place);
+        let balls = [2 * module, 2 * module + 1].map(|shoe| state.poses[state.tree.place[shoe]].translation);
         (0.5 * (balls[0] + balls[1]) - middle).norm_squared()
     };
     let nearest = (0..state.robot.modules()).min_by(|&m, &n| off(m).total_cmp(&off(n))).unwrap_or(0);

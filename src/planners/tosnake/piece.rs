@@ -1,20 +1,20 @@
 //! The pieces of a way along the tree: modules with their joints, and shoes that hold each other.
 
-use super::rigid::Rigid;
 use super::robot::{ALPHA, BETA, GAMMA, across};
 use super::tree::Tree;
+use crate::geometry::RigidTransform;
 
 #[derive(Clone, Copy, Debug)]
 pub enum Piece {
     /// From a shoe to the one that it holds.
-    Mate(Rigid),
+    Mate(RigidTransform),
     /// Across a module, with its tilt that comes first on the way and the other one.
     Module { module: usize, near: usize, far: usize },
 }
 
 impl Piece {
     /// The pieces from each place to the next.
-    pub fn along(tree: &Tree, poses: &[Rigid], places: &[usize]) -> Vec<Piece> {
+    pub fn along(tree: &Tree, poses: &[RigidTransform], places: &[usize]) -> Vec<Piece> {
         let piece = |step: &[usize]| {
             let (from, to) = (tree.shoe[step[0]], tree.shoe[step[1]]);
             if from / 2 == to / 2 {
@@ -28,7 +28,7 @@ impl Piece {
     }
 
     /// From its one end to the other.
-    pub fn pose(&self, joints: &[[f64; 3]]) -> Rigid {
+    pub fn pose(&self, joints: &[[f64; 3]]) -> RigidTransform {
         match *self {
             Piece::Mate(mated) => mated,
             Piece::Module { module, near, far } => {

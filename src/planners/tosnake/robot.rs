@@ -1,7 +1,9 @@
 //! The robot as the planner sees it: modules of two shoes, each shoe a ball of diameter 1 with three
 //! docks, and three joints between them. Lengths are in parts of the pitch.
 
-use super::rigid::{Mat, Rigid, Vec3, about_x, about_z};
+use crate::geometry::rigid_transform::{rotation_x, rotation_z};
+use crate::geometry::{RigidTransform, Vec3};
+use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
 /// The joints of a module by their places in [`Robot::joints`].
@@ -125,29 +127,32 @@ impl Robot {
 
 /// From one shoe of a module to the other. `near` is the tilt at the shoe that it starts from, `far`
 /// that at the other: `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`.
-pub fn across(near: f64, far: f64, gamma: f64) -> Rigid {
-    let half_turn = Mat::new(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0);
-    let tilt = about_x(near);
-    Rigid { rotation: tilt * about_z(gamma) * half_turn * about_x(-far), place: tilt * Vec3::z() }
+pub fn across(near: f64, far: f64, gamma: f64) -> RigidTransform {
+    let half_turn = Matrix3::new(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0);
+    let tilt = rotation_x(near);
+    RigidTransform {
+        rotation: tilt * rotation_z(gamma) * half_turn * rotation_x(-far),
+        translation: tilt * Vec3::z(),
+    }
 }
 
 /// From the shoe of face `a` to the shoe of face `b` that is docked to it:
 /// `F(a) · Rz(turn) · T(0, 0, -1) · Rx(180°) · F(b)⁻¹`.
-pub fn mate(a: usize, turn: u32, b: usize) -> Rigid {
-    let half_turn = Mat::new(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0);
-    let quarter = about_z(FRAC_PI_2 * f64::from(turn)).map(libm::round);
+pub fn mate(a: usize, turn: u32, b: usize) -> RigidTransform {
+    let half_turn = Matrix3::new(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0);
+    let quarter = rotation_z(FRAC_PI_2 * f64::from(turn)).map(libm::round);
     let frame = face(a);
-    Rigid {
+    RigidTransform {
         rotation: frame * quarter * half_turn * face(b).transpose(),
-        place: -frame.column(2).into_owned(),
+        translation: -frame.column(2).into_owned(),
     }
 }
 
 /// The frame of a dock's face against its shoe; the outward normal is its -z.
-fn face(face: usize) -> Mat {
+fn face(face: usize) -> Matrix3<f64> {
     match face {
-        0 => Mat::new(0.0, 0.0, -1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0),
-        1 => Mat::new(0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0),
-        _ => Mat::identity(),
+        0 => Matrix3::new(0.0, 0.0, -1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0),
+        1 => Matrix3::new(0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0),
+        _ => Matrix3::identity(),
     }
 }

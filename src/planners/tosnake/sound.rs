@@ -3,10 +3,10 @@
 
 use super::Refusal;
 use super::near;
-use super::rigid::Rigid;
 use super::robot::Robot;
 use super::sweep::APART;
 use super::tree::Tree;
+use crate::geometry::RigidTransform;
 
 /// Docks of a loop that are farther from meeting than this hold nothing, whatever is said of them; the
 /// limit of RoFI's own tools.
@@ -94,7 +94,7 @@ impl Choice {
     }
 }
 
-fn overlap(robot: &Robot, tree: &Tree, poses: &[Rigid]) -> Option<Unsound> {
+fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<Unsound> {
     let docked = near::docked(robot, tree);
     let mut found = None;
     near::pairs(poses, APART, &mut |a, b, squared| {

@@ -1,11 +1,11 @@
 //! The robot on its way: where it is, what it did so far, and what that took.
 
 use super::near;
-use super::rigid::Rigid;
 use super::robot::{Bond, Robot};
 use super::sweep::{self, Burden, Scene};
 use super::tree::Tree;
 use super::weight::{Load, Weight};
+use crate::geometry::RigidTransform;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub enum Step {
 pub struct State {
     pub robot: Robot,
     pub tree: Tree,
-    pub poses: Vec<Rigid>,
+    pub poses: Vec<RigidTransform>,
     /// Pairs of places that are docked.
     pub docked: Vec<(usize, usize)>,
     pub steps: Vec<Step>,
@@ -160,10 +160,10 @@ impl State {
     }
 }
 
-pub fn spread(poses: &[Rigid]) -> f64 {
+pub fn spread(poses: &[RigidTransform]) -> f64 {
     let count = poses.len() as f64;
-    let sum = poses.iter().fold(super::rigid::Vec3::zeros(), |sum, pose| sum + pose.place);
-    let squares: f64 = poses.iter().map(|pose| pose.place.norm_squared()).sum();
+    let sum = poses.iter().fold(crate::geometry::Vec3::zeros(), |sum, pose| sum + pose.translation);
+    let squares: f64 = poses.iter().map(|pose| pose.translation.norm_squared()).sum();
     squares - sum.norm_squared() / count
 }
 

@@ -4,10 +4,10 @@
 //! by how much not is measured in the middle and allowed for. The judge proves it afterwards.
 
 use super::near::{self, touch_always};
-use super::rigid::{Rigid, Vec3};
 use super::robot::Robot;
 use super::tree::Tree;
 use super::weight::{Load, Weight};
+use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
 
 /// Balls are never nearer than this; the judge's limit is 0.999.
@@ -52,7 +52,7 @@ const PARTS: u32 = 16;
 
 impl Burden<'_> {
     /// Whether joints hold their loads in a posture.
-    fn is_borne(&self, tree: &Tree, poses: &[Rigid]) -> bool {
+    fn is_borne(&self, tree: &Tree, poses: &[RigidTransform]) -> bool {
         let load = self.weight.greatest(tree, poses);
         load.ratio <= self.share * (1.0 - LOAD_SPARE)
     }
@@ -102,7 +102,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// `poses` are those of any instant before.
-    fn at(&mut self, t: f64, poses: &mut [Rigid]) {
+    fn at(&mut self, t: f64, poses: &mut [RigidTransform]) {
         for (joint, (from, to)) in self.joints.iter_mut().zip(self.from.iter().zip(self.to)) {
             for k in 0..3 {
                 joint[k] = from[k] + t * (to[k] - from[k]);
@@ -113,7 +113,7 @@ impl Walk<'_> {
     }
 
     /// Whether nothing meets at a few instants: most ways on which something does are found so, quickly.
-    fn may_be_free(&mut self, here: &[Rigid]) -> bool {
+    fn may_be_free(&mut self, here: &[RigidTransform]) -> bool {
         let mut poses = here.to_vec();
         GLANCES.iter().all(|&t| {
             self.at(t, &mut poses);
@@ -123,7 +123,7 @@ impl Walk<'_> {
         })
     }
 
-    fn is_free(&mut self, mut here: Vec<Rigid>) -> bool {
+    fn is_free(&mut self, mut here: Vec<RigidTransform>) -> bool {
         let (mut middle, mut there) = (here.clone(), here.clone());
         let (mut t, mut step) = (0.0, 1.0 / 16.0);
         let mut list = self.list(&here);
@@ -166,8 +166,8 @@ impl Walk<'_> {
     }
 
     /// Remembers the greatest load of the whole way.
-    fn refuse(&mut self, burden: Burden, middle: &[Rigid], there: &[Rigid]) {
-        let greatest = |poses: &[Rigid]| burden.weight.greatest(self.scene.tree, poses);
+    fn refuse(&mut self, burden: Burden, middle: &[RigidTransform], there: &[RigidTransform]) {
+        let greatest = |poses: &[RigidTransform]| burden.weight.greatest(self.scene.tree, poses);
         let mut most = greatest(middle).greater(greatest(there));
         let mut poses = middle.to_vec();
         for part in 1..=PARTS {
@@ -178,7 +178,7 @@ impl Walk<'_> {
     }
 
     /// Pairs that may meet within a while.
-    fn list(&self, poses: &[Rigid]) -> Vec<(u32, u32)> {
+    fn list(&self, poses: &[RigidTransform]) -> Vec<(u32, u32)> {
         let mut list = Vec::new();
         near::pairs(poses, 1.0 + SKIN, &mut |a, b, _| {
             if self.scene.may_meet(&self.rigid, a, b) {
@@ -190,21 +190,26 @@ impl Walk<'_> {
 }
 
 /// How far balls are off the straight way in the middle, and how far they go, at most.
-fn bent(carried: &[usize], here: &[Rigid], middle: &[Rigid], there: &[Rigid]) -> (f64, f64) {
+fn bent(
+    carried: &[usize],
+    here: &[RigidTransform],
+    middle: &[RigidTransform],
+    there: &[RigidTransform],
+) -> (f64, f64) {
     let (mut bend, mut far) = (0.0f64, 0.0f64);
     for &place in carried {
         let (h, m, t) = (&here[place], &middle[place], &there[place]);
-        bend = bend.max((m.place - (h.place + t.place) * 0.5).norm_squared());
-        far = far.max((t.place - h.place).norm_squared());
+        bend = bend.max((m.translation - (h.translation + t.translation) * 0.5).norm_squared());
+        far = far.max((t.translation - h.translation).norm_squared());
     }
     (libm::sqrt(bend), libm::sqrt(far))
 }
 
-fn meets(list: &[(u32, u32)], from: &[Rigid], to: &[Rigid], apart: f64) -> bool {
+fn meets(list: &[(u32, u32)], from: &[RigidTransform], to: &[RigidTransform], apart: f64) -> bool {
     list.iter().any(|&(a, b)| {
         let (a, b) = (a as usize, b as usize);
-        let r0 = from[b].place - from[a].place;
-        let r1 = to[b].place - to[a].place;
+        let r0 = from[b].translation - from[a].translation;
+        let r1 = to[b].translation - to[a].translation;
         nearest_squared(&r0, &(r1 - r0)) < apart * apart
     })
 }

@@ -1,11 +1,11 @@
 //! Tangles to unwind: a straight snake that does random things, all of which it can do.
 
 use super::near;
-use super::rigid::{Rigid, Vec3};
 use super::robot::{Bond, DOCKS, Dock, FACES, GAMMA, Robot, mate};
 use super::sweep::APART;
 use super::tree::{JointRef, Tree};
 use super::turn;
+use crate::geometry::{RigidTransform, Vec3};
 use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -47,7 +47,7 @@ struct Tangle {
     robot: Robot,
     tree: Tree,
     joints: Vec<JointRef>,
-    poses: Vec<Rigid>,
+    poses: Vec<RigidTransform>,
 }
 
 impl Tangle {
@@ -145,10 +145,10 @@ impl Tangle {
         bonds
     }
 
-    fn meets(&self, p: usize, q: usize, mated: &Rigid) -> bool {
+    fn meets(&self, p: usize, q: usize, mated: &RigidTransform) -> bool {
         let wanted = self.poses[p].then(mated);
         let found = &self.poses[q];
-        let apart: Vec3 = wanted.place - found.place;
+        let apart: Vec3 = wanted.translation - found.translation;
         apart.amax() < TOL_MEET && (wanted.rotation - found.rotation).amax() < TOL_MEET
     }
 }

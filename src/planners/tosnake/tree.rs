@@ -3,8 +3,8 @@
 //! Shoes are numbered in the order of a walk down the tree, so that all that hangs on a shoe is one
 //! stretch of numbers: what a joint moves is a stretch, or all the rest.
 
-use super::rigid::{Rigid, Vec3};
 use super::robot::{ALPHA, BETA, DOCKS, GAMMA, Robot, across, mate};
+use crate::geometry::{RigidTransform, Vec3};
 
 #[derive(Clone, Debug)]
 pub struct Tree {
@@ -30,7 +30,7 @@ enum Link {
     /// By a bond.
     Mate {
         bond: usize,
-        pose: Rigid,
+        pose: RigidTransform,
     },
 }
 
@@ -95,7 +95,7 @@ impl Tree {
     }
 
     /// Poses of all shoes by place, the first at the identity.
-    pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<Rigid>) {
+    pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<RigidTransform>) {
         poses.clear();
         for place in 0..self.shoes() {
             poses.push(self.pose(place, joints, poses));
@@ -103,15 +103,15 @@ impl Tree {
     }
 
     /// Of some shoes, in order of place; the others are where they were.
-    pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [Rigid]) {
+    pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
         for &place in moved {
             poses[place] = self.pose(place, joints, poses);
         }
     }
 
-    fn pose(&self, place: usize, joints: &[[f64; 3]], poses: &[Rigid]) -> Rigid {
+    fn pose(&self, place: usize, joints: &[[f64; 3]], poses: &[RigidTransform]) -> RigidTransform {
         match &self.link[place] {
-            Link::Root => Rigid::identity(),
+            Link::Root => RigidTransform::identity(),
             Link::Mate { pose, .. } => poses[self.parent[place]].then(pose),
             Link::Module => {
                 let shoe = self.shoe[place];
@@ -151,12 +151,12 @@ impl Tree {
     }
 
     /// How far two docked shoes are from where the bond wants them: entries of the matrices, at most.
-    pub fn missing(&self, robot: &Robot, bond: usize, poses: &[Rigid]) -> f64 {
+    pub fn missing(&self, robot: &Robot, bond: usize, poses: &[RigidTransform]) -> f64 {
         let ends = robot.bonds[bond];
         let wanted = poses[self.place[ends.a.shoe()]].then(&mate(ends.a.face(), ends.turn, ends.b.face()));
         let found = &poses[self.place[ends.b.shoe()]];
         let turn = (wanted.rotation - found.rotation).amax();
-        turn.max((wanted.place - found.place).amax())
+        turn.max((wanted.translation - found.translation).amax())
     }
 
     /// The joints between a shoe and its parent: three where the two are one module's.
@@ -172,16 +172,16 @@ impl Tree {
     }
 
     /// The axis about which a joint turns what hangs on its shoe, and a point on it.
-    pub fn axis(&self, joint: JointRef, poses: &[Rigid]) -> (Vec3, Vec3) {
+    pub fn axis(&self, joint: JointRef, poses: &[RigidTransform]) -> (Vec3, Vec3) {
         let (child, parent) = (&poses[joint.place], &poses[self.parent[joint.place]]);
         let child_is_b = self.shoe[joint.place] % 2 == 1;
         let near = if child_is_b { ALPHA } else { BETA };
         if joint.joint == GAMMA {
-            (child.place - parent.place, parent.place)
+            (child.translation - parent.translation, parent.translation)
         } else if joint.joint == near {
-            (parent.rotation.column(0).into_owned(), parent.place)
+            (parent.rotation.column(0).into_owned(), parent.translation)
         } else {
-            (-child.rotation.column(0), child.place)
+            (-child.rotation.column(0), child.translation)
         }
     }
 

@@ -1,8 +1,8 @@
 //! One joint turns: how far, until two balls touch. Exact: every ball that moves does so on a circle
 //! about the joint's axis.
 
-use super::rigid::{Rigid, Vec3};
 use super::tree::{JointRef, Tree};
+use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::TAU;
 
 /// Balls on circles about one axis, in the axis' own cylindrical coordinates.
@@ -17,14 +17,14 @@ struct Ball {
 /// How far of `angle` (rad, either sign) a joint can turn before two balls that were farther apart come
 /// nearer than `apart`; pairs that are nearer at once may only part. Gives all of `angle` where nothing
 /// is in the way. Balls on one side of the joint do not move against each other.
-pub fn free(tree: &Tree, joint: JointRef, poses: &[Rigid], angle: f64, apart: f64) -> f64 {
+pub fn free(tree: &Tree, joint: JointRef, poses: &[RigidTransform], angle: f64, apart: f64) -> f64 {
     let (axis, point) = tree.axis(joint, poses);
     let across = if axis.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
     let u = axis.cross(&across).normalize();
     // With the sign of the turn, so that all turns are to the left.
     let v = axis.cross(&u) * angle.signum();
-    let ball = |pose: &Rigid| {
-        let p = pose.place - point;
+    let ball = |pose: &RigidTransform| {
+        let p = pose.translation - point;
         let (x, y) = (p.dot(&u), p.dot(&v));
         Ball { height: p.dot(&axis), radius: libm::sqrt(x * x + y * y), x, y }
     };

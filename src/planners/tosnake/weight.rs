@@ -1,8 +1,8 @@
 //! What the joints have to hold where one shoe is held fast: the weight of all that hangs on them, at
 //! rest. Forces in N, torques in N times the pitch.
 
-use super::rigid::{Rigid, Vec3};
 use super::tree::Tree;
+use crate::geometry::{RigidTransform, Vec3};
 
 /// How a robot is held, what it weighs, and what its joints can hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,12 +38,12 @@ impl Load {
 
 impl Weight {
     /// The load that is greatest by its limit. Bonds that close loops are taken to carry nothing.
-    pub fn greatest(&self, tree: &Tree, poses: &[Rigid]) -> Load {
+    pub fn greatest(&self, tree: &Tree, poses: &[RigidTransform]) -> Load {
         self.loads(tree, poses).into_iter().fold(Load::NONE, Load::greater)
     }
 
     /// Of all joints.
-    pub fn loads(&self, tree: &Tree, poses: &[Rigid]) -> Vec<Load> {
+    pub fn loads(&self, tree: &Tree, poses: &[RigidTransform]) -> Vec<Load> {
         let held = tree.place[self.held];
         let down = poses[held].rotation * self.down;
         // Weights, and weights times places, of all before each place.
@@ -51,7 +51,7 @@ impl Weight {
         for (place, pose) in poses.iter().enumerate() {
             let own = self.shoes[tree.shoe[place]];
             weight.push(weight[place] + own);
-            moment.push(moment[place] + pose.place * own);
+            moment.push(moment[place] + pose.translation * own);
         }
         let load = |joint: super::tree::JointRef| {
             let (start, end) = (joint.place, tree.end[joint.place]);
