@@ -1371,7 +1371,7 @@ extern type Report {
   /// Of a truss that keeps one: the least angle between struts that share a node.
   angle: Angle
   /// Of a truss that keeps one: the least singular value of its rigidity matrix (rows of unit vectors) that
-  /// belongs to no rigid motion, at the knots.
+  /// belongs to no rigid motion, at the keyframes.
   rigidity: Number
   /// How far the base is from where it began, along the ground.
   travel: Length

@@ -38,8 +38,8 @@ impl Run<'_> {
                 let endless = action.until.is_some() || action.timeout.is_some();
                 Ok((Some(self.now).filter(|_| !endless), None))
             }
-            Command::Follow { joint, knots } => {
-                let end = self.begin_follow(action, *joint, knots)?;
+            Command::Follow { joint, keyframes } => {
+                let end = self.begin_follow(action, *joint, keyframes)?;
                 Ok((Some(end), Some((*joint, cause))))
             }
             Command::Wait { duration } => {
@@ -148,22 +148,31 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn begin_follow(&mut self, action: &Action, joint: JointId, knots: &[[f64; 3]]) -> Result<f64, Reason> {
+    fn begin_follow(
+        &mut self,
+        action: &Action,
+        joint: JointId,
+        keyframes: &[[f64; 3]],
+    ) -> Result<f64, Reason> {
         self.able(joint)?;
-        knots.iter().flatten().try_for_each(|&n| finite("a knot", n))?;
-        let begins = knots.first().ok_or(Reason::BadNumber { what: "the number of knots", value: 0.0 })?;
+        keyframes.iter().flatten().try_for_each(|&n| finite("a keyframe", n))?;
+        let begins =
+            keyframes.first().ok_or(Reason::BadNumber { what: "the number of keyframes", value: 0.0 })?;
         if begins[0] != 0.0 {
-            return Err(Reason::BadNumber { what: "the time of the first knot", value: begins[0] });
+            return Err(Reason::BadNumber { what: "the time of the first keyframe", value: begins[0] });
         }
-        let late = knots.windows(2).find(|w| crate::plan::time::tick_near(w[1][0] - w[0][0]) <= 0.0);
+        let late = keyframes.windows(2).find(|w| crate::plan::time::tick_near(w[1][0] - w[0][0]) <= 0.0);
         if let Some(w) = late {
-            return Err(Reason::BadNumber { what: "the time between two knots", value: w[1][0] - w[0][0] });
+            return Err(Reason::BadNumber {
+                what: "the time between two keyframes",
+                value: w[1][0] - w[0][0],
+            });
         }
         let at = self.take_over(joint).0;
         if (at - begins[1]).abs() > self.settings.tol_begin {
             return Err(Reason::Jump { joint: self.name(joint), at, begins: begins[1] });
         }
-        self.give(action, joint, law::followed(knots))
+        self.give(action, joint, law::followed(keyframes))
     }
 
     /// Brings a joint to rest as fast as it can: at once where no acceleration limit is stated.

@@ -119,13 +119,13 @@ pub fn spun(from: f64, at_speed: f64, speed: f64, duration: f64, able: Ability) 
     pieces
 }
 
-/// The cubic pieces through knots (time, position, velocity).
-pub fn followed(knots: &[[f64; 3]]) -> Vec<Piece> {
+/// The cubic pieces through keyframes (time, position, velocity).
+pub fn followed(keyframes: &[[f64; 3]]) -> Vec<Piece> {
     let piece = |w: &[[f64; 3]]| {
         let duration = tick_near(w[1][0]) - tick_near(w[0][0]);
         let third = duration / 3.0;
         let control = vec![w[0][1], w[0][1] + w[0][2] * third, w[1][1] - w[1][2] * third, w[1][1]];
         Piece { duration, control }
     };
-    knots.windows(2).map(piece).collect()
+    keyframes.windows(2).map(piece).collect()
 }

@@ -27,7 +27,7 @@ pub enum Part {
     Speed,
     Duration,
     Timeout,
-    Knots,
+    Keyframes,
     Until,
     Ports,
 }
@@ -103,9 +103,9 @@ impl<'a> Judge<'a> {
                     self.at_least_zero(Part::Duration, given);
                 }
             }
-            Command::Follow { joint, knots } => {
+            Command::Follow { joint, keyframes } => {
                 self.joint(*joint);
-                self.knots(*joint, knots);
+                self.keyframes(*joint, keyframes);
             }
             Command::Wait { duration } => self.at_least_zero(Part::Duration, *duration),
             Command::Dock { a, b } => {
@@ -156,23 +156,23 @@ impl<'a> Judge<'a> {
         self.report(Part::Duration, IssueKind::TooShort { joint, given, needed });
     }
 
-    /// The knots of a followed function, and the cubics between them: at most one issue of each kind.
-    fn knots(&mut self, joint: JointId, knots: &[[f64; 3]]) {
+    /// The keyframes of a followed function, and the cubics between them: at most one issue of each kind.
+    fn keyframes(&mut self, joint: JointId, keyframes: &[[f64; 3]]) {
         let before = self.found.len();
-        if let Some(value) = knots.iter().flatten().copied().find(|v| !v.is_finite()) {
-            return self.report(Part::Knots, IssueKind::BadNumber { value });
+        if let Some(value) = keyframes.iter().flatten().copied().find(|v| !v.is_finite()) {
+            return self.report(Part::Keyframes, IssueKind::BadNumber { value });
         }
-        for knot in knots {
-            self.position(Part::Knots, joint, knot[1]);
+        for keyframe in keyframes {
+            self.position(Part::Keyframes, joint, keyframe[1]);
             if self.found.len() > before {
                 break;
             }
         }
         let before = self.found.len();
-        for piece in law::followed(knots).into_iter().filter(|p| p.duration > 0.0) {
+        for piece in law::followed(keyframes).into_iter().filter(|p| p.duration > 0.0) {
             let rates = polynomial::derivative(&piece.control);
             for u in [0.0, 0.5, 1.0] {
-                self.speed(Part::Knots, joint, polynomial::value(&rates, u) / piece.duration);
+                self.speed(Part::Keyframes, joint, polynomial::value(&rates, u) / piece.duration);
                 if self.found.len() > before {
                     return;
                 }

@@ -159,10 +159,12 @@ fn mirrored_action(action: &Action, image: Image) -> Result<Action, Lopsided> {
             *joint = other;
             *speed *= sign;
         }
-        Command::Follow { joint, knots } => {
+        Command::Follow { joint, keyframes } => {
             let (other, sign) = image(*joint)?;
             *joint = other;
-            knots.iter_mut().for_each(|knot| (knot[1], knot[2]) = (knot[1] * sign, knot[2] * sign));
+            keyframes
+                .iter_mut()
+                .for_each(|keyframe| (keyframe[1], keyframe[2]) = (keyframe[1] * sign, keyframe[2] * sign));
         }
         Command::Wait { .. } => {}
         Command::Dock { .. } | Command::Undock { .. } => return Err(Lopsided::Docking),

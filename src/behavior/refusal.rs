@@ -19,7 +19,7 @@ pub enum Reason {
     Mute { joint: String, why: Mute },
     /// No limit says how fast the joint is, so the action needs a duration.
     NoSpeed { joint: String },
-    /// A duration, speed, target or knot that is not finite, is negative, or is out of order.
+    /// A duration, speed, target or keyframe that is not finite, is negative, or is out of order.
     BadNumber { what: &'static str, value: f64 },
     /// The followed function does not begin where the joint is.
     Jump { joint: String, at: f64, begins: f64 },

@@ -5,7 +5,7 @@ use super::planning::{Beginning, Planned};
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
-use crate::plan::{self, Plan, Unfit};
+use crate::plan::{self, OperationError, Plan};
 use crate::source::{Span, code};
 use std::rc::Rc;
 
@@ -36,7 +36,7 @@ impl Interpreter<'_> {
     pub fn changed(
         &mut self,
         planned: &Rc<Planned>,
-        change: impl FnOnce(&Plan) -> Result<Plan, Unfit>,
+        change: impl FnOnce(&Plan) -> Result<Plan, OperationError>,
         span: Span,
     ) -> Eval<Rc<Planned>> {
         let plan = change(&planned.plan).map_err(|unfit| unfitting(&unfit, span))?;
@@ -45,6 +45,6 @@ impl Interpreter<'_> {
     }
 }
 
-fn unfitting(unfit: &Unfit, span: Span) -> Stop {
+fn unfitting(unfit: &OperationError, span: Span) -> Stop {
     fault(code::NO_MATCH, span, unfit.to_string(), "these do not fit together")
 }

@@ -131,14 +131,14 @@ fn spin(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn follow(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let joint = call.joint(0)?;
     let duration = call.positive(2, "the duration of a motion")?;
-    let Some(knots) = sample(interpreter, call, call.function(1)?.clone(), duration)? else {
+    let Some(keyframes) = sample(interpreter, call, call.function(1)?.clone(), duration)? else {
         return Ok(Value::Unknown);
     };
     let parts =
-        [(Part::Joint, 0), (Part::Knots, 1), (Part::Target, 1), (Part::Speed, 1), (Part::Duration, 2)];
+        [(Part::Joint, 0), (Part::Keyframes, 1), (Part::Target, 1), (Part::Speed, 1), (Part::Duration, 2)];
     let parts = parts.map(|(part, index)| (part, call.at(index))).to_vec();
     let extras = Extras { until: None, timeout: None, parts };
-    joint_action(interpreter, call, joint, extras, |joint| Command::Follow { joint, knots })
+    joint_action(interpreter, call, joint, extras, |joint| Command::Follow { joint, keyframes })
 }
 
 /// Positions and speeds of a function of time at even steps; `None` where a value is unknown.
@@ -157,7 +157,7 @@ fn sample(
     let mut at = |t: f64| -> Eval<Option<f64>> {
         Ok(interpreter.apply(&function, vec![Value::time(t)], call.at(1))?.as_number())
     };
-    let mut knots = Vec::new();
+    let mut keyframes = Vec::new();
     for k in 0..=count as usize {
         let time = if k == count as usize { duration } else { step * k as f64 };
         // The function need not be defined before 0 or after the end.
@@ -171,9 +171,9 @@ fn sample(
             Some((b - a) / (after - before))
         };
         let Some(slope) = slope else { return Ok(None) };
-        knots.push([time, position, slope]);
+        keyframes.push([time, position, slope]);
     }
-    Ok(Some(knots))
+    Ok(Some(keyframes))
 }
 
 /// Second-order difference to one side.

@@ -13,8 +13,8 @@ use super::truss::TrussDesign;
 use super::value::Value;
 use crate::check::typed::DefKind;
 use crate::plan::{
-    Body, CauseId, CellLimits, Knot, Margins, Model, NodePaths, Plan, Ratio, Run, Settings, Stages,
-    Surroundings, TrussLimits, Way, World,
+    Body, CauseId, CellLimits, Interpolation, Keyframe, Margins, Model, NodePaths, Plan, Ratio, Run,
+    Settings, Stages, Surroundings, TrussLimits, World,
 };
 use crate::robot::Library;
 use crate::view::{self, Showing, Side, Still};
@@ -177,9 +177,9 @@ fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
 fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
     library.struts.push(truss.strut_kind()?.clone());
     let places = truss.nodes.iter().map(|node| node.place.into());
-    let start = Knot {
+    let start = Keyframe {
         time: 0.0,
-        way: Way::Straight,
+        interpolation: Interpolation::Linear,
         nodes: places.collect(),
         cause: CauseId(0),
         margins: Margins::default(),
@@ -190,6 +190,6 @@ fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
         surroundings: Surroundings::default(),
         node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
         struts: truss.struts.clone(),
-        knots: vec![start],
+        keyframes: vec![start],
     })
 }

@@ -14,7 +14,7 @@ use super::truss_limits;
 use super::value::{Mesh, Value};
 use crate::geometry::Vec3;
 use crate::interrupt;
-use crate::plan::{Body, CauseId, Knot, NodePaths, Way, World};
+use crate::plan::{Body, CauseId, Interpolation, Keyframe, NodePaths, World};
 use crate::planners::truss::bound::Bound;
 use crate::planners::truss::fit::Distance;
 use crate::planners::truss::goal::Goal;
@@ -392,31 +392,32 @@ impl Task {
         let cause = CauseId(0);
         let stands = world.gravity > 0.0;
         let margins = |x: &[Vec3]| margins::margins(&self.structure, x, stands);
-        let (way, nodes, at_start) = (Way::Straight, places(&self.start), margins(&self.start));
-        let mut knots = vec![Knot { time: 0.0, way, nodes, cause, margins: at_start }];
+        let (interpolation, nodes, at_start) =
+            (Interpolation::Linear, places(&self.start), margins(&self.start));
+        let mut keyframes = vec![Keyframe { time: 0.0, interpolation, nodes, cause, margins: at_start }];
         let (mut time, mut x) = (0.0, self.start.clone());
         for step in moves {
-            let (y, way, lasts) = match step {
+            let (y, interpolation, lasts) = match step {
                 Move::Step(y) => {
                     let rate = self.structure.rates(&x, &y).fold(0.0, f64::max);
-                    (y, Way::Straight, rate / self.structure.speed)
+                    (y, Interpolation::Linear, rate / self.structure.speed)
                 }
                 Move::Roll(turn) => (
                     roll::rolled(&x, turn),
-                    Way::Roll { edge: turn.edge, angle: turn.angle },
+                    Interpolation::RigidRoll { edge: turn.edge, angle: turn.angle },
                     turn.angle.abs() / FALL,
                 ),
             };
             time += lasts.max(STEP_MIN);
             x = y;
-            knots.push(Knot { time, way, nodes: places(&x), cause, margins: margins(&x) });
+            keyframes.push(Keyframe { time, interpolation, nodes: places(&x), cause, margins: margins(&x) });
         }
         let truss = self.truss();
         let paths = NodePaths {
             strut: 0,
             node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
             struts: truss.struts.clone(),
-            knots,
+            keyframes,
             limits: truss_limits::planned(&self.structure),
             surroundings: self.around.planned(),
         };

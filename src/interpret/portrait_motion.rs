@@ -277,7 +277,7 @@ impl Drawer<'_> {
             Command::Move { joint, profile: Profile::Smooth | Profile::Linear, .. } => (joint, 1),
             Command::Move { joint, profile: Profile::Trapezoid, .. } => (joint, 3),
             Command::Spin { joint, .. } => (joint, 3),
-            Command::Follow { joint, knots } => (joint, knots.len().saturating_sub(1)),
+            Command::Follow { joint, keyframes } => (joint, keyframes.len().saturating_sub(1)),
         };
         let segments = self.tracks.get(&joint.0).map_or(&[][..], |track| &track.segments);
         let first = segments.partition_point(|segment| segment.start < from - TOL_INSTANT);

@@ -91,7 +91,9 @@ pub fn made(planned: &Planned) -> Vec<String> {
 
 fn before_and_after(paths: &NodePaths) -> Vec<String> {
     let places = |nodes: &[[f64; 3]]| nodes.iter().map(|p| Vec3::from(*p)).collect::<Vec<_>>();
-    let (Some(first), Some(last)) = (paths.knots.first(), paths.knots.last()) else { return Vec::new() };
+    let (Some(first), Some(last)) = (paths.keyframes.first(), paths.keyframes.last()) else {
+        return Vec::new();
+    };
     let (first, last) = (places(&first.nodes), places(&last.nodes));
     let views = [("at the start, from the front", &first[..], FRONT), ("at the end", &last[..], FRONT)];
     pictures(&views, &paths.struts)

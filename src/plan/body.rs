@@ -48,7 +48,7 @@ impl Body {
         match self {
             Body::Tracks(tracks) => tracks.instants(),
             Body::Stages(stages) => stages.instants(),
-            Body::NodePaths(paths) => paths.knots.iter().map(|k| k.time).collect(),
+            Body::NodePaths(paths) => paths.keyframes.iter().map(|k| k.time).collect(),
         }
     }
 

@@ -192,8 +192,8 @@ impl Carrier {
                 }
                 *joint = self.joint(*joint);
             }
-            Command::Follow { joint, knots } => {
-                knots.iter_mut().for_each(|knot| knot[1] += self.offset(*joint));
+            Command::Follow { joint, keyframes } => {
+                keyframes.iter_mut().for_each(|keyframe| keyframe[1] += self.offset(*joint));
                 *joint = self.joint(*joint);
             }
             Command::Spin { joint, .. } => *joint = self.joint(*joint),

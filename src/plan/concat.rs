@@ -5,8 +5,8 @@ use super::carry::Carrier;
 use super::seam::join_stages;
 use super::time::{DURATION_MAX, tick_after};
 use super::{
-    Body, Change, Knot, Margins, Node, NodePaths, Plan, Program, Settings, Stability, Tracks, TrussLimits,
-    Unfit, WorldFrom,
+    Body, Change, Keyframe, Margins, Node, NodePaths, OperationError, Plan, Program, Settings, Stability,
+    Tracks, TrussLimits, WorldFrom,
 };
 use crate::robot::matching;
 use std::sync::Arc;
@@ -18,11 +18,11 @@ pub const TOL_SEAM_NODE: f64 = 1e-6;
 
 /// `p ++ q`. Names, base and library are those of `p`; each part keeps its world; the judge is as
 /// strict as the stricter part asks. The renaming is recorded in the history.
-pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, Unfit> {
+pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
     let seam = p.body.duration();
     let duration = seam + q.body.duration();
     if duration > DURATION_MAX {
-        return Err(Unfit::TooLong { duration });
+        return Err(OperationError::TooLong { duration });
     }
     match (&p.body, &q.body) {
         (Body::Tracks(a), Body::Tracks(b)) => join_tracks(p, q, a, b),
@@ -37,20 +37,21 @@ pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, Unfit> {
         }
         (Body::Stages(a), Body::Stages(b)) => {
             if p.library.cells.get(a.cell) != q.library.cells.get(b.cell) {
-                return Err(Unfit::Cells);
+                return Err(OperationError::Cells);
             }
             let mut new = framed(p, q, seam, vec![]);
             new.body = Body::Stages(join_stages(a, b, p.causes.len() as u32)?);
             Ok(new)
         }
-        _ => Err(Unfit::Families),
+        _ => Err(OperationError::Families),
     }
 }
 
-fn join_tracks(p: &Plan, q: &Plan, a: &Tracks, b: &Tracks) -> Result<Plan, Unfit> {
+fn join_tracks(p: &Plan, q: &Plan, a: &Tracks, b: &Tracks) -> Result<Plan, OperationError> {
     let seam = a.duration;
     let end = a.end();
-    let found = matching((&a.robot, &end), (&b.robot, &b.start), TOL_SEAM_JOINT).map_err(Unfit::Robots)?;
+    let found =
+        matching((&a.robot, &end), (&b.robot, &b.start), TOL_SEAM_JOINT).map_err(OperationError::Robots)?;
     let carrier = Carrier::new(a, b, &found, p.causes.len() as u32);
     let renamed = carrier.renamed(&b.robot);
     let mut new = framed(p, q, seam, renamed);
@@ -108,19 +109,19 @@ fn stricter(a: &Settings, b: &Settings) -> Settings {
     }
 }
 
-fn join_paths(a: &NodePaths, b: &NodePaths, causes: u32) -> Result<NodePaths, Unfit> {
+fn join_paths(a: &NodePaths, b: &NodePaths, causes: u32) -> Result<NodePaths, OperationError> {
     if a.struts != b.struts || a.node_names.len() != b.node_names.len() {
-        return Err(Unfit::Trusses { node: None });
+        return Err(OperationError::Trusses { node: None });
     }
     let seam = tick_after(a.duration());
     let (end, start) = (a.state(seam), b.state(0.0));
     let apart =
         end.iter().zip(&start).position(|(p, q)| p.iter().zip(q).any(|(x, y)| (x - y).abs() > TOL_SEAM_NODE));
     if let Some(node) = apart {
-        return Err(Unfit::Trusses { node: Some(a.node_names[node].clone()) });
+        return Err(OperationError::Trusses { node: Some(a.node_names[node].clone()) });
     }
     if a.surroundings != b.surroundings {
-        return Err(Unfit::Surroundings);
+        return Err(OperationError::Surroundings);
     }
     let mut new = a.clone();
     // Each part keeps its own; the whole keeps what both do.
@@ -128,8 +129,8 @@ fn join_paths(a: &NodePaths, b: &NodePaths, causes: u32) -> Result<NodePaths, Un
         new.limits = TrussLimits::default();
     }
     let margins = |margins: Margins| if a.limits == b.limits { margins } else { Margins::default() };
-    new.knots.iter_mut().for_each(|knot| knot.margins = margins(knot.margins));
-    new.knots.extend(b.knots.iter().skip(1).map(|k| Knot {
+    new.keyframes.iter_mut().for_each(|keyframe| keyframe.margins = margins(keyframe.margins));
+    new.keyframes.extend(b.keyframes.iter().skip(1).map(|k| Keyframe {
         time: k.time + seam,
         cause: super::CauseId(k.cause.0 + causes),
         margins: margins(k.margins),

@@ -60,7 +60,13 @@ pub fn read(text: &str) -> Result<Plan, FileError> {
     }
     if header.version != Some(VERSION) {
         let version = header.version.map_or("none".into(), |v| v.to_string());
-        let message = format!("the file's version is {version}; this tool reads version {VERSION}");
+        let hint = match header.version {
+            Some(1) => {
+                ", in which `knots` are now `keyframes` and a `way` is an `interpolation`: plan again with this tool"
+            }
+            _ => "",
+        };
+        let message = format!("the file's version is {version}; this tool reads version {VERSION}{hint}");
         return Err(FileError::whole(message));
     }
     let form: PlanForm = serde_json::from_str(text)?;

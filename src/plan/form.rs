@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// What the first field of every plan file says.
 pub const FORMAT: &str = "modl plan";
 /// The version of the form that is written, and the only one that is read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// A verified motion of a modular robot. SI units throughout: m, rad, s, kg, N, N·m; poses are a
 /// position and a unit quaternion. Every reference is an index, from 0, into a list of this file.
@@ -27,7 +27,7 @@ pub const VERSION: u32 = 1;
 pub struct PlanForm<'a> {
     /// Always `modl plan`.
     format: Cow<'a, str>,
-    /// Always 1.
+    /// Always 2.
     version: u32,
     provenance: Cow<'a, Provenance>,
     worlds: Cow<'a, [WorldFrom]>,

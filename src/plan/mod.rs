@@ -21,11 +21,11 @@ pub mod world;
 
 pub mod carry;
 pub mod concat;
+pub mod operation_error;
 pub mod reverse;
 mod seam;
 pub mod slice;
 pub mod timeline;
-pub mod unfit;
 
 pub mod file;
 mod finite;
@@ -41,7 +41,8 @@ use std::sync::Arc;
 pub use body::{Body, Snapshot};
 pub use carry::Carrier;
 pub use concat::joined;
-pub use node_paths::{Knot, LengthSum, Margins, NodePaths, Surroundings, TrussLimits, Way};
+pub use node_paths::{Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TrussLimits};
+pub use operation_error::OperationError;
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
 pub use ratio::Ratio;
 pub use reverse::reversed;
@@ -49,7 +50,6 @@ pub use slice::sliced;
 pub use stages::{CellBox, CellLimits, Counter, Law, Model, Run, Stage, Stages};
 pub use timeline::timeline;
 pub use tracks::{Dock, DockKind, Segment, Track, Tracks};
-pub use unfit::Unfit;
 pub use verdict::{Check, CheckKind, Dynamics, Failure, Status, Verdict, Worst};
 pub use world::{Exemption, ExemptionKind, Ground, Settings, Stability, World};
 

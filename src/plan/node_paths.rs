@@ -5,7 +5,7 @@ use crate::geometry::{HeightField, Placed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A truss whose nodes move between knots, on straight lines or as one rigid body.
+/// A truss whose nodes move between keyframes, on straight lines or as one rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NodePaths {
@@ -15,7 +15,7 @@ pub struct NodePaths {
     /// Pairs of nodes.
     pub struts: Vec<(usize, usize)>,
     /// In order of time; the first at 0.
-    pub knots: Vec<Knot>,
+    pub keyframes: Vec<Keyframe>,
     /// What it keeps beside the limits of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
@@ -56,7 +56,7 @@ pub struct TrussLimits {
     #[serde(default)]
     pub angle: f64,
     /// What the singular values of the rigidity matrix (rows of unit vectors) that belong to no rigid motion
-    /// stay above at the knots; of 0 there is nothing.
+    /// stay above at the keyframes; of 0 there is nothing.
     #[serde(default)]
     pub rigidity: f64,
     /// Struts whose lengths stay, and sums of lengths that do.
@@ -82,11 +82,11 @@ impl TrussLimits {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Knot {
+pub struct Keyframe {
     /// Seconds.
     pub time: f64,
-    /// How the nodes come here from the knot before; of no meaning at the first.
-    pub way: Way,
+    /// The motion of the nodes from the keyframe before to this one; without meaning at the first.
+    pub interpolation: Interpolation,
     /// World position of each node, m.
     pub nodes: Vec<[f64; 3]>,
     pub cause: CauseId,
@@ -94,7 +94,7 @@ pub struct Knot {
     pub margins: Margins,
 }
 
-/// By how much a truss is within its limits at a knot; negative outside. Nothing of limits that it has not, nor of
+/// By how much a truss is within its limits at a keyframe; negative outside. Nothing of limits that it has not, nor of
 /// distances that are more than twice the clearance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -128,36 +128,34 @@ impl Margins {
     }
 }
 
-/// How nodes go from one knot to the next, evenly in time.
+/// The motion of the nodes between two keyframes, at a constant rate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Way {
-    Straight,
+pub enum Interpolation {
+    /// Every node moves along a straight line at constant speed.
+    Linear,
     /// The whole truss turns as a rigid body about the line through two nodes that stay, from the
     /// first to the second by the right-hand rule; radians. No strut changes its length.
-    Roll {
-        edge: (usize, usize),
-        angle: f64,
-    },
+    RigidRoll { edge: (usize, usize), angle: f64 },
 }
 
 impl NodePaths {
     /// Seconds.
     pub fn duration(&self) -> f64 {
-        self.knots.last().map_or(0.0, |k| k.time)
+        self.keyframes.last().map_or(0.0, |k| k.time)
     }
 
     /// World position of each node at a time in seconds, m.
     pub fn state(&self, t: f64) -> Vec<[f64; 3]> {
-        let after = self.knots.partition_point(|k| k.time <= t);
-        let Some(before) = after.checked_sub(1).map(|i| &self.knots[i]) else {
-            return self.knots.first().map_or_else(Vec::new, |k| k.nodes.clone());
+        let after = self.keyframes.partition_point(|k| k.time <= t);
+        let Some(before) = after.checked_sub(1).map(|i| &self.keyframes[i]) else {
+            return self.keyframes.first().map_or_else(Vec::new, |k| k.nodes.clone());
         };
-        let Some(next) = self.knots.get(after) else { return before.nodes.clone() };
+        let Some(next) = self.keyframes.get(after) else { return before.nodes.clone() };
         let part = (t - before.time) / (next.time - before.time);
-        match next.way {
-            Way::Straight => straight(&before.nodes, &next.nodes, part),
-            Way::Roll { edge, angle } => rolled(&before.nodes, edge, angle * part),
+        match next.interpolation {
+            Interpolation::Linear => straight(&before.nodes, &next.nodes, part),
+            Interpolation::RigidRoll { edge, angle } => rolled(&before.nodes, edge, angle * part),
         }
     }
 

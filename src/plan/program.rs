@@ -79,7 +79,7 @@ pub enum Command {
     /// between which it is a cubic.
     Follow {
         joint: JointId,
-        knots: Vec<[f64; 3]>,
+        keyframes: Vec<[f64; 3]>,
     },
     Wait {
         duration: f64,

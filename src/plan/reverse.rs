@@ -2,8 +2,8 @@
 
 use super::timeline::timeline;
 use super::{
-    Body, Change, Dock, DockKind, Exemption, Knot, NodePaths, Plan, Program, Segment, Stage, Stages, Track,
-    Tracks, Way, WorldFrom,
+    Body, Change, Dock, DockKind, Exemption, Interpolation, Keyframe, NodePaths, Plan, Program, Segment,
+    Stage, Stages, Track, Tracks, WorldFrom,
 };
 
 /// The plan from its end to its start. The program is told anew from the tracks, or dropped with the
@@ -103,22 +103,22 @@ impl NodePaths {
     /// From end to start: rolls turn the other way.
     pub fn reversed(&self) -> NodePaths {
         let d = self.duration();
-        let knots = &self.knots;
-        let knot = |i: usize| {
-            // The way into the new knot is the old way out of it.
-            let out = knots.get(i + 1).unwrap_or(&knots[0]);
-            let way = match out.way {
-                Way::Roll { edge, angle } => Way::Roll { edge, angle: -angle },
-                Way::Straight => Way::Straight,
+        let keyframes = &self.keyframes;
+        let keyframe = |i: usize| {
+            // The interpolation into the new keyframe is that out of the old one.
+            let out = keyframes.get(i + 1).unwrap_or(&keyframes[0]);
+            let interpolation = match out.interpolation {
+                Interpolation::RigidRoll { edge, angle } => Interpolation::RigidRoll { edge, angle: -angle },
+                Interpolation::Linear => Interpolation::Linear,
             };
-            Knot {
-                time: d - knots[i].time,
-                way,
-                nodes: knots[i].nodes.clone(),
+            Keyframe {
+                time: d - keyframes[i].time,
+                interpolation,
+                nodes: keyframes[i].nodes.clone(),
                 cause: out.cause,
-                margins: knots[i].margins,
+                margins: keyframes[i].margins,
             }
         };
-        NodePaths { knots: (0..knots.len()).rev().map(knot).collect(), ..self.clone() }
+        NodePaths { keyframes: (0..keyframes.len()).rev().map(keyframe).collect(), ..self.clone() }
     }
 }

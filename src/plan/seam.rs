@@ -4,25 +4,26 @@
 
 use super::stretches::{Stretch, stretches};
 use super::verify::lattice::{Cube, Grid};
-use super::{CauseId, Counter, Model, Ratio, Run, Stage, Stages, Unfit};
+use super::{CauseId, Counter, Model, OperationError, Ratio, Run, Stage, Stages};
 
 /// The stages of the first plan, then those of the second, whose causes come behind `causes` others.
-pub fn join_stages(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, Unfit> {
+pub fn join_stages(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
     if a.count != b.count {
-        return Err(Unfit::CellCounts { first: a.count, second: b.count });
+        return Err(OperationError::CellCounts { first: a.count, second: b.count });
     }
     if a.time_unit != b.time_unit {
-        return Err(Unfit::Cells);
+        return Err(OperationError::Cells);
     }
     let end = a.before(a.stages.len());
     let others = b.start.iter().chain(b.stages.iter().flat_map(|stage| &stage.end));
-    let grid = Grid::over(end.iter().chain(others)).map_err(|_| Unfit::Inexact)?;
+    let grid = Grid::over(end.iter().chain(others)).map_err(|_| OperationError::Inexact)?;
     let mut cubes = vec![Cube::default(); b.count as usize];
-    let placed = |runs: &[Run], cubes: &mut Vec<Cube>| grid.place(runs, cubes).map_err(|_| Unfit::Inexact);
+    let placed =
+        |runs: &[Run], cubes: &mut Vec<Cube>| grid.place(runs, cubes).map_err(|_| OperationError::Inexact);
     let mut last = cubes.clone();
     placed(&end, &mut last)?;
     placed(&b.start, &mut cubes)?;
-    let (numbers, shift) = matched(&last, &cubes).ok_or(Unfit::Shapes)?;
+    let (numbers, shift) = matched(&last, &cubes).ok_or(OperationError::Shapes)?;
     let same = numbers.iter().enumerate().all(|(i, &number)| i == number as usize) && shift == [0; 3];
     let mut new = a.clone();
     for stage in &b.stages {
@@ -34,7 +35,7 @@ pub fn join_stages(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, Unfit>
             for (cube, &number) in cubes.iter().zip(&numbers) {
                 renumbered[number as usize] = cube.shifted(shift);
             }
-            gathered(&renumbered, grid).ok_or(Unfit::Inexact)?
+            gathered(&renumbered, grid).ok_or(OperationError::Inexact)?
         };
         new.stages.push(Stage { end, cause: CauseId(stage.cause.0 + causes), ..stage.clone() });
     }

@@ -3,16 +3,17 @@
 use super::reverse::retell;
 use super::time::tick_near;
 use super::{
-    Body, Change, Exemption, Knot, Margins, NodePaths, Plan, Stages, Track, Tracks, Unfit, Way, WorldFrom,
+    Body, Change, Exemption, Interpolation, Keyframe, Margins, NodePaths, OperationError, Plan, Stages,
+    Track, Tracks, WorldFrom,
 };
 
 /// The plan between two times in seconds, each rounded to the nearest tick, clipped to the plan. The
 /// program is told anew from the tracks, or dropped with the reason in the history.
-pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, Unfit> {
+pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, OperationError> {
     let duration = plan.body.duration();
     let (from, to) = (tick_near(from).max(0.0), tick_near(to).min(duration));
     if from > to || !from.is_finite() || !to.is_finite() {
-        return Err(Unfit::Times { from, to });
+        return Err(OperationError::Times { from, to });
     }
     let mut new = plan.clone();
     new.body = match &plan.body {
@@ -65,11 +66,11 @@ const TOL_STAGE_BORDER: f64 = 1e-9;
 
 impl Stages {
     /// Between two borders of stages: within a stage the cells move.
-    fn sliced(&self, from: f64, to: f64) -> Result<Stages, Unfit> {
+    fn sliced(&self, from: f64, to: f64) -> Result<Stages, OperationError> {
         let instants = self.instants();
         let border = |t: f64| {
             let found = instants.iter().position(|i| (i - t).abs() <= TOL_STAGE_BORDER * (1.0 + t));
-            found.ok_or(Unfit::InsideStage { time: t })
+            found.ok_or(OperationError::InsideStage { time: t })
         };
         let (first, last) = (border(from)?, border(to)?);
         let start = self.before(first);
@@ -79,27 +80,33 @@ impl Stages {
 
 impl NodePaths {
     fn sliced(&self, from: f64, to: f64) -> NodePaths {
-        let inside = self.knots.iter().filter(|k| from < k.time && k.time < to).map(|k| k.time);
+        let inside = self.keyframes.iter().filter(|k| from < k.time && k.time < to).map(|k| k.time);
         let mut times: Vec<f64> = std::iter::once(from).chain(inside).collect();
         if to > from {
             times.push(to);
         }
         let mut before = from;
-        let knot = |time: f64| {
-            let after = self.knots.partition_point(|k| k.time < time).min(self.knots.len() - 1);
-            let knot = &self.knots[after];
-            let whole = knot.time - self.knots[after.saturating_sub(1)].time;
-            let way = match knot.way {
-                Way::Roll { edge, angle } if whole > 0.0 => {
-                    Way::Roll { edge, angle: angle * ((time - before) / whole) }
+        let keyframe = |time: f64| {
+            let after = self.keyframes.partition_point(|k| k.time < time).min(self.keyframes.len() - 1);
+            let keyframe = &self.keyframes[after];
+            let whole = keyframe.time - self.keyframes[after.saturating_sub(1)].time;
+            let interpolation = match keyframe.interpolation {
+                Interpolation::RigidRoll { edge, angle } if whole > 0.0 => {
+                    Interpolation::RigidRoll { edge, angle: angle * ((time - before) / whole) }
                 }
-                way => way,
+                other => other,
             };
             before = time;
             // Where it is cut the margins are others.
-            let margins = if knot.time == time { knot.margins } else { Margins::default() };
-            Knot { time: time - from, way, nodes: self.state(time), cause: knot.cause, margins }
+            let margins = if keyframe.time == time { keyframe.margins } else { Margins::default() };
+            Keyframe {
+                time: time - from,
+                interpolation,
+                nodes: self.state(time),
+                cause: keyframe.cause,
+                margins,
+            }
         };
-        NodePaths { knots: times.into_iter().map(knot).collect(), ..self.clone() }
+        NodePaths { keyframes: times.into_iter().map(keyframe).collect(), ..self.clone() }
     }
 }

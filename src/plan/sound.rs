@@ -1,7 +1,7 @@
 //! Whether a plan can be judged at all: what [`validate`] asks, and that all numbers mean something.
 
 use super::validate::validate;
-use super::{Body, Ground, NodePaths, Plan, Tracks, Way, finite};
+use super::{Body, Ground, Interpolation, NodePaths, Plan, Tracks, finite};
 use crate::geometry::{HeightField, Placed, soundness};
 use crate::robot::{Assembly, JointKind, JointOwner, Library, Link, ModuleType};
 
@@ -47,7 +47,7 @@ fn numbers(plan: &Plan) -> Result<(), String> {
 /// Every strut has two ends, and every node a place.
 fn trusses(paths: &NodePaths) -> Result<(), String> {
     let finite = |what: &str, checked: Result<(), finite::Fault>| checked.map_err(|e| format!("{what}: {e}"));
-    finite("the knots", finite::check(&paths.knots))?;
+    finite("the keyframes", finite::check(&paths.keyframes))?;
     finite("the limits", finite::check(&paths.limits))?;
     finite("the surroundings", finite::check(&paths.surroundings))?;
     for placed in paths.surroundings.obstacles.iter().flatten() {
@@ -57,11 +57,11 @@ fn trusses(paths: &NodePaths) -> Result<(), String> {
         return Err(fault.to_string());
     }
     need(paths.struts.iter().all(|(a, b)| a != b), || "a strut begins and ends at one node".to_owned())?;
-    paths.knots.iter().try_for_each(|knot| match knot.way {
-        Way::Roll { edge: (a, b), .. } => need(knot.nodes[a] != knot.nodes[b], || {
-            format!("the roll to {} s is about an edge without length", knot.time)
+    paths.keyframes.iter().try_for_each(|keyframe| match keyframe.interpolation {
+        Interpolation::RigidRoll { edge: (a, b), .. } => need(keyframe.nodes[a] != keyframe.nodes[b], || {
+            format!("the roll to {} s is about an edge without length", keyframe.time)
         }),
-        Way::Straight => Ok(()),
+        Interpolation::Linear => Ok(()),
     })
 }
 

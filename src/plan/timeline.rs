@@ -46,9 +46,10 @@ fn command(joint: JointId, segment: &Segment) -> Result<Command, String> {
         [a, b, c, d, e, f] if a == b && b == c && d == e && e == f => Ok(moved(Profile::Smooth)),
         // Up to the third degree a piece is the cubic between its ends' positions and velocities.
         [_, _, _] | [_, _, _, _] => {
-            let knot = |t: f64, at: f64| [t - segment.start, at, segment.velocity(t)];
-            let knots = vec![knot(segment.start, segment.control[0]), knot(segment.end, segment.last())];
-            Ok(Command::Follow { joint, knots })
+            let keyframe = |t: f64, at: f64| [t - segment.start, at, segment.velocity(t)];
+            let keyframes =
+                vec![keyframe(segment.start, segment.control[0]), keyframe(segment.end, segment.last())];
+            Ok(Command::Follow { joint, keyframes })
         }
         _ => Err(format!(
             "between {:.3} s and {:.3} s a joint moves by a law that no command states",

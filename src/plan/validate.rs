@@ -6,8 +6,8 @@ use super::polynomial::DEGREE_MAX;
 use super::time::DURATION_MAX;
 use super::visit::Graph;
 use super::{
-    Action, Body, CauseId, Command, Condition, Dock, DockKind, ExemptionKind, Law, Node, NodePaths, Plan,
-    Ratio, Run, Signal, Stages, Track, Tracks, Way,
+    Action, Body, CauseId, Command, Condition, Dock, DockKind, ExemptionKind, Interpolation, Law, Node,
+    NodePaths, Plan, Ratio, Run, Signal, Stages, Track, Tracks,
 };
 use crate::robot::{Assembly, JointId, Library, ModuleType, PortRef};
 use std::collections::BTreeSet;
@@ -315,15 +315,17 @@ fn paths(body: &NodePaths, library: &Library, causes: usize) -> Result<(), Strin
     body.struts.iter().try_for_each(|&(a, b)| node(a).and(node(b)))?;
     let strut = |i: &usize| index(*i, body.struts.len(), "strut");
     body.limits.sums.iter().flat_map(|sum| &sum.struts).try_for_each(strut)?;
-    let times: Vec<f64> = body.knots.iter().map(|k| k.time).collect();
-    need(times.first() == Some(&0.0), || "the first knot must be at 0".into())?;
-    ascending(&times, "the knots")?;
-    for knot in &body.knots {
-        cause(knot.cause, causes)?;
-        need(knot.nodes.len() == count, || format!("the knot at {} s has not {count} nodes", knot.time))?;
-        if let Way::Roll { edge: (a, b), .. } = knot.way {
+    let times: Vec<f64> = body.keyframes.iter().map(|k| k.time).collect();
+    need(times.first() == Some(&0.0), || "the first keyframe must be at 0".into())?;
+    ascending(&times, "the keyframes")?;
+    for keyframe in &body.keyframes {
+        cause(keyframe.cause, causes)?;
+        need(keyframe.nodes.len() == count, || {
+            format!("the keyframe at {} s has not {count} nodes", keyframe.time)
+        })?;
+        if let Interpolation::RigidRoll { edge: (a, b), .. } = keyframe.interpolation {
             node(a).and(node(b))?;
-            need(a != b, || format!("the roll to {} s is about no edge", knot.time))?;
+            need(a != b, || format!("the roll to {} s is about no edge", keyframe.time))?;
         }
     }
     Ok(())

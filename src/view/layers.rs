@@ -39,16 +39,19 @@ pub fn lattice(showing: &Showing, stages: &Stages) -> String {
 }
 
 pub fn truss(showing: &Showing, paths: &NodePaths) -> String {
-    let shown = paths.knots.len().min(PANELS_MAX);
-    let panels = paths.knots[..shown].iter().enumerate().map(|(i, knot)| {
-        let name =
-            if i == 0 { "start".to_owned() } else { format!("after {} s", super::number::short(knot.time)) };
-        let at = |n: usize| flat(&Vec3::from(knot.nodes[n]));
+    let shown = paths.keyframes.len().min(PANELS_MAX);
+    let panels = paths.keyframes[..shown].iter().enumerate().map(|(i, keyframe)| {
+        let name = if i == 0 {
+            "start".to_owned()
+        } else {
+            format!("after {} s", super::number::short(keyframe.time))
+        };
+        let at = |n: usize| flat(&Vec3::from(keyframe.nodes[n]));
         let look = |colour: &str| format!("fill=\"none\" stroke=\"{colour}\"");
         let struts = paths.struts.iter().map(|&(a, b)| Flat { points: vec![at(a), at(b)], look: look(INK) });
         Panel { name, pieces: struts.collect() }
     });
-    laid_out(showing, panels.collect(), paths.knots.len() - shown)
+    laid_out(showing, panels.collect(), paths.keyframes.len() - shown)
 }
 
 /// To the right and up, as seen from the corner.

@@ -25,12 +25,12 @@ pub fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
 
 /// Triangles over what the truss walks on; of a fine grid every second height, third, ...
 fn ground(paths: &NodePaths, field: &HeightField) -> Placed {
-    let range = |axis: usize, knots: usize| {
-        let nodes = paths.knots[..knots].iter().flat_map(|knot| &knot.nodes).map(|p| p[axis]);
+    let range = |axis: usize, keyframes: usize| {
+        let nodes = paths.keyframes[..keyframes].iter().flat_map(|keyframe| &keyframe.nodes).map(|p| p[axis]);
         nodes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     };
     let lines = |axis: usize, count: usize| {
-        let ((low, high), (first, last)) = (range(axis, paths.knots.len()), range(axis, 1));
+        let ((low, high), (first, last)) = (range(axis, paths.keyframes.len()), range(axis, 1));
         let more = AROUND * (last - first);
         let at = |x: f64| ((x - field.corner[axis]) / field.spacing).clamp(0.0, (count - 1) as f64);
         let (from, to) = (libm::floor(at(low - more)) as usize, libm::ceil(at(high + more)) as usize);

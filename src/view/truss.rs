@@ -1,9 +1,9 @@
-//! A truss in a page: its nodes at the knots of its plan.
+//! A truss in a page: its nodes at the keyframes of its plan.
 
 use super::number::{list, number};
 use super::solids::{Meshes, solids};
 use super::surroundings;
-use crate::plan::{Knot, NodePaths, Way};
+use crate::plan::{Interpolation, Keyframe, NodePaths};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
@@ -20,15 +20,15 @@ pub fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) -> Value 
             .iter()
             .map(|(name, shapes)| json!({ "name": name, "solids": solids(shapes, meshes) }))
             .collect::<Vec<_>>(),
-        "knots": paths.knots.iter().map(knot).collect::<Vec<_>>(),
+        "keyframes": paths.keyframes.iter().map(keyframe).collect::<Vec<_>>(),
     })
 }
 
-fn knot(knot: &Knot) -> Value {
-    let roll = match knot.way {
-        Way::Straight => Value::Null,
-        Way::Roll { edge: (a, b), angle } => json!([a, b, number(angle)]),
+fn keyframe(keyframe: &Keyframe) -> Value {
+    let roll = match keyframe.interpolation {
+        Interpolation::Linear => Value::Null,
+        Interpolation::RigidRoll { edge: (a, b), angle } => json!([a, b, number(angle)]),
     };
-    let at = list(knot.nodes.iter().flatten().copied());
-    json!({ "time": number(knot.time), "roll": roll, "at": at, "cause": knot.cause.0 })
+    let at = list(keyframe.nodes.iter().flatten().copied());
+    json!({ "time": number(keyframe.time), "roll": roll, "at": at, "cause": keyframe.cause.0 })
 }

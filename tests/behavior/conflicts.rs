@@ -183,9 +183,9 @@ fn commands_beyond_the_joint_name_the_argument_at_fault() {
     let (part, kind) = first_issue(act(moving(T, Target::By(1.0), Some(0.5), Profile::Linear), 7));
     let needed = 1.0 / 1.5;
     assert_eq!((part, kind), (Part::Duration, IssueKind::TooShort { joint: joint(), given: 0.5, needed }));
-    let knots = vec![[0.0, 0.0, 9.0], [1.0, 0.0, 9.0]];
-    let (part, _) = first_issue(act(Command::Follow { joint: JointId(T), knots }, 7));
-    assert_eq!(part, Part::Knots);
+    let keyframes = vec![[0.0, 0.0, 9.0], [1.0, 0.0, 9.0]];
+    let (part, _) = first_issue(act(Command::Follow { joint: JointId(T), keyframes }, 7));
+    assert_eq!(part, Part::Keyframes);
     let port = PortRef { module: 0, port: 0 };
     assert_eq!(first_issue(act(Command::Dock { a: port, b: port }, 7)).0, Part::Ports);
     assert_eq!(first_issue(go_in(T, 0.0, f64::NAN, 7)).0, Part::Duration);

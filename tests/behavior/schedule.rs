@@ -157,7 +157,7 @@ fn conditions_on_other_joints_are_found_where_they_cross() {
     let s = done(parallel(vec![go_in(T, 1.0, 2.0, 0), node(front)]));
     near(at(&s, F, 2.0), 1.0);
     // Speeds cross, too: 1.2 s of the way by a cubic whose rate is 3t² - 2t³'s derivative 6u(1-u).
-    let knots = vec![[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+    let keyframes = vec![[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
     let slow = Condition::And(
         Box::new(Condition::Compare {
             signal: Signal::Speed(JointId(T)),
@@ -166,7 +166,7 @@ fn conditions_on_other_joints_are_found_where_they_cross() {
         }),
         Box::new(angle(T, Compare::Greater, 0.5)),
     );
-    let follow = act(Command::Follow { joint: JointId(T), knots }, 0);
+    let follow = act(Command::Follow { joint: JointId(T), keyframes }, 0);
     let s = done(parallel(vec![follow, node(until(spinning(F, 1.0, Some(9.0)), slow, 1))]));
     near(at(&s, F, 9.0), (3.0 + libm::sqrt(3.0)) / 6.0);
 }
@@ -239,8 +239,8 @@ fn what_is_too_deep_is_refused_and_does_not_overflow() {
 
 #[test]
 fn a_followed_function_begins_where_the_joint_is() {
-    let knots = vec![[0.0, 0.2, 1.0], [0.5, 0.5, 0.0]];
-    let follow = act(Command::Follow { joint: JointId(T), knots }, 0);
+    let keyframes = vec![[0.0, 0.2, 1.0], [0.5, 0.5, 0.0]];
+    let follow = act(Command::Follow { joint: JointId(T), keyframes }, 0);
     let jump = Reason::Jump { joint: "m0.tilt".into(), at: 0.0, begins: 0.2 };
     assert_eq!(refused(follow.clone()), jump);
     let s = done(series(vec![go(T, 0.2, 0), follow]));

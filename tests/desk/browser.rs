@@ -4,14 +4,14 @@
 #![allow(non_snake_case)]
 
 use crate::desk::cli::Sandbox;
-use crate::judge::truss_judge::knot;
+use crate::judge::truss_judge::keyframe;
 use crate::plans::plan_operations::plan_of;
 use crate::support::programs::*;
 use crate::support::robots::{TILT, chain, reel};
 use modl::geometry::Pose;
 use modl::plan::{
-    Body, CauseId, CellLimits, Counter, Law, Model, NodePaths, Plan, Ratio, Run, Stage, Stages, TrussLimits,
-    Way, verify,
+    Body, CauseId, CellLimits, Counter, Interpolation, Law, Model, NodePaths, Plan, Ratio, Run, Stage,
+    Stages, TrussLimits, verify,
 };
 use modl::robot::{Cell, Kinematics, Library};
 use modl::view::{Showing, page};
@@ -127,19 +127,19 @@ fn truss() -> Plan {
         }
     }
     let (edge, angle) = ((0, 1), -0.3);
-    let leaning = knot(2.0, Way::Straight, &nodes(0.3));
+    let leaning = keyframe(2.0, Interpolation::Linear, &nodes(0.3));
     let mut paths = NodePaths {
         limits: TrussLimits::default(),
         surroundings: modl::plan::Surroundings::default(),
         strut: 0,
         node_names: (0..300).map(|i| format!("ring[{}][{}]", i / 3, i % 3)).collect(),
         struts,
-        knots: vec![knot(0.0, Way::Straight, &nodes(0.0)), leaning.clone(), leaning],
+        keyframes: vec![keyframe(0.0, Interpolation::Linear, &nodes(0.0)), leaning.clone(), leaning],
     };
-    paths.knots[2].time = 4.0;
-    paths.knots[2].way = Way::Roll { edge, angle };
+    paths.keyframes[2].time = 4.0;
+    paths.keyframes[2].interpolation = Interpolation::RigidRoll { edge, angle };
     // Just before its end a roll is where it leads.
-    paths.knots[2].nodes = paths.state(4.0 - 1e-12);
+    paths.keyframes[2].nodes = paths.state(4.0 - 1e-12);
     of_body(Body::NodePaths(paths), Library { struts: vec![reel()], ..Library::default() })
 }
 

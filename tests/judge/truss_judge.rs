@@ -1,12 +1,12 @@
-//! The judge on plans of trusses: hand-made ones whose faults are known, at and between their knots.
+//! The judge on plans of trusses: hand-made ones whose faults are known, at and between their keyframes.
 
 use crate::desk::cli::Sandbox;
 use crate::plans::plan_operations::plan_of;
 use crate::support::programs::*;
 use crate::support::robots::{chain, reel};
 use modl::plan::{
-    Body, CauseId, CheckKind, Ground, Knot, LengthSum, Margins, NodePaths, Plan, TrussLimits, Verdict, Way,
-    World, WorldFrom, verify,
+    Body, CauseId, CheckKind, Ground, Interpolation, Keyframe, LengthSum, Margins, NodePaths, Plan,
+    TrussLimits, Verdict, World, WorldFrom, verify,
 };
 use modl::robot::Library;
 use std::fs;
@@ -24,21 +24,21 @@ const TOP: Place = [0.5, HIGH / 3.0, 0.8];
 const FREE: World = World::FREE;
 const STANDING: World = World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0 };
 
-pub fn knot(time: f64, way: Way, nodes: &[Place]) -> Knot {
-    Knot { time, way, nodes: nodes.to_vec(), cause: CauseId(0), margins: Margins::default() }
+pub fn keyframe(time: f64, interpolation: Interpolation, nodes: &[Place]) -> Keyframe {
+    Keyframe { time, interpolation, nodes: nodes.to_vec(), cause: CauseId(0), margins: Margins::default() }
 }
 
-fn straight(time: f64, nodes: &[Place]) -> Knot {
-    knot(time, Way::Straight, nodes)
+fn straight(time: f64, nodes: &[Place]) -> Keyframe {
+    keyframe(time, Interpolation::Linear, nodes)
 }
 
-fn plan_in(world: World, struts: &[(usize, usize)], knots: Vec<Knot>) -> Plan {
-    let names = (0..knots[0].nodes.len()).map(|i| format!("n{i}")).collect();
+fn plan_in(world: World, struts: &[(usize, usize)], keyframes: Vec<Keyframe>) -> Plan {
+    let names = (0..keyframes[0].nodes.len()).map(|i| format!("n{i}")).collect();
     let paths = NodePaths {
         strut: 0,
         node_names: names,
         struts: struts.to_vec(),
-        knots,
+        keyframes,
         limits: TrussLimits::default(),
         surroundings: modl::plan::Surroundings::default(),
     };
@@ -52,14 +52,14 @@ fn plan_in(world: World, struts: &[(usize, usize)], knots: Vec<Knot>) -> Plan {
     }
 }
 
-/// A tetrahedron on the ground whose knots are as given.
-fn tetra(world: World, knots: Vec<Knot>) -> Verdict {
-    verify::verify(&plan_in(world, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)], knots))
+/// A tetrahedron on the ground whose keyframes are as given.
+fn tetra(world: World, keyframes: Vec<Keyframe>) -> Verdict {
+    verify::verify(&plan_in(world, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)], keyframes))
 }
 
 /// The same plan with limits beside those of its struts.
-fn limited(limits: TrussLimits, knots: Vec<Knot>) -> Verdict {
-    let mut plan = plan_in(FREE, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)], knots);
+fn limited(limits: TrussLimits, keyframes: Vec<Keyframe>) -> Verdict {
+    let mut plan = plan_in(FREE, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)], keyframes);
     let Body::NodePaths(paths) = &mut plan.body else { unreachable!("it is a truss") };
     paths.limits = limits;
     verify::verify(&plan)
@@ -68,18 +68,18 @@ fn limited(limits: TrussLimits, knots: Vec<Knot>) -> Verdict {
 #[test]
 fn angles_sums_and_rigidity_are_judged_where_a_plan_keeps_them() {
     let sunk = [0.5, HIGH / 3.0, 0.3];
-    let knots = || vec![straight(0.0, &[A, B, C, TOP]), straight(100.0, &[A, B, C, sunk])];
+    let keyframes = || vec![straight(0.0, &[A, B, C, TOP]), straight(100.0, &[A, B, C, sunk])];
     // From a corner of the ground to the top it goes up by 0.3 over a circumradius of 1 / root 3.
     let slope = libm::atan2(0.3, 1.0 / libm::sqrt(3.0));
     // The angle with the side, half of 60 degrees off in the plane.
     let least = libm::acos(libm::cos(slope) * libm::cos(std::f64::consts::FRAC_PI_6));
-    let angle = |angle: f64| limited(TrussLimits { angle, ..TrussLimits::default() }, knots());
+    let angle = |angle: f64| limited(TrussLimits { angle, ..TrussLimits::default() }, keyframes());
     assert_eq!(kinds(&angle(least + 1e-6)), [CheckKind::JointRange]);
     let kept = angle(least - 1e-6);
     assert_eq!(kept.failures, vec![]);
     assert!((kept.angle.expect("told").value - least).abs() < 1e-9);
 
-    // A node that passes by another: their distance dips between the knots.
+    // A node that passes by another: their distance dips between the keyframes.
     let aside = |y: f64| [0.5, HIGH / 3.0, y];
     let swing = vec![straight(0.0, &[A, B, C, aside(0.8)]), straight(100.0, &[A, B, C, aside(-0.8)])];
     let whole = 3.0 * libm::sqrt(0.64 + 1.0 / 3.0);
@@ -124,7 +124,7 @@ fn struts_have_a_speed_and_a_range() {
     let long = tetra(FREE, vec![straight(0.0, &[A, B, C, TOP]), straight(1000.0, &[A, B, C, far])]);
     assert_eq!(kinds(&long), [CheckKind::JointRange]);
     assert_eq!(long.failures.len(), 3);
-    // Ends that pass each other: short between the knots only.
+    // Ends that pass each other: short between the keyframes only.
     let past =
         plan_in(FREE, &[(0, 1)], vec![straight(0.0, &[A, B]), straight(1000.0, &[A, [-1.0, 0.1, 0.0]])]);
     let past = verify::verify(&past);
@@ -136,8 +136,8 @@ fn struts_have_a_speed_and_a_range() {
 fn struts_that_cross_between_the_knots_are_found() {
     let low = |z: f64| vec![[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, z], [0.0, 1.0, z]];
     let crossing = |to: f64| {
-        let knots = vec![straight(0.0, &low(1.0)), straight(100.0, &low(to))];
-        verify::verify(&plan_in(FREE, &[(0, 1), (2, 3)], knots))
+        let keyframes = vec![straight(0.0, &low(1.0)), straight(100.0, &low(to))];
+        verify::verify(&plan_in(FREE, &[(0, 1), (2, 3)], keyframes))
     };
     assert_eq!(kinds(&crossing(-1.0)), [CheckKind::Collision]);
     assert_eq!(kinds(&crossing(0.09)), [CheckKind::Collision]);
@@ -148,10 +148,10 @@ fn struts_that_cross_between_the_knots_are_found() {
 
 #[test]
 fn nothing_goes_into_the_ground() {
-    let knots = vec![straight(0.0, &[A, B, C, TOP]), straight(100.0, &[A, B, [0.5, HIGH, -0.01], TOP])];
-    let verdict = tetra(STANDING, knots.clone());
+    let keyframes = vec![straight(0.0, &[A, B, C, TOP]), straight(100.0, &[A, B, [0.5, HIGH, -0.01], TOP])];
+    let verdict = tetra(STANDING, keyframes.clone());
     assert!(kinds(&verdict).contains(&CheckKind::Ground), "{:?}", verdict.failures);
-    assert_eq!(tetra(FREE, knots).failures, vec![]);
+    assert_eq!(tetra(FREE, keyframes).failures, vec![]);
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn rolling(angle: f64, told: f64, top: Place, world: World) -> Verdict {
         vec![
             straight(0.0, &[A, B, C, TOP]),
             straight(100.0, &before),
-            knot(101.0, Way::Roll { edge: (0, 1), angle: told }, &after),
+            keyframe(101.0, Interpolation::RigidRoll { edge: (0, 1), angle: told }, &after),
         ],
     )
 }
@@ -225,21 +225,23 @@ fn plans_of_the_planners_pass_and_changed_ones_fail() {
             change(paths);
             kinds(&verify::verify(&plan))
         };
-        let faster = changed(&|paths| paths.knots.iter_mut().for_each(|knot| knot.time /= 1.01));
+        let faster = changed(&|paths| paths.keyframes.iter_mut().for_each(|keyframe| keyframe.time /= 1.01));
         assert!(faster.contains(&CheckKind::Speed), "{name}: {faster:?}");
         let sunk = changed(&|paths| {
-            paths.knots.iter_mut().flat_map(|knot| &mut knot.nodes).for_each(|p| p[2] -= 1e-6);
+            paths.keyframes.iter_mut().flat_map(|keyframe| &mut keyframe.nodes).for_each(|p| p[2] -= 1e-6);
         });
         assert_eq!(sunk.contains(&CheckKind::Ground), name == "walk", "{name}: {sunk:?}");
         let crossed = changed(&|paths| {
-            let last = paths.knots.len() - 1;
+            let last = paths.keyframes.len() - 1;
             let middle = paths.struts[40];
-            let (a, b) = (paths.knots[last].nodes[middle.0], paths.knots[last].nodes[middle.1]);
+            let (a, b) = (paths.keyframes[last].nodes[middle.0], paths.keyframes[last].nodes[middle.1]);
             let far = (0..paths.node_names.len()).find(|n| *n != middle.0 && *n != middle.1).expect("more");
-            paths.knots[last].nodes[far] = std::array::from_fn(|k| (a[k] + b[k]) / 2.0);
+            paths.keyframes[last].nodes[far] = std::array::from_fn(|k| (a[k] + b[k]) / 2.0);
         });
         assert!(crossed.contains(&CheckKind::Collision), "{name}: {crossed:?}");
-        let without = changed(&|paths| paths.knots.retain(|knot| knot.way == Way::Straight));
+        let without = changed(&|paths| {
+            paths.keyframes.retain(|keyframe| keyframe.interpolation == Interpolation::Linear)
+        });
         assert_eq!(without.is_empty(), name == "cube", "{name}: {without:?}");
     }
 }

@@ -6,7 +6,7 @@
 
 use crate::support::lattices::{BALANCED, PAPER, TERMS, judged, judged_plan, plan_of, stages_of, unit_cell};
 use modl::plan::verify::lattice::{ends, peak_forces};
-use modl::plan::{Body, Law, Ratio, Stages, Unfit, joined, reversed};
+use modl::plan::{Body, Law, OperationError, Ratio, Stages, joined, reversed};
 use modl::planners::squeeze::{
     Demand, Found, Method, Profile, Refusal, Task, Terms, Way, accordion, arms, fold, halve, shear, squeeze,
     to_row, unroll,
@@ -387,13 +387,13 @@ fn plans_are_joined_where_the_shapes_are_the_same() {
         let apart = |k: usize| jump.iter().zip(&seam).map(move |(a, b)| (a.center[k] - b.center[k]).abs());
         assert!((0..3).all(|axis| apart(axis).all(|distance| distance < 1e-6)), "no cell jumps");
     }
-    assert_eq!(joined(&second, &first), Err(Unfit::Shapes));
+    assert_eq!(joined(&second, &first), Err(OperationError::Shapes));
     let more = plan(&row(5), &column(5));
-    assert_eq!(joined(&first, &more), Err(Unfit::CellCounts { first: 6, second: 5 }));
+    assert_eq!(joined(&first, &more), Err(OperationError::CellCounts { first: 6, second: 5 }));
     let mut others = second.clone();
     let cell = Cell { name: "Other".into(), ..unit_cell() };
     others.library = std::sync::Arc::new(modl::robot::Library { cells: vec![cell], ..Default::default() });
-    assert_eq!(joined(&first, &others), Err(Unfit::Cells));
+    assert_eq!(joined(&first, &others), Err(OperationError::Cells));
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use crate::desk::cli::Sandbox;
 use crate::support::trusses::{along, robot};
 use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3, pose::shifted};
-use modl::plan::{Body, CheckKind, NodePaths, Verdict, Way, verify};
+use modl::plan::{Body, CheckKind, Interpolation, NodePaths, Verdict, verify};
 use modl::planners::truss::locomote::{End, Move, Travel, Wish, locomote};
 use modl::planners::truss::locomotion::Aim;
 use modl::planners::truss::roll::{rested, rolled};
@@ -196,20 +196,21 @@ fn the_judge_knows_what_is_around() {
     assert!(judged(&beside, &nearer).contains(&CheckKind::Collision));
     // A wall in the way of a roll alone: above where everything is before and after.
     let rolls = judged(&through, &|paths| {
-        let roll = paths.knots.iter().position(|k| k.way != Way::Straight).expect("it rolls");
-        let [before, after] = [roll - 1, roll].map(|k| paths.knots[k].nodes.clone());
-        let half = paths.state((paths.knots[roll - 1].time + paths.knots[roll].time) / 2.0);
+        let roll =
+            paths.keyframes.iter().position(|k| k.interpolation != Interpolation::Linear).expect("it rolls");
+        let [before, after] = [roll - 1, roll].map(|k| paths.keyframes[k].nodes.clone());
+        let half = paths.state((paths.keyframes[roll - 1].time + paths.keyframes[roll].time) / 2.0);
         let far = (0..half.len()).max_by(|a, b| {
             let moved = |n: usize| (Vec3::from(before[n]) - Vec3::from(after[n])).norm();
             moved(*a).total_cmp(&moved(*b))
         });
         let at = Vec3::from(half[far.expect("nodes")]);
-        paths.knots.truncate(roll + 1);
-        paths.knots.drain(..roll - 1);
-        paths.knots.iter_mut().enumerate().for_each(|(i, knot)| knot.time = i as f64);
+        paths.keyframes.truncate(roll + 1);
+        paths.keyframes.drain(..roll - 1);
+        paths.keyframes.iter_mut().enumerate().for_each(|(i, keyframe)| keyframe.time = i as f64);
         let post = Shape::Sphere { radius: 0.05 };
         paths.surroundings.obstacles = vec![vec![Placed { pose: shifted(at), shape: post }]];
-        paths.knots.iter_mut().for_each(|knot| knot.margins.obstacle = None);
+        paths.keyframes.iter_mut().for_each(|keyframe| keyframe.margins.obstacle = None);
     });
     assert!(!rolls.is_empty() && rolls.iter().all(|kind| *kind == CheckKind::Collision), "{rolls:?}");
     // The ground is higher or lower than it was, flat, or not there.
@@ -217,7 +218,7 @@ fn the_judge_knows_what_is_around() {
         move |paths: &mut NodePaths| {
             let field = paths.surroundings.terrain.as_mut().expect("uneven");
             field.heights.iter_mut().for_each(|h| *h += by);
-            paths.knots.iter_mut().for_each(|knot| knot.margins.support = None);
+            paths.keyframes.iter_mut().for_each(|keyframe| keyframe.margins.support = None);
         }
     };
     assert!(judged(&over, &raised(1e-3)).contains(&CheckKind::Ground));
@@ -231,7 +232,7 @@ fn the_judge_knows_what_is_around() {
     // One spike between the nodes of a strut on the ground.
     let spiked = judged(&over, &|paths| {
         let field = paths.surroundings.terrain.as_mut().expect("uneven");
-        let last = paths.knots.last().expect("knots").nodes.clone();
+        let last = paths.keyframes.last().expect("keyframes").nodes.clone();
         let on = |p: &[f64; 3]| (p[2] - field.height(p[0], p[1])).abs() < 1e-4;
         let (a, b) =
             *paths.struts.iter().find(|(a, b)| on(&last[*a]) && on(&last[*b])).expect("on the ground");
@@ -247,7 +248,7 @@ fn the_judge_knows_what_is_around() {
         |m| m.obstacle = Some(0.0),
         |m| m.clearance = Some(1.0),
     ] {
-        let told = judged(&through, &|paths| change(&mut paths.knots[10].margins));
+        let told = judged(&through, &|paths| change(&mut paths.keyframes[10].margins));
         assert_eq!(told, [CheckKind::Form]);
     }
 }

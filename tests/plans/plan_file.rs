@@ -150,8 +150,10 @@ fn faults_of_the_text_have_a_line_and_a_column() {
     assert!(refused("").line <= 1);
     assert_eq!(refused("[]").line, 1);
     assert!(refused("{}").message.contains("no plan file"));
-    let future = refused(&text.replacen("\"version\": 1", "\"version\": 2", 1));
-    assert!(future.message.contains("version is 2"), "{future}");
+    let future = refused(&text.replacen("\"version\": 2", "\"version\": 3", 1));
+    assert!(future.message.contains("version is 3"), "{future}");
+    let past = refused(&text.replacen("\"version\": 2", "\"version\": 1", 1));
+    assert!(past.message.contains("plan again with this tool"), "{past}");
     let deep = format!("{{\"format\": {}", "[".repeat(100_000));
     assert!(
         refused(&deep).message.contains("recursion limit") || refused(&deep).message.contains("invalid type")

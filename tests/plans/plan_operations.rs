@@ -1,13 +1,13 @@
 //! Plans reversed, cut and joined; programs told from tracks; random programs through all of it.
 
-use crate::judge::truss_judge::knot;
+use crate::judge::truss_judge::keyframe;
 use crate::support::programs::*;
 use crate::support::robots::{FRONT, LEFT, TILT, at_rest, chain, walk4};
 use modl::behavior::Scheduled;
 use modl::plan::{
-    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Law, Model, Node,
-    NodePaths, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage, Stages, Tracks, TrussLimits,
-    Unfit, Way, World, WorldFrom, joined, reversed, sliced, timeline,
+    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Interpolation, Law, Model,
+    Node, NodePaths, OperationError, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage,
+    Stages, Tracks, TrussLimits, World, WorldFrom, joined, reversed, sliced, timeline,
 };
 use modl::robot::{Assembly, JointId, Mismatch, PortRef};
 use proptest::prelude::*;
@@ -262,8 +262,8 @@ fn plans_are_joined_under_other_names() {
 fn plans_that_do_not_fit_say_what_differs() {
     let p = planned(chain(3), go(T, 0.5, 0));
     let unfit = |q: &Plan| joined(&p, q).expect_err("they do not fit");
-    assert_eq!(unfit(&planned(chain(2), wait(1.0))), Unfit::Robots(Mismatch::Count { a: 3, b: 2 }));
-    let Unfit::Robots(Mismatch::Joint { a, b, a_position, b_position }) =
+    assert_eq!(unfit(&planned(chain(2), wait(1.0))), OperationError::Robots(Mismatch::Count { a: 3, b: 2 }));
+    let OperationError::Robots(Mismatch::Joint { a, b, a_position, b_position }) =
         unfit(&planned(chain(3), wait(1.0)))
     else {
         panic!("a joint differs")
@@ -274,9 +274,9 @@ fn plans_that_do_not_fit_say_what_differs() {
     let mut start = at_rest(&bent);
     start.joints[T as usize] = 0.5;
     let q = plan_of(plan_from(bent, start, wait(1.0)).expect("it can be scheduled"));
-    assert!(matches!(unfit(&q), Unfit::Robots(Mismatch::Bond { .. })));
+    assert!(matches!(unfit(&q), OperationError::Robots(Mismatch::Bond { .. })));
     let truss = Plan { body: Body::NodePaths(rolling()), program: None, ..p.clone() };
-    assert_eq!(unfit(&truss), Unfit::Families);
+    assert_eq!(unfit(&truss), OperationError::Families);
 }
 
 #[test]
@@ -363,10 +363,10 @@ pub fn rolling() -> NodePaths {
         strut: 0,
         node_names: ["a", "b", "c"].map(String::from).to_vec(),
         struts: vec![(0, 1), (1, 2), (2, 0)],
-        knots: vec![
-            knot(0.0, Way::Straight, &flat),
-            knot(2.0, Way::Straight, &long),
-            knot(4.0, Way::Roll { edge: (0, 1), angle: FRAC_PI_2 }, &over),
+        keyframes: vec![
+            keyframe(0.0, Interpolation::Linear, &flat),
+            keyframe(2.0, Interpolation::Linear, &long),
+            keyframe(4.0, Interpolation::RigidRoll { edge: (0, 1), angle: FRAC_PI_2 }, &over),
         ],
     }
 }
@@ -395,7 +395,10 @@ fn trusses_stretch_on_straight_lines_and_roll_rigidly() {
     let all = joined(&p, &q).expect("they fit");
     let Snapshot::Nodes(nodes) = all.body.state(3.5) else { panic!("it is a truss") };
     assert!((0..3).all(|k| (nodes[2][k] - paths.state(3.5)[2][k]).abs() < 1e-12));
-    assert_eq!(joined(&q, &p).expect_err("they do not fit"), Unfit::Trusses { node: Some("c".into()) });
+    assert_eq!(
+        joined(&q, &p).expect_err("they do not fit"),
+        OperationError::Trusses { node: Some("c".into()) }
+    );
 }
 
 #[test]
@@ -406,8 +409,8 @@ fn lattice_plans_are_cut_between_stages_only() {
     let second = sliced(&plan, border, 2.0 * border).expect("a part");
     let Snapshot::Cells(cells) = second.body.state(0.0) else { panic!("it is a lattice") };
     assert_eq!(cells[0].center, [-0.75, 0.0, 0.0]);
-    assert!(matches!(sliced(&plan, 1.0, 2.0), Err(Unfit::InsideStage { .. })));
+    assert!(matches!(sliced(&plan, 1.0, 2.0), Err(OperationError::InsideStage { .. })));
     // A column of squeezed cells is not the row that the plan begins with.
-    assert_eq!(joined(&plan, &plan), Err(Unfit::Shapes));
+    assert_eq!(joined(&plan, &plan), Err(OperationError::Shapes));
     let _ = (Program { root: wait(0.0) }, JointId(0));
 }

@@ -280,13 +280,13 @@ function latticeMotion(plan, body) {
 }
 
 /** Ways of a truss that are marked one by one. */
-const KNOTS_MARKED = 12;
+const KEYFRAMES_MARKED = 12;
 
 function trussMotion(plan, body) {
   const nodes = body.nodes.length;
-  const times = body.knots.map(knot => knot.time);
+  const times = body.keyframes.map(keyframe => keyframe.time);
   const lengths = (P, [a, b]) => norm(sub(P(a), P(b)));
-  const start = i => body.knots[0].at.slice(3 * i, 3 * i + 3);
+  const start = i => body.keyframes[0].at.slice(3 * i, 3 * i + 3);
   const typical = body.struts.reduce((sum, strut) => sum + lengths(start, strut), 0) / Math.max(body.struts.length, 1);
   const thick = clamp(typical * 0.03, 1e-4, 1);
   const modules = body.nodes.map(name => ({ name, type: "node", group: "nodes" }));
@@ -304,8 +304,8 @@ function trussMotion(plan, body) {
   });
   function nodesAt(t) {
     const after = lastNotAbove(times, t) + 1;
-    const a = body.knots[Math.max(after - 1, 0)];
-    const b = body.knots[after];
+    const a = body.keyframes[Math.max(after - 1, 0)];
+    const b = body.keyframes[after];
     if (!b) return i => a.at.slice(3 * i, 3 * i + 3);
     const u = (t - a.time) / (b.time - a.time);
     if (!b.roll) return i => [0, 1, 2].map(k => mix(a.at[3 * i + k], b.at[3 * i + k], u));
@@ -328,12 +328,12 @@ function trussMotion(plan, body) {
       });
       for (let i = moving; i < modules.length; i++) X.set([0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1], POSE * i);
     },
-    causes: t => new Set([body.knots[clamp(lastNotAbove(times, t) + 1, 0, times.length - 1)].cause]),
-    beginnings: () => body.knots.slice(1).map((knot, i) => [times[i], knot.cause]),
-    // Of a planner's many knots only the rolls are worth a mark, which lie before them.
-    events: body.knots.flatMap((knot, i) => {
-      if (knot.roll) return [{ time: times[i - 1], kind: "stage", text: "rolls over " + body.nodes[knot.roll[0]] + " -- " + body.nodes[knot.roll[1]] }];
-      return i > 0 && i + 1 < times.length && times.length <= KNOTS_MARKED ? [{ time: knot.time, kind: "stage", text: "moves on" }] : [];
+    causes: t => new Set([body.keyframes[clamp(lastNotAbove(times, t) + 1, 0, times.length - 1)].cause]),
+    beginnings: () => body.keyframes.slice(1).map((keyframe, i) => [times[i], keyframe.cause]),
+    // Of a planner's many keyframes only the rolls are worth a mark, which lie before them.
+    events: body.keyframes.flatMap((keyframe, i) => {
+      if (keyframe.roll) return [{ time: times[i - 1], kind: "stage", text: "rolls over " + body.nodes[keyframe.roll[0]] + " -- " + body.nodes[keyframe.roll[1]] }];
+      return i > 0 && i + 1 < times.length && times.length <= KEYFRAMES_MARKED ? [{ time: keyframe.time, kind: "stage", text: "moves on" }] : [];
     }),
     facts(b, t) {
       if (b < nodes) return [["node", nodesAt(t)(b).map(x => x.toFixed(2)).join(", ") + " m"]];

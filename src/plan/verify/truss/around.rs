@@ -1,6 +1,6 @@
 //! What a truss passes: obstacles that its struts keep their clearance from, and ground that is not flat.
 //!
-//! Between the knots by conservative advancement. A convex part stays behind the plane through its nearest
+//! Between the keyframes by conservative advancement. A convex part stays behind the plane through its nearest
 //! point, and what comes near it does so no faster than its ends, or than the farthest of its points from
 //! the line about which it rolls.
 
@@ -8,7 +8,7 @@ use super::judge::{Judged, Leg};
 use crate::geometry::distance::near;
 use crate::geometry::{HeightField, Part, Pose, Solid, Unsound, Vec3, pose::turned};
 use crate::plan::verify::ledger::{Ledger, lower};
-use crate::plan::{CheckKind, Failure, NodePaths, Way};
+use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
 /// Distances may be less than the clearance by this much, m: rounding.
@@ -36,9 +36,9 @@ pub fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
 
 /// Where a point is at a part of a leg.
 pub fn place(leg: &Leg, node: usize, part: f64) -> Vec3 {
-    match leg.way {
-        Way::Straight => leg.from[node] + (leg.to[node] - leg.from[node]) * part,
-        Way::Roll { edge, angle } => {
+    match leg.interpolation {
+        Interpolation::Linear => leg.from[node] + (leg.to[node] - leg.from[node]) * part,
+        Interpolation::RigidRoll { edge, angle } => {
             let origin = leg.from[edge.0];
             let turn = turned(leg.from[edge.1] - origin, angle * part);
             origin + turn.rotation * (leg.from[node] - origin)
@@ -48,9 +48,9 @@ pub fn place(leg: &Leg, node: usize, part: f64) -> Vec3 {
 
 /// The longest way of a node on a leg, m.
 fn way(leg: &Leg, node: usize) -> f64 {
-    match leg.way {
-        Way::Straight => (leg.to[node] - leg.from[node]).norm(),
-        Way::Roll { edge, angle } => {
+    match leg.interpolation {
+        Interpolation::Linear => (leg.to[node] - leg.from[node]).norm(),
+        Interpolation::RigidRoll { edge, angle } => {
             let along = (leg.from[edge.1] - leg.from[edge.0]).normalize();
             (leg.from[node] - leg.from[edge.0]).cross(&along).norm() * angle.abs()
         }
@@ -172,7 +172,7 @@ impl Judged<'_> {
     /// How deep a node, or a strut, gets into the ground if that is deeper than `sink`, m, and where on the leg.
     fn below(&self, leg: &Leg, terrain: &HeightField, ends: &[usize], sink: f64) -> Option<(f64, f64)> {
         // Going straight, a node is lowest above flat triangles where it crosses their sides.
-        if let (&[node], Way::Straight) = (ends, leg.way) {
+        if let (&[node], Interpolation::Linear) = (ends, leg.interpolation) {
             let (at, height) = terrain.lowest(leg.from[node], leg.to[node]);
             return (height < -TOL_GROUND).then_some((-height, at));
         }

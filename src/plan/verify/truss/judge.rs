@@ -1,6 +1,6 @@
-//! Plans of trusses: nodes that go straight on between knots, or roll over an edge as one rigid body.
+//! Plans of trusses: nodes that go straight on between keyframes, or roll over an edge as one rigid body.
 //!
-//! Between two knots everything is known in closed form, or bounded: lengths of struts and their rates
+//! Between two keyframes everything is known in closed form, or bounded: lengths of struts and their rates
 //! ([`lengths`](super::lengths)), distances between struts
 //! ([`distance`](super::distance)), what it stands on
 //! ([`standing`](super::standing)). Struts are lines without thickness that keep their
@@ -11,18 +11,18 @@ use super::{around, distance, lengths, shape, standing};
 use crate::geometry::{HeightField, Vec3};
 use crate::interrupt;
 use crate::plan::verify::ledger::{Ledger, lower};
-use crate::plan::{CheckKind, Failure, NodePaths, Plan, Status, Verdict, Way, World, Worst};
+use crate::plan::{CheckKind, Failure, Interpolation, NodePaths, Plan, Status, Verdict, World, Worst};
 use crate::robot::Strut;
 use crate::units::{Dimension, quantity};
 
 /// Nodes may be this far below the ground: a rounding of the plan's numbers, m.
 const TOL_GROUND: f64 = 1e-9;
 
-/// The way from one knot to the next.
+/// The way from one keyframe to the next.
 pub struct Leg {
     pub from: Vec<Vec3>,
     pub to: Vec<Vec3>,
-    pub way: Way,
+    pub interpolation: Interpolation,
     /// Seconds.
     pub begins: f64,
     pub lasts: f64,
@@ -48,8 +48,11 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         Ok(obstacles) => judged.obstacles = obstacles,
         Err(why) => ledger.fail(judged.failure(CheckKind::Form, 0.0, vec![], format!("an obstacle: {why}"))),
     }
-    let places: Vec<Vec<Vec3>> =
-        paths.knots.iter().map(|knot| knot.nodes.iter().map(|p| Vec3::from(*p)).collect()).collect();
+    let places: Vec<Vec<Vec3>> = paths
+        .keyframes
+        .iter()
+        .map(|keyframe| keyframe.nodes.iter().map(|p| Vec3::from(*p)).collect())
+        .collect();
     let world_at = |t: f64| {
         let last = plan.worlds.partition_point(|w| w.from <= t).max(1) - 1;
         plan.worlds[last].world
@@ -57,15 +60,15 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut standing = Standing::new(&judged);
     judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
-    for (i, knot) in paths.knots.iter().enumerate().skip(1) {
-        interrupt::progress_checkpoint(|| format!("step {i} of {}", paths.knots.len() - 1));
-        let begins = paths.knots[i - 1].time;
+    for (i, keyframe) in paths.keyframes.iter().enumerate().skip(1) {
+        interrupt::progress_checkpoint(|| format!("step {i} of {}", paths.keyframes.len() - 1));
+        let begins = paths.keyframes[i - 1].time;
         let leg = Leg {
             from: places[i - 1].clone(),
             to: places[i].clone(),
-            way: knot.way,
+            interpolation: keyframe.interpolation,
             begins,
-            lasts: knot.time - begins,
+            lasts: keyframe.time - begins,
         };
         let world = world_at(begins);
         judged.lengths(&leg, &mut ledger);
@@ -78,15 +81,17 @@ pub fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
                 standing.leg(&leg, &mut ledger);
             }
         }
-        if let Way::Roll { .. } = knot.way
+        if let Interpolation::RigidRoll { .. } = keyframe.interpolation
             && (world.gravity == 0.0 || !world.has_floor())
         {
             let message = "without gravity and a ground nothing makes it roll".to_string();
             ledger.fail(judged.failure(CheckKind::Ground, begins, vec![], message));
         }
     }
-    for (knot, x) in paths.knots.iter().zip(&places).filter(|(knot, _)| !knot.margins.is_none()) {
-        if let Some(failure) = judged.margins(&knot.margins, x, knot.time, &standing) {
+    for (keyframe, x) in
+        paths.keyframes.iter().zip(&places).filter(|(keyframe, _)| !keyframe.margins.is_none())
+    {
+        if let Some(failure) = judged.margins(&keyframe.margins, x, keyframe.time, &standing) {
             ledger.fail(failure);
         }
     }
@@ -101,20 +106,27 @@ impl Judged<'_> {
     }
 
     pub fn failure(&self, kind: CheckKind, time: f64, at: Vec<String>, message: String) -> Failure {
-        let cause = self.paths.knots.iter().find(|knot| knot.time > time).map(|knot| knot.cause);
+        let cause =
+            self.paths.keyframes.iter().find(|keyframe| keyframe.time > time).map(|keyframe| keyframe.cause);
         Failure { kind, time, at, blame: cause.into_iter().collect(), ..Failure::form(message) }
     }
 
-    /// What a plan of one knot says, and the start of every other.
+    /// What a plan of one keyframe says, and the start of every other.
     fn at_rest(&self, x: &[Vec3], world: World, standing: &mut Standing, ledger: &mut Ledger) {
-        let leg = Leg { from: x.to_vec(), to: x.to_vec(), way: Way::Straight, begins: 0.0, lasts: 1.0 };
-        if self.paths.knots.len() == 1 {
+        let leg = Leg {
+            from: x.to_vec(),
+            to: x.to_vec(),
+            interpolation: Interpolation::Linear,
+            begins: 0.0,
+            lasts: 1.0,
+        };
+        if self.paths.keyframes.len() == 1 {
             self.lengths(&leg, ledger);
             self.distances(&leg, ledger);
             self.obstacles(&leg, ledger);
             self.shape(&leg, ledger);
         }
-        if world.has_floor() && self.paths.knots.len() == 1 {
+        if world.has_floor() && self.paths.keyframes.len() == 1 {
             self.ground(&leg, ledger);
             if world.gravity > 0.0 {
                 standing.leg(&leg, ledger);
@@ -123,7 +135,7 @@ impl Judged<'_> {
     }
 
     fn lengths(&self, leg: &Leg, ledger: &mut Ledger) {
-        if leg.way != Way::Straight {
+        if leg.interpolation != Interpolation::Linear {
             return;
         }
         for (strut, &(a, b)) in self.paths.struts.iter().enumerate() {
@@ -159,7 +171,7 @@ impl Judged<'_> {
 
     /// Rigid motion changes no distance.
     fn distances(&self, leg: &Leg, ledger: &mut Ledger) {
-        if leg.way != Way::Straight {
+        if leg.interpolation != Interpolation::Linear {
             return;
         }
         for near in distance::nearest(self.paths, leg, self.strut.clearance) {
@@ -202,8 +214,8 @@ impl Judged<'_> {
 
     fn summary(&self, places: &[Vec<Vec3>], standing: &Standing, plan: &Plan, ledger: &mut Ledger) {
         let (first, last) = (&places[0], &places[places.len() - 1]);
-        let way = standing::centre(self.paths, last) - standing::centre(self.paths, first);
-        ledger.verdict.travel = [way.x, way.y, way.z];
+        let travel = standing::centre(self.paths, last) - standing::centre(self.paths, first);
+        ledger.verdict.travel = [travel.x, travel.y, travel.z];
         ledger.verdict.samples = places.len();
         for (time, words) in &standing.events {
             ledger.verdict.events.push((*time, words.clone()));

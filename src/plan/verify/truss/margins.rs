@@ -1,18 +1,18 @@
-//! Whether the margins that a plan states at its knots are those that it has there.
+//! Whether the margins that a plan states at its keyframes are those that it has there.
 
 use super::judge::{Judged, Leg};
 use super::standing::{Standing, centre};
 use super::{distance, shape};
 use crate::geometry::Vec3;
 use crate::plan::verify::footprint;
-use crate::plan::{CheckKind, Failure, Margins, Way};
+use crate::plan::{CheckKind, Failure, Interpolation, Margins};
 use crate::units::display::number;
 
 /// How far a stated margin may be off: rounding, of the singular values of large trusses.
 const TOL_MARGIN: f64 = 1e-7;
 
 impl Judged<'_> {
-    /// What is wrong with the margins of a knot.
+    /// What is wrong with the margins of a keyframe.
     pub fn margins(&self, stated: &Margins, x: &[Vec3], time: f64, standing: &Standing) -> Option<Failure> {
         let Margins { length, clearance, obstacle, support, angle, rigidity, sum } = *stated;
         let found = |stated: Option<f64>, found: &dyn Fn() -> Option<f64>, what: &'static str| {
@@ -32,7 +32,13 @@ impl Judged<'_> {
             (0..self.paths.struts.len()).map(one).reduce(f64::min)
         };
         let apart = || {
-            let leg = Leg { from: x.to_vec(), to: x.to_vec(), way: Way::Straight, begins: time, lasts: 1.0 };
+            let leg = Leg {
+                from: x.to_vec(),
+                to: x.to_vec(),
+                interpolation: Interpolation::Linear,
+                begins: time,
+                lasts: 1.0,
+            };
             let near = distance::nearest(self.paths, &leg, self.strut.clearance);
             near.iter().map(|near| near.distance - self.strut.clearance).reduce(f64::min)
         };

@@ -1,13 +1,13 @@
 //! What a plan of a truss keeps beside the limits of its struts: angles between struts that share a node,
 //! sums of lengths, and how far the truss is from losing its rigidity.
 //!
-//! Angles and sums are proved between the knots; rigidity is looked at where the knots are.
+//! Angles and sums are proved between the keyframes; rigidity is looked at where the keyframes are.
 
 use super::judge::{Judged, Leg};
 use super::lengths;
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, lower};
-use crate::plan::{CheckKind, Failure, LengthSum, NodePaths, Way};
+use crate::plan::{CheckKind, Failure, Interpolation, LengthSum, NodePaths};
 use crate::units::display::number;
 use crate::units::{Dimension, quantity};
 use nalgebra::DMatrix;
@@ -23,7 +23,7 @@ const MOTIONS: usize = 6;
 
 impl Judged<'_> {
     pub fn shape(&self, leg: &Leg, ledger: &mut Ledger) {
-        if leg.way != Way::Straight {
+        if leg.interpolation != Interpolation::Linear {
             return;
         }
         for corner in &self.corners {

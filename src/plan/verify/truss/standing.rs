@@ -5,7 +5,7 @@ use super::judge::{Judged, Leg};
 use crate::geometry::{Vec3, pose::turned};
 use crate::plan::verify::footprint::{self, Point};
 use crate::plan::verify::ledger::{Ledger, lower};
-use crate::plan::{CheckKind, Failure, NodePaths, Way};
+use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
 /// Nodes lower than this part of a strut's mean length carry weight: trusses give way.
@@ -39,7 +39,7 @@ pub fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
 pub fn lowest(leg: &Leg, node: usize) -> (f64, f64) {
     let (from, to) = (leg.from[node], leg.to[node]);
     let ends = if from.z <= to.z { (from.z, 0.0) } else { (to.z, 1.0) };
-    let Way::Roll { edge, angle } = leg.way else { return ends };
+    let Interpolation::RigidRoll { edge, angle } = leg.interpolation else { return ends };
     // On its circle a node is lowest half a turn from where it is highest.
     let origin = leg.from[edge.0];
     let axis = (leg.from[edge.1] - origin).normalize();
@@ -60,7 +60,7 @@ pub fn lowest(leg: &Leg, node: usize) -> (f64, f64) {
 impl<'a> Standing<'a> {
     pub fn new(judged: &'a Judged<'a>) -> Standing<'a> {
         let paths = judged.paths;
-        let first = &paths.knots[0].nodes;
+        let first = &paths.keyframes[0].nodes;
         let length = |&(a, b): &(usize, usize)| (Vec3::from(first[a]) - Vec3::from(first[b])).norm();
         let mean = paths.struts.iter().map(length).sum::<f64>() / paths.struts.len().max(1) as f64;
         Standing {
@@ -110,13 +110,13 @@ impl<'a> Standing<'a> {
     }
 
     pub fn leg(&mut self, leg: &Leg, ledger: &mut Ledger) {
-        match leg.way {
-            Way::Straight => self.straight(leg, ledger),
-            Way::Roll { edge, angle } => self.roll(leg, edge, angle, ledger),
+        match leg.interpolation {
+            Interpolation::Linear => self.straight(leg, ledger),
+            Interpolation::RigidRoll { edge, angle } => self.roll(leg, edge, angle, ledger),
         }
     }
 
-    /// It stands on the nodes that are on the ground all the way: on flat ground, at both ends.
+    /// It stands on the nodes that are on the ground all the interpolation: on flat ground, at both ends.
     fn straight(&mut self, leg: &Leg, ledger: &mut Ledger) {
         let feet: Vec<usize> = (0..leg.from.len()).filter(|&n| self.stays_down(leg, n)).collect();
         for &node in &feet {

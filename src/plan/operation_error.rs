@@ -4,7 +4,7 @@ use crate::robot::Mismatch;
 
 /// SI units; modules by path name.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Unfit {
+pub enum OperationError {
     /// A slice that ends before it begins.
     Times { from: f64, to: f64 },
     /// A lattice plan is cut only between stages.
@@ -29,33 +29,35 @@ pub enum Unfit {
     TooLong { duration: f64 },
 }
 
-impl std::fmt::Display for Unfit {
+impl std::fmt::Display for OperationError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Unfit::Times { from, to } => write!(f, "nothing lies between {from:.6} s and {to:.6} s"),
-            Unfit::InsideStage { time } => {
+            OperationError::Times { from, to } => write!(f, "nothing lies between {from:.6} s and {to:.6} s"),
+            OperationError::InsideStage { time } => {
                 write!(f, "at {time:.6} s the cells move: a lattice plan is cut only between its stages")
             }
-            Unfit::Families => write!(f, "the plans are of different kinds of robot"),
-            Unfit::Robots(mismatch) => {
+            OperationError::Families => write!(f, "the plans are of different kinds of robot"),
+            OperationError::Robots(mismatch) => {
                 write!(f, "the first plan does not end where the second starts: {mismatch}")
             }
-            Unfit::Trusses { node: None } => write!(f, "the plans are of different trusses"),
-            Unfit::Trusses { node: Some(node) } => {
+            OperationError::Trusses { node: None } => write!(f, "the plans are of different trusses"),
+            OperationError::Trusses { node: Some(node) } => {
                 write!(f, "node `{node}` is not where the second plan starts when the first ends")
             }
-            Unfit::Surroundings => {
+            OperationError::Surroundings => {
                 write!(f, "the plans are among different obstacles, or on different ground")
             }
-            Unfit::Cells => write!(f, "the plans are of different cells"),
-            Unfit::CellCounts { first, second } => {
+            OperationError::Cells => write!(f, "the plans are of different cells"),
+            OperationError::CellCounts { first, second } => {
                 write!(f, "the first plan moves {first} cells, the second {second}")
             }
-            Unfit::Shapes => {
+            OperationError::Shapes => {
                 write!(f, "the first plan does not end in the shape in which the second starts")
             }
-            Unfit::Inexact => write!(f, "the plans together have numbers too large to be kept exactly"),
-            Unfit::TooLong { duration } => {
+            OperationError::Inexact => {
+                write!(f, "the plans together have numbers too large to be kept exactly")
+            }
+            OperationError::TooLong { duration } => {
                 write!(f, "together the plans last {duration} s, longer than a plan may be")
             }
         }
