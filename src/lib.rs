@@ -24,6 +24,14 @@ pub mod view;
 
 pub mod interpret;
 
+pub mod formats;
+
+pub mod elaborate;
+
+pub mod display;
+
+pub mod natives;
+
 pub mod document;
 pub mod session;
 

@@ -5,11 +5,11 @@
 //! are joints and ports of the whole.
 
 use super::interpreter::Lazy;
-use super::lattice::LatticeDesign;
-use super::robot_of::Robot;
-use super::truss::TrussDesign;
 use super::value::{JointValue, PortValue, Value};
 use crate::check::typed::DefId;
+use crate::elaborate::lattice::LatticeDesign;
+use crate::elaborate::robot_of::Robot;
+use crate::elaborate::truss::TrussDesign;
 use crate::robot::{Cell, JointOwner, ModuleType, Strut};
 use crate::source::Span;
 use std::cell::{Cell as Flag, OnceCell, RefCell};

@@ -1,7 +1,6 @@
 //! The state of a run: what has been computed, what was reported, where evaluation is.
 
 use super::causes::Causes;
-use super::connector::ConnectorDesign;
 use super::design::{Design, Instance};
 use super::host::{Limits, Mode, Options, TestResult};
 use super::planning::Planned;
@@ -11,6 +10,7 @@ use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, Program};
+use crate::elaborate::connector::ConnectorDesign;
 use crate::interrupt;
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
 use std::collections::{BTreeMap, HashSet};

@@ -2,18 +2,18 @@
 
 use super::causes::PlanCauses;
 use super::design::Design;
-use super::folding::Folded;
 use super::interpreter::Interpreter;
-use super::natives_refold::Refolded;
-use super::natives_squeeze::Squeezed;
-use super::natives_tosnake::Unwound;
-use super::natives_truss::Trussed;
 use super::record::{Record, StateValue, first_world};
-use super::robot_of::Robot;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Behavior, Value};
 use crate::behavior::{self, Problem, Scheduled};
+use crate::elaborate::robot_of::Robot;
 use crate::geometry::Vec3;
+use crate::natives::folding::Folded;
+use crate::natives::refold::Refolded;
+use crate::natives::squeeze::Squeezed;
+use crate::natives::tosnake::Unwound;
+use crate::natives::truss::Trussed;
 use crate::plan::{
     Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
 };

@@ -1,19 +1,19 @@
 //! Records: what built-ins give back, and the fields by which it is asked.
 
 use super::design::Design;
-use super::folding::{FOLDING, ORDER_SAMPLE, folding_field, layout_field, sample_field};
 use super::interpreter::Interpreter;
-use super::natives_refold::{REFOLDING, refolding_field};
-use super::natives_squeeze::Squeezed;
-use super::natives_tosnake::{UNWINDING, unwinding_field};
-use super::natives_truss::{MORPHING, TRAVEL};
 use super::planning::Planned;
-use super::robot_of::Robot;
 use super::stop::Eval;
-use super::truss::free_motions;
 use super::value::Value;
 use super::verdicts;
+use crate::elaborate::robot_of::Robot;
+use crate::elaborate::truss::free_motions;
 use crate::geometry::{Pose, Vec3};
+use crate::natives::folding::{FOLDING, ORDER_SAMPLE, folding_field, layout_field, sample_field};
+use crate::natives::refold::{REFOLDING, refolding_field};
+use crate::natives::squeeze::Squeezed;
+use crate::natives::tosnake::{UNWINDING, unwinding_field};
+use crate::natives::truss::{MORPHING, TRAVEL};
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
 use crate::planners::fold::sampling::Sample;

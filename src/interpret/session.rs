@@ -4,7 +4,6 @@
 //! cost of a few pointers: an entry that fails, or is taken back, leaves the copy.
 
 use super::causes::Causes;
-use super::connector::ConnectorDesign;
 use super::design::Design;
 use super::eval::Frame;
 use super::host::{Host, Mode, Options};
@@ -16,6 +15,7 @@ use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Stmt, StmtKind, Test};
+use crate::elaborate::connector::ConnectorDesign;
 use crate::interrupt::{self, CancelState};
 use crate::source::{Diagnostic, FileId, Files, Span, code};
 use std::collections::BTreeMap;

@@ -74,7 +74,7 @@ fn declarations_are_judged_as_they_say() {
 fn declarations_and_bodies_of_built_ins_agree() {
     // The prelude is always there; of the rest, only RoFI's file declares a built-in.
     let checked = modl::check::check(&MapFiles::of("use std.rofi\n"), "main.mod");
-    let bodies: BTreeMap<&str, usize> = interpret::all_natives().map(|n| (n.key, n.params)).collect();
+    let bodies: BTreeMap<&str, usize> = modl::natives::all().map(|n| (n.key, n.params)).collect();
     let mut declared = BTreeSet::new();
     for def in &checked.program.defs {
         let DefKind::Native(native) = &def.kind else { continue };

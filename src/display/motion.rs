@@ -1,0 +1,303 @@
+//! Behaviours as series-parallel trees with times, plans as sketches of their time.
+
+use super::pretty::{Branch, counted};
+use super::truss;
+use crate::elaborate::robot_of::Robot;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::planning::Planned;
+use crate::interpret::stop::{Eval, Stop};
+use crate::interpret::value::Behavior;
+use crate::interpret::verdicts::failure_line;
+use crate::plan::{Action, Body, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
+use crate::robot::{Assembly, JointId, JointKind, JointOwner};
+use crate::source::{FileId, Span};
+use crate::units::{Dimension, quantity};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Nodes of a behaviour that are drawn, and that are walked for their times.
+const NODES_DRAWN: usize = 200;
+const NODES_TIMED: usize = 100_000;
+/// Branches within branches that are drawn.
+const DEPTH_DRAWN: usize = 30;
+/// Characters of a sketch's time.
+const SKETCH_WIDTH: usize = 48;
+/// Joints in a sketch.
+const SKETCH_ROWS: usize = 16;
+/// Failures under a sketch.
+const FAILURES_SHOWN: usize = 3;
+/// Instants nearer than this are one, s.
+const TOL_INSTANT: f64 = 1e-9;
+
+impl Interpreter<'_> {
+    /// The tree of a behaviour with its times, as far as it can be planned from the start pose.
+    pub fn portrait_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
+        let Some(design) = behavior.robot.clone() else {
+            return Ok("a behaviour that moves no robot".to_owned());
+        };
+        let planned = self.quietly(|this| this.plan_behavior(behavior, Span::new(FileId(0), 0, 0)))?;
+        let robot = match &planned {
+            Some(planned) => planned.body.clone(),
+            None => self.quietly(|this| this.robot_of(&design))?,
+        };
+        let Some(robot) = robot else { return Ok(format!("a behaviour of {}", design.name)) };
+        let program = planned.as_ref().and_then(|planned| planned.plan.program.as_ref());
+        let root = program.map_or(&behavior.node, |program| &program.root);
+        let tracks = planned.as_ref().and_then(|planned| planned.plan.body.tracks());
+        let mut drawer = Drawer { names: Names::of(&robot), tracks: by_joint(tracks), drawn: 0, timed: 0 };
+        let branch = drawer.branch(root, tracks.map(|_| 0.0), 0);
+        let long = tracks.map_or_else(
+            || "it can't be planned as it is".to_owned(),
+            |tracks| quantity(tracks.duration, Dimension::TIME),
+        );
+        let text = format!("a behaviour of {}, {long}", design.name);
+        Ok(Branch { text, below: vec![branch] }.drawn())
+    }
+
+    /// Asks without telling what is wrong.
+    fn quietly<T>(&mut self, ask: impl FnOnce(&mut Self) -> Eval<Option<T>>) -> Eval<Option<T>> {
+        let (reports, errors) = (self.reports.len(), self.errors);
+        let found = ask(self);
+        self.reports.truncate(reports);
+        self.errors = errors;
+        match found {
+            Err(Stop::Fault(_)) => Ok(None),
+            other => other,
+        }
+    }
+
+    /// A sketch of a plan's time with its verdict.
+    pub fn portrait_plan(&mut self, planned: &Rc<Planned>) -> Eval<String> {
+        let duration = planned.plan.body.duration();
+        let settings = self.judge_settings();
+        let verdict = self.judge(planned, settings, None);
+        let mark = if verdict.ok() { "verified" } else { "NOT VERIFIED" };
+        let long = quantity(duration, Dimension::TIME);
+        let mut lines = vec![format!("a plan of {long} of {}, {mark}", planned.robot.name)];
+        let rows = rows(planned, duration);
+        let wide = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+        let row = |name: &str, marks: &str| format!("  {name:<wide$}  {}", marks.trim_end());
+        lines.extend(rows.iter().take(SKETCH_ROWS).map(|(name, marks)| row(name, marks)));
+        if rows.len() > SKETCH_ROWS {
+            lines.push(format!("  and {} that move", counted(rows.len() - SKETCH_ROWS, "more joint")));
+        }
+        if duration > 0.0 {
+            let rest = SKETCH_WIDTH.saturating_sub(1 + long.chars().count());
+            lines.push(row("", &format!("0{:rest$}{long}", "")));
+        }
+        lines.extend(truss::made(planned));
+        for failure in verdict.failures.iter().take(FAILURES_SHOWN) {
+            lines.push(format!("  {}", failure_line(failure)));
+        }
+        if verdict.failures.len() > FAILURES_SHOWN {
+            lines.push(format!("  and {} more", verdict.failures.len() - FAILURES_SHOWN));
+        }
+        Ok(lines.join("\n"))
+    }
+}
+
+/// What moves when: a joint, or the whole of what has no joints.
+fn rows(planned: &Planned, duration: f64) -> Vec<(String, String)> {
+    match (&planned.plan.body, &planned.body) {
+        (Body::Tracks(tracks), Some(robot)) => {
+            let names = Names::of(robot);
+            let moving = tracks.tracks.iter().filter(|track| !track.segments.is_empty());
+            moving.map(|track| (names.joint(track.joint), marks(track, duration))).collect()
+        }
+        (body, _) => {
+            let mut marks = vec!['─'; SKETCH_WIDTH];
+            for instant in body.instants() {
+                marks[column(instant, duration).min(SKETCH_WIDTH - 1)] = '│';
+            }
+            let steps = body.instants().len().saturating_sub(1);
+            vec![(counted(steps, "stage"), marks.into_iter().collect())]
+        }
+    }
+}
+
+fn marks(track: &Track, duration: f64) -> String {
+    let mut marks = vec!['·'; SKETCH_WIDTH];
+    for segment in &track.segments {
+        // However short, what moves is seen.
+        let from = column(segment.start, duration).min(SKETCH_WIDTH - 1);
+        let to = column(segment.end, duration).clamp(from + 1, SKETCH_WIDTH);
+        marks[from..to].fill('█');
+    }
+    marks.into_iter().collect()
+}
+
+fn column(time: f64, duration: f64) -> usize {
+    if duration > 0.0 { (time / duration * SKETCH_WIDTH as f64) as usize } else { 0 }
+}
+
+fn by_joint(tracks: Option<&Tracks>) -> BTreeMap<u32, &Track> {
+    let tracks = tracks.into_iter().flat_map(|tracks| &tracks.tracks);
+    tracks.map(|track| (track.joint.0, track)).collect()
+}
+
+/// Names of joints, and which of them slide.
+struct Names {
+    robot: std::sync::Arc<Assembly>,
+    joints: Vec<(String, bool)>,
+}
+
+impl Names {
+    fn of(robot: &Robot) -> Names {
+        let assembly = &robot.assembly;
+        let slides = |owner| match owner {
+            JointOwner::Module { module, joint } => {
+                assembly.module_type(module).joints[joint].kind == JointKind::Prismatic
+            }
+            JointOwner::Bond(_) => false,
+        };
+        let joints = assembly.joints().map(|owner| (assembly.joint_name(owner), slides(owner))).collect();
+        Names { robot: assembly.clone(), joints }
+    }
+
+    fn joint(&self, joint: JointId) -> String {
+        self.joints.get(joint.0 as usize).map_or_else(String::new, |(name, _)| name.clone())
+    }
+
+    /// A position of a joint.
+    fn amount(&self, joint: JointId, x: f64) -> String {
+        let slides = self.joints.get(joint.0 as usize).is_some_and(|(_, slides)| *slides);
+        quantity(x, if slides { Dimension::LENGTH } else { Dimension::ANGLE })
+    }
+
+    fn action(&self, action: &Action) -> String {
+        let time = |t: f64| quantity(t, Dimension::TIME);
+        let words = match &action.command {
+            Command::Move { joint, target: Target::To(to), .. } => {
+                format!("move {} to {}", self.joint(*joint), self.amount(*joint, *to))
+            }
+            Command::Move { joint, target: Target::By(by), .. } => {
+                format!("move {} by {}", self.joint(*joint), self.amount(*joint, *by))
+            }
+            Command::Spin { joint, speed, duration } => {
+                let long = duration.map_or_else(String::new, |t| format!(" for {}", time(t)));
+                format!("spin {} at {}{long}", self.joint(*joint), quantity(*speed, Dimension::ANGULAR_SPEED))
+            }
+            Command::Follow { joint, .. } => format!("follow {}", self.joint(*joint)),
+            Command::Wait { duration } => format!("wait {}", time(*duration)),
+            Command::Dock { a, b } => {
+                format!("dock {} to {}", self.robot.port_name(*b), self.robot.port_name(*a))
+            }
+            Command::Undock { port } => format!("undock {}", self.robot.port_name(*port)),
+        };
+        if action.until.is_some() { format!("{words}, until a condition holds") } else { words }
+    }
+}
+
+struct Drawer<'a> {
+    names: Names,
+    tracks: BTreeMap<u32, &'a Track>,
+    drawn: usize,
+    timed: usize,
+}
+
+impl Drawer<'_> {
+    /// A node that begins at a time, if that is known.
+    fn branch(&mut self, node: &Node, from: Option<f64>, depth: usize) -> Branch {
+        self.drawn += 1;
+        if self.drawn > NODES_DRAWN || depth > DEPTH_DRAWN {
+            return Branch::leaf("...");
+        }
+        let words = match node {
+            Node::Action(action) => self.names.action(action),
+            Node::Series(_) => "Sc".to_owned(),
+            Node::Parallel(_) => "Pc".to_owned(),
+            Node::Repeat { times, .. } => format!("repeat {times} times"),
+            Node::Phase { shift, .. } => format!("phase, from {shift} of its cycle"),
+            Node::Approach { shift, .. } => format!("approach {shift} of the cycle"),
+            Node::Stretch { duration, .. } => format!("in {}", quantity(*duration, Dimension::TIME)),
+            Node::Exempt { kind, .. } => format!("allows {}", exempt(kind)),
+        };
+        let below = match node {
+            Node::Action(_) | Node::Approach { .. } => Vec::new(),
+            Node::Series(nodes) => {
+                let mut at = from;
+                let next = |node: &std::sync::Arc<Node>| {
+                    let branch = (self.drawn <= NODES_DRAWN).then(|| self.branch(node, at, depth + 1));
+                    at = at.and_then(|at| self.end(node, at));
+                    branch
+                };
+                nodes.iter().filter_map(next).collect()
+            }
+            Node::Parallel(nodes) => {
+                let shown = nodes.iter().take(NODES_DRAWN);
+                shown.map(|node| self.branch(node, from, depth + 1)).collect()
+            }
+            Node::Repeat { body, .. } | Node::Exempt { body, .. } => vec![self.branch(body, from, depth + 1)],
+            // Within these the time runs otherwise.
+            Node::Phase { body, .. } | Node::Stretch { body, .. } => vec![self.branch(body, None, depth + 1)],
+        };
+        let times = from.and_then(|from| {
+            let time = |t: f64| quantity(t, Dimension::TIME);
+            self.end(node, from).map(|to| format!("  {}..{}", time(from), time(to)))
+        });
+        Branch { text: format!("{words}{}", times.unwrap_or_default()), below }
+    }
+
+    /// When a node ends that begins at a time, as the tracks have it.
+    fn end(&mut self, node: &Node, from: f64) -> Option<f64> {
+        self.timed += 1;
+        if self.timed > NODES_TIMED {
+            return None;
+        }
+        match node {
+            Node::Action(action) => self.action_end(action, from),
+            Node::Series(nodes) => nodes.iter().try_fold(from, |at, node| self.end(node, at)),
+            Node::Parallel(nodes) => {
+                nodes.iter().try_fold(from, |latest, node| Some(self.end(node, from)?.max(latest)))
+            }
+            Node::Repeat { body, times } => {
+                // Only the first time may begin elsewhere than the others.
+                let first = self.end(body, from)?;
+                let Some(more) = times.checked_sub(1).filter(|more| *more > 0) else { return Some(first) };
+                let second = self.end(body, first)?;
+                Some(first + more as f64 * (second - first))
+            }
+            Node::Stretch { duration, .. } => Some(from + duration),
+            Node::Exempt { body, .. } => self.end(body, from),
+            Node::Phase { .. } | Node::Approach { .. } => None,
+        }
+    }
+
+    fn action_end(&self, action: &Action, from: f64) -> Option<f64> {
+        let (joint, pieces) = match &action.command {
+            Command::Wait { duration } => return Some(from + duration),
+            Command::Dock { .. } | Command::Undock { .. } | Command::Spin { duration: None, .. } => {
+                return Some(from);
+            }
+            Command::Move { duration: Some(long), .. } | Command::Spin { duration: Some(long), .. }
+                if action.until.is_none() =>
+            {
+                return Some(from + long);
+            }
+            Command::Move { joint, profile: Profile::Smooth | Profile::Linear, .. } => (joint, 1),
+            Command::Move { joint, profile: Profile::Trapezoid, .. } => (joint, 3),
+            Command::Spin { joint, .. } => (joint, 3),
+            Command::Follow { joint, keyframes } => (joint, keyframes.len().saturating_sub(1)),
+        };
+        let segments = self.tracks.get(&joint.0).map_or(&[][..], |track| &track.segments);
+        let first = segments.partition_point(|segment| segment.start < from - TOL_INSTANT);
+        let own = segments[first..].iter().take(pieces);
+        let mut end = from;
+        for segment in own.take_while(|segment| segment.cause == action.cause) {
+            if segment.start > end + TOL_INSTANT {
+                break;
+            }
+            end = segment.end;
+        }
+        Some(end)
+    }
+}
+
+fn exempt(kind: &ExemptionKind) -> &'static str {
+    match kind {
+        ExemptionKind::Unstable => "unstable",
+        ExemptionKind::Slip => "slip",
+        ExemptionKind::Collision(_) => "collision",
+        ExemptionKind::Overload(_) => "overload",
+    }
+}

@@ -1,0 +1,102 @@
+//! Values as a person in a session wants to see them: a robot as the tree of its parts, a behaviour
+//! as its series-parallel tree, a plan as a sketch of its time, cells and patterns as characters.
+
+use super::shape;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::record::Record;
+use crate::interpret::stop::Eval;
+use crate::interpret::value::Value;
+
+/// Lines of a portrait; what is beyond is counted.
+pub const LINES_MAX: usize = 40;
+
+impl Interpreter<'_> {
+    /// A value over as many lines as it needs, the first of which can stand alone.
+    pub fn portrait(&mut self, value: &Value) -> Eval<String> {
+        Ok(match value {
+            Value::Text(text) => quoted(text),
+            Value::Instance(instance) => self.portrait_instance(instance)?,
+            Value::Behavior(behavior) => self.portrait_behavior(behavior)?,
+            Value::Cells(cells) => shape::cells(cells),
+            Value::Record(record) => match &**record {
+                Record::Plan(planned) => self.portrait_plan(planned)?,
+                Record::Layout(planned) => match &planned.folded {
+                    Some(folded) => shape::pattern(&folded.pattern),
+                    None => self.show(value),
+                },
+                _ => self.show(value),
+            },
+            Value::List(elements) if elements.iter().any(|e| matches!(e, Value::Text(_))) => {
+                let shown = elements.iter().map(|e| match e {
+                    Value::Text(text) => quoted(text),
+                    other => self.show(other),
+                });
+                format!("[{}]", shown.collect::<Vec<_>>().join(", "))
+            }
+            _ => self.show(value),
+        })
+    }
+}
+
+/// A text as it could be written.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            '{' => out.push_str("\\{"),
+            '}' => out.push_str("\\}"),
+            c if c.is_control() => out.push_str(&format!("\\u{{{:x}}}", c as u32)),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// A branch of a tree drawn with lines.
+pub struct Branch {
+    pub text: String,
+    pub below: Vec<Branch>,
+}
+
+impl Branch {
+    pub fn leaf(text: impl Into<String>) -> Branch {
+        Branch { text: text.into(), below: Vec::new() }
+    }
+
+    /// Two columns for each level; what does not fit is counted.
+    pub fn drawn(&self) -> String {
+        let mut lines = vec![self.text.clone()];
+        self.draw_below("", &mut lines);
+        let more = lines.len().saturating_sub(LINES_MAX);
+        if more > 1 {
+            lines.truncate(LINES_MAX);
+            lines.push(format!("... and {more} more lines"));
+        }
+        lines.join("\n")
+    }
+
+    fn draw_below(&self, indent: &str, lines: &mut Vec<String>) {
+        for (i, branch) in self.below.iter().enumerate() {
+            let last = i + 1 == self.below.len();
+            lines.push(format!("{indent}{} {}", if last { "└" } else { "├" }, branch.text));
+            branch.draw_below(&format!("{indent}{} ", if last { " " } else { "│" }), lines);
+        }
+    }
+}
+
+/// `1 module`, `3 modules`
+pub fn counted(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+/// Names with the ends of equal beginnings joined, no more of them than fit a line.
+pub fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 6;
+    let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
+    if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }
+}

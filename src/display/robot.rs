@@ -1,0 +1,227 @@
+//! Robots as trees of their parts.
+
+use super::pretty::{Branch, counted, listed};
+use super::shape;
+use super::truss;
+use crate::check::typed::{DefId, DefKind};
+use crate::elaborate::connect::free_ports;
+use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance, ModuleDesign};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::Eval;
+use crate::robot::{Joint, JointKind};
+use crate::units::{Dimension, quantity};
+use std::rc::Rc;
+
+/// Elements of a list of parts that are drawn each by itself.
+const ELEMENTS_DRAWN: usize = 3;
+
+impl Interpreter<'_> {
+    pub fn portrait_instance(&mut self, instance: &Rc<Instance>) -> Eval<String> {
+        let design = &instance.design;
+        Ok(match &design.kind {
+            DesignKind::Module(module) => self.module_tree(instance, module).drawn(),
+            DesignKind::Config(_) => self.config_tree(instance).drawn(),
+            DesignKind::Lattice(lattice) => {
+                format!("{} of {}\n{}", design.name, lattice.of.name, shape::cells(&lattice.cells))
+            }
+            DesignKind::Truss(truss) => truss::truss(design, truss),
+            DesignKind::Cell(cell) => format!(
+                "{}: {}, shrinks to {}, {}",
+                design.name,
+                quantity(cell.size, Dimension::LENGTH),
+                quantity(cell.shrinks_to, Dimension::LENGTH),
+                quantity(cell.mass, Dimension::MASS)
+            ),
+            DesignKind::Strut(strut) => format!(
+                "{}: {} to {}, {}",
+                design.name,
+                quantity(strut.length.0, Dimension::LENGTH),
+                quantity(strut.length.1, Dimension::LENGTH),
+                quantity(strut.mass, Dimension::MASS)
+            ),
+        })
+    }
+
+    fn module_tree(&self, instance: &Instance, module: &ModuleDesign) -> Branch {
+        let design = &instance.design;
+        let joints = module.module.joints.iter().enumerate().map(|(i, joint)| {
+            let dimension = module.joint_dimensions.get(i).copied().unwrap_or(Dimension::ANGLE);
+            Branch::leaf(format!("joint {}: {}", joint.name, joint_words(joint, dimension)))
+        });
+        let mut below: Vec<Branch> = joints.collect();
+        let ports: Vec<String> = module.module.ports.iter().map(|port| port.name.to_string()).collect();
+        if !ports.is_empty() {
+            below.push(Branch::leaf(format!("{}: {}", plural(ports.len(), "port"), listed(&ports))));
+        }
+        let title = if instance.path.is_empty() {
+            design.name.clone()
+        } else {
+            format!("{}, a {}", instance.path, design.name)
+        };
+        Branch { text: format!("{title}: a module of {}", mass_words(design)), below }
+    }
+
+    fn config_tree(&self, instance: &Instance) -> Branch {
+        let design = &instance.design;
+        let title = if instance.path.is_empty() {
+            design.name.clone()
+        } else {
+            format!("{}, a {}", instance.path, design.name)
+        };
+        let text = format!(
+            "{title}: order {}, {}, {}",
+            design.order(),
+            counted(design.module_count(), "module"),
+            mass_words(design)
+        );
+        let mut below = self.parts(design);
+        let named = self.named_ports(design.def);
+        if !named.is_empty() {
+            below.push(Branch::leaf(format!("{}: {}", plural(named.len(), "port"), listed(&named))));
+        }
+        let free = free_of(instance);
+        if !free.is_empty() {
+            below.push(Branch::leaf(format!("free: {}", listed(&free))));
+        }
+        let behaviors = self.behaviors(design.def);
+        if !behaviors.is_empty() {
+            below.push(Branch::leaf(format!(
+                "{}: {}",
+                plural(behaviors.len(), "behavior"),
+                listed(&behaviors)
+            )));
+        }
+        Branch { text, below }
+    }
+
+    /// The parts, each with its own, elements of a list that are alike together.
+    fn parts(&self, design: &Rc<Design>) -> Vec<Branch> {
+        let Some(groups) = design.config().and_then(|config| config.parts.get()) else { return Vec::new() };
+        let mut found = Vec::new();
+        for group in groups {
+            let alike = group.elements.windows(2).all(|pair| Rc::ptr_eq(&pair[0].design, &pair[1].design));
+            let count = group.elements.len();
+            match group.elements.first() {
+                None => {}
+                Some(first) if count > 1 && alike => {
+                    let name = first.name.split('[').next().unwrap_or(&first.name);
+                    found.push(self.part(&format!("{name}[{count}]"), &first.design));
+                }
+                Some(_) => {
+                    let shown = if count > ELEMENTS_DRAWN + 1 { ELEMENTS_DRAWN } else { count };
+                    let each = group.elements.iter().take(shown);
+                    found.extend(each.map(|element| self.part(&element.name, &element.design)));
+                    if count > shown {
+                        found.push(Branch::leaf(format!("... and {} more", count - shown)));
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    fn part(&self, name: &str, design: &Rc<Design>) -> Branch {
+        Branch { text: format!("{name}: {}", design.name), below: self.parts(design) }
+    }
+
+    /// Ports that a configuration hands on under names of its own.
+    fn named_ports(&self, def: DefId) -> Vec<String> {
+        use crate::check::typed::MemberKind;
+        let DefKind::Config(config) = &self.program.def(def).kind else { return Vec::new() };
+        let ports = config.members.iter().filter(|m| matches!(m.kind, MemberKind::Port { .. }));
+        ports.map(|m| m.name.to_string()).collect()
+    }
+
+    fn behaviors(&self, def: DefId) -> Vec<String> {
+        let DefKind::Config(config) = &self.program.def(def).kind else { return Vec::new() };
+        config.behaviors.iter().map(|b| b.name.to_string()).collect()
+    }
+
+    /// What was declared, in one line.
+    pub fn declaration_line(&mut self, def: DefId) -> Eval<String> {
+        let program = self.program;
+        let declared = program.def(def);
+        let name = declared.name;
+        let kind = match &declared.kind {
+            DefKind::Fn(function) => {
+                let params: Vec<String> = function
+                    .params
+                    .iter()
+                    .map(|p| format!("{}: {}", p.name, program.type_name(&p.ty)))
+                    .collect();
+                let result = program.type_name(&function.result);
+                return Ok(format!("fn {name}({}) -> {result}", params.join(", ")));
+            }
+            DefKind::Connector(_) => "connector",
+            DefKind::Module(_) => "module",
+            DefKind::Cell(_) => "cell",
+            DefKind::Strut(_) => "strut",
+            DefKind::Config(_) => "config",
+            DefKind::Lattice(_) => "lattice",
+            DefKind::Truss(_) => "truss",
+            _ => "declared",
+        };
+        let facts = self.default_design(def)?.map(|design| match &design.kind {
+            DesignKind::Module(module) => {
+                let (joints, ports) = (module.module.joints.len(), module.module.ports.len());
+                format!(": {}, {}, {}", counted(joints, "joint"), counted(ports, "port"), mass_words(&design))
+            }
+            DesignKind::Config(_) => format!(
+                ": order {}, {}, {}",
+                design.order(),
+                counted(design.module_count(), "module"),
+                mass_words(&design)
+            ),
+            DesignKind::Lattice(lattice) => format!(": {}", counted(lattice.cells.places.len(), "cell")),
+            DesignKind::Truss(truss) => {
+                format!(": {}, {}", counted(truss.nodes.len(), "node"), counted(truss.struts.len(), "strut"))
+            }
+            _ => String::new(),
+        });
+        Ok(format!("{kind} {name}{}", facts.unwrap_or_default()))
+    }
+}
+
+/// `port` or `ports`, by how many there are.
+fn plural(n: usize, what: &str) -> String {
+    if n == 1 { what.to_owned() } else { format!("{what}s") }
+}
+
+/// `turns about [0, 1, 0], -90deg..90deg, at most 60deg/s`
+fn joint_words(joint: &Joint, dimension: Dimension) -> String {
+    let kind = match joint.kind {
+        JointKind::Revolute => "revolute",
+        JointKind::Prismatic => "prismatic",
+        JointKind::Fixed => return "fixed".to_owned(),
+    };
+    let range = match joint.limits.range {
+        Some((from, to)) => format!(", {}..{}", quantity(from, dimension), quantity(to, dimension)),
+        None => ", continuous".to_owned(),
+    };
+    let speed = joint.limits.speed.map(|speed| format!(", at most {}", quantity(speed, per_time(dimension))));
+    format!("{kind}{range}{}", speed.unwrap_or_default())
+}
+
+fn per_time(dimension: Dimension) -> Dimension {
+    if dimension == Dimension::LENGTH { Dimension::SPEED } else { Dimension::ANGULAR_SPEED }
+}
+
+fn mass_words(design: &Rc<Design>) -> String {
+    let links = (0..design.module_count()).map(|m| design.module_type(m));
+    let mass: f64 = links.map(|module| module.links.iter().map(|link| link.mass).sum::<f64>()).sum();
+    quantity(mass, Dimension::MASS)
+}
+
+/// Free ports, by module: `m[0].left`, as in the robot that the instance belongs to.
+fn free_of(instance: &Instance) -> Vec<String> {
+    let robot = &instance.robot;
+    let lone = ConfigDesign::default();
+    let config = robot.config().unwrap_or(&lone);
+    let modules = instance.offset..instance.offset + instance.design.module_count();
+    modules
+        .flat_map(|module| {
+            let name = robot.module_name(module);
+            free_ports(config, robot, module).map(move |port| format!("{name}.{port}")).collect::<Vec<_>>()
+        })
+        .collect()
+}

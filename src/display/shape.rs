@@ -1,0 +1,89 @@
+//! Cells and flat patterns in characters.
+
+use super::pretty::counted;
+use crate::interpret::cells::Cells;
+use crate::natives::folding::FlatPattern;
+use crate::planners::fold::pattern::Pattern;
+
+/// What is larger is only counted.
+const COLUMNS_MAX: i64 = 120;
+const ROWS_MAX: i64 = 60;
+
+/// Layer by layer from the highest, each as `cells` reads it: y up, x to the right.
+pub fn cells(cells: &Cells) -> String {
+    let count = counted(cells.places.len(), "cell");
+    let ends = |axis: usize| {
+        let along = cells.places.iter().map(|place| place[axis]);
+        (along.clone().min().unwrap_or(0), along.max().unwrap_or(0))
+    };
+    let [(x0, x1), (y0, y1), (z0, z1)] = [ends(0), ends(1), ends(2)];
+    let rows = (y1 - y0 + 1).saturating_mul(z1 - z0 + 1);
+    if cells.places.is_empty() || x1 - x0 >= COLUMNS_MAX || rows > ROWS_MAX {
+        let size = [x1 - x0 + 1, y1 - y0 + 1, z1 - z0 + 1].map(|n| n.to_string()).join(" x ");
+        return format!("{count} in {size}");
+    }
+    let taken: std::collections::BTreeSet<[i64; 3]> = cells.places.iter().copied().collect();
+    let mut lines = vec![count];
+    for z in (z0..=z1).rev() {
+        if z1 > z0 {
+            lines.push(format!("layer {}", z - z0));
+        }
+        for y in (y0..=y1).rev() {
+            let row = (x0..=x1).map(|x| if taken.contains(&[x, y, z]) { '#' } else { '.' });
+            lines.push(format!("  {}", row.collect::<String>()));
+        }
+    }
+    lines.join("\n")
+}
+
+/// Columns between the middles of two triangles side by side.
+const PITCH: usize = 4;
+
+/// A pattern of equal triangles: each with its number between its sides, rows as they lie.
+pub fn pattern(pattern: &FlatPattern) -> String {
+    let count = counted(pattern.target.faces.len(), "panel");
+    let flat = Pattern::of(&pattern.target, &pattern.layout);
+    let Some(places) = flat.cells else {
+        return format!("a flat pattern of {count} of unequal sides");
+    };
+    let triangles: Vec<Triangle> =
+        places.iter().enumerate().map(|(face, sum)| triangle(face, *sum)).collect();
+    let (left, right) = (triangles.iter().map(|t| t.column).min(), triangles.iter().map(|t| t.column).max());
+    let (low, high) = (triangles.iter().map(|t| t.row).min(), triangles.iter().map(|t| t.row).max());
+    let (Some(left), Some(right), Some(low), Some(high)) = (left, right, low, high) else { return count };
+    if (right - left) * PITCH as i64 > COLUMNS_MAX || high - low > ROWS_MAX {
+        return format!("a flat pattern of {count}");
+    }
+    let mut lines = vec![format!("a flat pattern of {count}; {} is the root", pattern.layout.root)];
+    for row in (low..=high).rev() {
+        let width = (right - left) as usize * PITCH + PITCH + 1;
+        let mut line = vec![' '; width];
+        for t in triangles.iter().filter(|t| t.row == row) {
+            let begin = (t.column - left) as usize * PITCH;
+            let (open, close) = if t.up { ('/', '\\') } else { ('\\', '/') };
+            (line[begin], line[begin + PITCH]) = (open, close);
+            let number = t.face.to_string();
+            let middle = begin + 1 + (PITCH - 1).saturating_sub(number.len()) / 2;
+            line[middle..].iter_mut().zip(number.chars()).for_each(|(place, digit)| *place = digit);
+        }
+        lines.push(format!("  {}", line.into_iter().collect::<String>().trim_end()));
+    }
+    lines.join("\n")
+}
+
+struct Triangle {
+    face: usize,
+    row: i64,
+    /// Of its left end, in half sides.
+    column: i64,
+    /// Whether its tip is up.
+    up: bool,
+}
+
+/// From the sum of its corners in the two steps of the lattice, of which the second leans to the
+/// right by half a side.
+fn triangle(face: usize, [a, b]: [i64; 2]) -> Triangle {
+    let up = a.rem_euclid(3) == 1;
+    let (u, v) = (a.div_euclid(3), b.div_euclid(3));
+    Triangle { face, row: v, column: 2 * u + v + i64::from(!up), up }
+}

@@ -1,0 +1,176 @@
+//! Trusses as pictures of dots, seen from the front and from above, and what their plans achieve.
+
+use super::pretty::counted;
+use crate::elaborate::truss::TrussDesign;
+use crate::geometry::Vec3;
+use crate::interpret::design::Design;
+use crate::interpret::planning::Planned;
+use crate::natives::truss::Trussed;
+use crate::plan::{Body, NodePaths};
+use crate::units::display::number;
+use crate::units::{Dimension, quantity};
+
+/// Characters of a picture; each holds two dots by four.
+const WIDTH: usize = 32;
+const HEIGHT: usize = 10;
+/// Characters between two pictures.
+const APART: usize = 4;
+/// More struts are only counted.
+const STRUTS_DRAWN: usize = 2_000;
+
+/// From which side nodes are seen: their coordinates to the right and up.
+type Side = fn(&Vec3) -> [f64; 2];
+
+const FRONT: Side = |p| [p.x, p.z];
+const ABOVE: Side = |p| [p.x, p.y];
+
+/// A truss with its facts and two pictures.
+pub fn truss(design: &Design, truss: &TrussDesign) -> String {
+    let metres = |x: f64| quantity(x, Dimension::LENGTH);
+    let nodes: Vec<Vec3> = truss.nodes.iter().map(|node| node.place).collect();
+    let lengths = truss.struts.iter().map(|&(a, b)| (nodes[a] - nodes[b]).norm());
+    let (least, most) = lengths.fold((f64::INFINITY, 0.0f64), |(least, most), l| (least.min(l), most.max(l)));
+    let mut lines = vec![format!(
+        "{}: {}, {} of {}",
+        design.name,
+        counted(nodes.len(), "node"),
+        counted(truss.struts.len(), "strut"),
+        truss.of.name
+    )];
+    if let Some(strut) = truss.strut_kind() {
+        let (low, high) = strut.length;
+        let now =
+            if least == most { metres(least) } else { format!("{} to {}", metres(least), metres(most)) };
+        lines.push(format!("  struts of {now}, they reach from {} to {}", metres(low), metres(high)));
+    }
+    let rigidity = &truss.rigidity;
+    lines.push(format!(
+        "  rigid: rank {}, {}, weakest {}",
+        rigidity.rank,
+        counted(rigidity.redundant.len(), "redundant strut"),
+        number(rigidity.weakest)
+    ));
+    let views = [("from the front", &nodes[..], FRONT), ("from above", &nodes[..], ABOVE)];
+    lines.extend(pictures(&views, &truss.struts));
+    lines.join("\n")
+}
+
+/// What a planner says of its plan, and the truss before and after.
+pub fn made(planned: &Planned) -> Vec<String> {
+    let metres = |x: f64| quantity(x, Dimension::LENGTH);
+    let mut lines = match &planned.trussed {
+        Some(Trussed::Morphed { distance, start, ended }) => vec![
+            format!(
+                "  {} from the target at the start, {} at the end",
+                metres(start.there),
+                metres(distance.there)
+            ),
+            format!(
+                "  {} at worst, {} from the target to the truss; ended: {ended}",
+                metres(distance.worst),
+                metres(distance.back)
+            ),
+        ],
+        Some(Trussed::Travelled { rolls, footholds, distance, slip, reached, ended, .. }) => vec![
+            format!(
+                "  {} travelled, {}, {}, {} reached",
+                metres(*distance),
+                counted(*rolls, "roll"),
+                counted(*footholds, "foothold"),
+                counted(*reached, "point")
+            ),
+            format!("  {} of slip; ended: {ended}", metres(*slip)),
+        ],
+        None => Vec::new(),
+    };
+    if let Body::NodePaths(paths) = &planned.plan.body {
+        lines.extend(before_and_after(paths));
+    }
+    lines
+}
+
+fn before_and_after(paths: &NodePaths) -> Vec<String> {
+    let places = |nodes: &[[f64; 3]]| nodes.iter().map(|p| Vec3::from(*p)).collect::<Vec<_>>();
+    let (Some(first), Some(last)) = (paths.keyframes.first(), paths.keyframes.last()) else {
+        return Vec::new();
+    };
+    let (first, last) = (places(&first.nodes), places(&last.nodes));
+    let views = [("at the start, from the front", &first[..], FRONT), ("at the end", &last[..], FRONT)];
+    pictures(&views, &paths.struts)
+}
+
+/// Pictures side by side, each under its words, in one scale.
+fn pictures(views: &[(&str, &[Vec3], Side)], struts: &[(usize, usize)]) -> Vec<String> {
+    if struts.len() > STRUTS_DRAWN {
+        return Vec::new();
+    }
+    let flat: Vec<Vec<[f64; 2]>> =
+        views.iter().map(|(_, nodes, side)| nodes.iter().map(side).collect()).collect();
+    let ends: Vec<[[f64; 2]; 2]> = flat.iter().map(|points| bounds(points)).collect();
+    let (wide, high) = (WIDTH * 2 - 1, HEIGHT * 4 - 1);
+    let fits = |[low, high_end]: &[[f64; 2]; 2]| {
+        let [x, y] = [0, 1].map(|axis| (high_end[axis] - low[axis]).max(f64::MIN_POSITIVE));
+        (wide as f64 / x).min(high as f64 / y)
+    };
+    let scale = ends.iter().map(fits).fold(f64::INFINITY, f64::min);
+    let drawn: Vec<Vec<String>> =
+        flat.iter().zip(&ends).map(|(points, [low, _])| dots(points, *low, scale, struts)).collect();
+    let rows = drawn.iter().map(Vec::len).max().unwrap_or(0);
+    let titles: Vec<String> = views.iter().map(|(words, ..)| (*words).to_owned()).collect();
+    let mut lines = vec![beside(&titles)];
+    // Both stand on one line.
+    for row in 0..rows {
+        let pieces: Vec<String> = drawn
+            .iter()
+            .map(|own| (row + own.len()).checked_sub(rows).map_or_else(String::new, |at| own[at].clone()))
+            .collect();
+        lines.push(beside(&pieces));
+    }
+    lines
+}
+
+fn beside(pieces: &[String]) -> String {
+    let wide = WIDTH + APART;
+    let padded = pieces.iter().map(|piece| format!("{piece:<wide$}"));
+    format!("  {}", padded.collect::<String>()).trim_end().to_owned()
+}
+
+/// The least and the greatest coordinates.
+fn bounds(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let of = |pick: fn(f64, f64) -> f64, begin: f64| {
+        [0, 1].map(|axis| points.iter().map(|p| p[axis]).fold(begin, pick))
+    };
+    [of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)]
+}
+
+/// Lines between points, as rows of characters of dots (U+2800 and what follows).
+fn dots(points: &[[f64; 2]], low: [f64; 2], scale: f64, struts: &[(usize, usize)]) -> Vec<String> {
+    let place = |p: [f64; 2]| [0, 1].map(|axis| (p[axis] - low[axis]) * scale);
+    let top = points.iter().map(|p| place(*p)[1]).fold(0.0, f64::max);
+    let rows = (top as usize / 4 + 1).min(HEIGHT);
+    let mut cells = vec![[0u8; WIDTH]; rows];
+    for &(a, b) in struts {
+        let (p, q) = (place(points[a]), place(points[b]));
+        let steps = (p[0] - q[0]).abs().max((p[1] - q[1]).abs()).max(1.0) as usize;
+        for step in 0..=steps {
+            let t = step as f64 / steps as f64;
+            let [x, y] = [0, 1].map(|axis| (p[axis] + (q[axis] - p[axis]) * t + 0.5) as usize);
+            let (x, y) = (x.min(WIDTH * 2 - 1), y.min(rows * 4 - 1));
+            cells[rows - 1 - y / 4][x / 2] |= dot(x % 2, 3 - y % 4);
+        }
+    }
+    let character = |bits: &u8| char::from_u32(0x2800 + u32::from(*bits)).unwrap_or(' ');
+    // The empty character of dots is wider than a space in some fonts.
+    let shown = |bits: &u8| if *bits == 0 { ' ' } else { character(bits) };
+    cells.iter().map(|row| row.iter().map(shown).collect::<String>().trim_end().to_owned()).collect()
+}
+
+/// The bit of a dot, by column and by row from the top.
+fn dot(column: usize, row: usize) -> u8 {
+    match (column, row) {
+        (0, 3) => 0x40,
+        (1, 3) => 0x80,
+        (0, row) => 1 << row,
+        (_, row) => 8 << row,
+    }
+}

@@ -1,0 +1,143 @@
+//! Values as `print` and `{...}` in a text show them: as they could be written, with units that suit
+//! their size.
+
+use crate::geometry::Vec3;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::record::Record;
+use crate::interpret::value::{Callable, Value};
+use crate::interpret::verdicts;
+use crate::units::{Dimension, display, quantity};
+
+/// Most elements of a list that are shown; the rest is counted.
+const ELEMENTS_SHOWN: usize = 1000;
+/// Rounding below this is no part of a coordinate, m or 1.
+const COORDINATE_ROUNDING: f64 = 1e-12;
+
+impl Interpreter<'_> {
+    pub fn show(&self, value: &Value) -> String {
+        match value {
+            Value::Unknown => "?".into(),
+            Value::Nothing => "nothing".into(),
+            Value::Missing => "_".into(),
+            Value::Bool(b) => b.to_string(),
+            Value::Int(n) => n.to_string(),
+            Value::Big(n) => n.to_string(),
+            Value::Quantity(x, _) if x.is_infinite() => {
+                if *x > 0.0 { "infinite" } else { "-infinite" }.into()
+            }
+            Value::Quantity(x, d) => quantity(*x, without_radians(*d)),
+            Value::Text(text) => text.to_string(),
+            Value::Word(word) => word.to_string(),
+            Value::List(elements) => self.show_list(elements),
+            Value::Vec3(v, d) => show_vector(v, *d),
+            Value::Pose(pose) => show_pose(pose),
+            Value::Range(ends) => format!("{}..{}", self.show(&ends.0), self.show(&ends.1)),
+            Value::Fn(callable) => match &**callable {
+                Callable::Lambda { .. } => "a function".into(),
+                Callable::Def(def) => format!("the function {}", self.name(*def)),
+                Callable::Behavior { object, .. } => format!("a behaviour of {}", object.title()),
+            },
+            Value::Instance(instance) => instance.title().into(),
+            Value::Joint(joint) => joint.name(),
+            Value::Port(port) => port.name(),
+            Value::Behavior(_) => "a behaviour".into(),
+            Value::Signal(_) => "a signal".into(),
+            Value::Condition(_) => "a condition".into(),
+            Value::Shape(_) => "a shape".into(),
+            Value::JointKind(_) => "a kind of joint".into(),
+            Value::Cells(cells) => format!("{} cells", cells.places.len()),
+            Value::Mesh(mesh) => format!("a mesh of {} faces", mesh.faces.len()),
+            Value::Terrain(field) => format!("a terrain of {} by {} heights", field.columns, field.rows()),
+            Value::Cloud(points) => format!("a cloud of {} points", points.len()),
+            Value::Record(record) => self.show_record(record),
+        }
+    }
+
+    fn show_list(&self, elements: &[Value]) -> String {
+        let mut shown: Vec<String> = elements.iter().take(ELEMENTS_SHOWN).map(|e| self.show(e)).collect();
+        if elements.len() > ELEMENTS_SHOWN {
+            shown.push(format!("and {} more", elements.len() - ELEMENTS_SHOWN));
+        }
+        format!("[{}]", shown.join(", "))
+    }
+
+    fn show_record(&self, record: &Record) -> String {
+        match record {
+            Record::Plan(planned) => format!(
+                "a plan of {}, {} actions",
+                quantity(planned.plan.body.duration(), Dimension::TIME),
+                planned.actions()
+            ),
+            Record::Report(verdict) => verdicts::in_words(verdict),
+            Record::State(state) => format!("a state of {}", state.robot.name),
+            Record::World(world) => format!(
+                "ground {:?}, gravity {}, friction {}",
+                world.ground,
+                quantity(world.gravity, Dimension::ACCELERATION),
+                display::number(world.friction)
+            )
+            .to_lowercase(),
+            Record::Frame(nodes, struts) => {
+                format!("a frame of {} nodes and {} struts", nodes.len(), struts.len())
+            }
+            Record::Layout(planned) => {
+                let panels = planned.folded.as_ref().map_or(0, |folded| folded.pattern.target.faces.len());
+                format!("a flat pattern of {panels} panels")
+            }
+            Record::Orders(sample) => {
+                format!("{} of {} orders take more energy", sample.worse, sample.orders)
+            }
+            Record::Rigidity(design) => match &design.kind {
+                crate::interpret::design::DesignKind::Truss(truss) => {
+                    let r = &truss.rigidity;
+                    format!(
+                        "rank {} of {}, {} self-stresses, weakest {}, {} redundant struts",
+                        r.rank,
+                        r.rank_rigid,
+                        r.self_stresses,
+                        display::number(r.weakest),
+                        r.redundant.len()
+                    )
+                }
+                _ => String::new(),
+            },
+        }
+    }
+}
+
+/// Radians are dropped where that gives a dimension with a name: `2rad/s * 45mm` is a speed.
+fn without_radians(dimension: Dimension) -> Dimension {
+    let dropped = Dimension { angle: 0, ..dimension };
+    let named = dimension.name().is_none() && dropped.name().is_some();
+    if named && dimension.fits(dropped) { dropped } else { dimension }
+}
+
+/// Each coordinate with a unit of its own.
+fn show_vector(v: &Vec3, dimension: Dimension) -> String {
+    let coordinate = |x: f64| if x.abs() < COORDINATE_ROUNDING { 0.0 } else { x };
+    let parts: Vec<String> = v.iter().map(|&x| quantity(coordinate(x), dimension)).collect();
+    format!("[{}]", parts.join(", "))
+}
+
+/// The position, and the turn about its axis.
+fn show_pose(pose: &crate::geometry::Pose) -> String {
+    let at = show_vector(&pose.translation.vector, Dimension::LENGTH);
+    let (axis, angle) = axis_angle(pose);
+    if angle < COORDINATE_ROUNDING {
+        return format!("at {at}");
+    }
+    format!(
+        "at {at} turned({}, {})",
+        show_vector(&axis, Dimension::NUMBER),
+        quantity(angle, Dimension::ANGLE)
+    )
+}
+
+/// Axis and angle in 0..π, by `libm`, so that they are the same everywhere.
+fn axis_angle(pose: &crate::geometry::Pose) -> (Vec3, f64) {
+    let q = pose.rotation.quaternion();
+    let v = if q.w < 0.0 { -q.vector().into_owned() } else { q.vector().into_owned() };
+    let sine = v.norm();
+    let angle = 2.0 * libm::atan2(sine, q.w.abs());
+    (if sine > 0.0 { v / sine } else { Vec3::z() }, angle)
+}

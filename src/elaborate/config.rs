@@ -1,0 +1,357 @@
+//! Configurations: parts, connections, initial positions; Definitions IV.2 and V.1.
+
+use crate::check::typed::{ConfigClause, ConfigDef, Expr, PartCount, PartDef, Require};
+use crate::interpret::call::Args;
+use crate::interpret::design::{
+    ConfigDesign, Design, FlatModule, Instance, PartElement, PartGroup, SetRecord, join_path,
+};
+use crate::interpret::eval::Frame;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::value::Value;
+use crate::robot::JointOwner;
+use crate::source::{Diagnostic, Span, code};
+use crate::units::{Dimension, quantity};
+use std::rc::Rc;
+
+/// A requirement with the variables it was met with: it is asked when the body is complete.
+pub struct Deferred<'d> {
+    pub require: &'d Require,
+    pub frame: Frame,
+}
+
+impl Interpreter<'_> {
+    pub fn elaborate_config(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
+        let config = design.config().expect("made as a configuration");
+        let this = self.whole(design);
+        let complete = self.elaborate_parts(def, design, config, &this)?;
+        let mut frame = Frame::new(def.frame, Some(this.clone()));
+        let mut requirements = Vec::new();
+        if complete {
+            let mark = self.errors;
+            self.run_clauses(&def.clauses, config, &mut frame, &mut requirements)?;
+            self.force_members(def, &this)?;
+            self.find_base(def, config, &this)?;
+            // A connection that failed leaves parts unconnected; saying so would be a consequence.
+            if !self.failed_since(mark) && !design.broken.get() {
+                self.check_connected(def, design, config)?;
+            }
+        }
+        config.complete.set(true);
+        if complete {
+            self.check_closure(def, design)?;
+            self.check_requirements(requirements)?;
+        } else {
+            design.broken.set(true);
+        }
+        Ok(())
+    }
+
+    /// Elaborates the parts and lists their modules; gives whether all are known.
+    fn elaborate_parts(
+        &mut self,
+        def: &ConfigDef,
+        design: &Rc<Design>,
+        config: &ConfigDesign,
+        this: &Rc<Instance>,
+    ) -> Eval<bool> {
+        let mut groups = Vec::new();
+        let mut modules = Vec::new();
+        let mut order = 0;
+        let mut complete = true;
+        for part in &def.parts {
+            let mut frame = Frame::new(def.frame, Some(this.clone()));
+            let group = match self.elaborate_part(part, &mut frame, modules.len()) {
+                Ok(group) => group,
+                Err(Stop::Fault(diagnostic)) => {
+                    self.report(*diagnostic);
+                    None
+                }
+                Err(halt) => return Err(halt),
+            };
+            let Some(group) = group else {
+                complete = false;
+                continue;
+            };
+            for element in &group.elements {
+                order = order.max(element.design.order());
+                self.inherit(element, config, &mut modules);
+            }
+            self.check_modules(modules.len(), part.span)?;
+            groups.push(group);
+        }
+        if complete {
+            config.order.set(order + 1);
+            assert!(config.modules.set(modules).is_ok(), "a body is elaborated once");
+            assert!(config.parts.set(groups).is_ok(), "a body is elaborated once");
+        } else {
+            design.broken.set(true);
+        }
+        Ok(complete)
+    }
+
+    fn check_modules(&mut self, count: usize, span: Span) -> Eval<()> {
+        let limit = self.limits().modules;
+        if count <= limit {
+            return Ok(());
+        }
+        let message = format!("a robot of more than {limit} modules is not allowed");
+        self.halt(Diagnostic::error(code::SIZE_LIMIT, message).label(span, "too many parts"))
+    }
+
+    fn elaborate_part(
+        &mut self,
+        part: &PartDef,
+        frame: &mut Frame,
+        offset: usize,
+    ) -> Eval<Option<PartGroup>> {
+        let mut elements = Vec::new();
+        let mut next = offset;
+        let mut known = true;
+        let mut add = |this: &mut Self, frame: &mut Frame, name: String| -> Eval<()> {
+            match this.part_design(part, frame)? {
+                Some(design) => {
+                    let count = design.module_count();
+                    elements.push(PartElement { design, offset: next, name: name.as_str().into() });
+                    next += count;
+                    this.check_modules(next, part.span)?;
+                }
+                None => known = false,
+            }
+            Ok(())
+        };
+        match &part.count {
+            None => add(self, frame, part.name.to_string())?,
+            Some(PartCount::Number(count)) => {
+                let Some(count) = self.part_count(count, frame)? else { return Ok(None) };
+                for i in 0..count {
+                    add(self, frame, format!("{}[{i}]", part.name))?;
+                }
+            }
+            Some(PartCount::Each { binder, range }) => {
+                let values = self.eval(range, frame)?;
+                let mut i = 0;
+                let complete = self.for_each(&values, *binder, range.span, frame, |this, frame| {
+                    add(this, frame, format!("{}[{i}]", part.name))?;
+                    i += 1;
+                    Ok(())
+                })?;
+                known &= complete;
+            }
+        }
+        Ok(known.then_some(PartGroup { list: part.count.is_some(), elements }))
+    }
+
+    fn part_count(&mut self, count: &Expr, frame: &mut Frame) -> Eval<Option<i64>> {
+        match self.eval(count, frame)? {
+            Value::Int(n) if n >= 0 => Ok(Some(n)),
+            Value::Unknown => Ok(None),
+            value => Err(fault(
+                code::BAD_VALUE,
+                count.span,
+                format!("there can't be {} parts", self.show(&value)),
+                "a whole number of at least 0 is wanted",
+            )),
+        }
+    }
+
+    fn part_design(&mut self, part: &PartDef, frame: &mut Frame) -> Eval<Option<Rc<Design>>> {
+        let args: Args = self.eval_args(&part.args, part.ty_span, frame)?;
+        let design = self.design_of(part.of, args, part.ty_span)?;
+        Ok(design.filter(|d| !d.broken.get() && (d.module().is_some() || d.config().is_some())))
+    }
+
+    /// Takes over the modules, bonds and initial positions of a part.
+    fn inherit(&mut self, part: &PartElement, config: &ConfigDesign, modules: &mut Vec<FlatModule>) {
+        let Some(inner) = part.design.config() else {
+            modules.push(FlatModule { name: part.name.clone(), design: part.design.clone() });
+            return;
+        };
+        let listed = inner.modules.get().map_or(&[][..], Vec::as_slice);
+        modules.extend(
+            listed
+                .iter()
+                .map(|m| FlatModule { name: join_path(&part.name, &m.name), design: m.design.clone() }),
+        );
+        let shift = part.offset;
+        let bonds = config.bonds.borrow().len();
+        for bond in inner.bonds.borrow().iter() {
+            let mut bond = bond.clone();
+            bond.a.0 += shift;
+            bond.b.0 += shift;
+            bond.instance = inherited(&part.name, &bond.instance);
+            config.add_bond(bond);
+        }
+        for set in inner.sets.borrow().iter() {
+            let mut set = set.clone();
+            match &mut set.joint {
+                JointOwner::Module { module, .. } => *module += shift,
+                JointOwner::Bond(bond) => *bond += bonds,
+            }
+            set.instance = inherited(&part.name, &set.instance);
+            config.sets.borrow_mut().push(set);
+        }
+    }
+
+    fn run_clauses<'d>(
+        &mut self,
+        clauses: &'d [ConfigClause],
+        config: &ConfigDesign,
+        frame: &mut Frame,
+        requirements: &mut Vec<Deferred<'d>>,
+    ) -> Eval<()> {
+        for clause in clauses {
+            match self.run_clause(clause, config, frame, requirements) {
+                Err(Stop::Fault(diagnostic)) => self.report(*diagnostic),
+                other => other?,
+            }
+        }
+        Ok(())
+    }
+
+    fn run_clause<'d>(
+        &mut self,
+        clause: &'d ConfigClause,
+        config: &ConfigDesign,
+        frame: &mut Frame,
+        requirements: &mut Vec<Deferred<'d>>,
+    ) -> Eval<()> {
+        match clause {
+            ConfigClause::Connect { a, b, turn, span } => {
+                self.connect(config, a, b, turn.as_ref(), *span, frame)
+            }
+            ConfigClause::Set { joint, value, span } => self.set(config, joint, value, *span, frame),
+            ConfigClause::Let { local, value } => {
+                let value = self.eval(value, frame)?;
+                frame.set(*local, value);
+                Ok(())
+            }
+            ConfigClause::Require(require) => {
+                requirements.push(Deferred { require, frame: frame.clone() });
+                Ok(())
+            }
+            ConfigClause::If { condition, then, otherwise } => match self.eval(condition, frame)? {
+                Value::Bool(true) => self.run_clauses(then, config, frame, requirements),
+                Value::Bool(false) => self.run_clauses(otherwise, config, frame, requirements),
+                _ => Ok(()),
+            },
+            ConfigClause::For { binder, iterable, body } => {
+                let values = self.eval(iterable, frame)?;
+                self.for_each(&values, *binder, iterable.span, frame, |this, frame| {
+                    this.run_clauses(body, config, frame, requirements)
+                })?;
+                Ok(())
+            }
+        }
+    }
+
+    fn set(
+        &mut self,
+        config: &ConfigDesign,
+        joint: &Expr,
+        value: &Expr,
+        span: Span,
+        frame: &mut Frame,
+    ) -> Eval<()> {
+        let target = self.eval(joint, frame)?;
+        let position = self.eval(value, frame)?;
+        let (Value::Joint(target), Some(position)) = (target, position.as_number()) else { return Ok(()) };
+        let limits = match target.owner {
+            JointOwner::Module { module, joint: index } => {
+                let declared = &target.robot.module_type(module).joints[index];
+                if declared.mimic.is_some() {
+                    let message = format!("`{}` follows other joints and can't be set", target.name());
+                    return Err(fault(code::BAD_ACTION, joint.span, message, "follows other joints"));
+                }
+                declared.limits
+            }
+            JointOwner::Bond(bond) => self.hinge_limits(&target.robot, bond)?,
+        };
+        if let Some((low, high)) = limits.range
+            && !(low..=high).contains(&position)
+        {
+            return Err(out_of_range(&target.name(), position, (low, high), target.dimension, value.span));
+        }
+        let record = SetRecord {
+            joint: target.owner,
+            value: position,
+            span,
+            instance: self.binder_notes().as_str().into(),
+        };
+        config.sets.borrow_mut().push(record);
+        Ok(())
+    }
+
+    /// Evaluates the ports and lets of a body, so that their mistakes are found.
+    fn force_members(&mut self, def: &ConfigDef, this: &Rc<Instance>) -> Eval<()> {
+        use crate::check::typed::{MemberId, MemberKind};
+        for (index, member) in def.members.iter().enumerate() {
+            if matches!(member.kind, MemberKind::Port { .. }) {
+                let id = MemberId(u32::try_from(index).expect("members are few"));
+                let value = self.member(this, id, member.span);
+                self.settle(value)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn find_base(&mut self, def: &ConfigDef, config: &ConfigDesign, this: &Rc<Instance>) -> Eval<()> {
+        let Some(base) = &def.base else { return Ok(()) };
+        let value = self.eval(base, &mut Frame::new(def.frame, Some(this.clone())))?;
+        if let Value::Instance(part) = value {
+            // Of a part that is a configuration, its own base.
+            let inner = part.design.config().and_then(|c| c.base.get()).unwrap_or(0);
+            config.base.set(Some(part.offset + inner));
+        }
+        Ok(())
+    }
+
+    pub fn check_requirements(&mut self, requirements: Vec<Deferred>) -> Eval<()> {
+        for Deferred { require, mut frame } in requirements {
+            self.check_requirement(require, &mut frame)?;
+        }
+        Ok(())
+    }
+
+    pub fn check_requirement(&mut self, require: &Require, frame: &mut Frame) -> Eval<()> {
+        if !matches!(self.eval(&require.condition, frame)?, Value::Bool(false)) {
+            return Ok(());
+        }
+        let said = match self.eval_optional(require.message.as_ref(), frame)? {
+            Some(Value::Text(message)) => message.to_string(),
+            _ => "a requirement does not hold".to_string(),
+        };
+        let sides = self.sides(&require.condition, frame)?;
+        let label = if sides.is_empty() { "this is false".to_string() } else { sides };
+        self.report(Diagnostic::error(code::REQUIREMENT, said).label(require.condition.span, label));
+        Ok(())
+    }
+}
+
+/// `leg[2] (i = 3)` from the path of a part and what was said about its inside.
+fn inherited(part: &str, inside: &str) -> Rc<str> {
+    match inside {
+        "" => part.into(),
+        // A path goes on, a loop variable stands beside it.
+        _ if inside.contains('=') && !inside.contains(" (") => format!("{part} ({inside})").into(),
+        _ => format!("{part}.{inside}").into(),
+    }
+}
+
+/// That a joint can't be at a position.
+pub fn outside(joint: &str, position: f64, (low, high): (f64, f64), dimension: Dimension) -> String {
+    let [position, low, high] = [position, low, high].map(|x| quantity(x, dimension));
+    format!("{joint} can't be at {position}: its range is {low} to {high}")
+}
+
+pub fn out_of_range(
+    joint: &str,
+    position: f64,
+    (low, high): (f64, f64),
+    dimension: Dimension,
+    span: Span,
+) -> Stop {
+    let show = |x| quantity(x, dimension);
+    let message = outside(joint, position, (low, high), dimension);
+    fault(code::OUT_OF_RANGE, span, message, format!("outside {} to {}", show(low), show(high)))
+}

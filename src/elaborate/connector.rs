@@ -1,0 +1,155 @@
+//! Connectors: what mates with what, at which turns.
+
+use crate::check::typed::{ConnectorDef, DefId, DefKind, Expr};
+use crate::interpret::eval::Frame;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::value::{JointSpec, Value};
+use crate::robot::{Capture, Connector, Hinge};
+use crate::source::{Diagnostic, Span, code};
+use crate::units::Dimension;
+use std::rc::Rc;
+
+/// More turns than this are no discrete turns any more.
+const TURNS_MAX: i64 = 3600;
+/// Orientation that docking tolerates where `capture` states only a distance: as much as there is.
+const CAPTURE_ANGLE_DEFAULT: f64 = std::f64::consts::PI;
+
+pub struct ConnectorDesign {
+    pub def: DefId,
+    /// Its `mates` are empty here: they are declarations, below.
+    pub connector: Connector,
+    pub mates: Vec<DefId>,
+}
+
+impl Interpreter<'_> {
+    /// The connector of a declaration, elaborated once; `None` where it is not sound.
+    pub fn connector(&mut self, def: DefId) -> Eval<Option<Rc<ConnectorDesign>>> {
+        let index = def.0 as usize;
+        if let Some(known) = &self.connectors[index] {
+            return Ok(known.clone());
+        }
+        let program = self.program;
+        let DefKind::Connector(declared) = &program.def(def).kind else { return Ok(None) };
+        let mark = self.errors;
+        let design = match self.elaborate_connector(def, declared) {
+            Ok(design) => Some(Rc::new(design)),
+            Err(Stop::Fault(diagnostic)) => {
+                self.report(*diagnostic);
+                None
+            }
+            Err(halt) => return Err(halt),
+        };
+        let design = design.filter(|_| !self.failed_since(mark));
+        self.connectors[index] = Some(design.clone());
+        Ok(design)
+    }
+
+    fn elaborate_connector(&mut self, def: DefId, declared: &ConnectorDef) -> Eval<ConnectorDesign> {
+        let mut frame = Frame::new(declared.frame, None);
+        let mut connector = Connector {
+            name: self.name(def).to_string(),
+            mates: Vec::new(),
+            turns: self.turns(declared, &mut frame)?,
+            holds_force: None,
+            holds_moment: None,
+            capture: None,
+            hinge: None,
+        };
+        self.holds(declared, &mut connector, &mut frame)?;
+        if let Some((distance, angle)) = &declared.capture {
+            let distance = self.positive(distance, "the distance of capture", &mut frame)?;
+            let angle = match angle {
+                Some(angle) => self.positive(angle, "the angle of capture", &mut frame)?,
+                None => CAPTURE_ANGLE_DEFAULT,
+            };
+            connector.capture = Some(Capture { distance, angle });
+        }
+        if let Some((span, args)) = &declared.hinge {
+            connector.hinge = self.hinge(*span, args, &mut frame)?;
+        }
+        self.check_mutual(def, declared)?;
+        Ok(ConnectorDesign { def, connector, mates: declared.mates.iter().map(|(mate, _)| *mate).collect() })
+    }
+
+    fn turns(&mut self, declared: &ConnectorDef, frame: &mut Frame) -> Eval<u32> {
+        let Some(turns) = &declared.turns else { return Ok(1) };
+        match self.eval(turns, frame)? {
+            Value::Int(n) if (1..=TURNS_MAX).contains(&n) => Ok(n as u32),
+            Value::Unknown => Ok(1),
+            _ => Err(fault(
+                code::BAD_CONNECTOR,
+                turns.span,
+                format!("`turns` is how many turns are allowed in a full circle: 1 to {TURNS_MAX}"),
+                "a whole number of at least 1 is wanted",
+            )),
+        }
+    }
+
+    fn holds(&mut self, declared: &ConnectorDef, connector: &mut Connector, frame: &mut Frame) -> Eval<()> {
+        for holds in &declared.holds {
+            let amount = self.positive(holds, "what a connector holds", frame)?;
+            let slot = match holds.ty.dimension() {
+                Some(Dimension::FORCE) => &mut connector.holds_force,
+                _ => &mut connector.holds_moment,
+            };
+            if slot.replace(amount).is_some() {
+                let message = "what the connector holds is stated twice";
+                return Err(fault(code::BAD_CONNECTOR, holds.span, message, "stated before"));
+            }
+        }
+        Ok(())
+    }
+
+    fn hinge(&mut self, span: Span, args: &[Option<Expr>], frame: &mut Frame) -> Eval<Option<Hinge>> {
+        let Some(revolute) = self.native_named("revolute") else { return Ok(None) };
+        let Value::JointKind(spec) = self.call_def(revolute, args, span, frame)? else { return Ok(None) };
+        let JointSpec { axis, limits, .. } = *spec;
+        Ok(Some(Hinge { axis: axis.normalize(), limits }))
+    }
+
+    /// The built-in of this name.
+    pub fn native_named(&self, key: &str) -> Option<DefId> {
+        let is_it = |kind: &DefKind| matches!(kind, DefKind::Native(native) if native.key == key);
+        let index = self.program.defs.iter().position(|def| is_it(&def.kind))?;
+        Some(DefId(u32::try_from(index).expect("declarations are counted in 32 bits")))
+    }
+
+    fn check_mutual(&mut self, def: DefId, declared: &ConnectorDef) -> Eval<()> {
+        let program = self.program;
+        for (mate, span) in &declared.mates {
+            let DefKind::Connector(other) = &program.def(*mate).kind else { continue };
+            let (this, that) = (self.name(def), self.name(*mate));
+            if !other.mates.iter().any(|(back, _)| *back == def) {
+                let message = format!("{this} mates {that}, but {that} does not mate {this}");
+                return Err(Diagnostic::error(code::BAD_CONNECTOR, message)
+                    .label(*span, format!("{that} does not say so"))
+                    .label(program.def(*mate).span, "declared here")
+                    .hint(format!("write `mates {this}` in {that}"))
+                    .into());
+            }
+            let turns = self.turns(declared, &mut Frame::new(declared.frame, None))?;
+            let others = self.turns(other, &mut Frame::new(other.frame, None))?;
+            if turns != others {
+                let message = format!("{this} has {turns} turns, and {that}, which it mates, has {others}");
+                return Err(Diagnostic::error(code::BAD_CONNECTOR, message)
+                    .label(*span, "connectors that mate have the same turns")
+                    .label(program.def(*mate).span, "declared here")
+                    .into());
+            }
+        }
+        Ok(())
+    }
+
+    /// The value of an expression that must be a positive number.
+    pub fn positive(&mut self, expr: &Expr, what: &str, frame: &mut Frame) -> Eval<f64> {
+        match self.eval(expr, frame)?.as_number() {
+            Some(x) if x > 0.0 => Ok(x),
+            // An unknown value has been reported already; any stands in for it.
+            None => Ok(1.0),
+            Some(_) => {
+                Err(fault(code::BAD_VALUE, expr.span, format!("{what} must be positive"), "must be positive"))
+            }
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Instances: a declaration and its arguments, elaborated once and shared.
+
+use crate::check::typed::{DefId, DefKind, Expr, Param};
+use crate::interpret::call::Args;
+use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance};
+use crate::interpret::eval::Frame;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::Eval;
+use crate::interpret::value::Value;
+use crate::source::{Diagnostic, Span, code};
+use std::cell::Cell;
+use std::rc::Rc;
+
+impl Interpreter<'_> {
+    /// `Walker(bend: 35deg)`
+    pub fn instantiate(
+        &mut self,
+        def: DefId,
+        args: &[Option<Expr>],
+        span: Span,
+        frame: &mut Frame,
+    ) -> Eval<Value> {
+        let args = self.eval_args(args, span, frame)?;
+        Ok(match self.design_of(def, args, span)? {
+            Some(design) if !design.broken.get() => Value::Instance(self.whole(&design)),
+            _ => Value::Unknown,
+        })
+    }
+
+    /// The design of a declaration with these arguments; `None` where an argument is unknown or the
+    /// declaration was not understood.
+    pub fn design_of(&mut self, def: DefId, args: Args, span: Span) -> Eval<Option<Rc<Design>>> {
+        if self.faulty[def.0 as usize] {
+            return Ok(None);
+        }
+        let Some(params) = params_of(&self.program.def(def).kind) else { return Ok(None) };
+        let Some((args, shown)) = self.fill_params(def, params, args)? else { return Ok(None) };
+        let known = self.designs[def.0 as usize].iter().find(|d| same_args(&d.args, &args)).cloned();
+        match known {
+            Some(design) => self.check_complete(&design, span).map(|()| Some(design)),
+            None => self.elaborate(def, args, &shown, span).map(Some),
+        }
+    }
+
+    /// A configuration that is met again before it is complete is a part of itself.
+    fn check_complete(&mut self, design: &Rc<Design>, span: Span) -> Eval<()> {
+        let running = design.config().is_some_and(|config| !config.complete.get());
+        if running {
+            let declared = self.program.def(design.def).span;
+            let message = format!("`{}` is a part of itself", design.name);
+            return Err(Diagnostic::error(code::DECLARATION_CYCLE, message)
+                .label(span, "needed here, before it is complete")
+                .label(declared, "declared here")
+                .into());
+        }
+        Ok(())
+    }
+
+    /// All arguments with the defaults filled in, and those that differ from the defaults as text.
+    fn fill_params(
+        &mut self,
+        def: DefId,
+        params: &[Param],
+        args: Args,
+    ) -> Eval<Option<(Vec<Value>, String)>> {
+        let mut filled = Vec::with_capacity(params.len());
+        let mut shown = Vec::new();
+        let mut given = args.values.into_iter();
+        for param in params {
+            let default = match &param.default {
+                Some(default) => Some(self.default_argument(def, default, &filled)?),
+                None => None,
+            };
+            let value = match given.next().flatten() {
+                Some(value) => {
+                    if default.as_ref().is_none_or(|d| d.same(&value) != Some(true)) {
+                        shown.push(format!("{}: {}", param.name, self.show(&value)));
+                    }
+                    value
+                }
+                None => default.unwrap_or(Value::Missing),
+            };
+            if value.is_unknown() {
+                return Ok(None);
+            }
+            filled.push(value);
+        }
+        Ok(Some((filled, shown.join(", "))))
+    }
+
+    /// A default may depend on the parameters before it.
+    fn default_argument(&mut self, def: DefId, default: &Expr, before: &[Value]) -> Eval<Value> {
+        let shell = self.shell(def, before.to_vec());
+        let mut frame = Frame::new(0, Some(shell));
+        for (slot, value) in before.iter().enumerate() {
+            frame.set_slot(slot, value.clone());
+        }
+        self.eval(default, &mut frame)
+    }
+
+    /// An instance that has arguments and nothing else: what the expressions of a body see before
+    /// there is a body.
+    pub fn shell(&self, def: DefId, args: Vec<Value>) -> Rc<Instance> {
+        let design = Design {
+            def,
+            name: self.name(def).to_string(),
+            args,
+            kind: DesignKind::Config(ConfigDesign::default()),
+            broken: Cell::new(false),
+        };
+        Instance::whole(Rc::new(design))
+    }
+
+    fn elaborate(&mut self, def: DefId, args: Vec<Value>, shown: &str, span: Span) -> Eval<Rc<Design>> {
+        let program = self.program;
+        let name = self.name(def);
+        let title = if shown.is_empty() { name.to_string() } else { format!("{name}({shown})") };
+        let mark = self.errors;
+        let design = match &program.def(def).kind {
+            DefKind::Config(config) => {
+                let kind = ConfigDesign { closed: config.closed.is_some(), ..ConfigDesign::default() };
+                let design = self.keep(def, title, args, DesignKind::Config(kind));
+                self.called(span, name, |this| this.elaborate_config(config, &design))?;
+                design
+            }
+            other => {
+                let shell = self.shell(def, args.clone());
+                let kind = self.called(span, name, |this| this.elaborate_leaf(other, def, &shell, &title))?;
+                let broken = kind.is_none();
+                let kind = kind.unwrap_or_else(|| DesignKind::Config(ConfigDesign::default()));
+                let design = self.keep(def, title, args, kind);
+                if let Some(config) = design.config() {
+                    config.complete.set(true);
+                }
+                if broken {
+                    design.broken.set(true);
+                }
+                design
+            }
+        };
+        if self.failed_since(mark) {
+            design.broken.set(true);
+        }
+        Ok(design)
+    }
+
+    /// Everything but configurations; `None` where it is not sound, which has been reported.
+    fn elaborate_leaf(
+        &mut self,
+        kind: &DefKind,
+        def: DefId,
+        shell: &Rc<Instance>,
+        title: &str,
+    ) -> Eval<Option<DesignKind>> {
+        match kind {
+            DefKind::Module(module) => self.elaborate_module(module, def, shell, title),
+            DefKind::Cell(facts) => self.elaborate_cell(facts, def, shell, title),
+            DefKind::Strut(facts) => self.elaborate_strut(facts, def, shell, title),
+            DefKind::Lattice(lattice) => self.elaborate_lattice(lattice, def, shell),
+            DefKind::Truss(truss) => self.elaborate_truss(truss, def, shell),
+            _ => Ok(None),
+        }
+    }
+
+    fn keep(&mut self, def: DefId, name: String, args: Vec<Value>, kind: DesignKind) -> Rc<Design> {
+        let design = Rc::new(Design { def, name, args, kind, broken: Cell::new(false) });
+        self.designs[def.0 as usize].push(design.clone());
+        design
+    }
+
+    /// Elaborates a declaration with its defaults; `None` where a parameter has none.
+    pub fn default_design(&mut self, def: DefId) -> Eval<Option<Rc<Design>>> {
+        let declared = self.program.def(def);
+        let Some(params) = params_of(&declared.kind) else { return Ok(None) };
+        if params.iter().any(|p| p.default.is_none()) {
+            return Ok(None);
+        }
+        self.design_of(def, Args { values: vec![None; params.len()], spans: Vec::new() }, declared.span)
+    }
+}
+
+fn same_args(a: &[Value], b: &[Value]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.same(y) == Some(true))
+}
+
+pub fn params_of(kind: &DefKind) -> Option<&[Param]> {
+    Some(match kind {
+        DefKind::Module(d) => &d.params,
+        DefKind::Cell(d) | DefKind::Strut(d) => &d.params,
+        DefKind::Config(d) => &d.params,
+        DefKind::Lattice(d) => &d.params,
+        DefKind::Truss(d) => &d.params,
+        _ => return None,
+    })
+}

@@ -1,0 +1,229 @@
+//! From a design to a robot of the right wing: one assembly with its library, its start state and
+//! its kinematics.
+
+use crate::check::typed::DefId;
+use crate::geometry::{Pose, Vec3};
+use crate::interpret::design::{Design, DesignKind, PartElement};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::Eval;
+use crate::interpret::value::{JointValue, PortValue};
+use crate::robot::{
+    Assembly, Bond, JointId, JointOwner, Kinematics, Library, ModuleInstance, PortRef, Residual, State,
+};
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// Centres nearer to each other than this are equally near: symmetry is exact only in thought.
+const TIE_DISTANCE: f64 = 1e-9;
+
+/// Parts whose masses differ by less than this part are equally heavy.
+const TIE_MASS: f64 = 1e-9;
+
+pub struct Robot {
+    pub assembly: Arc<Assembly>,
+    /// Joints as `set`, all bonds, the base module's body at the origin.
+    pub start: State,
+    pub kinematics: Kinematics,
+    /// Poses of all links in the start state.
+    pub poses: Vec<Pose>,
+}
+
+impl Robot {
+    pub fn joint(&self, joint: &JointValue) -> JointId {
+        self.joint_of(joint.owner)
+    }
+
+    pub fn joint_of(&self, owner: JointOwner) -> JointId {
+        let index = joint_index(&self.kinematics, owner);
+        JointId(u32::try_from(index).expect("joints are counted in 32 bits"))
+    }
+
+    /// The path name of a joint.
+    pub fn joint_name(&self, joint: JointId) -> String {
+        let owner = self.assembly.joints().nth(joint.0 as usize);
+        owner.map_or_else(String::new, |owner| self.assembly.joint_name(owner))
+    }
+
+    pub fn residuals(&self) -> Vec<Residual> {
+        self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
+    }
+
+    /// Centre of mass in the frame of the base module (m), and mass (kg).
+    pub fn centre_of_mass(&self) -> (Vec3, f64) {
+        self.kinematics.centre_of_mass(&self.assembly, &self.poses)
+    }
+
+    /// The pose of a port in the frame of the base module.
+    pub fn port_pose(&self, port: &PortValue) -> Pose {
+        self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
+    }
+}
+
+pub fn port_ref(port: &PortValue) -> PortRef {
+    PortRef { module: port.module, port: port.port }
+}
+
+impl Interpreter<'_> {
+    /// The robot of a design that is complete; `None` where it is broken or no robot.
+    pub fn robot_of(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
+        let cell = match &design.kind {
+            DesignKind::Module(module) => &module.robot,
+            DesignKind::Config(config) if config.complete.get() && !design.broken.get() => &config.robot,
+            _ => return Ok(None),
+        };
+        if let Some(robot) = cell.get() {
+            return Ok(robot.clone());
+        }
+        let robot = self.build_robot(design)?.map(Rc::new);
+        // Building does not come back here, so the place is still free.
+        Ok(cell.get_or_init(|| robot).clone())
+    }
+
+    fn build_robot(&mut self, design: &Rc<Design>) -> Eval<Option<Robot>> {
+        if design.module_count() == 0 {
+            return Ok(None);
+        }
+        let Some((library, kinds)) = self.library_of(design)? else { return Ok(None) };
+        let modules = kinds
+            .iter()
+            .enumerate()
+            .map(|(index, kind)| ModuleInstance { name: design.module_name(index).to_string(), kind: *kind });
+        let bonds = design.bonds().into_iter().map(|bond| Bond {
+            a: PortRef { module: bond.a.0, port: bond.a.1 },
+            b: PortRef { module: bond.b.0, port: bond.b.1 },
+            turn: bond.turn,
+        });
+        let named = design.config().and_then(|config| config.base.get());
+        let mut assembly = Assembly {
+            name: design.name.clone(),
+            library: Arc::new(library),
+            modules: modules.collect(),
+            bonds: bonds.collect(),
+            base: named.unwrap_or(0),
+            closed: design.config().is_some_and(|config| config.closed),
+        };
+        let holds = vec![true; assembly.bonds.len()];
+        let mut kinematics = Kinematics::new(&assembly, &holds, assembly.base);
+        let joints = start_joints(design, &assembly, &kinematics);
+        let mut poses = vec![Pose::identity(); kinematics.link_count()];
+        kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
+        if named.is_none() {
+            let candidates = self.base_candidates(design, &assembly)?;
+            assembly.base = central_module(&assembly, &kinematics, &poses, &candidates);
+            kinematics = Kinematics::new(&assembly, &holds, assembly.base);
+            kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
+        }
+        let start = State { joints, bonds: holds, base: Pose::identity() };
+        Ok(Some(Robot { assembly: Arc::new(assembly), start, kinematics, poses }))
+    }
+
+    /// The modules that may be the base where none is named: that of each part than which no other
+    /// is heavier. A car with a long arm stands on the car, whichever module is nearest to the centre
+    /// of mass. Where all parts are single modules, every module is a candidate.
+    fn base_candidates(&mut self, design: &Rc<Design>, assembly: &Assembly) -> Eval<Vec<usize>> {
+        let Some(parts) = design.config().and_then(|config| config.parts.get()) else { return Ok(vec![0]) };
+        let mass_of = |part: &PartElement| -> f64 {
+            let modules = part.offset..part.offset + part.design.module_count();
+            modules.flat_map(|m| &assembly.module_type(m).links).map(|link| link.mass).sum()
+        };
+        let elements: Vec<&PartElement> = parts.iter().flat_map(|group| &group.elements).collect();
+        if elements.iter().all(|part| part.design.module_count() == 1) {
+            return Ok((0..assembly.modules.len()).collect());
+        }
+        let masses: Vec<f64> = elements.iter().map(|part| mass_of(part)).collect();
+        let heaviest = masses.iter().copied().fold(0.0, f64::max) * (1.0 - TIE_MASS);
+        let mut candidates = Vec::new();
+        let heavy = elements.iter().zip(&masses).filter(|(_, mass)| **mass >= heaviest);
+        for (part, _) in heavy.filter(|(part, _)| part.design.module_count() > 0) {
+            let base = self.robot_of(&part.design)?.map_or(0, |robot| robot.assembly.base);
+            candidates.push(part.offset + base);
+        }
+        Ok(candidates)
+    }
+
+    /// The module types and connectors of a robot, and the type of each module.
+    fn library_of(&mut self, design: &Rc<Design>) -> Eval<Option<(Library, Vec<usize>)>> {
+        let mut types: Vec<Rc<Design>> = Vec::new();
+        let mut kinds = Vec::new();
+        for index in 0..design.module_count() {
+            let module = design.module_at(index);
+            let known = types.iter().position(|t| Rc::ptr_eq(t, &module));
+            kinds.push(known.unwrap_or_else(|| {
+                types.push(module);
+                types.len() - 1
+            }));
+        }
+        let of_types = types.iter().filter_map(|t| t.module()).flat_map(|m| m.connectors.iter().copied());
+        let Some(connectors) = self.with_mates(of_types.collect())? else { return Ok(None) };
+        let mut library = Library::default();
+        let index_of = |def: DefId| connectors.iter().position(|d| *d == def);
+        for def in &connectors {
+            let Some(design) = self.connector(*def)? else { return Ok(None) };
+            let mut connector = design.connector.clone();
+            connector.mates = design.mates.iter().filter_map(|mate| index_of(*mate)).collect();
+            library.connectors.push(connector);
+        }
+        for module in types.iter().filter_map(|t| t.module()) {
+            let mut kind = module.module.as_ref().clone();
+            for port in &mut kind.ports {
+                port.connector =
+                    index_of(module.connectors[port.connector]).expect("all connectors were collected");
+            }
+            library.modules.push(kind);
+        }
+        Ok(Some((library, kinds)))
+    }
+
+    /// Connectors and, over and over, what they mate with, each once.
+    fn with_mates(&mut self, first: Vec<DefId>) -> Eval<Option<Vec<DefId>>> {
+        let mut all: Vec<DefId> = Vec::new();
+        let mut waiting: std::collections::VecDeque<DefId> = first.into();
+        while let Some(def) = waiting.pop_front() {
+            if all.contains(&def) {
+                continue;
+            }
+            let Some(design) = self.connector(def)? else { return Ok(None) };
+            all.push(def);
+            waiting.extend(design.mates.iter().copied());
+        }
+        Ok(Some(all))
+    }
+}
+
+fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
+    match owner {
+        JointOwner::Module { module, joint } => kinematics.joint(module, joint),
+        JointOwner::Bond(bond) => kinematics.hinge(bond).expect("only hinges are named"),
+    }
+}
+
+fn start_joints(design: &Rc<Design>, assembly: &Assembly, kinematics: &Kinematics) -> Vec<f64> {
+    let mut joints = vec![0.0; assembly.joints().count()];
+    for set in design.sets() {
+        joints[joint_index(kinematics, set.joint)] = set.value;
+    }
+    joints
+}
+
+/// The candidate whose centre of mass is nearest to that of the whole; of several the first by name.
+fn central_module(
+    assembly: &Assembly,
+    kinematics: &Kinematics,
+    poses: &[Pose],
+    candidates: &[usize],
+) -> usize {
+    let (centre, _) = kinematics.centre_of_mass(assembly, poses);
+    let distance = |module: usize| {
+        let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
+        for (link, declared) in kinematics.links_of(module).zip(&assembly.module_type(module).links) {
+            moment += (poses[link] * nalgebra::Point3::from(declared.com)).coords * declared.mass;
+            mass += declared.mass;
+        }
+        (moment / mass - centre).norm()
+    };
+    let distances: Vec<f64> = candidates.iter().map(|&m| distance(m)).collect();
+    let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    let near = candidates.iter().zip(&distances).filter(|(_, d)| **d <= least + TIE_DISTANCE);
+    let names = &assembly.modules;
+    near.map(|(&m, _)| m).min_by(|&a, &b| names[a].name.cmp(&names[b].name)).unwrap_or(0)
+}

@@ -1,0 +1,378 @@
+//! Trusses: nodes and struts of one kind, rigid in their start pose.
+
+use super::config::Deferred;
+use super::connect::shorten;
+use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
+use crate::geometry::Vec3;
+use crate::interpret::design::{Design, DesignKind, Instance};
+use crate::interpret::eval::Frame;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::value::Value;
+use crate::interrupt;
+use crate::robot::Strut;
+use crate::robot::truss::{self, Rigidity};
+use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::units::{Dimension, quantity};
+use std::rc::Rc;
+
+/// Nodes nearer to each other than this are one place, m.
+const NODE_DISTANCE_MIN: f64 = 1e-9;
+/// Struts may be this much outside of their range, m: a rounding of what was meant.
+const LENGTH_TOLERANCE: f64 = 1e-9;
+/// More nodes make the rigidity matrix too large to decompose in a few seconds.
+const NODES_MAX: usize = 1000;
+/// Faults of one truss that are told.
+const FAULTS_TOLD: usize = 8;
+/// Of more nodes it takes a while to find out whether they hold each other.
+const NODES_AT_ONCE: usize = 100;
+/// Free motions of a truss that is not rigid that are told.
+const MOTIONS_TOLD: usize = 6;
+
+pub struct TrussDesign {
+    /// The strut.
+    pub of: Rc<Design>,
+    pub nodes: Vec<Node>,
+    pub struts: Vec<(usize, usize)>,
+    pub rigidity: Rigidity,
+}
+
+#[derive(Clone)]
+pub struct Node {
+    /// `ring[3]`
+    pub name: String,
+    /// `ring`
+    pub group: Option<Symbol>,
+    pub place: Vec3,
+    span: Span,
+}
+
+/// A truss while its body is read; struts with where they stand.
+#[derive(Default)]
+struct Draft {
+    nodes: Vec<Node>,
+    struts: Vec<(usize, usize, Span)>,
+}
+
+impl TrussDesign {
+    pub fn strut_name(&self, strut: usize) -> String {
+        let (a, b) = self.struts[strut];
+        format!("{} -- {}", self.nodes[a].name, self.nodes[b].name)
+    }
+
+    pub fn strut_kind(&self) -> Option<&Strut> {
+        match &self.of.kind {
+            DesignKind::Strut(strut) => Some(strut),
+            _ => None,
+        }
+    }
+}
+
+impl Interpreter<'_> {
+    pub fn elaborate_truss(
+        &mut self,
+        def: &TrussDef,
+        id: DefId,
+        this: &Rc<Instance>,
+    ) -> Eval<Option<DesignKind>> {
+        let mark = self.errors;
+        let of = self.default_design(def.of)?.filter(|design| !design.broken.get());
+        let name = self.program.def(id).span;
+        let mut frame = Frame::new(def.frame, Some(this.clone()));
+        let mut draft = Draft::default();
+        match &def.body {
+            TrussBody::Value(value) => {
+                let built = self.eval(value, &mut frame)?;
+                let Some((nodes, struts)) = crate::interpret::record::frame_parts(&built) else {
+                    return Ok(None);
+                };
+                draft.nodes = numbered(nodes, value.span);
+                draft.struts = struts.into_iter().map(|(a, b)| (a, b, value.span)).collect();
+            }
+            TrussBody::Clauses(clauses) => {
+                let mut requirements = Vec::new();
+                self.truss_clauses(clauses, def, &mut draft, &mut frame, &mut requirements)?;
+                self.check_requirements(requirements)?;
+            }
+        }
+        if self.failed_since(mark) {
+            return Ok(None);
+        }
+        let Some(of) = of else { return Ok(None) };
+        self.check_truss(&draft, &of, name)?;
+        if self.failed_since(mark) {
+            return Ok(None);
+        }
+        let places: Vec<Vec3> = draft.nodes.iter().map(|n| n.place).collect();
+        let struts: Vec<(usize, usize)> = draft.struts.iter().map(|(a, b, _)| (*a, *b)).collect();
+        if places.len() > NODES_AT_ONCE {
+            interrupt::start_task(format!("finding out how {} nodes hold each other", places.len()));
+        }
+        let rigidity = truss::rigidity(&places, &struts);
+        let design = TrussDesign { of, nodes: draft.nodes, struts, rigidity };
+        if !design.rigidity.rigid() {
+            self.report(not_rigid(&design, name));
+            return Ok(None);
+        }
+        Ok(Some(DesignKind::Truss(design)))
+    }
+
+    fn truss_clauses<'d>(
+        &mut self,
+        clauses: &'d [TrussClause],
+        def: &TrussDef,
+        draft: &mut Draft,
+        frame: &mut Frame,
+        requirements: &mut Vec<Deferred<'d>>,
+    ) -> Eval<()> {
+        for clause in clauses {
+            self.attempt(|this| this.truss_clause(clause, def, draft, frame, requirements))?;
+        }
+        Ok(())
+    }
+
+    fn truss_clause<'d>(
+        &mut self,
+        clause: &'d TrussClause,
+        def: &TrussDef,
+        draft: &mut Draft,
+        frame: &mut Frame,
+        requirements: &mut Vec<Deferred<'d>>,
+    ) -> Eval<()> {
+        match clause {
+            TrussClause::Node { member, index, value, span } => {
+                let group = def.members[member.0 as usize].name;
+                let index = self.eval_optional(index.as_ref(), frame)?;
+                let Value::Vec3(place, _) = self.eval(value, frame)? else { return Ok(()) };
+                self.add_node(draft, group, index, place, *span)
+            }
+            TrussClause::Strut { a, b, span } => {
+                let (a, b) = (self.find_node(a, def, draft, frame)?, self.find_node(b, def, draft, frame)?);
+                if let (Some(a), Some(b)) = (a, b) {
+                    draft.struts.push((a, b, *span));
+                }
+                Ok(())
+            }
+            TrussClause::Let { local, value } => {
+                let value = self.eval(value, frame)?;
+                frame.set(*local, value);
+                Ok(())
+            }
+            TrussClause::Require(require) => {
+                requirements.push(Deferred { require, frame: frame.clone() });
+                Ok(())
+            }
+            TrussClause::If { condition, then, otherwise } => match self.eval(condition, frame)? {
+                Value::Bool(true) => self.truss_clauses(then, def, draft, frame, requirements),
+                Value::Bool(false) => self.truss_clauses(otherwise, def, draft, frame, requirements),
+                _ => Ok(()),
+            },
+            TrussClause::For { binder, iterable, body } => {
+                let values = self.eval(iterable, frame)?;
+                self.for_each(&values, *binder, iterable.span, frame, |this, frame| {
+                    this.truss_clauses(body, def, draft, frame, requirements)
+                })?;
+                Ok(())
+            }
+        }
+    }
+
+    fn add_node(
+        &mut self,
+        draft: &mut Draft,
+        group: Symbol,
+        index: Option<Value>,
+        place: Vec3,
+        span: Span,
+    ) -> Eval<()> {
+        let name = match index {
+            None => group.to_string(),
+            Some(index) => format!("{group}[{}]", self.show(&index)),
+        };
+        let count = draft.nodes.len() + 1;
+        if count > NODES_MAX {
+            let message = format!("a truss of more than {NODES_MAX} nodes is not allowed");
+            return self.halt(Diagnostic::error(code::SIZE_LIMIT, message).label(span, "one too many"));
+        }
+        if let Some(twin) = draft.nodes.iter().find(|node| node.name == name) {
+            let message = format!("the node `{name}` is declared twice");
+            return Err(Diagnostic::error(code::BAD_TRUSS, message)
+                .label(span, "declared again")
+                .label(twin.span, "declared here")
+                .into());
+        }
+        draft.nodes.push(Node { name, group: Some(group), place, span });
+        Ok(())
+    }
+
+    fn find_node(
+        &mut self,
+        node: &NodeRef,
+        def: &TrussDef,
+        draft: &Draft,
+        frame: &mut Frame,
+    ) -> Eval<Option<usize>> {
+        let group = def.members[node.member.0 as usize].name;
+        let name = match self.eval_optional(node.index.as_ref(), frame)? {
+            None => group.to_string(),
+            Some(Value::Unknown) => return Ok(None),
+            Some(index) => format!("{group}[{}]", self.show(&index)),
+        };
+        match draft.nodes.iter().position(|n| n.name == name) {
+            Some(index) => Ok(Some(index)),
+            None if node.index.is_some() => {
+                let count = draft.nodes.iter().filter(|n| n.group == Some(group)).count();
+                let message = format!("there is no node `{name}`: `{group}` has {count}");
+                Err(fault(code::INDEX, node.span, message, "no such node"))
+            }
+            // Declared in a branch that did not run, or with a place that was not known.
+            None => Ok(None),
+        }
+    }
+
+    /// Tells some of all faults, one of a place in the text.
+    fn check_truss(&mut self, draft: &Draft, of: &Rc<Design>, name: Span) -> Eval<()> {
+        let DesignKind::Strut(kind) = &of.kind else { return Ok(()) };
+        let mut faults: Vec<(Span, Stop)> = Vec::new();
+        if draft.struts.is_empty() {
+            faults.push((name, fault(code::BAD_TRUSS, name, "the truss has no struts", "no struts")));
+        }
+        let twins = twins(&draft.nodes);
+        for &(a, b) in &twins {
+            let (a, b) = (&draft.nodes[a], &draft.nodes[b]);
+            let message = format!("the nodes {} and {} are at one place", b.name, a.name);
+            let diagnostic = Diagnostic::error(code::BAD_TRUSS, message);
+            faults.push((a.span, diagnostic.label(a.span, "here").label(b.span, "and here").into()));
+        }
+        // What struts of two nodes at one place would be told follows from that.
+        let sound = |(a, b, _): &(usize, usize, Span)| !twins.iter().any(|(twin, _)| twin == a || twin == b);
+        for (index, strut) in draft.struts.iter().enumerate().filter(|(_, strut)| sound(strut)) {
+            if let Err(stop) = self.check_strut(draft, strut, &draft.struts[..index], kind) {
+                faults.push((strut.2, stop));
+            }
+        }
+        let held = |node: &usize| draft.struts.iter().any(|(a, b, _)| a == node || b == node);
+        let loose = (0..draft.nodes.len()).filter(|node| !draft.struts.is_empty() && !held(node));
+        for node in loose.map(|node| &draft.nodes[node]) {
+            let message = format!("no strut holds the node {}", node.name);
+            faults.push((node.span, fault(code::BAD_TRUSS, node.span, message, "no strut ends here")));
+        }
+        let mut told: Vec<Span> = Vec::new();
+        for (span, stop) in faults {
+            if told.len() < FAULTS_TOLD && !told.contains(&span) {
+                told.push(span);
+                self.attempt(|_| Err::<(), Stop>(stop))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_strut(
+        &mut self,
+        draft: &Draft,
+        &(a, b, span): &(usize, usize, Span),
+        before: &[(usize, usize, Span)],
+        kind: &Strut,
+    ) -> Eval<()> {
+        let name = |a: usize, b: usize| format!("{} -- {}", draft.nodes[a].name, draft.nodes[b].name);
+        let metres = |x: f64| quantity(x, Dimension::LENGTH);
+        if a == b {
+            let message = format!("the strut {} begins and ends at one node", name(a, b));
+            return Err(fault(code::BAD_TRUSS, span, message, "no length"));
+        }
+        let length = (draft.nodes[a].place - draft.nodes[b].place).norm();
+        let (low, high) = kind.length;
+        if !(low - LENGTH_TOLERANCE..=high + LENGTH_TOLERANCE).contains(&length) {
+            let message = format!(
+                "the strut {} is {} long; a {} reaches from {} to {}",
+                name(a, b),
+                metres(length),
+                kind.name,
+                metres(low),
+                metres(high)
+            );
+            return Err(fault(code::BAD_TRUSS, span, message, format!("{} long", metres(length))));
+        }
+        let ends = |a: usize, b: usize| (draft.nodes[a].place, draft.nodes[b].place);
+        for &(c, d, other) in before {
+            if (a, b) == (c, d) || (a, b) == (d, c) {
+                let message = format!("the strut {} is there twice", name(a, b));
+                return Err(Diagnostic::error(code::BAD_TRUSS, message)
+                    .label(span, "again")
+                    .label(other, "first here")
+                    .into());
+            }
+            if [c, d].contains(&a) || [c, d].contains(&b) {
+                continue;
+            }
+            let distance = truss::segment_distance(ends(a, b), ends(c, d));
+            if distance < kind.clearance.max(NODE_DISTANCE_MIN) {
+                let message = format!(
+                    "the struts {} and {} are {} apart; a {} keeps {}",
+                    name(a, b),
+                    name(c, d),
+                    metres(distance),
+                    kind.name,
+                    metres(kind.clearance)
+                );
+                return Err(Diagnostic::error(code::BAD_TRUSS, message)
+                    .label(span, "too near")
+                    .label(other, "to this one")
+                    .into());
+            }
+        }
+        Ok(())
+    }
+
+    /// The place of a node, or of all nodes of an array.
+    pub fn node_member(&self, instance: &Rc<Instance>, name: Symbol) -> Value {
+        let DesignKind::Truss(truss) = &instance.design.kind else { return Value::Unknown };
+        let place = |node: &Node| Value::Vec3(node.place, Dimension::LENGTH);
+        let mut of_group = truss.nodes.iter().filter(|n| n.group == Some(name)).peekable();
+        match of_group.peek() {
+            Some(node) if node.name == name.as_str() => place(node),
+            Some(_) => Value::list(of_group.map(place).collect()),
+            None => Value::Unknown,
+        }
+    }
+}
+
+/// Nodes at the place of an earlier one, with that.
+fn twins(nodes: &[Node]) -> Vec<(usize, usize)> {
+    let near = |a: usize, b: usize| (nodes[a].place - nodes[b].place).norm() < NODE_DISTANCE_MIN;
+    (0..nodes.len()).filter_map(|a| Some((a, (0..a).find(|&b| near(a, b))?))).collect()
+}
+
+fn numbered(places: Vec<Vec3>, span: Span) -> Vec<Node> {
+    let node = |(i, place)| Node { name: format!("{i}"), group: None, place, span };
+    places.into_iter().enumerate().map(node).collect()
+}
+
+fn not_rigid(truss: &TrussDesign, name: Span) -> Diagnostic {
+    let rigidity = &truss.rigidity;
+    let message = format!("the truss is not rigid: rank {} of {}", rigidity.rank, rigidity.rank_rigid);
+    let count = rigidity.free.len();
+    let motions = if count == 1 { "1 free motion".to_string() } else { format!("{count} free motions") };
+    let mut diagnostic = Diagnostic::error(code::NOT_RIGID, message).label(name, motions);
+    for (index, motion) in free_motions(truss).into_iter().take(MOTIONS_TOLD).enumerate() {
+        diagnostic = diagnostic.hint(format!("free motion {}: {motion}", index + 1));
+    }
+    if count > MOTIONS_TOLD {
+        diagnostic = diagnostic.hint(format!("and {} more free motions", count - MOTIONS_TOLD));
+    }
+    diagnostic.hint("add struts between nodes that move against each other")
+}
+
+/// Each free motion in words: the nodes that move, and where to.
+pub fn free_motions(truss: &TrussDesign) -> Vec<String> {
+    let moves = |(node, d): &(usize, Vec3)| {
+        let axis = ["x", "y", "z"];
+        let along: Vec<String> = (0..3)
+            .filter(|&k| d[k].abs() > 0.005)
+            .map(|k| format!("{}{:.2}", axis[k], d[k]).replacen(axis[k], &format!("{} ", axis[k]), 1))
+            .collect();
+        format!("{} ({})", truss.nodes[*node].name, along.join(", "))
+    };
+    let motions = truss.rigidity.free.iter();
+    motions.map(|m| shorten(&m.nodes.iter().map(moves).collect::<Vec<_>>())).collect()
+}

@@ -1,0 +1,294 @@
+//! Built-ins that arrange cells, build frames of trusses, and make meshes and clouds.
+
+use super::shape::points;
+use super::{Native, pure};
+use crate::formats::mesh_file;
+use crate::geometry::{HeightField, Vec3, subdivide};
+use crate::interpret::call::Call;
+use crate::interpret::cells::{self, BadCell, Cells};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::record::Record;
+use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::value::{Mesh, Value};
+use crate::source::{Span, code};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+pub const TABLE: &[Native] = &[
+    pure("row", 1, |i, call| block(i, call, [call.count(0, "a number of cells")?, 1, 1])),
+    pure("column", 1, |i, call| block(i, call, [1, call.count(0, "a number of cells")?, 1])),
+    pure("block", 3, |i, call| {
+        let count = |k| call.count(k, "a number of cells");
+        block(i, call, [count(0)?, count(1)?, count(2)?])
+    }),
+    pure("cells", 1, drawn),
+    pure("layers", 1, layers),
+    pure("octet", 3, octet),
+    pure("tetrahelix", 2, tetrahelix),
+    pure("from_mesh", 1, from_mesh),
+    pure("polyhedron", 2, polyhedron),
+    pure("faces", 1, faces),
+    pure("load_mesh", 2, load_mesh),
+    pure("load_cloud", 2, load_cloud),
+    pure("subdivided", 2, subdivided),
+    pure("on_sphere", 2, on_sphere),
+    pure("terrain", 3, terrain),
+    pure("cloud", 1, |_, call| Ok(Value::Cloud(Rc::new(points(call, 0)?)))),
+];
+
+/// Divisions of an octet truss: more have more nodes than a truss may.
+const DIVISIONS_MAX: usize = 16;
+/// Tetrahedra of a helix.
+const HELIX_MAX: usize = 500;
+/// Neighbours of a node inside an octet lattice.
+const NEIGHBOURS: usize = 12;
+
+fn block(interpreter: &mut Interpreter, call: &Call, size: [usize; 3]) -> Eval<Value> {
+    let count = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
+    interpreter.check_list(count.unwrap_or(usize::MAX), call.span)?;
+    Ok(Value::Cells(Rc::new(Cells::block(size))))
+}
+
+fn drawn(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let text = call.text(0)?;
+    let places = cells::layer(text, 0).map_err(|bad| bad_cell(interpreter, call.at(0), text, bad))?;
+    arrangement(interpreter, call, places)
+}
+
+fn layers(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mut places = Vec::new();
+    for (z, text) in call.list(0)?.iter().enumerate() {
+        let Value::Text(text) = text else { return Err(call.refuse(0, "texts are wanted")) };
+        let layer =
+            cells::layer(text, z as i64).map_err(|bad| bad_cell(interpreter, call.at(0), text, bad))?;
+        places.extend(layer);
+    }
+    arrangement(interpreter, call, places)
+}
+
+fn arrangement(interpreter: &mut Interpreter, call: &Call, places: Vec<[i64; 3]>) -> Eval<Value> {
+    interpreter.check_list(places.len(), call.span)?;
+    if places.is_empty() {
+        return Err(fault(code::BAD_LATTICE, call.at(0), "no cell is drawn", "`#` is a cell"));
+    }
+    Ok(Value::Cells(Rc::new(Cells { places })))
+}
+
+fn bad_cell(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> Stop {
+    let message = format!("`{}` is no cell: `#` is a cell, `.` and a blank are not", bad.character);
+    let at = character_span(interpreter, span, text, bad);
+    fault(code::BAD_LATTICE, at, message, "neither cell nor gap")
+}
+
+/// Where a character of a text stands in its `"""..."""` or `"..."`; all that was given where it is not
+/// written there.
+fn character_span(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> Span {
+    let source = interpreter.sources.text(span);
+    if source.starts_with('"') && !source.starts_with("\"\"\"") {
+        return quoted_span(source, span, bad);
+    }
+    let (Some(line), true) = (text.lines().nth(bad.line), source.starts_with("\"\"\"")) else { return span };
+    // The text begins behind the first line break; its lines have lost their indentation.
+    let mut start = span.start as usize;
+    for (number, raw) in source.split_inclusive('\n').enumerate() {
+        let trimmed = raw.trim_end_matches(['\n', '\r']);
+        if number == bad.line + 1 && trimmed.ends_with(line) {
+            let offset = start + trimmed.len() - line.len() + bad.offset;
+            return Span::new(span.file, offset, offset + bad.character.len_utf8());
+        }
+        start += raw.len();
+    }
+    span
+}
+
+/// The first character in `"..."`, or in several with commas between them, that is neither cell nor gap.
+fn quoted_span(source: &str, span: Span, bad: BadCell) -> Span {
+    let mut characters = source.char_indices();
+    while let Some((at, character)) = characters.next() {
+        match character {
+            '#' | '.' | ' ' | '"' | ',' | '\n' => {}
+            '\\' => drop(characters.next()),
+            found if found == bad.character => {
+                let start = span.start as usize + at;
+                return Span::new(span.file, start, start + found.len_utf8());
+            }
+            _ => return span,
+        }
+    }
+    span
+}
+
+fn frame(nodes: Vec<Vec3>, struts: Vec<(usize, usize)>) -> Value {
+    Value::Record(Rc::new(Record::Frame(nodes, struts)))
+}
+
+/// Points `i e1 + j e2 + k e3` with i + j + k ≤ divisions, joined where they are one division apart.
+fn octet(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let edge = call.positive(0, "the edge")?;
+    let divisions = call.count(1, "the number of divisions")?;
+    if !(1..=DIVISIONS_MAX).contains(&divisions) {
+        return Err(call.refuse(1, format!("1 to {DIVISIONS_MAX} divisions are possible")));
+    }
+    let interior = call.truth(2)?;
+    let n = divisions as i64;
+    let mut index: BTreeMap<[i64; 3], usize> = BTreeMap::new();
+    for k in 0..=n {
+        for j in 0..=n - k {
+            for i in 0..=n - k - j {
+                // Order of counting: layer by layer from below.
+                index.insert([k, j, i], 0);
+            }
+        }
+    }
+    let near = |place: &[i64; 3]| neighbours(*place).into_iter().filter(|p| index.contains_key(p)).count();
+    let kept: Vec<[i64; 3]> = index.keys().filter(|p| interior || near(p) < NEIGHBOURS).copied().collect();
+    let index: BTreeMap<[i64; 3], usize> = kept.iter().enumerate().map(|(i, p)| (*p, i)).collect();
+    let step = edge / divisions as f64;
+    let nodes = kept.iter().map(|place| octet_point(*place) * step).collect();
+    let mut struts = Vec::new();
+    for (a, place) in kept.iter().enumerate() {
+        let others = neighbours(*place).into_iter().filter_map(|p| index.get(&p).copied());
+        struts.extend(others.filter(|&b| a < b).map(|b| (a, b)));
+    }
+    struts.sort_unstable();
+    Ok(frame(nodes, struts))
+}
+
+/// Of a place (k, j, i): a regular tetrahedron that rests on a face, edge 1.
+fn octet_point([k, j, i]: [i64; 3]) -> Vec3 {
+    let (k, j, i) = (k as f64, j as f64, i as f64);
+    let root3 = libm::sqrt(3.0);
+    Vec3::new(i + j / 2.0 + k / 2.0, root3 / 2.0 * j + root3 / 6.0 * k, libm::sqrt(2.0 / 3.0) * k)
+}
+
+fn neighbours([k, j, i]: [i64; 3]) -> Vec<[i64; 3]> {
+    const STEPS: [[i64; 3]; 6] = [[0, 0, 1], [0, 1, 0], [1, 0, 0], [0, 1, -1], [1, 0, -1], [1, -1, 0]];
+    let both = STEPS.iter().flat_map(|s| [*s, [-s[0], -s[1], -s[2]]]);
+    both.map(|s| [k + s[0], j + s[1], i + s[2]]).collect()
+}
+
+/// The helix of Boerdijk and Coxeter: each point and the next three are a regular tetrahedron.
+fn tetrahelix(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let count = call.count(0, "the number of tetrahedra")?;
+    if !(1..=HELIX_MAX).contains(&count) {
+        return Err(call.refuse(0, format!("1 to {HELIX_MAX} tetrahedra are possible")));
+    }
+    let edge = call.positive(1, "the edge")?;
+    let radius = edge * 3.0 * libm::sqrt(3.0) / 10.0;
+    let (rise, turn) = (edge / libm::sqrt(10.0), libm::acos(-2.0 / 3.0));
+    let point = |k: usize| {
+        let (s, c) = libm::sincos(turn * k as f64);
+        Vec3::new(radius * c, radius * s, rise * k as f64)
+    };
+    let nodes = (0..count + 3).map(point).collect();
+    let struts = (0..count + 3).flat_map(|a| (a + 1..=a + 3).map(move |b| (a, b)));
+    Ok(frame(nodes, struts.filter(|(_, b)| *b < count + 3).collect()))
+}
+
+fn mesh_of<'c>(call: &'c Call) -> Eval<&'c Mesh> {
+    match call.arg(0) {
+        Value::Mesh(mesh) => Ok(mesh),
+        _ => Err(call.refuse(0, "a mesh is wanted")),
+    }
+}
+
+fn from_mesh(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mesh = mesh_of(call)?;
+    let mut edges = BTreeSet::new();
+    for face in &mesh.faces {
+        for (index, &a) in face.iter().enumerate() {
+            let b = face[(index + 1) % face.len()];
+            edges.insert((a.min(b), a.max(b)));
+        }
+    }
+    Ok(frame(mesh.vertices.clone(), edges.into_iter().collect()))
+}
+
+fn polyhedron(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let vertices = points(call, 0)?;
+    let mut faces = Vec::new();
+    for (number, face) in call.list(1)?.iter().enumerate() {
+        let Value::List(places) = face else { return Err(call.refuse(1, "lists of places are wanted")) };
+        let place = |value: &Value| match value {
+            Value::Int(n) => usize::try_from(*n).ok().filter(|n| *n < vertices.len()),
+            _ => None,
+        };
+        let face: Option<Vec<usize>> = places.iter().map(place).collect();
+        let face = face.ok_or_else(|| {
+            call.refuse(
+                1,
+                format!("face {number} names a vertex that there isn't: there are {}", vertices.len()),
+            )
+        })?;
+        if face.len() < 3 {
+            return Err(call.refuse(1, format!("face {number} has fewer than three corners")));
+        }
+        faces.push(face);
+    }
+    Ok(Value::Mesh(Rc::new(Mesh { vertices, faces })))
+}
+
+fn faces(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    Ok(Value::count(mesh_of(call)?.faces.len()))
+}
+
+fn load_mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let scale = call.positive(1, "the scale of a mesh")?;
+    let (_, mesh) = mesh_file::read(interpreter, call, 0, scale)?;
+    Ok(Value::Mesh(Rc::new(mesh)))
+}
+
+fn load_cloud(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let scale = call.positive(1, "the scale of a cloud")?;
+    Ok(Value::Cloud(Rc::new(mesh_file::read_cloud(interpreter, call, 0, scale)?)))
+}
+
+fn terrain(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mut heights = Vec::new();
+    let mut columns = None;
+    let centre = call.vec3(2)?;
+    for (row, list) in call.list(0)?.iter().enumerate() {
+        let Value::List(list) = list else { return Err(call.refuse(0, "rows of heights are wanted")) };
+        if *columns.get_or_insert(list.len()) != list.len() {
+            let wanted = columns.unwrap_or(0);
+            let message = format!("row {row} has {} heights, the rows before have {wanted}", list.len());
+            return Err(call.refuse(0, message));
+        }
+        heights.extend(list.iter().filter_map(|height| Some(height.as_number()? + centre.z)));
+    }
+    interpreter.check_list(heights.len(), call.span)?;
+    let spacing = call.positive(1, "the spacing of heights")?;
+    let columns = columns.unwrap_or(0);
+    let rows = heights.len().checked_div(columns).unwrap_or(0);
+    let from = |count: usize, middle: f64| middle - spacing * (count.max(1) - 1) as f64 / 2.0;
+    let corner = [from(columns, centre.x), from(rows, centre.y)];
+    let field = HeightField { corner, spacing, columns, heights };
+    match field.fault() {
+        Some(fault) => Err(call.refuse(0, fault)),
+        None => Ok(Value::Terrain(Rc::new(field))),
+    }
+}
+
+fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mesh = mesh_of(call)?;
+    let parts = call.count(1, "a number of parts")?;
+    let triangle = |face: &Vec<usize>| <[usize; 3]>::try_from(face.as_slice()).ok();
+    let triangles: Option<Vec<[usize; 3]>> = mesh.faces.iter().map(triangle).collect();
+    let triangles = triangles.ok_or_else(|| call.refuse(0, "only triangles can be subdivided"))?;
+    if parts == 0 {
+        return Err(call.refuse(1, "an edge has at least one part"));
+    }
+    let faces = parts.checked_mul(parts).and_then(|squared| squared.checked_mul(triangles.len()));
+    interpreter.check_list(faces.unwrap_or(usize::MAX), call.span)?;
+    let (vertices, faces) = subdivide::subdivided(&mesh.vertices, &triangles, parts);
+    Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: faces.into_iter().map(Vec::from).collect() })))
+}
+
+fn on_sphere(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let mesh = mesh_of(call)?;
+    let radius = call.positive(1, "the radius")?;
+    let out = |p: &Vec3| p.try_normalize(0.0).map(|direction| direction * radius);
+    let vertices: Option<Vec<Vec3>> = mesh.vertices.iter().map(out).collect();
+    let vertices = vertices.ok_or_else(|| call.refuse(0, "a vertex at the origin has no direction"))?;
+    Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: mesh.faces.clone() })))
+}

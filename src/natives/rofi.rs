@@ -1,0 +1,271 @@
+//! Robots of RoFI modules from and to RoFI's files.
+
+use super::{Native, pure};
+use crate::check::typed::DefId;
+use crate::elaborate::config::outside;
+use crate::interpret::call::Call;
+use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::value::Value;
+use crate::planners::tosnake::assembly::{of_world, to_world};
+use crate::planners::tosnake::sound::mend;
+use crate::planners::tosnake::tangle::tangled;
+use crate::robot::rofi::{self, Dock, Edge, Module, World};
+use crate::robot::rofi_json;
+use crate::robot::{JointOwner, Residual};
+use crate::source::{Diagnostic, code};
+use crate::units::{Dimension, quantity};
+use std::rc::Rc;
+
+pub const TABLE: &[Native] = &[pure("load", 1, load), pure("tangle", 3, tangle)];
+
+/// Where the library declares the module.
+const LIBRARY: &str = "std/rofi.mod";
+
+/// RoFI's tools take a loop for closed when no entry of its matrices is farther off than this, in
+/// parts of the pitch (rad).
+const CLOSURE_MAX: f64 = 1e-3;
+
+const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
+
+fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let path = call.text(0)?.to_string();
+    let (kind, loaded) = library(interpreter, call)?;
+    let (file, bytes) = interpreter.project_file(call, 0)?;
+    let known = |design: &&Rc<Design>| matches!(&design.args[..], [Value::Text(text)] if **text == *file);
+    if let Some(design) = interpreter.designs[loaded.0 as usize].iter().find(known).cloned() {
+        return Ok(instance(interpreter, &design));
+    }
+    let text = String::from_utf8(bytes).map_err(|_| {
+        fault(code::CANNOT_READ, call.at(0), format!("`{path}` is not UTF-8 text"), "no text")
+    })?;
+    let read = if path.ends_with(".json") { rofi_json::read } else { rofi::read };
+    let world = read(&text).map_err(|f| faulty(call, &path, f.line, f.column, &f.what))?;
+    made(interpreter, call, (kind, loaded), &file, &path, world)
+}
+
+/// A tangle to unwind; see the planner's own words.
+fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let kinds = library(interpreter, call)?;
+    let modules = call.count(0, "a number of modules")?;
+    let actions = call.count(1, "a number of actions")?;
+    let seed = call.count(2, "a seed")?;
+    if modules == 0 {
+        return Err(call.refuse(0, "a robot has a module at least"));
+    }
+    check_count(interpreter, call, modules)?;
+    if actions > ACTIONS_MAX {
+        let message = format!("more than {ACTIONS_MAX} actions are not made");
+        return Err(fault(code::SIZE_LIMIT, call.at(1), message, "too many actions"));
+    }
+    let name = format!("tangle({modules}, {actions}, seed: {seed})");
+    crate::interrupt::start_task(format!("tangling {modules} modules"));
+    let world = to_world(&tangled(modules, actions, seed as u64));
+    made(interpreter, call, kinds, &name, &name, world)
+}
+
+/// Actions of one tangle.
+const ACTIONS_MAX: usize = 1_000_000;
+
+/// The library's module, and the configuration that holds what is made from data.
+fn library(interpreter: &Interpreter, call: &Call) -> Eval<(DefId, DefId)> {
+    match (declared(interpreter, "Rofi"), declared(interpreter, "_Loaded")) {
+        (Some(kind), Some(loaded)) => Ok((kind, loaded)),
+        _ => {
+            let message = "a robot of RoFI modules needs the library's module";
+            Err(fault(code::UNKNOWN_IMPORT, call.span, message, "`use std.rofi.Rofi` is missing"))
+        }
+    }
+}
+
+fn check_count(interpreter: &Interpreter, call: &Call, modules: usize) -> Eval<()> {
+    let limit = interpreter.limits().modules;
+    if modules > limit {
+        let message = format!("a robot of more than {limit} modules is not allowed");
+        return Err(fault(code::SIZE_LIMIT, call.at(0), message, "too many modules"));
+    }
+    Ok(())
+}
+
+/// A robot from data. `key` tells it from others, `path` is its name for people.
+fn made(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    (kind, loaded): (DefId, DefId),
+    key: &str,
+    path: &str,
+    mut world: World,
+) -> Eval<Value> {
+    check_count(interpreter, call, world.modules.len())?;
+    let Some(module) = interpreter.default_design(kind)? else { return Ok(Value::Unknown) };
+    contradictions_last(&mut world);
+    let design = loop {
+        let design = Rc::new(Design {
+            def: loaded,
+            name: path.to_owned(),
+            args: vec![Value::text(key)],
+            kind: DesignKind::Config(configuration(&world, &module, call, path)?),
+            broken: false.into(),
+        });
+        let open = open_loops(interpreter, &world, &design, call, path)?;
+        if open.is_empty() {
+            break design;
+        }
+        leave_out(interpreter, &mut world, &open, call, path);
+    };
+    interpreter.designs[loaded.0 as usize].push(design.clone());
+    Ok(instance(interpreter, &design))
+}
+
+/// Of connections that contradict each other the first counts: those that would put modules into each
+/// other are therefore moved behind the others.
+fn contradictions_last(world: &mut World) {
+    let Ok(open) = mend(&mut of_world(world)) else { return };
+    let edges = std::mem::take(&mut world.edges).into_iter().enumerate();
+    let (last, first): (Vec<_>, Vec<_>) = edges.partition(|(index, _)| open.contains(index));
+    world.edges = first.into_iter().chain(last).map(|(_, edge)| edge).collect();
+}
+
+fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
+    Value::Instance(interpreter.whole(design))
+}
+
+/// A declaration of the library's file.
+fn declared(interpreter: &Interpreter, name: &str) -> Option<DefId> {
+    let here = |index: &usize| {
+        let def = interpreter.program.def(DefId(*index as u32));
+        def.name == name && *interpreter.sources.file(def.span.file).name == *LIBRARY
+    };
+    (0..interpreter.program.defs.len()).find(here).map(|index| DefId(index as u32))
+}
+
+fn faulty(call: &Call, path: &str, line: usize, column: usize, what: &str) -> Stop {
+    let message = format!("`{path}`, line {line}, column {column}: {what}");
+    fault(code::CANNOT_READ, call.at(0), message, format!("line {line}: {what}"))
+}
+
+/// Modules, positions and connections, as the clauses of a configuration would have made them.
+fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) -> Eval<ConfigDesign> {
+    let name = |m: &Module| -> Rc<str> { format!("m[{}]", m.id).into() };
+    let modules = world.modules.iter().map(|m| FlatModule { name: name(m), design: module.clone() });
+    let config = ConfigDesign { closed: true, ..ConfigDesign::of_modules(modules.collect()) };
+    let kind = module.module_type(0);
+    for (index, declared) in world.modules.iter().enumerate() {
+        for (joint, degrees) in JOINTS.iter().zip(declared.joints) {
+            let Some(joint) = kind.joints.iter().position(|j| j.name == *joint) else { continue };
+            let value = degrees.to_radians();
+            if let Some((low, high)) = kind.joints[joint].limits.range
+                && !(low..=high).contains(&value)
+            {
+                let name = &kind.joints[joint].name;
+                let what = outside(name, value, (low, high), Dimension::ANGLE);
+                return Err(faulty(call, path, declared.line, 1, &what));
+            }
+            let instance = format!("module {}", declared.id).as_str().into();
+            config.sets.borrow_mut().push(SetRecord {
+                joint: JointOwner::Module { module: index, joint },
+                value,
+                span: call.span,
+                instance,
+            });
+        }
+    }
+    let port = |dock: &Dock| {
+        let port = kind.ports.iter().position(|p| p.name == dock.port());
+        (dock.module, port.expect("the library's module has the docks of the format"))
+    };
+    for edge in &world.edges {
+        config.add_bond(BondRecord {
+            a: port(&edge.a),
+            b: port(&edge.b),
+            turn: edge.turn,
+            span: call.span,
+            ends: (call.span, call.span),
+            instance: format!("line {}", edge.line).as_str().into(),
+        });
+    }
+    config.base.set(Some(0));
+    config.complete.set(true);
+    Ok(config)
+}
+
+/// The connections that close loops and do not meet, with what is missing. Refuses a robot of several
+/// pieces.
+fn open_loops(
+    interpreter: &mut Interpreter,
+    world: &World,
+    design: &Rc<Design>,
+    call: &Call,
+    path: &str,
+) -> Eval<Vec<Residual>> {
+    let Some(robot) = interpreter.robot_of(design)? else { return Ok(Vec::new()) };
+    if let Some(&loose) = robot.kinematics.tree.loose.first() {
+        let Module { id, line, .. } = &world.modules[loose];
+        let what = format!("module {id} does not hang together with module {}", world.modules[0].id);
+        return Err(faulty(call, path, *line, 1, &what));
+    }
+    let pitch = robot.assembly.module_type(0).ports[0].pose.translation.vector.norm() * 2.0;
+    let open = |r: &Residual| r.distance > CLOSURE_MAX * pitch || r.angle > CLOSURE_MAX;
+    Ok(robot.residuals().into_iter().filter(open).collect())
+}
+
+/// Two docks that are apart hold nothing, whatever the file says: RoFI's own tangler writes such lines.
+fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual], call: &Call, path: &str) {
+    let lines: Vec<String> = open.iter().map(|r| world.edges[r.bond].line.to_string()).collect();
+    let worst = open.iter().map(|r| r.distance).fold(0.0, f64::max);
+    let message = format!(
+        "`{path}`: {} that the docks of line {} do not meet: up to {} are missing",
+        if open.len() == 1 { "a connection was left out, for" } else { "connections were left out, for" },
+        crate::elaborate::connect::shorten(&lines),
+        quantity(worst, Dimension::LENGTH),
+    );
+    interpreter.add_report(
+        Diagnostic::warning(code::OPEN_LOOP, message)
+            .label(call.at(0), "the modules hang together without them")
+            .hint("the other connections decide where the modules are, from the lowest id outwards"),
+    );
+    let mut index = 0;
+    world.edges.retain(|_| {
+        index += 1;
+        open.iter().all(|r| r.bond != index - 1)
+    });
+}
+
+/// The text of a file for the robot in argument 0, by the end of its name; `None` where the robot is not
+/// sound.
+pub fn written(interpreter: &mut Interpreter, call: &Call, ending: &str) -> Eval<Option<String>> {
+    let design = call.instance(0)?.design.clone();
+    let Some(robot) = interpreter.robot_at(&design, call.at(0))? else { return Ok(None) };
+    let mut world = World::default();
+    for (index, module) in robot.assembly.modules.iter().enumerate() {
+        let kind = robot.assembly.module_type(index);
+        let position = |joint: &&str| {
+            let joint = kind.joints.iter().position(|j| j.name == **joint)?;
+            Some(degrees(robot.start.joints[robot.kinematics.joint(index, joint)]))
+        };
+        let positions: Option<Vec<f64>> = JOINTS.iter().map(position).collect();
+        let (Some([alpha, beta, gamma]), Some(_)) =
+            (positions.as_deref(), Dock::of_port(index, &kind.ports[0].name))
+        else {
+            let message = format!("{} is no RoFI module: no file of RoFI's can say what it is", module.name);
+            return Err(call.refuse(0, message));
+        };
+        world.modules.push(Module { id: index as u64, joints: [*alpha, *beta, *gamma], line: 0 });
+    }
+    for bond in &robot.assembly.bonds {
+        let dock = |at: crate::robot::PortRef| {
+            Dock::of_port(at.module, &robot.assembly.module_type(at.module).ports[at.port].name)
+        };
+        if let (Some(a), Some(b)) = (dock(bond.a), dock(bond.b)) {
+            world.edges.push(Edge { a, b, turn: bond.turn, line: 0 });
+        }
+    }
+    Ok(Some(if ending == "json" { rofi_json::write(&world) } else { rofi::write(&world) }))
+}
+
+/// Without the rounding of radians.
+fn degrees(angle: f64) -> f64 {
+    const PARTS: f64 = 1e9;
+    (angle.to_degrees() * PARTS).round() / PARTS
+}

@@ -1,0 +1,72 @@
+//! `save`: files in formats of others, by the end of their names.
+
+use super::folding::Folded;
+use super::plan::{output_path, write_output};
+use super::rofi;
+use super::{Native, on_run};
+use crate::interpret::call::Call;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::planning::Planned;
+use crate::interpret::record::Record;
+use crate::interpret::stop::Eval;
+use crate::interpret::value::Value;
+use crate::planners::fold::Net;
+use crate::view::{Crease, CreasePattern, fold_file};
+
+pub const TABLE: &[Native] = &[on_run("save", 2, save)];
+
+fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (path, name) = output_path(call, 1)?;
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+    let bytes = match (call.arg(0), ending) {
+        (Value::Instance(_), "fold") | (Value::Record(_), "rofi" | "json") => {
+            return Err(call.refuse(1, "a robot's name ends in `.rofi` or `.json`, a folding's in `.fold`"));
+        }
+        (Value::Record(record), _) => {
+            let (Record::Plan(planned) | Record::Layout(planned)) = &**record else {
+                return Err(call.refuse(0, "a robot or a folding is wanted"));
+            };
+            let Some(folded) = &planned.folded else {
+                return Err(call.refuse(0, "this plan folds no pattern: `fold` makes those that do"));
+            };
+            if ending != "fold" {
+                return Err(call.refuse(1, "the name of a folding's file ends in `.fold`"));
+            }
+            fold_file(&creases(planned, folded))
+        }
+        _ => match rofi::written(interpreter, call, ending)? {
+            Some(text) => text,
+            None => return Ok(Value::Unknown),
+        },
+    };
+    write_output(interpreter, call, &path, bytes.into_bytes())?;
+    Ok(Value::Nothing)
+}
+
+fn creases(planned: &Planned, folded: &Folded) -> CreasePattern {
+    let (target, layout) = (&folded.pattern.target, &folded.pattern.layout);
+    let net = Net::of(target, layout);
+    let step = |face: usize| folded.steps.iter().position(|step| step.contains(&face)).map(|i| i + 1);
+    let edges = net.edges.iter().map(|edge| Crease {
+        vertices: edge.vertices,
+        faces: edge.faces.clone(),
+        angle: edge.angle,
+        step: edge.faces.get(1).and_then(|face| step(*face)),
+        glued: edge.glued,
+    });
+    let after = |done: usize| {
+        let angle = |face: usize| {
+            let hinge = layout.hinge[face].expect("only the root has none");
+            if step(face).is_some_and(|step| step <= done) { target.hinges[hinge].angle } else { 0.0 }
+        };
+        net.vertices_at(target, layout, angle).iter().map(|v| [v.x, v.y, v.z]).collect()
+    };
+    CreasePattern {
+        title: planned.robot.name.clone(),
+        vertices: net.vertices.clone(),
+        faces: net.faces.clone(),
+        modules: (0..target.faces.len()).map(|face| format!("panel[{face}]")).collect(),
+        edges: edges.collect(),
+        folded: (1..=folded.steps.len()).map(after).collect(),
+    }
+}

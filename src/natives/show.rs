@@ -1,0 +1,195 @@
+//! Built-ins that draw: plans, robots, lattices and trusses as pages and pictures.
+
+use super::plan::{output_path, settings, write_output};
+use super::{Native, on_run};
+use crate::check::typed::DefKind;
+use crate::elaborate::lattice::LatticeDesign;
+use crate::elaborate::truss::TrussDesign;
+use crate::interpret::call::Call;
+use crate::interpret::causes::PlanCauses;
+use crate::interpret::design::{Design, DesignKind, Instance};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::planning::Planned;
+use crate::interpret::stop::Eval;
+use crate::interpret::value::Value;
+use crate::plan::{
+    Body, CauseId, CellLimits, Interpolation, Keyframe, Margins, Model, NodePaths, Plan, Ratio, Run,
+    Settings, Stages, Surroundings, TrussLimits, World,
+};
+use crate::robot::Library;
+use crate::view::{self, Showing, Side, Still};
+use std::rc::Rc;
+use std::sync::Arc;
+
+pub const TABLE: &[Native] = &[on_run("show", 7, show)];
+
+fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (path, name) = output_path(call, 1)?;
+    let Some(form) = form(call, &name) else {
+        return Err(call.refuse(1, "a page's name ends in `.html`, a picture's in `.svg` or `.png`"));
+    };
+    let settings = settings(interpreter, call, 2)?;
+    if let Value::Instance(instance) = call.arg(0)
+        && let Some(plan) = interpreter.still(&instance.design)
+    {
+        let bytes = interpreter.drawn(&instance.design.name, &plan, form);
+        write_output(interpreter, call, &path, bytes)?;
+        return Ok(Value::Nothing);
+    }
+    let Some(planned) = interpreter.plan_of(call.arg(0), call.at(0))? else { return Ok(Value::Unknown) };
+    let verdict = interpreter.judge(&planned, settings, None);
+    interpreter.note_exemptions(&planned, &verdict);
+    let shown = interpreter.draw(&planned, settings, form, &path, call)?;
+    if !verdict.ok() {
+        interpreter.report_failures(&planned, &verdict, call.at(0), Some(&shown));
+        return Ok(Value::Unknown);
+    }
+    Ok(Value::Nothing)
+}
+
+/// How something is drawn, by the end of the file's name.
+#[derive(Clone, Copy)]
+pub enum Form {
+    Page,
+    Svg,
+    Png { time: f64, side: Side },
+}
+
+fn form(call: &Call, name: &str) -> Option<Form> {
+    let ending = name.rsplit_once('.').map(|(_, ending)| ending)?;
+    let side = match call.word(6) {
+        Some("front") => Side::Front,
+        Some("back") => Side::Back,
+        Some("left") => Side::Left,
+        Some("right") => Side::Right,
+        Some("top") => Side::Top,
+        _ => Side::Corner,
+    };
+    match ending {
+        "html" => Some(Form::Page),
+        "svg" => Some(Form::Svg),
+        "png" => Some(Form::Png { time: call.number(5).unwrap_or(0.0), side }),
+        _ => None,
+    }
+}
+
+impl Interpreter<'_> {
+    /// Writes the page of a plan with its verdict under these settings; gives the path to show.
+    pub fn draw(
+        &mut self,
+        planned: &Rc<Planned>,
+        settings: Settings,
+        form: Form,
+        path: &str,
+        call: &Call,
+    ) -> Eval<String> {
+        let verdict = self.judge(planned, settings, None);
+        let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
+        let bytes = self.drawn(&planned.robot.name, &plan, form);
+        write_output(self, call, path, bytes)
+    }
+
+    /// Draws every robot, lattice and truss that the file declares, with its defaults: for `modl show`
+    /// of a program that draws nothing itself.
+    pub fn draw_declared(&mut self) -> Eval<()> {
+        let program = self.program;
+        for &def in &program.own {
+            let declared = program.def(def);
+            let drawn = matches!(declared.kind, DefKind::Config(_) | DefKind::Lattice(_) | DefKind::Truss(_));
+            if drawn && let Some(design) = self.attempt(|this| this.default_design(def))?.flatten() {
+                let path = format!("{}.html", declared.name);
+                let args = [Value::Instance(Instance::whole(design.clone())), Value::text(&path)];
+                let call = Call { span: declared.span, args: &args, spans: &[] };
+                self.attempt(|this| this.draw_design(&design, &path, &call))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_design(&mut self, design: &Rc<Design>, path: &str, call: &Call) -> Eval<()> {
+        if let Some(plan) = self.still(design) {
+            let bytes = self.drawn(&design.name, &plan, Form::Page);
+            write_output(self, call, path, bytes)?;
+        } else if let Some(planned) = self.plan_pose(design, World::default())? {
+            let settings = self.judge_settings();
+            self.draw(&planned, settings, Form::Page, path, call)?;
+        }
+        Ok(())
+    }
+
+    fn drawn(&self, title: &str, plan: &Plan, form: Form) -> Vec<u8> {
+        let texts = self.texts_of(plan);
+        let showing = Showing { title, plan, texts: &texts, command: &self.options.command };
+        match form {
+            Form::Page => view::page(&showing).into_bytes(),
+            Form::Svg => view::svg(&showing).into_bytes(),
+            Form::Png { time, side } => {
+                let own = Still::default();
+                let (width, height) = self.options.picture.unwrap_or((own.width, own.height));
+                view::png(&showing, &Still { time, side, width, height })
+            }
+        }
+    }
+
+    /// The user's own files that a plan's causes stand in, in order of loading.
+    fn texts_of(&self, plan: &Plan) -> Vec<(String, String)> {
+        let named = |name: &str| {
+            let places = plan.causes.iter().flat_map(|c| std::iter::once(c).chain(c.caller.as_deref()));
+            places.into_iter().any(|place| place.file == name)
+        };
+        let own = self.sources.files().filter(|(_, file)| !file.library && named(&file.name));
+        own.map(|(_, file)| (file.name.to_string(), file.text.to_string())).collect()
+    }
+
+    /// A lattice or truss as it is declared: a plan in which nothing moves, and that nobody judged.
+    fn still(&self, design: &Design) -> Option<Plan> {
+        let mut library = Library::default();
+        let body = match &design.kind {
+            DesignKind::Lattice(lattice) => Body::Stages(cells(lattice, &mut library)?),
+            DesignKind::Truss(truss) => Body::NodePaths(nodes(truss, &mut library)?),
+            _ => return None,
+        };
+        Some(self.bare_plan("", body, Arc::new(library), World::default(), &PlanCauses::default()))
+    }
+}
+
+fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
+    let DesignKind::Cell(cell) = &lattice.of.kind else { return None };
+    library.cells.push(cell.clone());
+    let run = |(index, place): (usize, &[i64; 3])| Run {
+        first: index as u64,
+        counters: Vec::new(),
+        center: place.map(|x| Ratio(x, 1)),
+        size: [Ratio::ONE; 3],
+    };
+    let places = &lattice.cells.places;
+    Some(Stages {
+        cell: 0,
+        count: places.len() as u64,
+        time_unit: 1.0,
+        limits: CellLimits::default(),
+        model: Model::default(),
+        start: places.iter().enumerate().map(run).collect(),
+        stages: Vec::new(),
+    })
+}
+
+fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
+    library.struts.push(truss.strut_kind()?.clone());
+    let places = truss.nodes.iter().map(|node| node.place.into());
+    let start = Keyframe {
+        time: 0.0,
+        interpolation: Interpolation::Linear,
+        nodes: places.collect(),
+        cause: CauseId(0),
+        margins: Margins::default(),
+    };
+    Some(NodePaths {
+        strut: 0,
+        limits: TrussLimits::default(),
+        surroundings: Surroundings::default(),
+        node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
+        struts: truss.struts.clone(),
+        keyframes: vec![start],
+    })
+}
