@@ -3,13 +3,13 @@
 //! `cargo bench --bench fold`
 
 use modl::geometry::Vec3;
+use modl::planners::fold::branch_and_bound::{self, Proof, optimum};
 use modl::planners::fold::enumerate::{self, census};
-use modl::planners::fold::exact::{self, Proof, optimum};
 use modl::planners::fold::inertia::Inertia;
-use modl::planners::fold::meeting::meeting;
 use modl::planners::fold::objective::{Conventions, Minimise, Objective};
 use modl::planners::fold::simulation::Count;
-use modl::planners::fold::{Target, Weights, order, order_energy, steps, survey};
+use modl::planners::fold::sweep_collision::meeting;
+use modl::planners::fold::{Target, Weights, energy_order, local_search, steps, work_order};
 use std::time::Instant;
 
 const MASS: f64 = 0.026;
@@ -38,18 +38,22 @@ fn main() {
             (0..repeats).for_each(|_| work());
             start.elapsed() / repeats
         };
-        let found = optimum(&target, &weights, &exact::Settings::default()).expect("it has layouts");
+        let found =
+            optimum(&target, &weights, &branch_and_bound::Settings::default()).expect("it has layouts");
         let exact = time(&mut || {
-            optimum(&target, &weights, &exact::Settings::default()).expect("it has layouts");
+            optimum(&target, &weights, &branch_and_bound::Settings::default()).expect("it has layouts");
         });
-        let settings =
-            exact::Settings { flat: true, root: Some(found.layout.root), ..exact::Settings::default() };
+        let settings = branch_and_bound::Settings {
+            flat: true,
+            root: Some(found.layout.root),
+            ..exact::Settings::default()
+        };
         let flat = time(&mut || {
             optimum(&target, &weights, &settings).expect("it has a flat one");
         });
         let loads = vec![MASS * 9.8; target.faces.len()];
         let ordered = time(&mut || {
-            order::least_lifting(&target, &found.layout, &loads);
+            work_order::least_work(&target, &found.layout, &loads);
         });
         let gap = (found.energy - found.bound) / found.energy;
         let proved = if found.proof == Proof::Optimal { "" } else { " (open)" };
@@ -76,9 +80,10 @@ fn dynamics(truth: &serde_json::Value) {
     for name in ["tetrahedron", "octahedron", "quadruped_turtle", "icosahedron"] {
         let target = target(&truth["shapes"][name]);
         let masses = vec![MASS; target.faces.len()];
-        let layout = optimum(&target, &Weights::uniform(&target, MASS), &exact::Settings::default())
-            .expect("it has layouts")
-            .layout;
+        let layout =
+            optimum(&target, &Weights::uniform(&target, MASS), &branch_and_bound::Settings::default())
+                .expect("it has layouts")
+                .layout;
         let steps = steps::leaves_first(&layout);
         let plain = Conventions { inertia: Inertia::Lamina, count: Count::Moving, gravity: 0.0, step: 1.0 };
         let under = Conventions { count: Count::All, gravity: 9.8, ..plain };
@@ -99,17 +104,17 @@ fn dynamics(truth: &serde_json::Value) {
             std::hint::black_box(meeting(&target, &layout, &steps, 0.02));
         });
         let order = time(&mut || {
-            order_energy::least_energy(&target, &layout, &masses, Inertia::Lamina);
+            energy_order::least_energy(&target, &layout, &masses, Inertia::Lamina);
         });
-        let all = survey::Settings {
+        let all = local_search::Settings {
             roots: (0..target.faces.len()).collect(),
             flat: true,
             budget: closed.measures_max(),
             keep: 64,
-            glance: closed.glance(100_000_000),
+            prefilter: closed.prefilter(100_000_000),
         };
         let start = Instant::now();
-        let found = survey::survey(&target, &closed.weights, &all, &mut |layout| closed.value(layout));
+        let found = local_search::survey(&target, &closed.weights, &all, &mut |layout| closed.value(layout));
         let survey = start.elapsed();
         let ending = if found.complete { "proved" } else { "open" };
         println!("| {name} | {by_form:?} | {by_steps:?} | {look:?} | {order:?} | {survey:?}, {ending} |");

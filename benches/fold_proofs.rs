@@ -5,8 +5,8 @@
 //! of the processor.
 
 use modl::geometry::{Vec3, subdivide};
+use modl::planners::fold::branch_and_bound::{self, Optimum, Proof, optimum};
 use modl::planners::fold::enumerate::{self, census};
-use modl::planners::fold::exact::{self, Optimum, Proof, optimum};
 use modl::planners::fold::{Target, Weights};
 use std::fmt::Write as _;
 use std::sync::OnceLock;
@@ -108,7 +108,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 
 fn proved(target: &Target, flat: bool, budget: u64) -> (Optimum, Duration) {
     let weights = Weights::uniform(target, MASS);
-    let settings = exact::Settings { flat, budget, ..exact::Settings::default() };
+    let settings = branch_and_bound::Settings { flat, budget, ..exact::Settings::default() };
     timed(|| optimum(target, &weights, &settings).expect("it has layouts"))
 }
 

@@ -16,7 +16,7 @@ use crate::natives::tosnake::{UNWINDING, unwinding_field};
 use crate::natives::truss::{MORPHING, TRAVEL};
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
-use crate::planners::fold::sampling::Sample;
+use crate::planners::fold::random_orders::Sample;
 use crate::robot::State;
 use crate::source::{Span, Symbol};
 use crate::units::{Dimension, quantity};

@@ -13,7 +13,7 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::planners::fold::objective::Objective;
-use crate::planners::fold::sampling;
+use crate::planners::fold::random_orders;
 use std::rc::Rc;
 
 pub const TABLE: &[Native] = &[on_run("fold", ARGUMENTS, fold), on_run("random_orders", 3, random_orders)];
@@ -50,6 +50,6 @@ fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let objective =
         Objective::new(&pattern.target, folded.masses.clone(), folded.conventions, folded.minimise);
     let takes = |steps: &[Vec<usize>]| objective.effort(&pattern.layout, steps).energy;
-    let found = sampling::sample(&pattern.layout, orders as u64, seed, folded.effort.energy, takes);
+    let found = random_orders::sample(&pattern.layout, orders as u64, seed, folded.effort.energy, takes);
     Ok(Value::Record(Rc::new(Record::Orders(found))))
 }

@@ -7,8 +7,8 @@ use super::fold_supply::Panels;
 use crate::interpret::call::Call;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop};
-use crate::planners::fold::clearing::{Clearing, Pieces};
-use crate::planners::fold::{Target, meeting, steps};
+use crate::planners::fold::strip_layouts::{Pieces, StripSearch};
+use crate::planners::fold::{Target, steps, sweep_collision};
 use crate::source::{Diagnostic, code};
 
 /// Layouts that are put before the judge.
@@ -29,7 +29,7 @@ pub fn must_hinge(call: &Call, target: &Target, panels: &Panels) -> Eval<Vec<usi
             .hint("thinner panels, or larger faces, leave room")
             .into()
     };
-    for [a, b] in meeting::in_target(target, &panels.solids) {
+    for [a, b] in sweep_collision::target_collisions(target, &panels.solids) {
         let Some(hinge) = target.hinge_between(a, b) else {
             return Err(refuse(format!("in the folded shape panels {a} and {b} are in each other")));
         };
@@ -52,7 +52,7 @@ impl Task<'_> {
         if !call.is_missing(HINGES) {
             return Ok(None);
         }
-        let mut clearing = Clearing {
+        let mut clearing = StripSearch {
             target,
             weights: &objective.weights,
             solids: &self.panels.solids,

@@ -5,12 +5,12 @@ use super::fold_panel::Panel;
 use crate::interpret::call::Call;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
+use crate::planners::fold::branch_and_bound::{self, NoLayout};
 use crate::planners::fold::enumerate::{self, TooManyFaces};
-use crate::planners::fold::exact::{self, NoLayout};
 use crate::planners::fold::heuristic::{self, Measure};
+use crate::planners::fold::local_search::{self, Survey};
 use crate::planners::fold::objective::{Minimise, Objective};
-use crate::planners::fold::peak;
-use crate::planners::fold::survey::{self, Survey};
+use crate::planners::fold::peak_torque;
 use crate::planners::fold::{Layout, Proof, Target};
 use crate::source::{Diagnostic, code};
 
@@ -25,7 +25,7 @@ pub struct Found {
     /// The best first; none that was passed over is better than those that follow.
     pub layouts: Vec<Layout>,
     /// How the next best can be sought.
-    pub next: Option<exact::Settings>,
+    pub next: Option<branch_and_bound::Settings>,
     /// No layout has a lower peak torque where that is to be small, else spends less energy, with the
     /// leaves first; N·m.
     pub bound: f64,
@@ -44,8 +44,8 @@ pub struct Found {
 impl Found {
     /// How the next best is sought, in a part of the budget: where none of the first is let through, other
     /// ways are tried as well.
-    pub fn next_best(&self) -> Option<exact::Settings> {
-        self.next.map(|next| exact::Settings { budget: next.budget / NEXT_BEST, ..next })
+    pub fn next_best(&self) -> Option<branch_and_bound::Settings> {
+        self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
     }
 }
 
@@ -79,25 +79,26 @@ impl Question<'_> {
     fn proved(&self) -> Eval<Found> {
         let Options { root, budget, seed, minimise, .. } = *self.options;
         let (target, weights) = (self.target, &self.objective.weights);
-        let plain = exact::Settings { root, flat: true, height: None, budget, seed };
+        let plain = branch_and_bound::Settings { root, flat: true, height: None, budget, seed };
         let fewest = self.objective.fewest_steps(root);
         let mut settings = plain;
         let found = match minimise {
             Minimise::Steps => (fewest..target.faces.len()).find_map(|height| {
-                settings = exact::Settings { height: Some(height), ..plain };
-                match exact::optimum(target, weights, &settings) {
+                settings = branch_and_bound::Settings { height: Some(height), ..plain };
+                match branch_and_bound::optimum(target, weights, &settings) {
                     Err(NoLayout::AllOverlap) => None,
                     found => Some(found),
                 }
             }),
-            _ => Some(exact::optimum(target, weights, &plain)),
+            _ => Some(branch_and_bound::optimum(target, weights, &plain)),
         };
         let found = found.unwrap_or(Err(NoLayout::AllOverlap)).map_err(|why| self.no_layout(why))?;
         let least = match minimise {
             Minimise::Steps => fewest as f64,
             _ => {
-                let free = exact::Settings { flat: false, ..plain };
-                let free = exact::optimum(target, weights, &free).map_err(|why| self.no_layout(why))?;
+                let free = branch_and_bound::Settings { flat: false, ..plain };
+                let free =
+                    branch_and_bound::optimum(target, weights, &free).map_err(|why| self.no_layout(why))?;
                 self.scaled(free.energy.min(found.energy))
             }
         };
@@ -156,7 +157,7 @@ impl Question<'_> {
         let asked = enumerate::Settings { root, spectrum: false, budget };
         let all =
             enumerate::census(self.target, &self.objective.weights, &asked).map_err(self.too_many_faces())?;
-        let tie = all.least * (1.0 + exact::TOL_TIE);
+        let tie = all.least * (1.0 + branch_and_bound::TOL_TIE);
         let ties = (0..all.by_root.len()).filter(|root| all.by_root[*root] <= tie).collect();
         let least = self.scaled(all.least);
         if !all.complete {
@@ -192,7 +193,7 @@ impl Question<'_> {
         let values: Vec<f64> = layouts.iter().map(|layout| self.objective.value(layout)[0]).collect();
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let reaches = |(layout, value): (&Layout, &f64)| {
-            (*value <= least * (1.0 + survey::TOL_TIE)).then_some(layout.root)
+            (*value <= least * (1.0 + local_search::TOL_TIE)).then_some(layout.root)
         };
         let ties: Vec<usize> = layouts.iter().zip(&values).filter_map(reaches).collect();
         let best = layouts.into_iter().filter(|layout| ties.contains(&layout.root)).collect();
@@ -203,13 +204,13 @@ impl Question<'_> {
     /// Every layout measured, or as many as may be; with how many that are.
     fn surveyed(&self) -> Eval<(Found, u64)> {
         let budget = self.options.budget.min(self.objective.measures_max());
-        let glance = self.objective.glance(self.options.budget);
+        let prefilter = self.objective.prefilter(self.options.budget);
         let roots = self.options.roots.clone();
-        let settings = survey::Settings { roots, flat: true, budget, keep: KEPT, glance };
-        let budget = glance.map_or(budget, |glance| glance.budget);
+        let settings = local_search::Settings { roots, flat: true, budget, keep: KEPT, prefilter };
+        let budget = prefilter.map_or(budget, |prefilter| prefilter.budget);
         let weights = &self.objective.weights;
         let found =
-            survey::survey(self.target, weights, &settings, &mut |layout| self.objective.value(layout));
+            local_search::survey(self.target, weights, &settings, &mut |layout| self.objective.value(layout));
         let Survey { best, ties, roots, least, complete } = found;
         let Some((_, first)) = best.first() else {
             let why = if complete { NoLayout::AllOverlap } else { NoLayout::Budget };
@@ -232,7 +233,7 @@ impl Question<'_> {
         let (target, weights) = (self.target, &self.objective.weights);
         let (mut left, mut best, mut bound) = (self.options.budget, first / scale, f64::INFINITY);
         for &root in &self.options.roots {
-            let least = peak::least(target, weights, root, best, &mut left);
+            let least = peak_torque::least(target, weights, root, best, &mut left);
             bound = bound.min(least.bound);
             if let Some((layout, reached)) = least.layout.filter(|(_, reached)| *reached < best) {
                 best = reached;
@@ -243,7 +244,7 @@ impl Question<'_> {
         }
         found.least = found.least.min(best * scale);
         found.bound = (bound * scale).max(found.bound).min(best * scale);
-        found.proved = bound >= best * (1.0 - exact::TOL_TIE);
+        found.proved = bound >= best * (1.0 - branch_and_bound::TOL_TIE);
         found
     }
 

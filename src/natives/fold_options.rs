@@ -9,12 +9,12 @@ use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::plan::{Ground, Profile, World};
 use crate::planners::fold::Target;
-use crate::planners::fold::closing;
+use crate::planners::fold::ground_faces::{Protrusion, below};
 use crate::planners::fold::inertia::Inertia;
 use crate::planners::fold::objective::{Conventions, Minimise};
 use crate::planners::fold::pattern::has_equal_sides;
 use crate::planners::fold::simulation::Count;
-use crate::planners::fold::standing::{Below, below};
+use crate::planners::fold::thickness;
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 
@@ -107,7 +107,7 @@ impl Options {
                 Some("least_energy") => Sequence::LeastEnergy,
                 _ => Sequence::LeavesFirst,
             },
-            opening: radius.map(|radius| closing::least_opening(panel.thickness, radius)),
+            opening: radius.map(|radius| thickness::least_opening(panel.thickness, radius)),
         };
         options.check(call, target)?;
         Ok(options)
@@ -158,7 +158,7 @@ fn roots(call: &Call, target: &Target, root: Option<usize>, depth: f64) -> Eval<
     let lies = |root: &usize| below(target, *root, depth).is_none();
     let roots: Vec<usize> = asked.iter().copied().filter(lies).collect();
     let (true, Some(&first)) = (roots.is_empty(), asked.first()) else { return Ok(roots) };
-    let Some(Below { face, depth }) = below(target, first, depth) else { return Ok(roots) };
+    let Some(Protrusion { face, depth }) = below(target, first, depth) else { return Ok(roots) };
     let depth = quantity(depth, Dimension::LENGTH);
     let (at, message) = match root {
         Some(_) => {

@@ -5,10 +5,10 @@ use super::fold_plan::{Outcome, Task};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::Eval;
 use crate::plan::Failure;
-use crate::planners::fold::burden::Burden;
-use crate::planners::fold::exact::{self, Word};
-use crate::planners::fold::passage::Passages;
-use crate::planners::fold::{Layout, order_energy, steps};
+use crate::planners::fold::branch_and_bound::{self, Decision};
+use crate::planners::fold::collision_free_order::OrderSearch;
+use crate::planners::fold::load_limits::LoadLimits;
+use crate::planners::fold::{Layout, energy_order, steps};
 
 /// Panels that are put before the judge in all layouts, but at least some layouts.
 const JUDGED_MAX: usize = 3_000;
@@ -33,7 +33,7 @@ const LIMIT_STEP: f64 = 0.02;
 /// The search for a layout that folds in any order.
 pub struct Reordering<'t> {
     task: &'t Task<'t>,
-    burden: Option<Burden>,
+    burden: Option<LoadLimits>,
     judged: usize,
     /// Steps that may still be looked at.
     left: usize,
@@ -62,7 +62,7 @@ impl<'t> Reordering<'t> {
     pub fn new(task: &'t Task<'t>) -> Reordering<'t> {
         let panel = task.question.panel;
         let is_pulled = task.question.options.conventions.gravity != 0.0;
-        let burden = is_pulled.then(|| Burden {
+        let burden = is_pulled.then(|| LoadLimits {
             weights: task.loads(),
             torque: panel.torque.unwrap_or(f64::INFINITY),
             depth: panel.thickness / 2.0 + panel.touch,
@@ -112,14 +112,14 @@ impl<'t> Reordering<'t> {
     fn of_next(
         &mut self,
         interpreter: &mut Interpreter,
-        settings: &exact::Settings,
+        settings: &branch_and_bound::Settings,
         open: &mut Vec<Layout>,
     ) -> Eval<Option<Option<Outcome>>> {
         let mut ended: Option<Eval<Option<Outcome>>> = None;
         let Question { target, objective, .. } = self.task.question;
         let mut layouts = 0;
         // What is accepted is kept here, with its plan.
-        let _ = exact::optimum_of(target, &objective.weights, settings, &mut |layout| {
+        let _ = branch_and_bound::optimum_among(target, &objective.weights, settings, &mut |layout| {
             layouts += 1;
             ended = match self.of_layout(interpreter, layout, 0) {
                 Ok(Heard::Passed(outcome)) => Some(Ok(Some(*outcome))),
@@ -131,7 +131,7 @@ impl<'t> Reordering<'t> {
                 Ok(Heard::Refused) => None,
                 Err(stop) => Some(Err(stop)),
             };
-            if ended.is_some() || layouts == LAYOUTS_MAX { Word::Stop } else { Word::Refuse }
+            if ended.is_some() || layouts == LAYOUTS_MAX { Decision::Stop } else { Decision::Refuse }
         });
         ended.transpose()
     }
@@ -144,9 +144,9 @@ impl<'t> Reordering<'t> {
         let target = task.question.target;
         let looks = (TURNS[pass] * target.faces.len()).min(self.left);
         let burden = self.burden.clone();
-        let mut passages = Passages::new(target, layout, &task.panels.solids, burden.as_ref(), looks);
+        let mut passages = OrderSearch::new(target, layout, &task.panels.solids, burden.as_ref(), looks);
         for steps in self.usual(layout).into_iter().filter(|_| pass == 0) {
-            if passages.lets_pass(&steps)
+            if passages.is_collision_free(&steps)
                 && let Ok(outcome) = self.heard(interpreter, layout, steps)?
             {
                 return Ok(Heard::Passed(Box::new(outcome)));
@@ -195,7 +195,7 @@ impl<'t> Reordering<'t> {
             let mut at = None;
             while left > 0 && least.as_ref().is_none_or(|least| burden.torque < least.torque) {
                 let mut passages =
-                    Passages::new(target, layout, solids, Some(&burden), left.min(TURNS[0] * faces));
+                    OrderSearch::new(target, layout, solids, Some(&burden), left.min(TURNS[0] * faces));
                 let order = passages.order(&wished);
                 left -= left.min(TURNS[0] * faces) - passages.left;
                 if let (Some(_), Some(face)) = (&order, at) {
@@ -233,7 +233,7 @@ impl<'t> Reordering<'t> {
     fn usual(&self, layout: &Layout) -> Vec<Vec<Vec<usize>>> {
         let (target, masses) = (self.task.question.target, &self.task.panels.masses);
         let inertia = self.task.question.options.conventions.inertia;
-        let cheap = order_energy::least_energy(target, layout, masses, inertia);
+        let cheap = energy_order::least_energy(target, layout, masses, inertia);
         let cheap = cheap.map(|(order, _)| steps::of_order(layout, &order));
         cheap.into_iter().chain([steps::root_first(layout), steps::leaves_first(layout)]).collect()
     }

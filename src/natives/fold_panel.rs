@@ -35,7 +35,7 @@ pub struct Panel {
     /// the second touches it.
     pub touch: f64,
     pub contact: f64,
-    /// Its convex parts in the frame of [`Solids`](crate::planners::fold::meeting::Solids).
+    /// Its convex parts in the frame of [`Solids`](crate::planners::fold::sweep_collision::Solids).
     pub parts: Vec<Part>,
 }
 

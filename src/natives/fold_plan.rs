@@ -14,10 +14,10 @@ use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::interpret::verdicts::failure_line;
 use crate::plan::{Bound, CauseId, Failure, World};
-use crate::planners::fold::exact::{self, Word};
-use crate::planners::fold::meeting::{Meeting, meeting};
+use crate::planners::fold::branch_and_bound::{self, Decision};
 use crate::planners::fold::objective::Minimise;
-use crate::planners::fold::{Layout, Proof, closing, count, order, order_energy, steps};
+use crate::planners::fold::sweep_collision::{Collision, meeting};
+use crate::planners::fold::{Layout, Proof, energy_order, spanning_trees, steps, thickness, work_order};
 use crate::robot::State;
 use crate::source::{Diagnostic, code};
 use crate::units::display::number;
@@ -68,12 +68,12 @@ impl Task<'_> {
         let is_proved = found.proved && self.question.options.sequence == Sequence::LeavesFirst;
         for (place, layout) in found.layouts.iter().enumerate() {
             match self.heard(interpreter, &mut hearing, layout)? {
-                Word::Accept => {
+                Decision::Accept => {
                     let is_proved = is_proved && (found.listed || place == 0);
                     return Ok(self.answer(hearing.passed.remove(0), found, is_proved));
                 }
-                Word::Refuse => {}
-                Word::Stop => break,
+                Decision::Refuse => {}
+                Decision::Stop => break,
             }
         }
         if let Some((outcome, proved)) = self.next_best(interpreter, &mut hearing, found)? {
@@ -146,13 +146,13 @@ impl Task<'_> {
         let Question { target, objective, .. } = self.question;
         let refused: Vec<Vec<usize>> = found.layouts.iter().map(Layout::hinges).collect();
         let mut fault = None;
-        let best = exact::optimum_of(target, &objective.weights, &settings, &mut |layout| {
+        let best = branch_and_bound::optimum_among(target, &objective.weights, &settings, &mut |layout| {
             if refused.contains(&layout.hinges()) && layout.root == found.layouts[0].root {
-                return Word::Refuse;
+                return Decision::Refuse;
             }
             self.heard(interpreter, hearing, layout).unwrap_or_else(|stop| {
                 fault = Some(stop);
-                Word::Stop
+                Decision::Stop
             })
         });
         if let Some(stop) = fault {
@@ -165,31 +165,31 @@ impl Task<'_> {
     }
 
     /// What is said of a layout in the order that is asked for.
-    fn heard(&self, interpreter: &mut Interpreter, hearing: &mut Hearing, layout: &Layout) -> Eval<Word> {
+    fn heard(&self, interpreter: &mut Interpreter, hearing: &mut Hearing, layout: &Layout) -> Eval<Decision> {
         let Question { target, call, .. } = self.question;
         let steps = self.steps(layout)?;
         let faces = target.faces.len();
         let [looks_max, judged_max] =
             [LOOKED_AT_MAX / (faces * faces), JUDGED_MAX / faces].map(|most| most.max(LAYOUTS_MIN));
         if hearing.looks == looks_max || hearing.judged == judged_max {
-            return Ok(Word::Stop);
+            return Ok(Decision::Stop);
         }
         hearing.looks += 1;
         // A given layout is refused in the judge's words.
         let look = call.is_missing(HINGES).then(|| meeting(target, layout, &steps, SHRUNK)).flatten();
-        if let Some(Meeting { step, faces: [a, b] }) = look {
+        if let Some(Collision { step, faces: [a, b] }) = look {
             hearing.why.get_or_insert_with(|| format!("panels {a} and {b} meet in step {}", step + 1));
-            return Ok(Word::Refuse);
+            return Ok(Decision::Refuse);
         }
         hearing.judged += 1;
         Ok(match self.judged(interpreter, layout, &steps)? {
             Ok(planned) => {
                 hearing.passed.push(Outcome { planned, layout: layout.clone(), steps });
-                Word::Accept
+                Decision::Accept
             }
             Err(failure) => {
                 hearing.why.get_or_insert_with(|| failure_line(&failure));
-                Word::Refuse
+                Decision::Refuse
             }
         })
     }
@@ -206,14 +206,14 @@ impl Task<'_> {
             Sequence::LeavesFirst => steps::leaves_first(layout),
             Sequence::RootFirst => steps::root_first(layout),
             Sequence::LeastWork => {
-                steps::of_order(layout, &order::least_lifting(target, layout, &self.loads()).order)
+                steps::of_order(layout, &work_order::least_work(target, layout, &self.loads()).order)
             }
             Sequence::LeastEnergy => {
                 let inertia = options.conventions.inertia;
                 let Some((order, _)) =
-                    order_energy::least_energy(target, layout, &self.panels.masses, inertia)
+                    energy_order::least_energy(target, layout, &self.panels.masses, inertia)
                 else {
-                    let limit = order_energy::HEIGHT_MAX;
+                    let limit = energy_order::HEIGHT_MAX;
                     let message =
                         format!("this order is sought in layouts of at most {limit} hinges on a path");
                     return Err(call.refuse(SEQUENCE, message));
@@ -241,7 +241,7 @@ impl Task<'_> {
         let effort = objective.effort(&layout, &steps);
         let value = self.value(&layout, &steps);
         let folded = Folded {
-            layouts: count::layouts(target),
+            layouts: spanning_trees::layouts(target),
             effort,
             bound: found.bound,
             fewest_steps: objective.fewest_steps(options.root),
@@ -249,11 +249,11 @@ impl Task<'_> {
             optimal,
             ties: found.ties.clone(),
             tied: found.tied,
-            lifting: order::work(target, &layout, &self.loads(), &steps.concat()),
-            lifting_bound: order::bound(target, &layout, &self.loads()),
+            lifting: work_order::work(target, &layout, &self.loads(), &steps.concat()),
+            lifting_bound: work_order::bound(target, &layout, &self.loads()),
             too_thick: options
                 .opening
-                .map_or_else(Vec::new, |opening| closing::too_thick(target, &layout, opening)),
+                .map_or_else(Vec::new, |opening| thickness::too_thick(target, &layout, opening)),
             masses: self.panels.masses.clone(),
             conventions: options.conventions,
             minimise: options.minimise,

@@ -8,7 +8,7 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::planners::fold::Target;
-use crate::planners::fold::meeting::Solids;
+use crate::planners::fold::sweep_collision::Solids;
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;

@@ -6,7 +6,7 @@ use crate::interpret::record::Record;
 use crate::interpret::value::{JointValue, Value};
 use crate::planners::fold::objective::{Conventions, Effort, Minimise};
 use crate::planners::fold::pattern::Pattern;
-use crate::planners::fold::sampling::Sample;
+use crate::planners::fold::random_orders::Sample;
 use crate::planners::fold::{Layout, Target};
 use crate::robot::JointOwner;
 use crate::units::Dimension;

@@ -14,12 +14,12 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as MoveTarget, World};
+use crate::planners::fold::collision_free_order::OrderSearch;
 use crate::planners::fold::inertia::Inertia;
-use crate::planners::fold::meeting::Solids;
-use crate::planners::fold::passage::Passages;
-use crate::planners::fold::plane::{Side, bond};
-use crate::planners::fold::refold::{self, NoRefolding, Refolding};
-use crate::planners::fold::{Layout, Target, Weights, order_energy, steps};
+use crate::planners::fold::sweep_collision::Solids;
+use crate::planners::fold::{Layout, Target, Weights, energy_order, steps};
+use crate::planners::refold::lattice_sheet::{Side, bond};
+use crate::planners::refold::sheets::{self, NoRefolding, Refolding};
 use crate::robot::{JointId, PortRef};
 use crate::source::{Diagnostic, code};
 use crate::units::Dimension;
@@ -79,9 +79,9 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let weights = [Weights::uniform(&from, panel.mass), Weights::uniform(&to, panel.mass)];
     let solids = Solids { parts: vec![panel.parts.clone(); from.faces.len()], touch: panel.touch };
     let task = Task { call, panel, solids, from, to, weights, step, seed };
-    let settings = refold::Settings { budget, seed, kept: SHEETS_TRIED };
+    let settings = sheets::Settings { budget, seed, kept: SHEETS_TRIED };
     let cost = |sheet: &Refolding| task.at_best_root(sheet).1;
-    let found = refold::sheets(&task.from, &task.to, &task.solids, &settings, cost);
+    let found = sheets::sheets(&task.from, &task.to, &task.solids, &settings, cost);
     let found = found.map_err(|why| task.refusal(why))?;
     for sheet in &found.best {
         let (sheet, energy) = task.at_best_root(sheet);
@@ -155,15 +155,15 @@ impl Task<'_> {
     /// the root's neighbours first; else one that is searched for.
     fn orders(&self, target: &Target, layout: &Layout) -> Vec<Order> {
         let masses = vec![self.panel.mass; target.faces.len()];
-        let cheapest = order_energy::least_energy(target, layout, &masses, Inertia::Lamina);
+        let cheapest = energy_order::least_energy(target, layout, &masses, Inertia::Lamina);
         let cheapest = cheapest.map(|(order, _)| steps::of_order(layout, &order));
         let mut orders = vec![steps::leaves_first(layout)];
         orders.extend(cheapest);
         orders.push(steps::root_first(layout));
         orders.dedup();
         let wished = orders[0].concat();
-        let mut passages = Passages::new(target, layout, &self.solids, None, TURNS * target.faces.len());
-        orders.retain(|order| passages.lets_pass(order));
+        let mut passages = OrderSearch::new(target, layout, &self.solids, None, TURNS * target.faces.len());
+        orders.retain(|order| passages.is_collision_free(order));
         orders.truncate(ORDERS_TRIED);
         if orders.len() < ORDERS_TRIED
             && let Some(order) = passages.order(&wished)

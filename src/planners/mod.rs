@@ -9,6 +9,7 @@
 pub mod random;
 
 pub mod fold;
+pub mod refold;
 pub mod squeeze;
 pub mod tosnake;
 pub mod truss;

@@ -4,13 +4,15 @@
 use modl::geometry::Vec3;
 use modl::geometry::pose::turned;
 use modl::interpret::Mode;
+use modl::planners::fold::branch_and_bound::{self, NoLayout, SLACK, optimum};
 use modl::planners::fold::enumerate::{self, census};
-use modl::planners::fold::exact::{self, NoLayout, SLACK, optimum};
 use modl::planners::fold::heuristic::{Measure, preferred};
 use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::pattern::Pattern;
-use modl::planners::fold::routes::Routes;
-use modl::planners::fold::{Layout, Proof, Target, Unfoldable, Weights, count, order, order_energy, steps};
+use modl::planners::fold::shortest_paths::ShortestPaths;
+use modl::planners::fold::{
+    Layout, Proof, Target, Unfoldable, Weights, energy_order, spanning_trees, steps, work_order,
+};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::sync::LazyLock;
@@ -66,8 +68,8 @@ pub fn near(a: f64, b: f64, tol: f64) -> bool {
     (a - b).abs() <= tol * a.abs().max(b.abs())
 }
 
-fn at_root(root: usize) -> exact::Settings {
-    exact::Settings { root: Some(root), ..exact::Settings::default() }
+fn at_root(root: usize) -> branch_and_bound::Settings {
+    branch_and_bound::Settings { root: Some(root), ..exact::Settings::default() }
 }
 
 fn all_layouts(root: Option<usize>, spectrum: bool) -> enumerate::Settings {
@@ -77,9 +79,9 @@ fn all_layouts(root: Option<usize>, spectrum: bool) -> enumerate::Settings {
 #[test]
 fn layouts_are_counted_as_spanning_trees() {
     for (name, shape) in shapes() {
-        assert_eq!(count::layouts(&target(name)).to_string(), shape["spanning_trees"], "{name}");
+        assert_eq!(spanning_trees::layouts(&target(name)).to_string(), shape["spanning_trees"], "{name}");
     }
-    assert_eq!(count::layouts(&target("geodesic80")).to_string(), "3497104100935210106880000000");
+    assert_eq!(spanning_trees::layouts(&target("geodesic80")).to_string(), "3497104100935210106880000000");
 }
 
 /// The least energies in closed form; the truth has its corners to twelve places.
@@ -93,7 +95,8 @@ fn least_energies_are_those_of_the_closed_form() {
     ];
     for (name, exact) in cases {
         let target = target(name);
-        let found = optimum(&target, &weights(&target), &exact::Settings::default()).expect("it has layouts");
+        let found = optimum(&target, &weights(&target), &branch_and_bound::Settings::default())
+            .expect("it has layouts");
         assert!(near(found.energy, exact, 1e-11), "{name}: {} is not {exact}", found.energy);
     }
 }
@@ -130,13 +133,14 @@ fn optima_are_proved_and_those_of_the_truth() {
     for (name, shape) in shapes().filter(|(name, _)| *name != "geodesic80") {
         let (target, wanted) = (target(name), number(&shape["opt_E_dt1_Nm"]));
         let weights = weights(&target);
-        let best = optimum(&target, &weights, &exact::Settings::default()).expect("it has layouts");
+        let best =
+            optimum(&target, &weights, &branch_and_bound::Settings::default()).expect("it has layouts");
         assert_eq!(best.proof, Proof::Optimal, "{name}");
         assert!(near(best.energy, wanted, 1e-9), "{name}: {}, not {wanted}", best.energy);
         assert!(best.bound <= best.energy && near(best.bound, best.energy, 3.0 * SLACK), "{name}");
         let roots: Vec<usize> = shape["best_roots"].as_array().expect("a list").iter().map(index).collect();
         assert_eq!(best.roots, roots, "{name}");
-        let bounds = Routes::new(&target, &weights);
+        let bounds = ShortestPaths::new(&target, &weights);
         let mut least_bound = 1.0_f64;
         for (root, ratio) in numbers(&shape["opt_per_root_over_best"]).into_iter().enumerate() {
             let found = optimum(&target, &weights, &at_root(root)).expect("it has layouts");
@@ -162,7 +166,7 @@ fn the_best_pattern_that_does_not_overlap_is_proved() {
     for (name, shape) in shapes().filter(|(name, _)| *name != "geodesic80") {
         let target = target(name);
         let weights = weights(&target);
-        let settings = exact::Settings { flat: true, ..at_root(0) };
+        let settings = branch_and_bound::Settings { flat: true, ..at_root(0) };
         let flat = optimum(&target, &weights, &settings).expect("it has layouts");
         let free = optimum(&target, &weights, &at_root(0)).expect("it has layouts");
         assert_eq!(flat.proof, Proof::Optimal, "{name}");
@@ -216,7 +220,7 @@ fn a_budget_ends_an_enumeration_and_says_so() {
 #[test]
 fn an_optimum_without_budget_has_an_open_gap() {
     let target = target("tube_6x3");
-    let settings = exact::Settings { budget: 0, ..at_root(0) };
+    let settings = branch_and_bound::Settings { budget: 0, ..at_root(0) };
     let found = optimum(&target, &weights(&target), &settings).expect("a first layout needs no budget");
     assert_eq!(found.proof, Proof::Open);
     assert!(found.bound < found.energy);
@@ -254,18 +258,18 @@ fn orders_of_folding_are_those_of_the_truth() {
         let n = target.faces.len();
         let layout = Layout::of_pairs(&target, &pairs(&case["tree"]), index(&case["root"])).expect("a tree");
         let (loads, masses) = (vec![MASS * GRAVITY; n], vec![MASS; n]);
-        let found = order::least_lifting(&target, &layout, &loads);
+        let found = work_order::least_work(&target, &layout, &loads);
         assert!(found.optimal);
         assert!(near(found.work, number(&case["W_opt_J"]), 1e-9), "{name}: {}", found.work);
-        assert!(near(order::work(&target, &layout, &loads, &found.order), found.work, 1e-9), "{name}");
+        assert!(near(work_order::work(&target, &layout, &loads, &found.order), found.work, 1e-9), "{name}");
         assert!(found.bound <= found.work * (1.0 + 1e-12));
-        let bound = order::bound(&target, &layout, &loads);
+        let bound = work_order::bound(&target, &layout, &loads);
         let of_root = number(&case["W_lower_bound_J"]) * (1.0 - 1e-9);
         assert!(of_root <= bound && bound <= found.work * (1.0 + 1e-12), "{name}: {bound}");
         let flat = |steps: Vec<Vec<usize>>| steps.concat();
         let leaves = flat(steps::leaves_first(&layout));
         let first = flat(steps::root_first(&layout));
-        let work = |order: &[usize]| order::work(&target, &layout, &loads, order);
+        let work = |order: &[usize]| work_order::work(&target, &layout, &loads, order);
         assert!(near(work(&leaves), number(&case["W_leaf_first_J"]), 1e-9), "{name}");
         assert!(near(work(&first), number(&case["W_root_first_J"]), 1e-9), "{name}");
         assert_eq!(steps::leaves_first(&layout).len(), index(&case["height"]));
@@ -273,12 +277,12 @@ fn orders_of_folding_are_those_of_the_truth() {
             continue;
         }
         let energy =
-            |order: &[usize]| order_energy::energy(&target, &layout, &masses, Inertia::Lamina, order);
+            |order: &[usize]| energy_order::energy(&target, &layout, &masses, Inertia::Lamina, order);
         assert!(near(energy(&leaves), number(&case["MI_leaf_first_dt1"]), 1e-9), "{name}");
         assert!(near(energy(&leaves), layout.energy(&weights(&target)), 1e-12), "{name}");
         assert!(near(energy(&first), number(&case["MI_root_first_dt1"]), 1e-9), "{name}");
         let (best, least) =
-            order_energy::least_energy(&target, &layout, &masses, Inertia::Lamina).expect("low");
+            energy_order::least_energy(&target, &layout, &masses, Inertia::Lamina).expect("low");
         assert!(near(least, number(&case["MI_opt_over_orders_dt1"]), 1e-9), "{name}: {least}");
         assert!(near(energy(&best), least, 1e-9), "{name}: the order does not cost what it should");
     }
@@ -318,13 +322,13 @@ fn dynamic_programming_equals_brute_force() {
             let (mut work, mut energy) = (f64::INFINITY, f64::INFINITY);
             let mut faces: Vec<usize> = (0..n).filter(|f| *f != root).collect();
             permutations(&mut faces, 0, &mut |order| {
-                work = work.min(order::work(&target, &layout, &loads, order));
-                energy = energy.min(order_energy::energy(&target, &layout, &masses, Inertia::Lamina, order));
+                work = work.min(work_order::work(&target, &layout, &loads, order));
+                energy = energy.min(energy_order::energy(&target, &layout, &masses, Inertia::Lamina, order));
             });
-            let lifting = order::least_lifting(&target, &layout, &loads);
+            let lifting = work_order::least_work(&target, &layout, &loads);
             assert!(near(lifting.work, work, 1e-9), "{name}: {} and {work}", lifting.work);
             let (_, least) =
-                order_energy::least_energy(&target, &layout, &masses, Inertia::Lamina).expect("low");
+                energy_order::least_energy(&target, &layout, &masses, Inertia::Lamina).expect("low");
             assert!(near(least, energy, 1e-9), "{name}: {least} and {energy}");
         })
         .expect("few faces");
@@ -383,9 +387,9 @@ fn a_target_of_which_every_pattern_overlaps_is_refused() {
         faces.push(vec![0, i, i + 1]);
     }
     let target = Target::new(points, &faces).expect("it folds");
-    let settings = exact::Settings { flat: true, ..exact::Settings::default() };
+    let settings = branch_and_bound::Settings { flat: true, ..exact::Settings::default() };
     assert_eq!(optimum(&target, &weights(&target), &settings).err(), Some(NoLayout::AllOverlap));
-    assert!(optimum(&target, &weights(&target), &exact::Settings::default()).is_ok());
+    assert!(optimum(&target, &weights(&target), &branch_and_bound::Settings::default()).is_ok());
 }
 
 /// Random targets: a shape with its corners shaken and some faces taken away.
@@ -444,12 +448,12 @@ proptest! {
     fn proved_optima_are_those_of_enumeration(target in shaken(), root in 0..18usize) {
         let root = root % target.faces.len();
         let weights = Weights::uniform(&target, MASS);
-        let found = optimum(&target, &weights, &exact::Settings::default()).expect("it has layouts");
+        let found = optimum(&target, &weights, &branch_and_bound::Settings::default()).expect("it has layouts");
         let all = census(&target, &weights, &all_layouts(None, false)).expect("few faces");
-        prop_assert_eq!(count::layouts(&target).to_string(), all.layouts.to_string());
+        prop_assert_eq!(spanning_trees::layouts(&target).to_string(), all.layouts.to_string());
         prop_assert_eq!(found.proof, Proof::Optimal);
         prop_assert!(near(found.energy, all.least, 2e-9));
-        let flat = optimum(&target, &weights, &exact::Settings { flat: true, ..at_root(root) });
+        let flat = optimum(&target, &weights, &branch_and_bound::Settings { flat: true, ..at_root(root) });
         let (mut least, mut overlapping) = (f64::INFINITY, 0);
         if all.layouts < 10_000 {
             enumerate::each(&target, u64::MAX, |hinges| {
@@ -476,7 +480,7 @@ proptest! {
         first in 0..8usize,
     ) {
         let least = |target: &Target| {
-            optimum(target, &Weights::uniform(target, MASS), &exact::Settings::default()).expect("it has layouts").energy
+            optimum(target, &Weights::uniform(target, MASS), &branch_and_bound::Settings::default()).expect("it has layouts").energy
         };
         let plain = least(&target);
         let faces: Vec<Vec<usize>> = target.faces.iter().map(|f| f.to_vec()).collect();

@@ -5,11 +5,11 @@
 
 use crate::planners::fold::{TRUTH, index, mesh, near, number, numbers, shapes, target, weights};
 use modl::geometry::{Vec3, subdivide};
+use modl::planners::fold::branch_and_bound::{self, SLACK, optimum};
 use modl::planners::fold::enumerate::{self, census};
-use modl::planners::fold::exact::{self, SLACK, optimum};
-use modl::planners::fold::lagrange::{Effort, Lagrange};
+use modl::planners::fold::lagrangian::{Effort, Lagrangian};
 use modl::planners::fold::pattern::Pattern;
-use modl::planners::fold::{Layout, Proof, Target, Weights, count, local, symmetry};
+use modl::planners::fold::{Layout, Proof, Target, Weights, edge_exchange, spanning_trees, symmetry};
 use proptest::prelude::*;
 
 fn whole() -> bool {
@@ -42,8 +42,8 @@ fn torus() -> Target {
     Target::new(points, &faces).expect("it folds")
 }
 
-fn settings(budget: u64) -> exact::Settings {
-    exact::Settings { budget, ..exact::Settings::default() }
+fn settings(budget: u64) -> branch_and_bound::Settings {
+    branch_and_bound::Settings { budget, ..exact::Settings::default() }
 }
 
 /// However soon a search ends, its bound is below the optimum and its layout above.
@@ -120,8 +120,8 @@ fn eighty_faces_without_symmetry_are_proved() {
 fn eighty_equal_faces_are_proved_and_lie_flat() {
     let (points, faces) = sphere(2, false);
     let target = Target::new(points, &faces).expect("it folds");
-    assert_eq!(count::layouts(&target).to_string(), "3497104100935210106880000000");
-    let settings = exact::Settings { flat: true, root: Some(1), ..settings(20_000_000) };
+    assert_eq!(spanning_trees::layouts(&target).to_string(), "3497104100935210106880000000");
+    let settings = branch_and_bound::Settings { flat: true, root: Some(1), ..settings(20_000_000) };
     let found = optimum(&target, &weights(&target), &settings).expect("it has layouts");
     assert_eq!(found.proof, Proof::Optimal);
     assert!(Pattern::of(&target, &found.layout).overlaps().is_empty());
@@ -223,7 +223,7 @@ proptest! {
         let hinges = random_tree(&target, &order);
         for root in (0..target.faces.len()).step_by(7) {
             let layout = Layout::of_hinges(&target, &hinges, root).expect("a tree");
-            let better = local::improved(&target, &weights, layout.clone(), &mut 100_000);
+            let better = edge_exchange::improved(&target, &weights, layout.clone(), &mut 100_000);
             prop_assert!(better.energy(&weights) <= layout.energy(&weights) * (1.0 + 1e-12));
             prop_assert!(better.energy(&weights) >= found.bound, "{} < {}", better.energy(&weights), found.bound);
         }
@@ -235,14 +235,14 @@ proptest! {
     fn prices_raise_a_bound_that_holds(target in shaken(), root in 0..80usize) {
         let root = root % target.faces.len();
         let weights = Weights::uniform(&target, 0.026);
-        let best = optimum(&target, &weights, &exact::Settings { root: Some(root), ..settings(20_000_000) });
+        let best = optimum(&target, &weights, &branch_and_bound::Settings { root: Some(root), ..settings(20_000_000) });
         let best = best.expect("it has layouts");
         let mut allowed: Vec<u8> = target.sides.iter().map(|sides| {
             (0..3).filter(|k| sides[*k].is_some()).map(|k| 1 << k).sum()
         }).collect();
         allowed[root] = 0;
         let effort = Effort { cutoff: best.energy * 1.01, aim: best.energy, rounds: 200, length: 1.0 };
-        let mut lagrange = Lagrange::new(&target, &weights);
+        let mut lagrange = Lagrangian::new(&target, &weights);
         let alone = lagrange.ascend(
             root, &mut allowed.clone(), &[], Effort { rounds: 1, ..effort }, &mut 10_000_000, |_, _| f64::INFINITY,
         );

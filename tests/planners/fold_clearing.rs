@@ -4,11 +4,11 @@
 use crate::language::interpret::{Ran, run_text};
 use modl::geometry::{Part, Vec3};
 use modl::interpret::Mode;
-use modl::planners::fold::clearing::Clearing;
 use modl::planners::fold::enumerate;
 use modl::planners::fold::inertia::Inertia;
-use modl::planners::fold::meeting::{Look, Solids, in_target, meeting, place_of};
 use modl::planners::fold::pattern::Pattern;
+use modl::planners::fold::strip_layouts::StripSearch;
+use modl::planners::fold::sweep_collision::{Solids, SweepCheck, meeting, panel_pose, target_collisions};
 use modl::planners::fold::{Layout, Target, Weights, steps};
 use std::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ fn panels(target: &Target, thickness: f64) -> Solids {
             [scaled(inside), scaled(outside) + half, scaled(outside) - half]
         };
         let points: Vec<Vec3> = corners.into_iter().flat_map(of_corner).collect();
-        vec![Part::points(&points).moved(&place_of(&corners, &up).inverse())]
+        vec![Part::points(&points).moved(&panel_pose(&corners, &up).inverse())]
     };
     Solids { parts: (0..target.faces.len()).map(panel).collect(), touch: 1e-5 }
 }
@@ -60,8 +60,8 @@ fn tori_are_cut_into_strips() {
         let masses = vec![0.026; target.faces.len()];
         let weights = Weights::new(&target, &masses, Inertia::Lamina);
         let (solids, roots) = (panels(&target, 0.002), (0..target.faces.len()).collect::<Vec<_>>());
-        assert_eq!(in_target(&target, &solids), Vec::<[usize; 2]>::new());
-        let mut clearing = Clearing {
+        assert_eq!(target_collisions(&target, &solids), Vec::<[usize; 2]>::new());
+        let mut clearing = StripSearch {
             target: &target,
             weights: &weights,
             solids: &solids,
@@ -91,7 +91,7 @@ fn all_that_meet_and_the_first_that_meet() {
     enumerate::each(&target, 400, |hinges| {
         let layout = Layout::of_hinges(&target, hinges, 0).expect("a tree");
         let steps = steps::leaves_first(&layout);
-        let all = Look::thin(&target, &layout, 0.02).meetings(&steps, 24, usize::MAX);
+        let all = SweepCheck::thin(&target, &layout, 0.02).meetings(&steps, 24, usize::MAX);
         let first = meeting(&target, &layout, &steps, 0.02);
         assert_eq!(first.is_none(), all.is_empty());
         if let Some(first) = first {

@@ -5,11 +5,11 @@ use crate::language::interpret::run_text;
 use crate::planners::fold::{SIDE, TRUTH, index, mesh, pairs, target};
 use modl::geometry::{Part, Vec3};
 use modl::interpret::Mode;
-use modl::planners::fold::folded::poses_at;
+use modl::planners::fold::collision_free_order::OrderSearch;
 use modl::planners::fold::inertia::Inertia;
-use modl::planners::fold::meeting::{Meeting, Solids, meeting};
-use modl::planners::fold::passage::Passages;
+use modl::planners::fold::kinematics::poses_at;
 use modl::planners::fold::simulation::quintic;
+use modl::planners::fold::sweep_collision::{Collision, Solids, meeting};
 use modl::planners::fold::{Layout, Target, Weights, enumerate, steps};
 use modl::source::Diagnostic;
 use serde_json::Value;
@@ -18,7 +18,7 @@ use std::fmt::Write;
 /// The other program shrank triangles by this part, and looked at 24 to 40 states of each step.
 const SHRUNK: f64 = 1e-3;
 
-fn meets(target: &Target, layout: &Layout, steps: &[Vec<usize>]) -> Option<Meeting> {
+fn meets(target: &Target, layout: &Layout, steps: &[Vec<usize>]) -> Option<Collision> {
     meeting(target, layout, steps, SHRUNK)
 }
 
@@ -162,7 +162,7 @@ fn the_judge_names_time_and_faces_of_a_collision() {
     let target = target("octahedron");
     let layout = Layout::of_pairs(&target, &pairs(tree), 0).expect("a tree");
     let order = steps::leaves_first(&layout);
-    assert_eq!(meets(&target, &layout, &order), Some(Meeting { step: order.len() - 1, faces: [3, 7] }));
+    assert_eq!(meets(&target, &layout, &order), Some(Collision { step: order.len() - 1, faces: [3, 7] }));
     let (faces, time) = refusal(&folded("octahedron", 0, tree, "leaves_first"));
     let last = 3.0 * (order.len() - 1) as f64;
     assert!(faces == [3, 7] && last < time && time < last + 3.0, "{faces:?} at {time}");
@@ -183,7 +183,7 @@ fn samples_and_judge_agree_on_the_quadruped() {
         let said = folded("quadruped_turtle", 0, &case["tree"], "leaves_first");
         match meets(&target, &layout, &steps::leaves_first(&layout)) {
             None => assert!(said.is_empty(), "{said:?}"),
-            Some(Meeting { step, faces }) => {
+            Some(Collision { step, faces }) => {
                 let (named, time) = refusal(&said);
                 assert!(named == faces && (time / 3.0) as usize == step, "{named:?} at {time}");
                 meeting += 1;
@@ -219,7 +219,7 @@ fn a_passage_is_found_wherever_there_is_one() {
             return;
         }
         colliding += 1;
-        let mut passages = Passages::new(&target, &layout, &solids, None, 10_000);
+        let mut passages = OrderSearch::new(&target, &layout, &solids, None, 10_000);
         let order = passages.order(&wished.concat()).expect("root first is such an order");
         let mut sorted = order.clone();
         sorted.sort_unstable();
@@ -238,7 +238,7 @@ fn refused_steps_are_avoided() {
     let target = target("tetrahedron");
     let layout = Layout::of_pairs(&target, &[[0, 1], [0, 2], [0, 3]], 0).expect("a tree");
     let solids = plates(&target);
-    let mut passages = Passages::new(&target, &layout, &solids, None, 100);
+    let mut passages = OrderSearch::new(&target, &layout, &solids, None, 100);
     let mut seen = Vec::new();
     while let Some(order) = passages.order(&[1, 2, 3]) {
         passages.refuse(&order, 0);

@@ -5,10 +5,10 @@ use crate::planners::fold::{MASS, SIDE, TRUTH, near, number, shaken, target};
 use modl::geometry::Vec3;
 use modl::geometry::pose::turned;
 use modl::planners::fold::dynamics::{Dynamics, Hinging};
-use modl::planners::fold::folded::poses_at;
 use modl::planners::fold::inertia::{Body, Inertia, moment_about};
+use modl::planners::fold::kinematics::poses_at;
 use modl::planners::fold::simulation::{Circumstances, Count, Torques, simulate};
-use modl::planners::fold::{Layout, Target, Weights, enumerate, order_energy, steps};
+use modl::planners::fold::{Layout, Target, Weights, energy_order, enumerate, steps};
 use proptest::prelude::*;
 
 /// What the other program pulled with, m/s².
@@ -137,7 +137,7 @@ proptest! {
         let order = grown_order(&layout, &priorities);
         let laid = steps::of_order(&layout, &order);
         let energy = simulated(&laid).energy(Count::Moving, &laid);
-        let by_steps = order_energy::energy(&target, &layout, &masses, inertia, &order) / (0.7 * 0.7);
+        let by_steps = energy_order::energy(&target, &layout, &masses, inertia, &order) / (0.7 * 0.7);
         prop_assert!(near(energy, by_steps, 1e-9), "{energy} {by_steps}");
     }
 

@@ -2,15 +2,16 @@
 //! motors, hinges too thick to close.
 
 use crate::planners::fold::{MASS, TRUTH, index, near, number, pairs, permutations, shaken, target};
-use modl::planners::fold::exact::{NoLayout, Word};
+use modl::planners::fold::branch_and_bound::{Decision, NoLayout};
 use modl::planners::fold::heuristic::{Measure, preferred};
 use modl::planners::fold::inertia::{Body, Inertia};
+use modl::planners::fold::local_search::{Settings, Survey, survey};
 use modl::planners::fold::objective::{Conventions, Minimise, Objective};
-use modl::planners::fold::sampling::sample;
+use modl::planners::fold::random_orders::sample;
 use modl::planners::fold::simulation::{Circumstances, Count, simulate};
-use modl::planners::fold::survey::{Settings, Survey, survey};
 use modl::planners::fold::{
-    Layout, Proof, Target, Unfoldable, Weights, closing, enumerate, exact, local, order, order_energy, steps,
+    Layout, Proof, Target, Unfoldable, Weights, branch_and_bound, edge_exchange, energy_order, enumerate,
+    steps, thickness, work_order,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -24,7 +25,7 @@ fn objective(target: &Target, conventions: Conventions, minimise: Minimise) -> O
 
 fn surveyed(objective: &Objective, target: &Target, root: Option<usize>, budget: u64) -> Survey {
     let roots = root.map_or_else(|| (0..target.faces.len()).collect(), |root| vec![root]);
-    let settings = Settings { roots, flat: false, budget, keep: 4, glance: None };
+    let settings = Settings { roots, flat: false, budget, keep: 4, prefilter: None };
     survey(target, &objective.weights, &settings, &mut |layout| objective.value(layout))
 }
 
@@ -37,9 +38,9 @@ fn a_glance_leaves_out_nothing_that_is_good() {
         let objective = objective(&target, TEXT, Minimise::PeakTorque);
         let measured = surveyed(&objective, &target, root, u64::MAX);
         let roots = root.map_or_else(|| (0..target.faces.len()).collect(), |root| vec![root]);
-        let glance = objective.glance(u64::MAX);
-        assert!(glance.is_some());
-        let settings = Settings { roots, flat: false, budget: 0, keep: 4, glance };
+        let prefilter = objective.prefilter(u64::MAX);
+        assert!(prefilter.is_some());
+        let settings = Settings { roots, flat: false, budget: 0, keep: 4, prefilter };
         let (mut made, trees) = (
             0,
             TRUTH["shapes"][name]["spanning_trees"]
@@ -80,7 +81,7 @@ fn random_orders_are_worse_as_often_as_another_program_found() {
         let layout = Layout::of_pairs(&target, &pairs(&case["tree"]), index(&case["root"])).expect("a tree");
         let masses = vec![MASS; target.faces.len()];
         let energy =
-            |order: &[usize]| order_energy::energy(&target, &layout, &masses, Inertia::Lamina, order);
+            |order: &[usize]| energy_order::energy(&target, &layout, &masses, Inertia::Lamina, order);
         let objective = objective(&target, TEXT, Minimise::Energy);
         let leaves = energy(&steps::leaves_first(&layout).concat());
         for (reference, rate) in
@@ -95,7 +96,7 @@ fn random_orders_are_worse_as_often_as_another_program_found() {
             assert!(found.least <= found.mean && found.mean <= found.greatest);
         }
         let loads = vec![MASS * 9.8; masses.len()];
-        let work = |steps: &[Vec<usize>]| order::work(&target, &layout, &loads, &steps.concat());
+        let work = |steps: &[Vec<usize>]| work_order::work(&target, &layout, &loads, &steps.concat());
         let found = sample(&layout, 1000, 7, number(&sampled["cost"]), work);
         assert!(near(found.mean, number(&sampled["random_cost_mean"]), 0.01), "{}", sampled["name"]);
         assert!((found.worse as f64 / 1000.0 - number(&sampled["frac_random_cost_gt"])).abs() < 0.07);
@@ -152,11 +153,11 @@ fn as_many_orders_are_optimal_as_another_program_counted() {
     let layout = Layout::of_pairs(&target, &pairs(&case["tree"]), 0).expect("a tree");
     let loads = vec![MASS * 9.8; 8];
     let least = number(&sampled["lb"]);
-    assert!(near(order::bound(&target, &layout, &loads), least, 1e-9));
+    assert!(near(work_order::bound(&target, &layout, &loads), least, 1e-9));
     let (mut optimal, mut all) = (0, 0);
     permutations(&mut (1..8).collect(), 0, &mut |order| {
         all += 1;
-        optimal += usize::from(near(order::work(&target, &layout, &loads, order), least, 1e-9));
+        optimal += usize::from(near(work_order::work(&target, &layout, &loads, order), least, 1e-9));
     });
     assert_eq!([optimal, all], [index(&sampled["optimal_orders"]), index(&sampled["total_orders"])]);
 }
@@ -167,8 +168,8 @@ fn a_survey_of_all_finds_the_optimum() {
     let target = target("octahedron");
     let by_energy = objective(&target, TEXT, Minimise::Energy);
     let all = surveyed(&by_energy, &target, None, 10_000);
-    let best =
-        exact::optimum(&target, &by_energy.weights, &exact::Settings::default()).expect("it has layouts");
+    let best = branch_and_bound::optimum(&target, &by_energy.weights, &branch_and_bound::Settings::default())
+        .expect("it has layouts");
     assert!(all.complete && near(all.least, best.energy, 1e-9));
     assert_eq!((all.ties, all.roots), (192, (0..8).collect::<Vec<_>>()));
     let some = surveyed(&by_energy, &target, Some(0), 100);
@@ -185,12 +186,15 @@ fn the_fewest_steps_are_the_radius() {
         let found = surveyed(&objective, &target, None, 10_000);
         assert_eq!(found.best[0].1[0], steps as f64, "{name}");
         // Of those, the one of least energy, by proof.
-        let height = exact::Settings { height: Some(steps), ..exact::Settings::default() };
-        let best = exact::optimum(&target, &objective.weights, &height).expect("there are some");
+        let height = branch_and_bound::Settings { height: Some(steps), ..exact::Settings::default() };
+        let best = branch_and_bound::optimum(&target, &objective.weights, &height).expect("there are some");
         assert_eq!((best.proof, best.layout.heights()[best.layout.root]), (Proof::Optimal, steps), "{name}");
         assert!(near(best.energy, found.best[0].1[1], 1e-9), "{name}");
-        let lower = exact::Settings { height: Some(steps - 1), ..height };
-        assert_eq!(exact::optimum(&target, &objective.weights, &lower).err(), Some(NoLayout::AllOverlap));
+        let lower = branch_and_bound::Settings { height: Some(steps - 1), ..height };
+        assert_eq!(
+            branch_and_bound::optimum(&target, &objective.weights, &lower).err(),
+            Some(NoLayout::AllOverlap)
+        );
     }
 }
 
@@ -205,13 +209,13 @@ fn refused_layouts_are_followed_by_the_next_best() {
     })
     .expect("few faces");
     energies.sort_by(f64::total_cmp);
-    let settings = exact::Settings { root: Some(0), ..exact::Settings::default() };
+    let settings = branch_and_bound::Settings { root: Some(0), ..exact::Settings::default() };
     for refused in [0, 1, 5, 74, 75] {
         let mut asked: Vec<Layout> = Vec::new();
-        let best = exact::optimum_of(&target, &weights, &settings, &mut |layout| {
+        let best = branch_and_bound::optimum_among(&target, &weights, &settings, &mut |layout| {
             assert!(!asked.contains(layout), "each is asked for once");
             asked.push(layout.clone());
-            if asked.len() > refused { Word::Accept } else { Word::Refuse }
+            if asked.len() > refused { Decision::Accept } else { Decision::Refuse }
         });
         for (layout, energy) in asked.iter().zip(&energies) {
             assert!(near(layout.energy(&weights), *energy, 3e-9));
@@ -221,7 +225,7 @@ fn refused_layouts_are_followed_by_the_next_best() {
             Err(why) => assert!(refused == 75 && why == NoLayout::AllOverlap && asked.len() == 75),
         }
     }
-    let stopped = exact::optimum_of(&target, &weights, &settings, &mut |_| Word::Stop);
+    let stopped = branch_and_bound::optimum_among(&target, &weights, &settings, &mut |_| Decision::Stop);
     assert_eq!(stopped.err(), Some(NoLayout::Budget));
 }
 
@@ -236,7 +240,9 @@ fn panels_without_motors_weigh_less_and_share_no_hinge() {
     // Less mass, less energy: in proportion where all panels are lighter.
     let light = Weights::new(&target, &[0.008; 8], Inertia::Lamina);
     let best = |weights: &Weights| {
-        exact::optimum(&target, weights, &exact::Settings::default()).expect("layouts").energy
+        branch_and_bound::optimum(&target, weights, &branch_and_bound::Settings::default())
+            .expect("layouts")
+            .energy
     };
     assert!(near(best(&light) / best(&Weights::uniform(&target, MASS)), 8.0 / 26.0, 1e-12));
 }
@@ -244,14 +250,18 @@ fn panels_without_motors_weigh_less_and_share_no_hinge() {
 /// Eq. 1: panels of 6 mm on hinges of 6 mm close up to 60 degrees, so fold by 120 at most.
 #[test]
 fn hinges_too_thick_to_close_are_named() {
-    let opening = closing::least_opening(0.006, 0.006);
+    let opening = thickness::least_opening(0.006, 0.006);
     assert!(near(opening, std::f64::consts::FRAC_PI_3, 1e-12));
     let tetrahedron = target("tetrahedron");
     let star = Layout::of_pairs(&tetrahedron, &[[0, 1], [0, 2], [0, 3]], 0).expect("a tree");
-    assert_eq!(closing::too_thick(&tetrahedron, &star, opening), [0; 0], "109.47 degrees are less than 120");
-    let thicker = closing::least_opening(0.006, 0.005);
-    assert_eq!(closing::too_thick(&tetrahedron, &star, thicker), [1, 2, 3], "106.3 degrees are less");
-    assert!(near(closing::least_opening(0.006, 0.001), std::f64::consts::PI, 1e-12));
+    assert_eq!(
+        thickness::too_thick(&tetrahedron, &star, opening),
+        [0; 0],
+        "109.47 degrees are less than 120"
+    );
+    let thicker = thickness::least_opening(0.006, 0.005);
+    assert_eq!(thickness::too_thick(&tetrahedron, &star, thicker), [1, 2, 3], "106.3 degrees are less");
+    assert!(near(thickness::least_opening(0.006, 0.001), std::f64::consts::PI, 1e-12));
 }
 
 proptest! {
@@ -318,7 +328,7 @@ fn under_gravity_the_bound_of_a_regular_shape_is_its_lifting() {
         let wanted = lifting * simpson / (2.0 * libm::sin(angle / 2.0));
         let bound = objective.lower_bound(&[0]);
         assert!(near(bound, wanted, 1e-6), "{name}: {bound}, {wanted}");
-        let grown = local::grown(&target, &objective.weights, 0);
+        let grown = edge_exchange::grown(&target, &objective.weights, 0);
         assert!(bound <= objective.leaves_first(&grown).energy);
     }
 }

@@ -4,7 +4,7 @@ use crate::planners::fold::{MASS, TRUTH, mesh, near};
 use modl::geometry::Vec3;
 use modl::planners::fold::enumerate::{self, census};
 use modl::planners::fold::pattern::Pattern;
-use modl::planners::fold::{Layout, Proof, Target, Weights, count, exact, local};
+use modl::planners::fold::{Layout, Proof, Target, Weights, branch_and_bound, edge_exchange, spanning_trees};
 use num_traits::ToPrimitive;
 use proptest::prelude::*;
 
@@ -110,33 +110,33 @@ proptest! {
     fn no_proof_is_wrong(target in meshes(), root in 0..80usize, seed in 0..1000usize) {
         let weights = Weights::uniform(&target, MASS);
         let root = root % target.faces.len();
-        let settings = exact::Settings { root: Some(root), budget: BUDGET, ..exact::Settings::default() };
-        let found = exact::optimum(&target, &weights, &settings).expect("it has layouts");
+        let settings = branch_and_bound::Settings { root: Some(root), budget: BUDGET, ..exact::Settings::default() };
+        let found = branch_and_bound::optimum(&target, &weights, &settings).expect("it has layouts");
         prop_assert!(near(found.layout.energy(&weights), found.energy, 1e-12));
         prop_assert!(found.bound <= found.energy);
         let gap = (found.energy - found.bound) / found.energy;
-        prop_assert!(found.proof == Proof::Open || gap < 4.0 * exact::SLACK, "{gap}");
+        prop_assert!(found.proof == Proof::Open || gap < 4.0 * branch_and_bound::SLACK, "{gap}");
         // Nothing that is found another way is below the bound.
         let mut least = f64::INFINITY;
         for i in 0..4 {
             let layout = random_layout(&target, seed + i, root);
-            let improved = local::improved(&target, &weights, layout.clone(), &mut 2_000);
+            let improved = edge_exchange::improved(&target, &weights, layout.clone(), &mut 2_000);
             least = least.min(layout.energy(&weights)).min(improved.energy(&weights));
         }
-        prop_assert!(found.bound <= least && (found.proof == Proof::Open || found.energy <= least * (1.0 + 2.0 * exact::SLACK)));
-        let layouts = count::layouts(&target).to_u64();
+        prop_assert!(found.bound <= least && (found.proof == Proof::Open || found.energy <= least * (1.0 + 2.0 * branch_and_bound::SLACK)));
+        let layouts = spanning_trees::layouts(&target).to_u64();
         if layouts.is_some_and(|layouts| layouts <= enumerated()) {
             let all = enumerate::Settings { root: Some(root), spectrum: false, budget: u64::MAX };
             let all = census(&target, &weights, &all).expect("few faces");
             prop_assert_eq!(Some(all.layouts), layouts);
-            prop_assert!(found.proof == Proof::Open || near(found.energy, all.least, 2.0 * exact::SLACK));
-            prop_assert!(found.bound <= all.least * (1.0 + exact::SLACK));
+            prop_assert!(found.proof == Proof::Open || near(found.energy, all.least, 2.0 * branch_and_bound::SLACK));
+            prop_assert!(found.bound <= all.least * (1.0 + branch_and_bound::SLACK));
         }
         // The best that lies flat costs no less, and lies flat.
-        let flat = exact::Settings { flat: true, ..settings };
-        if let Ok(flat) = exact::optimum(&target, &weights, &flat) {
+        let flat = branch_and_bound::Settings { flat: true, ..settings };
+        if let Ok(flat) = branch_and_bound::optimum(&target, &weights, &flat) {
             prop_assert!(Pattern::of(&target, &flat.layout).overlaps().is_empty());
-            prop_assert!(flat.energy >= found.bound && (found.proof == Proof::Open || flat.energy >= found.energy * (1.0 - exact::SLACK)));
+            prop_assert!(flat.energy >= found.bound && (found.proof == Proof::Open || flat.energy >= found.energy * (1.0 - branch_and_bound::SLACK)));
         }
     }
 }

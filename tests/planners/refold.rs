@@ -7,10 +7,10 @@ use modl::geometry::Part;
 use modl::geometry::{Pose, Vec3};
 use modl::interpret::Mode;
 use modl::plan::{Body, DockKind, Plan, Tracks};
-use modl::planners::fold::meeting::Solids;
 use modl::planners::fold::pattern::{Pattern, lattice_corners};
-use modl::planners::fold::refold::{Found, NoRefolding, Settings};
+use modl::planners::fold::sweep_collision::Solids;
 use modl::planners::fold::{Target, enumerate};
+use modl::planners::refold::sheets::{Found, NoRefolding, Settings};
 use modl::robot::Kinematics;
 use modl::source::code;
 
@@ -24,7 +24,7 @@ fn sheets(from: &Target, to: &Target) -> Result<Found, NoRefolding> {
     };
     let plate = Part::points(&[corner(-60.0), corner(60.0), corner(180.0), Vec3::new(0.0, 0.0, 1e-5)]);
     let solids = Solids { parts: vec![vec![plate]; from.faces.len()], touch: 1e-5 };
-    modl::planners::fold::refold::sheets(from, to, &solids, &SETTINGS, |_| 0.0)
+    modl::planners::refold::sheets::sheets(from, to, &solids, &SETTINGS, |_| 0.0)
 }
 
 fn run(from: &str, to: &str, rest: &str) -> Ran {
@@ -156,7 +156,7 @@ fn both_layouts_of_a_sheet_cover_the_same_cells() {
     }
 }
 
-fn check(from: &Target, to: &Target, sheet: &modl::planners::fold::refold::Refolding) {
+fn check(from: &Target, to: &Target, sheet: &modl::planners::refold::sheets::Refolding) {
     let n = from.faces.len();
     let mut faces = sheet.becomes.clone();
     faces.sort_unstable();

@@ -5,8 +5,8 @@
 //! Eq. 3 `p_i` is one vector for each child, from the face's own hinge to the child's. (The paper has
 //! one for each module, which is wrong where a module has two children.)
 
-use super::folded::about;
 use super::inertia::Body;
+use super::kinematics::about;
 use super::layout::Layout;
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};

@@ -5,13 +5,13 @@
 //! them: when the root crosses a hinge, the faces before it are carried by the hinge and those behind
 //! it no longer are.
 
-use super::count;
-use super::exact::TOL_TIE;
+use super::branch_and_bound::TOL_TIE;
 use super::layout::Layout;
+use super::progress_text;
+use super::spanning_trees;
 use super::spectrum::Spectrum;
 use super::target::Target;
 use super::weights::Weights;
-use super::words;
 use crate::interrupt;
 
 /// Sets of faces are bits of a word.
@@ -64,11 +64,11 @@ pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result
     let mut by_root = vec![f64::INFINITY; n];
     let mut spectrum: Option<Spectrum> = None;
     let mut tree = Tree::new(target);
-    let (mut looked_at, all) = (0u64, count::layouts(target));
+    let (mut visited, all) = (0u64, spanning_trees::layouts(target));
     let walked = each(target, settings.budget, |hinges| {
-        looked_at += 1;
+        visited += 1;
         let least = best.as_ref().map(|(least, ..)| *least);
-        interrupt::progress_checkpoint(|| words::counted(looked_at, &all, "layouts", least));
+        interrupt::progress_checkpoint(|| progress_text::counted(visited, &all, "layouts", least));
         tree.hang(hinges);
         tree.energies(&sums, &mut energies);
         for (root, &energy) in energies.iter().enumerate() {
@@ -107,13 +107,13 @@ pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result
 
 /// How far an enumeration went.
 #[derive(Clone, Copy, Debug)]
-pub struct Walked {
+pub struct Traversal {
     pub layouts: u64,
     pub complete: bool,
 }
 
 /// Hands the hinges of every layout to `visit`, at most `budget` of them, at least one.
-pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result<Walked, TooManyFaces> {
+pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result<Traversal, TooManyFaces> {
     let n = target.faces.len();
     if n > FACES_MAX {
         return Err(TooManyFaces);
@@ -131,7 +131,7 @@ pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result
         Walk { target, suffix, kept: Vec::with_capacity(n), visit, left: budget.max(1), layouts: 0 };
     walk.from(0, groups);
     // Whether something was left shows only at the next layout.
-    Ok(Walked { layouts: walk.layouts, complete: walk.left > 0 })
+    Ok(Traversal { layouts: walk.layouts, complete: walk.left > 0 })
 }
 
 struct Walk<'t, V> {

@@ -1,8 +1,8 @@
 //! The paper's measure of a layout (MII, Theorem 1): cheaper than simulating it, and kept for
 //! comparison; the closed form of [`weights`](super::weights) is exact and no dearer.
 
-use super::enumerate::{self, TooManyFaces, Walked};
-use super::folded::poses;
+use super::enumerate::{self, TooManyFaces, Traversal};
+use super::kinematics::poses;
 use super::layout::Layout;
 use super::target::Target;
 
@@ -74,7 +74,7 @@ pub struct Preferred {
     pub measure: f64,
     /// How many are equally good, with any of the roots asked for.
     pub ties: u64,
-    pub walked: Walked,
+    pub walked: Traversal,
 }
 
 /// The layout that the measure prefers, among all with the root asked for, or any.

@@ -8,60 +8,51 @@
 //! inverse square of the step's time.
 #![allow(non_snake_case)]
 
-pub mod target;
-pub mod unfoldable;
+mod progress_text;
 
-pub mod count;
 pub mod inertia;
 pub mod layout;
+pub mod spanning_trees;
+pub mod target;
+pub mod unfoldable;
 pub mod weights;
 
-pub mod lagrange;
-pub mod local;
-pub mod routes;
+pub mod branch_and_bound;
+pub mod edge_exchange;
+pub mod lagrangian;
+pub mod shortest_paths;
 pub mod symmetry;
 
-pub mod flatten;
+pub mod net;
 pub mod pattern;
-
-pub mod exact;
+pub mod tabu_unfolding;
 
 pub mod enumerate;
+pub mod heuristic;
+pub mod local_search;
 pub mod spectrum;
 
-pub mod heuristic;
-
-pub mod folded;
-pub mod order;
-pub mod order_energy;
+pub mod energy_order;
+pub mod kinematics;
+pub mod random_orders;
 pub mod steps;
+pub mod work_order;
 
 pub mod dynamics;
-pub mod series;
+pub mod gravity_bounds;
+pub mod legendre;
+pub mod objective;
+pub mod peak_torque;
 pub mod simulation;
 
-pub mod lift;
-pub mod peak;
+pub mod collision_free_order;
+pub mod ground_faces;
+pub mod load_limits;
+pub mod strip_layouts;
+pub mod sweep_collision;
+pub mod thickness;
 
-pub mod objective;
-pub mod survey;
-
-pub mod burden;
-pub mod clearing;
-pub mod closing;
-pub mod meeting;
-pub mod passage;
-pub mod sampling;
-pub mod standing;
-
-pub mod net;
-pub mod plane;
-pub mod rearrange;
-pub mod refold;
-
-mod words;
-
-pub use exact::{Optimum, Proof};
+pub use branch_and_bound::{Optimum, Proof};
 pub use layout::Layout;
 pub use net::Net;
 pub use target::{Hinge, Target};

@@ -3,7 +3,7 @@
 //! Along a cut the corners of both faces are kept apart, so the net is a disk even where faces of it
 //! touch: two vertices more than faces.
 
-use super::folded::poses_at;
+use super::kinematics::poses_at;
 use super::layout::{Across, Layout};
 use super::pattern::{Pattern, Point};
 use super::target::Target;
@@ -94,8 +94,8 @@ impl Net {
         let turn = nalgebra::Rotation3::from_matrix_unchecked(axes).into();
         let X_TN = Pose::from_parts(a.into(), turn);
         let place = |&(face, corner): &(usize, usize)| {
-            let in_target = X_TF[face].transform_point(&target.corners(face)[corner].into());
-            X_TN.inverse_transform_point(&in_target).coords
+            let target_collisions = X_TF[face].transform_point(&target.corners(face)[corner].into());
+            X_TN.inverse_transform_point(&target_collisions).coords
         };
         self.owners.iter().map(place).collect()
     }

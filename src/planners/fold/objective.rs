@@ -4,14 +4,14 @@
 //! With the leaves first, no gravity, and only the joints that move counted, energy and peak have the
 //! closed form of [`weights`](super::weights). Under any other convention they are simulated.
 
+use super::energy_order;
+use super::gravity_bounds::GravityBounds;
 use super::inertia::{Body, Inertia};
 use super::layout::Layout;
-use super::lift::Lift;
-use super::order_energy;
-use super::peak;
-use super::routes::Routes;
+use super::local_search::BoundPrefilter;
+use super::peak_torque;
+use super::shortest_paths::ShortestPaths;
 use super::simulation::{Circumstances, Count, simulate};
-use super::survey::Glance;
 use super::target::Target;
 use super::weights::{QUINTIC, Weights};
 use crate::geometry::Vec3;
@@ -97,9 +97,9 @@ impl<'t> Objective<'t> {
     }
 
     /// How many layouts with roots may be looked at where it is.
-    pub fn glance(&self, budget: u64) -> Option<Glance> {
+    pub fn prefilter(&self, budget: u64) -> Option<BoundPrefilter> {
         let most = budget.min(SUMMED_MAX / self.masses.len() as u64);
-        self.peaks_add_up().then(|| Glance { scale: self.peak_by_mean(), budget: most })
+        self.peaks_add_up().then(|| BoundPrefilter { scale: self.peak_by_mean(), budget: most })
     }
 
     /// What folding in these steps takes.
@@ -107,7 +107,7 @@ impl<'t> Objective<'t> {
         let Conventions { inertia, count, gravity, step } = self.conventions;
         if self.conventions.separate() {
             let order = steps.concat();
-            let means = order_energy::means(self.target, layout, &self.masses, inertia, &order);
+            let means = energy_order::means(self.target, layout, &self.masses, inertia, &order);
             return closed(means.into_iter(), step);
         }
         let torques = simulate(self.target, layout, &self.bodies, steps, &Circumstances { step, gravity });
@@ -117,7 +117,7 @@ impl<'t> Objective<'t> {
     /// The same with the leaves first.
     pub fn leaves_first(&self, layout: &Layout) -> Effort {
         if self.conventions.separate() {
-            return closed(peak::carried(layout, &self.weights).into_iter(), self.conventions.step);
+            return closed(peak_torque::carried(layout, &self.weights).into_iter(), self.conventions.step);
         }
         self.effort(layout, &super::steps::leaves_first(layout))
     }
@@ -142,9 +142,9 @@ impl<'t> Objective<'t> {
     /// What no layout with one of these roots undercuts with the leaves first: peak torque where that is to
     /// be small, else energy; N·m.
     pub fn lower_bound(&self, roots: &[usize]) -> f64 {
-        let routes = Routes::new(self.target, &self.weights);
+        let routes = ShortestPaths::new(self.target, &self.weights);
         let gravity = self.conventions.gravity;
-        let lift = (gravity != 0.0).then(|| Lift::new(self.target, &self.masses, gravity));
+        let lift = (gravity != 0.0).then(|| GravityBounds::new(self.target, &self.masses, gravity));
         let lifted = match (&lift, self.minimise) {
             (Some(lift), Minimise::PeakTorque) => roots.iter().map(|root| lift.peak(*root)).collect(),
             (Some(lift), _) => {
@@ -163,7 +163,7 @@ impl<'t> Objective<'t> {
     }
 
     /// The same for one root, without what gravity asks of each hinge.
-    fn bound(&self, routes: &Routes, root: usize) -> f64 {
+    fn bound(&self, routes: &ShortestPaths, root: usize) -> f64 {
         let by_square = 1.0 / (self.conventions.step * self.conventions.step);
         let lifted = self.lifted(root);
         let angles = || self.target.hinges.iter().map(|hinge| hinge.angle.abs());
@@ -223,7 +223,7 @@ impl<'t> Objective<'t> {
         };
         let others = || faces.clone().filter(|face| *face != root);
         let own = others().map(|face| least(face, &mut self.target.around(face).map(|(hinge, _)| hinge)));
-        own.fold(peak::relaxed(self.target, &self.weights, root), f64::max)
+        own.fold(peak_torque::relaxed(self.target, &self.weights, root), f64::max)
     }
 }
 

@@ -4,7 +4,7 @@
 use super::dynamics::{Dynamics, Hinging};
 use super::inertia::Body;
 use super::layout::Layout;
-use super::series::{Rule, Series, Size, TERMS};
+use super::legendre::{Rule, Series, Size, TERMS};
 use super::target::Target;
 use crate::geometry::Vec3;
 

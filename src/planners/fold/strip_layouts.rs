@@ -6,15 +6,15 @@
 //! convex, or fold the most or the least, and of nearly equal trees those that cost the least. Where little is
 //! in the way, the cheap layouts themselves are a beginning.
 //! What still overlaps in the plane or meets on the way is parted by exchanges of one hinge for another
-//! between the two, as in [`flatten`](super::flatten); and what is clear is made cheaper by exchanges that
+//! between the two, as in [`flatten`](super::tabu_unfolding); and what is clear is made cheaper by exchanges that
 //! keep it so. Nothing is proved, and what is looked at are samples: the judge decides.
 
-use super::flatten::Parting;
+use super::edge_exchange::{self, Rules};
 use super::layout::Layout;
-use super::local::{self, Rules};
-use super::meeting::{Look, Solids};
 use super::pattern::Pattern;
 use super::steps;
+use super::sweep_collision::{Solids, SweepCheck};
+use super::tabu_unfolding::TabuExchange;
 use super::target::{Hinge, Target};
 use super::weights::Weights;
 use crate::interrupt;
@@ -67,7 +67,7 @@ const CHEAPENED_MAX: usize = 3;
 const CHEAPENING: usize = 4;
 
 /// A search for layouts that fold with the leaves first.
-pub struct Clearing<'t> {
+pub struct StripSearch<'t> {
     pub target: &'t Target,
     pub weights: &'t Weights,
     pub solids: &'t Solids,
@@ -84,25 +84,25 @@ pub struct Clearing<'t> {
 
 /// What stands against a layout: fewer is better, then less energy.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-struct Trouble {
+struct Conflicts {
     overlaps: usize,
     thin: usize,
     thick: usize,
     energy: f64,
 }
 
-impl Trouble {
-    const NONE: Trouble = Trouble { overlaps: 0, thin: 0, thick: 0, energy: f64::INFINITY };
+impl Conflicts {
+    const NONE: Conflicts = Conflicts { overlaps: 0, thin: 0, thick: 0, energy: f64::INFINITY };
 
     fn is_clear(&self) -> bool {
         self.overlaps + self.thin + self.thick == 0
     }
 }
 
-impl Clearing<'_> {
+impl StripSearch<'_> {
     /// Layouts in which nothing is seen to meet, the cheapest first.
     pub fn layouts(&mut self) -> Vec<Layout> {
-        let mut starts: Vec<(Trouble, Layout)> = Vec::new();
+        let mut starts: Vec<(Conflicts, Layout)> = Vec::new();
         for layout in self.trees().into_iter().chain(self.cheap.iter().take(CHEAP_MAX).cloned()) {
             if starts.iter().all(|(_, other)| *other != layout) {
                 starts.push((self.trouble(&layout, None).0, layout));
@@ -178,7 +178,8 @@ impl Clearing<'_> {
         for _ in 0..ROOTS_TRIED {
             let mut steps = STEPS_IMPROVING;
             let rules = Rules { fits, allowed: &|_| true };
-            let better = local::improved_by(self.target, self.weights, layout.clone(), &mut steps, &rules);
+            let better =
+                edge_exchange::improved_by(self.target, self.weights, layout.clone(), &mut steps, &rules);
             let better = self.at_best_root(&better);
             if better == layout {
                 break;
@@ -195,11 +196,11 @@ impl Clearing<'_> {
     }
 
     /// What stands against a layout, as far as it is no worse than `least`, with the pairs of faces.
-    fn trouble(&mut self, layout: &Layout, least: Option<&Trouble>) -> (Trouble, Vec<[usize; 2]>) {
+    fn trouble(&mut self, layout: &Layout, least: Option<&Conflicts>) -> (Conflicts, Vec<[usize; 2]>) {
         let n = self.target.faces.len();
         let energy = layout.energy(self.weights);
         let mut pairs = Pattern::of(self.target, layout).overlaps();
-        let mut trouble = Trouble { overlaps: pairs.len(), thin: 0, thick: 0, energy };
+        let mut trouble = Conflicts { overlaps: pairs.len(), thin: 0, thick: 0, energy };
         self.left = self.left.saturating_sub(n * n);
         if least.is_some_and(|least| trouble.overlaps > least.overlaps) {
             return (trouble, pairs);
@@ -208,12 +209,12 @@ impl Clearing<'_> {
         let most = least.filter(|least| least.overlaps == trouble.overlaps).map_or(usize::MAX, |l| l.thin);
         let states = steps.len() * n * n / 2;
         self.left = self.left.saturating_sub(states * SAMPLES_THIN);
-        let thin = Look::thin(self.target, layout, SHRUNK).meetings(&steps, SAMPLES_THIN, most);
+        let thin = SweepCheck::thin(self.target, layout, SHRUNK).meetings(&steps, SAMPLES_THIN, most);
         trouble.thin = thin.len();
         pairs.extend(thin);
         if pairs.is_empty() {
             self.left = self.left.saturating_sub(THICK * states * SAMPLES_THICK);
-            let thick = Look::thick(self.target, layout, self.solids);
+            let thick = SweepCheck::thick(self.target, layout, self.solids);
             pairs = thick.meetings(&steps, SAMPLES_THICK, n);
             trouble.thick = pairs.len();
         }
@@ -223,7 +224,7 @@ impl Clearing<'_> {
     /// Exchanges hinges between faces that overlap or meet until none do, as long as more than `kept` is left.
     fn parted(&mut self, layout: Layout, seed: u64, kept: usize) -> Option<Layout> {
         let target = self.target;
-        let mut parting = Parting::new(target, seed);
+        let mut parting = TabuExchange::new(target, seed);
         let mut now = layout;
         let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
         for round in 1.. {
@@ -237,12 +238,14 @@ impl Clearing<'_> {
                 break;
             }
             let Some([a, b]) = parting.one_of(&pairs) else { return Some(now) };
-            let between: Vec<usize> =
-                local::path(&now, a, b).into_iter().filter(|hinge| !self.must.contains(hinge)).collect();
+            let between: Vec<usize> = edge_exchange::path(&now, a, b)
+                .into_iter()
+                .filter(|hinge| !self.must.contains(hinge))
+                .collect();
             if between.is_empty() {
                 continue;
             }
-            let mut best: Option<(Trouble, Layout, usize)> = None;
+            let mut best: Option<(Conflicts, Layout, usize)> = None;
             for _ in 0..LOOKS {
                 if self.left <= kept {
                     return None;
@@ -269,11 +272,11 @@ impl Clearing<'_> {
             fits: &|_, [dropped, _]| !must.contains(&dropped),
             allowed: &|layout| {
                 let mut this = this.borrow_mut();
-                this.left > kept && this.trouble(layout, Some(&Trouble::NONE)).0.is_clear()
+                this.left > kept && this.trouble(layout, Some(&Conflicts::NONE)).0.is_clear()
             },
         };
         let mut steps = STEPS_IMPROVING;
-        local::improved_by(target, weights, layout, &mut steps, &rules)
+        edge_exchange::improved_by(target, weights, layout, &mut steps, &rules)
     }
 }
 

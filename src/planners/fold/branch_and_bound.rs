@@ -1,8 +1,8 @@
 //! The layout of least energy, with proof: branch and bound over the arcs into faces.
 //!
-//! The bound of a node is that of [`routes`](super::routes): each face takes its own cheapest path
+//! The bound of a node is that of [`routes`](super::shortest_paths): each face takes its own cheapest path
 //! over the arcs still allowed. Where the paths form a tree, it is the node's best layout. Else the
-//! bound is raised by prices ([`lagrange`](super::lagrange)), and the face into which paths disagree
+//! bound is raised by prices ([`lagrange`](super::lagrangian)), and the face into which paths disagree
 //! most is entered across one side in each child: the children are disjoint and complete. Where the
 //! pattern may not overlap, a tree whose pattern does is split along the path between two overlapping
 //! faces: any layout with all of the path's arcs overlaps, so the children leave out the first arc;
@@ -14,13 +14,13 @@
 //! Equal costs are told apart by a tiny addition for every hinge, or symmetric targets would be
 //! searched for ever. The proof holds up to what the additions come to, [`SLACK`] of the energy.
 
-use super::flatten;
-use super::lagrange::{self, Effort, Lagrange, Prices};
+use super::edge_exchange;
+use super::lagrangian::{self, Effort, Lagrangian, Multipliers};
 use super::layout::Layout;
-use super::local;
 use super::pattern::Pattern;
-use super::routes::{self, Allowed, Arc, Routes};
+use super::shortest_paths::{self, Allowed, Arc, ShortestPaths};
 use super::symmetry;
+use super::tabu_unfolding;
 use super::target::Target;
 use super::weights::Weights;
 use std::cmp::Ordering;
@@ -113,7 +113,7 @@ pub enum NoLayout {
 
 /// What is said of a layout that might be the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Word {
+pub enum Decision {
     Accept,
     /// The next best is sought.
     Refuse,
@@ -129,11 +129,11 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
 /// The layout of least energy among those that are accepted: layouts are asked for in order of their
 /// energy. (Where the budget ends before one is accepted, a last one is asked for that need not be
 /// the next.)
-pub fn optimum_of(
+pub fn optimum_among(
     target: &Target,
     weights: &Weights,
     settings: &Settings,
-    accepts: &mut dyn FnMut(&Layout) -> Word,
+    accepts: &mut dyn FnMut(&Layout) -> Decision,
 ) -> Result<Optimum, NoLayout> {
     search(target, weights, settings, Some(accepts))
 }
@@ -142,10 +142,10 @@ fn search<'a>(
     target: &Target,
     weights: &Weights,
     settings: &Settings,
-    accepts: Option<&'a mut (dyn FnMut(&Layout) -> Word + 'a)>,
+    accepts: Option<&'a mut (dyn FnMut(&Layout) -> Decision + 'a)>,
 ) -> Result<Optimum, NoLayout> {
     let n = target.faces.len();
-    let plain = Routes::new(target, weights);
+    let plain = ShortestPaths::new(target, weights);
     let equals = match settings.root {
         Some(root) => vec![root; n],
         None => symmetry::orbits(target, weights),
@@ -164,7 +164,7 @@ fn search<'a>(
         raised: &raised,
         flat: settings.flat,
         seed: settings.seed,
-        flattened: false,
+        without_overlaps: false,
         height: settings.height.unwrap_or(n),
         accepts,
         stopped: false,
@@ -181,7 +181,7 @@ fn search<'a>(
     for root in asked {
         search.push(Node { root, bound: plain.bound(root), number: 0, ways: None });
     }
-    let mut routes = Routes::new(target, &raised);
+    let mut routes = ShortestPaths::new(target, &raised);
     routes.longest = search.height;
     let mut bounds = Bounds { routes, lagrange: None };
     search.run(&mut bounds);
@@ -209,10 +209,10 @@ struct Search<'s, 'a> {
     flat: bool,
     seed: u64,
     /// Whether a layout that lies flat was looked for by exchanges.
-    flattened: bool,
+    without_overlaps: bool,
     /// The most hinges on a path.
     height: usize,
-    accepts: Option<&'a mut (dyn FnMut(&Layout) -> Word + 'a)>,
+    accepts: Option<&'a mut (dyn FnMut(&Layout) -> Decision + 'a)>,
     stopped: bool,
     /// The most that the additions come to in one layout, N·m.
     slack: f64,
@@ -248,7 +248,7 @@ struct Ways {
     allowed: Allowed,
     paths: Vec<Rc<[Arc]>>,
     costs: Vec<f64>,
-    prices: Rc<Prices>,
+    prices: Rc<Multipliers>,
     /// Of the next step of an ascent.
     length: f64,
     /// Whether another ascent may raise the bound further.
@@ -278,9 +278,9 @@ impl Eq for Node {}
 
 /// What computes bounds.
 struct Bounds<'s> {
-    routes: Routes<'s>,
+    routes: ShortestPaths<'s>,
     /// Made when it is first needed.
-    lagrange: Option<Lagrange<'s>>,
+    lagrange: Option<Lagrangian<'s>>,
 }
 
 impl<'s> Search<'s, '_> {
@@ -288,7 +288,9 @@ impl<'s> Search<'s, '_> {
         while let Some(node) = self.waiting.pop() {
             let least = self.best.as_ref().map(|best| best.energy);
             let (nodes, wait) = (self.nodes, self.waiting.len());
-            crate::interrupt::progress_checkpoint(|| super::words::searched(nodes, wait, least, node.bound));
+            crate::interrupt::progress_checkpoint(|| {
+                super::progress_text::searched(nodes, wait, least, node.bound)
+            });
             self.held -= node.size();
             if node.bound >= self.cutoff(node.root) {
                 continue;
@@ -320,7 +322,7 @@ impl<'s> Search<'s, '_> {
             let bound = bound.max(ways.costs.iter().sum());
             return self.push(Node { root, bound, number: 0, ways: Some(ways) });
         };
-        match routes::disputed(root, &routes::uses(self.target, &ways.paths)) {
+        match shortest_paths::disputed(root, &shortest_paths::uses(self.target, &ways.paths)) {
             None => self.settle(bounds, root, bound, ways),
             Some(_) if ways.rising => {
                 let raised = self.rise(bounds, root, bound, &mut ways);
@@ -329,8 +331,8 @@ impl<'s> Search<'s, '_> {
                 }
             }
             Some(by_paths) => {
-                let face =
-                    routes::disputed(root, &ways.uses).filter(|face| ways.allowed[*face].count_ones() > 1);
+                let face = shortest_paths::disputed(root, &ways.uses)
+                    .filter(|face| ways.allowed[*face].count_ones() > 1);
                 self.enter_across_each(bounds, root, bound, &ways, face.unwrap_or(by_paths));
             }
         }
@@ -344,13 +346,13 @@ impl<'s> Search<'s, '_> {
         let cutoff = self.cutoff(root);
         let aim = if cutoff.is_finite() { cutoff } else { self.aims[root].max(bound) };
         let (target, raised) = (self.target, self.raised);
-        let lagrange = bounds.lagrange.get_or_insert_with(|| Lagrange::new(target, raised));
+        let lagrange = bounds.lagrange.get_or_insert_with(|| Lagrangian::new(target, raised));
         let (mut left, mut allowed) = (self.left, ways.allowed.clone());
         let effort = Effort { cutoff, aim, rounds: ROUNDS, length: ways.length };
         let found = lagrange.ascend(root, &mut allowed, &ways.prices, effort, &mut left, |chosen, steps| {
-            let layout = Layout::of_hinges(target, &lagrange::mended(target, root, chosen), root);
+            let layout = Layout::of_hinges(target, &lagrangian::mended(target, root, chosen), root);
             let layout = layout.expect("what was mended is a tree");
-            self.consider(local::improved(target, self.weights, layout, steps));
+            self.consider(edge_exchange::improved(target, self.weights, layout, steps));
             self.cutoff(root)
         });
         self.left = left;
@@ -370,16 +372,16 @@ impl<'s> Search<'s, '_> {
 
     /// Paths that agree are the node's best layout, if it may lie as it does.
     fn settle(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: Ways) {
-        let layout = routes::tree(self.target, root, &ways.paths);
+        let layout = shortest_paths::tree(self.target, root, &ways.paths);
         if let Some(path) = self.flat.then(|| overlapping_path(self.target, &layout)).flatten() {
             return self.without_path(bounds, root, bound, &ways, &path);
         }
         let arcs: Vec<Arc> = ways.paths.iter().filter_map(|path| path.first().copied()).collect();
         match self.offer(layout) {
-            Word::Accept => {}
+            Decision::Accept => {}
             // All other layouts of the node lack one of its arcs.
-            Word::Refuse => self.without_path(bounds, root, bound, &ways, &arcs),
-            Word::Stop => self.open = self.open.min(bound),
+            Decision::Refuse => self.without_path(bounds, root, bound, &ways, &arcs),
+            Decision::Stop => self.open = self.open.min(bound),
         }
     }
 
@@ -394,7 +396,7 @@ impl<'s> Search<'s, '_> {
         self.nodes += 1;
         for side in (0..3).filter(|side| ways.allowed[face] & (1 << side) != 0) {
             let mut allowed = ways.allowed.clone();
-            routes::keep(self.target, &mut allowed, routes::arc(face, side));
+            shortest_paths::keep(self.target, &mut allowed, shortest_paths::arc(face, side));
             self.child(bounds, root, bound, ways, allowed);
         }
     }
@@ -404,10 +406,10 @@ impl<'s> Search<'s, '_> {
         let mut allowed = ways.allowed.clone();
         for &an_arc in path {
             let mut left_out = allowed.clone();
-            let (face, side) = routes::head(an_arc);
+            let (face, side) = shortest_paths::head(an_arc);
             left_out[face] &= !(1 << side);
             self.child(bounds, root, bound, ways, left_out);
-            routes::keep(self.target, &mut allowed, an_arc);
+            shortest_paths::keep(self.target, &mut allowed, an_arc);
         }
     }
 
@@ -429,10 +431,16 @@ impl<'s> Search<'s, '_> {
 
     /// Puts a node under other arcs: only paths that lost one are sought anew. `false` where a face
     /// can't be reached any more.
-    fn reroute(&mut self, routes: &mut Routes, root: usize, ways: &mut Ways, allowed: Allowed) -> bool {
+    fn reroute(
+        &mut self,
+        routes: &mut ShortestPaths,
+        root: usize,
+        ways: &mut Ways,
+        allowed: Allowed,
+    ) -> bool {
         for face in 0..ways.paths.len() {
             let lost = ways.paths[face].iter().any(|&a| {
-                let (entered, side) = routes::head(a);
+                let (entered, side) = shortest_paths::head(a);
                 allowed[entered] & (1 << side) == 0
             });
             if lost {
@@ -453,11 +461,11 @@ impl<'s> Search<'s, '_> {
 
     /// A layout to begin with, by growth and exchange.
     fn start(&mut self, root: usize) {
-        let grown = local::grown(self.target, self.weights, root);
-        let mut first = local::improved(self.target, self.weights, grown, &mut self.left);
+        let grown = edge_exchange::grown(self.target, self.weights, root);
+        let mut first = edge_exchange::improved(self.target, self.weights, grown, &mut self.left);
         if let Some(best) = &self.best {
             let rerooted = best.layout.rerooted(self.target, root);
-            let other = local::improved(self.target, self.weights, rerooted, &mut self.left);
+            let other = edge_exchange::improved(self.target, self.weights, rerooted, &mut self.left);
             if other.energy(self.weights) < first.energy(self.weights) {
                 first = other;
             }
@@ -476,17 +484,17 @@ impl<'s> Search<'s, '_> {
     fn flat_start(&mut self, first: Layout) -> Layout {
         let (target, weights) = (self.target, self.weights);
         let is_flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
-        if is_flat(&first) || self.best.is_none() && std::mem::replace(&mut self.flattened, true) {
+        if is_flat(&first) || self.best.is_none() && std::mem::replace(&mut self.without_overlaps, true) {
             return first;
         }
         if let Some(best) = &self.best {
             let rerooted = best.layout.rerooted(target, first.root);
-            return local::improved_among(target, weights, rerooted, &mut self.left, &is_flat);
+            return edge_exchange::improved_where(target, weights, rerooted, &mut self.left, &is_flat);
         }
         // The budget goes on to the proof, whatever comes of this.
         let mut part = self.left / FLATTENING;
         let granted = part;
-        let flat = flatten::flattened(target, weights, first.clone(), self.seed, &mut part);
+        let flat = tabu_unfolding::without_overlaps(target, weights, first.clone(), self.seed, &mut part);
         self.left -= granted - part;
         flat.unwrap_or(first)
     }
@@ -502,17 +510,17 @@ impl<'s> Search<'s, '_> {
     }
 
     /// Takes a layout for the best where it is better, and lies flat if it has to.
-    fn offer(&mut self, layout: Layout) -> Word {
+    fn offer(&mut self, layout: Layout) -> Decision {
         let (energy, raised, root) = (layout.energy(self.weights), layout.energy(self.raised), layout.root);
         if raised >= self.reached[root]
             || self.height < self.target.faces.len() && layout.heights()[root] > self.height
             || self.flat && !Pattern::of(self.target, &layout).overlaps().is_empty()
         {
-            return Word::Accept;
+            return Decision::Accept;
         }
-        let word = self.accepts.as_mut().map_or(Word::Accept, |accepts| accepts(&layout));
-        self.stopped |= word == Word::Stop;
-        if word != Word::Accept {
+        let word = self.accepts.as_mut().map_or(Decision::Accept, |accepts| accepts(&layout));
+        self.stopped |= word == Decision::Stop;
+        if word != Decision::Accept {
             return word;
         }
         self.reached[root] = raised;
@@ -522,7 +530,7 @@ impl<'s> Search<'s, '_> {
         word
     }
 
-    fn first(&mut self, routes: &mut Routes, root: usize) -> Option<Ways> {
+    fn first(&mut self, routes: &mut ShortestPaths, root: usize) -> Option<Ways> {
         let n = self.target.faces.len();
         let mut allowed: Allowed = vec![0; n];
         for (face, sides) in self.target.sides.iter().enumerate().filter(|(face, _)| *face != root) {
@@ -581,12 +589,12 @@ fn fraction(hinge: usize, seed: u64) -> f64 {
 /// The arcs of the shortest path in the tree between two faces that overlap in the plane.
 fn overlapping_path(target: &Target, layout: &Layout) -> Option<Vec<Arc>> {
     let pairs = Pattern::of(target, layout).overlaps();
-    let paths = pairs.iter().map(|&[a, b]| local::path(layout, a, b));
+    let paths = pairs.iter().map(|&[a, b]| edge_exchange::path(layout, a, b));
     let shortest = paths.min_by_key(Vec::len)?;
     let arc_of = |&index: &usize| {
         let [a, b] = target.hinges[index].faces;
         let below = if layout.hinge[b] == Some(index) { b } else { a };
-        routes::arc(below, layout.across(target, below).side)
+        shortest_paths::arc(below, layout.across(target, below).side)
     };
     Some(shortest.iter().map(arc_of).collect())
 }

@@ -1,4 +1,4 @@
-//! A stronger bound than that of [`routes`](super::routes): paths pay for entering a face otherwise
+//! A stronger bound than that of [`routes`](super::shortest_paths): paths pay for entering a face otherwise
 //! than the others do.
 //!
 //! Let y_a say whether a layout enters a face across arc a, and x_a^j whether the path to face j uses
@@ -12,11 +12,11 @@
 //! ```
 //!
 //! is a bound: at a layout, payments cancel. (Face v's own last arc needs no price: it is its choice.)
-//! Prices are raised where a path uses an arc that was not chosen and lowered where a chosen arc is
+//! Multipliers are raised where a path uses an arc that was not chosen and lowered where a chosen arc is
 //! not used: a subgradient of L, with Polyak's step. The greatest L is the bound of the linear
 //! programme of flows.
 
-use super::routes::{self, Allowed, Arc, Waiting};
+use super::shortest_paths::{self, Allowed, Arc, Waiting};
 use super::target::Target;
 use super::weights::Weights;
 use std::collections::BinaryHeap;
@@ -38,8 +38,8 @@ const TOL_GIVEN_UP: f64 = 1e-11;
 /// So many sums over the table of prices take about as long as settling a face on a path.
 const SUMS: usize = 64;
 
-/// Prices that are not zero: place in the table and price.
-pub type Prices = [(u32, f64)];
+/// Multipliers that are not zero: place in the table and price.
+pub type Multipliers = [(u32, f64)];
 
 /// The bound of one node of a search, and what was learnt.
 pub struct Ascent {
@@ -66,7 +66,7 @@ pub struct Effort {
 }
 
 /// Room for computing bounds of one target under its weights.
-pub struct Lagrange<'t> {
+pub struct Lagrangian<'t> {
     target: &'t Target,
     faces: usize,
     arcs: usize,
@@ -87,8 +87,8 @@ pub struct Lagrange<'t> {
     chosen: Vec<usize>,
 }
 
-impl<'t> Lagrange<'t> {
-    pub fn new(target: &'t Target, weights: &Weights) -> Lagrange<'t> {
+impl<'t> Lagrangian<'t> {
+    pub fn new(target: &'t Target, weights: &Weights) -> Lagrangian<'t> {
         let faces = target.faces.len();
         let arcs = 3 * faces;
         let mut out = vec![Vec::new(); faces];
@@ -97,7 +97,7 @@ impl<'t> Lagrange<'t> {
         for (index, hinge) in target.hinges.iter().enumerate() {
             for end in 0..2 {
                 let (into, from) = (hinge.faces[end], hinge.faces[1 - end]);
-                let arc = routes::arc(into, hinge.sides[end]) as usize;
+                let arc = shortest_paths::arc(into, hinge.sides[end]) as usize;
                 out[from].push((into, arc));
                 tail[arc] = from;
                 for face in 0..faces {
@@ -105,7 +105,7 @@ impl<'t> Lagrange<'t> {
                 }
             }
         }
-        Lagrange {
+        Lagrangian {
             target,
             faces,
             arcs,
@@ -129,7 +129,7 @@ impl<'t> Lagrange<'t> {
         &mut self,
         root: usize,
         allowed: &mut Allowed,
-        prices: &Prices,
+        prices: &Multipliers,
         effort: Effort,
         steps: &mut u64,
         mut layouts: impl FnMut(&[usize], &mut u64) -> f64,
@@ -265,8 +265,8 @@ impl<'t> Lagrange<'t> {
                 }
             }
             if allowed[face].count_ones() == 1 {
-                let only = routes::arc(face, allowed[face].trailing_zeros() as usize);
-                let (from, side) = routes::head(routes::reversed(self.target, only));
+                let only = shortest_paths::arc(face, allowed[face].trailing_zeros() as usize);
+                let (from, side) = shortest_paths::head(shortest_paths::reversed(self.target, only));
                 if from != root && allowed[from] & (1 << side) != 0 {
                     allowed[from] &= !(1 << side);
                     any = true;

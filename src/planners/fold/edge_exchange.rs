@@ -47,11 +47,11 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
 /// Exchanges a hinge that folds for one that doesn't as long as that helps. `steps`, counted down: how
 /// many exchanges may be weighed, and for each that is made the sums that it takes anew.
 pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut u64) -> Layout {
-    improved_among(target, weights, layout, steps, &|_| true)
+    improved_where(target, weights, layout, steps, &|_| true)
 }
 
 /// The same by exchanges that lead to layouts which are allowed.
-pub fn improved_among(
+pub fn improved_where(
     target: &Target,
     weights: &Weights,
     layout: Layout,

@@ -1,8 +1,8 @@
 //! What the ground and the motors let pass, in samples: a quick look like that for
-//! [meetings](super::meeting), under gravity. It is mild where it can't know: what touches the ground
+//! [meetings](super::sweep_collision), under gravity. It is mild where it can't know: what touches the ground
 //! somewhere but at its own hinge counts as carried by it.
 
-use super::folded::poses_at;
+use super::kinematics::poses_at;
 use super::layout::Layout;
 use super::simulation::quintic;
 use super::target::Target;
@@ -16,7 +16,7 @@ const TOL_LINE: f64 = 0.05;
 
 /// What pulls, and what the hinges hold. The root lies on the ground with its outside down.
 #[derive(Clone, Debug)]
-pub struct Burden {
+pub struct LoadLimits {
     /// By face, N.
     pub weights: Vec<f64>,
     /// N·m; infinite where no limit is stated.
@@ -29,14 +29,14 @@ pub struct Burden {
 
 /// What stands against a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Obstacle {
+pub enum Violation {
     /// A face is so far below the ground, m.
     Ground { face: usize, depth: f64 },
     /// The hinge of a face holds this much, N·m.
     Overload { face: usize, torque: f64 },
 }
 
-impl Burden {
+impl LoadLimits {
     /// What stands against a step first. `folded`: the hinges that have folded before.
     pub fn obstacle(
         &self,
@@ -44,7 +44,7 @@ impl Burden {
         layout: &Layout,
         folded: &[bool],
         moving: &[usize],
-    ) -> Option<Obstacle> {
+    ) -> Option<Violation> {
         let full = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
         (1..=SAMPLES).find_map(|sample| {
             let part = quintic(sample as f64 / SAMPLES as f64, 1.0).angle;
@@ -58,7 +58,7 @@ impl Burden {
     }
 
     /// What is wrong with a state.
-    fn wrong(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Obstacle> {
+    fn wrong(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Violation> {
         crate::interrupt::checkpoint();
         let up = -target.normal(layout.root);
         let level = up.dot(&target.centroid(layout.root));
@@ -70,7 +70,7 @@ impl Burden {
         for face in faces.clone() {
             let lowest = corners[face].iter().map(height).fold(f64::INFINITY, f64::min);
             if lowest < -self.depth {
-                return Some(Obstacle::Ground { face, depth: -lowest });
+                return Some(Violation::Ground { face, depth: -lowest });
             }
         }
         for &face in layout.order[1..].iter() {
@@ -90,7 +90,7 @@ impl Burden {
                 });
             }
             if !rests && torque.abs() > self.torque {
-                return Some(Obstacle::Overload { face, torque: torque.abs() });
+                return Some(Violation::Overload { face, torque: torque.abs() });
             }
         }
         None

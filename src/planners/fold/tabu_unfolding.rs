@@ -6,8 +6,8 @@
 //! also where that is more than before, or the search would stay in the first hollow. What was given up a
 //! short while ago does not come back (a tabu list, as "Tabu Unfolder" by Zawallich and Pajarola has it).
 
+use super::edge_exchange;
 use super::layout::Layout;
-use super::local;
 use super::pattern::Pattern;
 use super::target::Target;
 use super::weights::Weights;
@@ -26,7 +26,7 @@ const PAIRS: usize = 64;
 const MOVES: usize = 24;
 
 /// A layout that lies flat. `steps`, counted down: how long it may be looked for.
-pub fn flattened(
+pub fn without_overlaps(
     target: &Target,
     weights: &Weights,
     layout: Layout,
@@ -34,16 +34,16 @@ pub fn flattened(
     steps: &mut u64,
 ) -> Option<Layout> {
     let n = target.faces.len();
-    let mut parting = Parting::new(target, seed);
+    let mut parting = TabuExchange::new(target, seed);
     let mut now = layout;
     for round in 1..=MOVES * n {
         crate::interrupt::checkpoint();
         let overlaps = Pattern::of(target, &now).overlaps();
         let Some([a, b]) = parting.one_of(&overlaps) else {
             let flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
-            return Some(local::improved_among(target, weights, now, steps, &flat));
+            return Some(edge_exchange::improved_where(target, weights, now, steps, &flat));
         };
-        let between = local::path(&now, a, b);
+        let between = edge_exchange::path(&now, a, b);
         let mut best: Option<((usize, f64), Layout, usize)> = None;
         for _ in 0..LOOKS {
             *steps = steps.checked_sub((n * n / PAIRS + n) as u64)?;
@@ -62,16 +62,16 @@ pub fn flattened(
 }
 
 /// Exchanges at random between two faces that are in each other's way, in rounds.
-pub struct Parting<'t> {
+pub struct TabuExchange<'t> {
     target: &'t Target,
     rng: SplitMix64,
     /// By hinge: the round in which it may come back.
     out_until: Vec<usize>,
 }
 
-impl<'t> Parting<'t> {
-    pub fn new(target: &'t Target, seed: u64) -> Parting<'t> {
-        Parting { target, rng: SplitMix64(seed), out_until: vec![0; target.hinges.len()] }
+impl<'t> TabuExchange<'t> {
+    pub fn new(target: &'t Target, seed: u64) -> TabuExchange<'t> {
+        TabuExchange { target, rng: SplitMix64(seed), out_until: vec![0; target.hinges.len()] }
     }
 
     /// One of the pairs, if there are any.

@@ -20,7 +20,7 @@
 //! Over the step a face gains `2 sin(φ/2) G_j(φ/2)`, and what it gains along its path is its height over the
 //! root, whatever the path: so for hinges of one angle all paths cost the same, and the bound is near.
 
-use super::folded::about;
+use super::kinematics::about;
 use super::simulation::quintic;
 use super::target::Target;
 use crate::geometry::Vec3;
@@ -33,7 +33,7 @@ const PLACES: usize = 256;
 const ROUNDING: f64 = 1e-7;
 
 /// The torque of gravity by arc and face, N·m.
-pub struct Lift {
+pub struct GravityBounds {
     faces: usize,
     arcs: Vec<Arc>,
 }
@@ -49,9 +49,9 @@ struct Arc {
     ends: [Vec<f64>; 2],
 }
 
-impl Lift {
+impl GravityBounds {
     /// `masses`: by face, kg; `gravity`: m/s².
-    pub fn new(target: &Target, masses: &[f64], gravity: f64) -> Lift {
+    pub fn new(target: &Target, masses: &[f64], gravity: f64) -> GravityBounds {
         let mut arcs = Vec::with_capacity(2 * target.hinges.len());
         for hinge in &target.hinges {
             crate::interrupt::checkpoint();
@@ -73,7 +73,7 @@ impl Lift {
                 arcs.push(Arc { above, below: hinge.other(above), sense, mean, ends });
             }
         }
-        Lift { faces: masses.len(), arcs }
+        GravityBounds { faces: masses.len(), arcs }
     }
 
     /// By root: no layout has hinges whose mean torques come to less. The torque of each hinge may be

@@ -6,7 +6,7 @@
 //! telescope, so no order undercuts `|PE(all) - PE(none)|` of its branch; where the leaves-first
 //! order (Alg. 2) reaches that, nothing more is computed.
 
-use super::folded::about;
+use super::kinematics::about;
 use super::layout::Layout;
 use super::steps;
 use super::target::Target;
@@ -33,7 +33,7 @@ pub struct Lifting {
 }
 
 /// The order of least work. `weights`: of each face, N.
-pub fn least_lifting(target: &Target, layout: &Layout, weights: &[f64]) -> Lifting {
+pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> Lifting {
     let mut all = Lifting { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {
         let branch = Branch::new(target, layout, weights, child);
@@ -48,7 +48,7 @@ pub fn least_lifting(target: &Target, layout: &Layout, weights: &[f64]) -> Lifti
 
 /// No order of this layout takes less, J: by branch of the root, what it gains or loses in all.
 pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
-    let flat = super::folded::poses(target, layout, |_| false);
+    let flat = super::kinematics::poses(target, layout, |_| false);
     let gain = |face: usize| {
         let level = height(target, layout, face, &flat[face]);
         weights[face] * (height(target, layout, face, &Pose::identity()) - level)
@@ -78,7 +78,7 @@ pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) 
 
 /// Potential energy over the root's plane, J.
 fn potential(target: &Target, layout: &Layout, weights: &[f64], folded: &[bool]) -> f64 {
-    let poses = super::folded::poses(target, layout, |face| folded[face]);
+    let poses = super::kinematics::poses(target, layout, |face| folded[face]);
     let faces = 0..target.faces.len();
     faces.map(|face| weights[face] * height(target, layout, face, &poses[face])).sum()
 }

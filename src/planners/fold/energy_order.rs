@@ -4,8 +4,8 @@
 //! the order of m's own path. Going down the tree, each face is put into every place of its
 //! ancestors' order; orders that agree on their common ancestors can always be merged.
 
-use super::folded::about;
 use super::inertia::{Inertia, moment_about};
+use super::kinematics::about;
 use super::layout::Layout;
 use super::target::Target;
 use super::weights::QUINTIC;
@@ -58,7 +58,7 @@ pub fn means(
     for &face in order {
         let hinge = &target.hinges[layout.hinge[face].expect("the root does not fold")];
         // Before the step, seen from the place that the parent has.
-        let poses = super::folded::poses(target, layout, |f| folded[f]);
+        let poses = super::kinematics::poses(target, layout, |f| folded[f]);
         let parent = poses[layout.parent[face]];
         let point = parent.transform_point(&hinge.point.into()).coords;
         let axis = parent.rotation * hinge.axis;

@@ -9,11 +9,11 @@
 //! panels [walk](super::rearrange) from the one sheet to the other. Growth begins anew with other choices
 //! among equals as long as the budget lasts.
 
-use super::layout::Layout;
-use super::meeting::Solids;
-use super::plane::{Corners, Plane, Point as Cell, Stroke, across, bond, cell};
-use super::rearrange::{Goal, Panels, pair, rearranged};
-use super::target::Target;
+use super::lattice_sheet::{Corners, Plane, Point as Cell, Stroke, across, bond, cell};
+use super::rearrangement::{Goal, Panels, pair, rearranged};
+use crate::planners::fold::layout::Layout;
+use crate::planners::fold::sweep_collision::Solids;
+use crate::planners::fold::target::Target;
 use crate::planners::random::SplitMix64;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -43,7 +43,7 @@ pub fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps:
     for (at, face) in faces.iter().enumerate().rev() {
         rest[at] = rest[at + 1] + cheapest(weights, &around, &share, *face);
     }
-    let mut deal = Deal {
+    let mut deal = PartitionSearch {
         target,
         weights,
         root,
@@ -133,7 +133,7 @@ fn shares(weights: &Weights, around: &[(usize, usize)], faces: &[usize]) -> Vec<
     kept
 }
 
-struct Deal<'t> {
+struct PartitionSearch<'t> {
     target: &'t Target,
     weights: &'t Weights,
     root: usize,
@@ -151,7 +151,7 @@ struct Deal<'t> {
     ended: bool,
 }
 
-impl Deal<'_> {
+impl PartitionSearch<'_> {
     /// The next face to each of the root's hinges; as deep as there are faces.
     fn next(&mut self, steps: &mut u64) {
         interrupt::checkpoint();

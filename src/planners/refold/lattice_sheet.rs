@@ -7,9 +7,9 @@
 //! and the fan opens there: what hangs on the one has gone to the other end. Six panels close without
 //! folding: then only a connection changes. Either is a [`Stroke`]: one connection made, one undone.
 
-use super::folded::about;
-use super::meeting::{Solids, place_of};
 use crate::geometry::{Pose, Vec3};
+use crate::planners::fold::kinematics::about;
+use crate::planners::fold::sweep_collision::{Solids, panel_pose};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A point of the lattice, in whole numbers of its two steps.
@@ -265,7 +265,7 @@ impl Plane {
             .corners
             .iter()
             .zip(poses)
-            .map(|(corners, pose)| pose * place_of(&corners.map(|p| metric(p, side)), &Vec3::z()))
+            .map(|(corners, pose)| pose * panel_pose(&corners.map(|p| metric(p, side)), &Vec3::z()))
             .collect();
         let allowed = |a: usize, b: usize| {
             touching.contains(&[a, b])

@@ -65,7 +65,7 @@ pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
 }
 
 /// Cheapest paths of one target under its weights.
-pub struct Routes<'t> {
+pub struct ShortestPaths<'t> {
     target: &'t Target,
     weights: &'t Weights,
     /// By face, then by face: cost of the cheapest path from the second to the first, for the first.
@@ -102,10 +102,10 @@ impl Eq for Waiting {}
 
 const UNREACHED: Arc = Arc::MAX;
 
-impl<'t> Routes<'t> {
-    pub fn new(target: &'t Target, weights: &'t Weights) -> Routes<'t> {
+impl<'t> ShortestPaths<'t> {
+    pub fn new(target: &'t Target, weights: &'t Weights) -> ShortestPaths<'t> {
         let n = target.faces.len();
-        let mut routes = Routes {
+        let mut routes = ShortestPaths {
             target,
             weights,
             toward: vec![Vec::new(); n],

@@ -1,7 +1,7 @@
 //! Whether panels meet on the way, in samples: a quick look that keeps the judge from plans that it
 //! would reject. Panels are triangles without thickness, or solids. What it lets through is not proved.
 
-use super::folded::poses_at;
+use super::kinematics::poses_at;
 use super::layout::Layout;
 use super::simulation::quintic;
 use super::target::Target;
@@ -20,18 +20,18 @@ type Triangle = [Vec3; 3];
 
 /// Two faces that meet, and the step in which they first do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Meeting {
+pub struct Collision {
     pub step: usize,
     pub faces: [usize; 2],
 }
 
 /// The first meeting while a layout is folded in steps. `shrunk`: by which part triangles are made
 /// smaller, so that those do not meet which share an edge.
-pub fn meeting(target: &Target, layout: &Layout, steps: &[Vec<usize>], shrunk: f64) -> Option<Meeting> {
-    let look = Look::thin(target, layout, shrunk);
+pub fn meeting(target: &Target, layout: &Layout, steps: &[Vec<usize>], shrunk: f64) -> Option<Collision> {
+    let look = SweepCheck::thin(target, layout, shrunk);
     let mut folded = vec![false; target.faces.len()];
     steps.iter().enumerate().find_map(|(step, moving)| {
-        let found = look.during(&folded, moving).map(|faces| Meeting { step, faces });
+        let found = look.during(&folded, moving).map(|faces| Collision { step, faces });
         moving.iter().for_each(|face| folded[*face] = true);
         found
     })
@@ -47,7 +47,7 @@ pub struct Solids {
 }
 
 /// Pairs of panels that meet in the target itself, unless they hang together by a hinge.
-pub fn in_target(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
+pub fn target_collisions(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
     let parts = placed(target, solids);
     let reach = reach(target, &parts);
     let solids = Solids { parts, touch: solids.touch };
@@ -77,7 +77,7 @@ fn reach(target: &Target, parts: &[Vec<Part>]) -> Vec<f64> {
 }
 
 /// A look at the panels of one layout.
-pub struct Look<'t> {
+pub struct SweepCheck<'t> {
     target: &'t Target,
     layout: &'t Layout,
     form: Form,
@@ -91,9 +91,9 @@ enum Form {
     Solids(Solids),
 }
 
-impl<'t> Look<'t> {
+impl<'t> SweepCheck<'t> {
     /// Triangles that are made smaller by a part.
-    pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> Look<'t> {
+    pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> SweepCheck<'t> {
         let smaller = |face: usize| {
             let middle = target.centroid(face);
             target.corners(face).map(|corner| middle + (corner - middle) * (1.0 - shrunk))
@@ -103,14 +103,14 @@ impl<'t> Look<'t> {
             corners.iter().map(|p| (p - target.centroid(face)).norm()).fold(0.0, f64::max)
         };
         let reach = small.iter().enumerate().map(reach).collect();
-        Look { target, layout, form: Form::Triangles(small), reach }
+        SweepCheck { target, layout, form: Form::Triangles(small), reach }
     }
 
     /// Panels as they are.
-    pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> Look<'t> {
+    pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> SweepCheck<'t> {
         let parts = placed(target, solids);
         let reach = reach(target, &parts);
-        Look { target, layout, form: Form::Solids(Solids { parts, touch: solids.touch }), reach }
+        SweepCheck { target, layout, form: Form::Solids(Solids { parts, touch: solids.touch }), reach }
     }
 
     /// Two faces that meet while some hinges fold at the same time, none above another; `folded`: the
@@ -148,7 +148,7 @@ impl<'t> Look<'t> {
     /// Where the faces are when a part of the time of a step is over.
     fn state(&self, folded: &[bool], moving: &[usize], time: f64) -> State {
         crate::interrupt::checkpoint();
-        let Look { target, layout, .. } = self;
+        let SweepCheck { target, layout, .. } = self;
         let full = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
         let part = quintic(time, 1.0).angle;
         let poses = poses_at(target, layout, |face| match folded[face] {
@@ -198,11 +198,11 @@ impl Solids {
 
 /// The frame of a panel at a face of the target.
 fn place(target: &Target, face: usize) -> Pose {
-    place_of(&target.corners(face), &target.normal(face))
+    panel_pose(&target.corners(face), &target.normal(face))
 }
 
 /// The frame of a panel with these corners and this outward normal.
-pub fn place_of(corners: &Triangle, z: &Vec3) -> Pose {
+pub fn panel_pose(corners: &Triangle, z: &Vec3) -> Pose {
     let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     let x = ((corners[0] + corners[1]) / 2.0 - middle).normalize();
     let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), *z]));

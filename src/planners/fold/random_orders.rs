@@ -1,8 +1,8 @@
 //! Orders of folding at random, for comparison with a chosen one (Sec. 5.3.2, Fig. 6).
 
 use super::layout::Layout;
+use super::progress_text;
 use super::steps;
-use super::words;
 use crate::interrupt;
 use crate::planners::random::SplitMix64;
 
@@ -34,7 +34,7 @@ pub fn sample(
     let mut found = Sample { orders, worse: 0, least: f64::INFINITY, mean: 0.0, greatest: f64::NEG_INFINITY };
     for done in 0..orders {
         let least = (done > 0).then_some(found.least);
-        interrupt::progress_checkpoint(|| words::counted(done, &orders, "orders", least));
+        interrupt::progress_checkpoint(|| progress_text::counted(done, &orders, "orders", least));
         rng.shuffle(&mut order);
         let taken = takes(&steps::of_order(layout, &order));
         found.worse += u64::from(taken > reference * (1.0 + TOL_EQUAL));

@@ -1,16 +1,16 @@
 //! The best layouts under a measure that has to be computed for each: all are looked at where they
 //! are few, else good ones are improved by exchanges.
 
-use super::count;
+use super::edge_exchange;
 use super::enumerate::{self, Peaks};
 use super::layout::Layout;
-use super::local;
 use super::pattern::Pattern;
-use super::routes::Routes;
+use super::progress_text;
+use super::shortest_paths::ShortestPaths;
+use super::spanning_trees;
 use super::symmetry;
 use super::target::Target;
 use super::weights::Weights;
-use super::words;
 use crate::interrupt;
 use crate::units::display::number;
 use num_traits::ToPrimitive;
@@ -36,13 +36,13 @@ pub struct Settings {
     pub budget: u64,
     /// How many of the best are kept.
     pub keep: usize,
-    pub glance: Option<Glance>,
+    pub prefilter: Option<BoundPrefilter>,
 }
 
 /// Where the first value is the greatest mean torque of the closed form, sums over sets of faces tell it, and
 /// most layouts need not be made.
 #[derive(Clone, Copy, Debug)]
-pub struct Glance {
+pub struct BoundPrefilter {
     /// The first value by the greatest mean torque for steps of one second.
     pub scale: f64,
     /// Pairs of a layout and a root that may be looked at so, instead of measured.
@@ -77,22 +77,22 @@ pub fn survey(
     let mut roots: Vec<usize> = settings.roots.iter().map(|root| equals[*root]).collect();
     roots.sort_unstable();
     roots.dedup();
-    let pairs = count::layouts(target) * roots.len();
+    let pairs = spanning_trees::layouts(target) * roots.len();
     let mut kept = Kept { target, settings, best: Vec::new(), ties: vec![0; n], least: f64::INFINITY };
-    let most = settings.glance.map_or(settings.budget, |glance| glance.budget.max(settings.budget));
+    let most = settings.prefilter.map_or(settings.budget, |prefilter| prefilter.budget.max(settings.budget));
     let complete = n <= enumerate::FACES_MAX && pairs.to_u64().is_some_and(|pairs| pairs <= most);
     if complete {
-        let mut glance =
-            settings.glance.and_then(|glance| Some((glance.scale, Peaks::new(target, weights)?)));
-        let (mut looked_at, all) = (0u64, count::layouts(target));
+        let mut prefilter =
+            settings.prefilter.and_then(|prefilter| Some((prefilter.scale, Peaks::new(target, weights)?)));
+        let (mut visited, all) = (0u64, spanning_trees::layouts(target));
         let walked = enumerate::each(target, u64::MAX, |hinges| {
-            looked_at += 1;
-            interrupt::progress_checkpoint(|| words::counted(looked_at, &all, "layouts", None));
-            if let Some((_, peaks)) = &mut glance {
+            visited += 1;
+            interrupt::progress_checkpoint(|| progress_text::counted(visited, &all, "layouts", None));
+            if let Some((_, peaks)) = &mut prefilter {
                 peaks.hang(hinges);
             }
             for &root in &roots {
-                if let Some((scale, peaks)) = &glance
+                if let Some((scale, peaks)) = &prefilter
                     && kept.is_full_of_less_than(peaks.greatest(root) * scale)
                 {
                     continue;
@@ -116,13 +116,14 @@ pub fn survey(
 /// From the roots that promise most, the best grown layout first: exchanges as long as they help.
 fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn FnMut(&Layout) -> [f64; 2]) {
     let (target, mut left) = (kept.target, kept.settings.budget);
-    let bounds = Routes::new(target, weights);
+    let bounds = ShortestPaths::new(target, weights);
     let mut roots = roots.to_vec();
     roots.sort_by(|a, b| bounds.bound(*a).total_cmp(&bounds.bound(*b)).then(a.cmp(b)));
     let mut starts: Vec<(Layout, [f64; 2])> = Vec::new();
     for &root in roots.iter().take(STARTS) {
         let mut free = EXCHANGES;
-        let grown = local::improved(target, weights, local::grown(target, weights, root), &mut free);
+        let grown =
+            edge_exchange::improved(target, weights, edge_exchange::grown(target, weights, root), &mut free);
         let value = value(&grown);
         kept.offer(grown.clone(), value);
         starts.push((grown, value));
@@ -151,7 +152,7 @@ fn exchanged(
     let folding = layout.hinges();
     for added in (0..target.hinges.len()).filter(|h| folding.binary_search(h).is_err()) {
         let [a, b] = target.hinges[added].faces;
-        for dropped in local::path(layout, a, b) {
+        for dropped in edge_exchange::path(layout, a, b) {
             *left = left.checked_sub(1)?;
             // An energy, a torque or a number of steps.
             let least = kept.least;

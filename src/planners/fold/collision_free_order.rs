@@ -6,9 +6,9 @@
 //! be opened that one goes first which a wished order folds last. What was found is put into steps
 //! again: a hinge folds with the one before it where neither carries the other and nothing meets.
 
-use super::burden::{Burden, Obstacle};
 use super::layout::Layout;
-use super::meeting::{Look, Solids};
+use super::load_limits::{LoadLimits, Violation};
+use super::sweep_collision::{Solids, SweepCheck};
 use super::target::Target;
 use crate::interrupt;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,11 +17,11 @@ use std::collections::{BTreeMap, BTreeSet};
 type Turn = (Vec<bool>, usize);
 
 /// A search in one layout. What the judge refused can be told it; then it finds another way.
-pub struct Passages<'t> {
+pub struct OrderSearch<'t> {
     layout: &'t Layout,
     target: &'t Target,
-    look: Look<'t>,
-    burden: Option<&'t Burden>,
+    look: SweepCheck<'t>,
+    burden: Option<&'t LoadLimits>,
     free: BTreeMap<Turn, bool>,
     refused: BTreeSet<Turn>,
     /// Steps that may still be looked at.
@@ -30,18 +30,18 @@ pub struct Passages<'t> {
     pub overload: Option<(f64, usize)>,
 }
 
-impl<'t> Passages<'t> {
+impl<'t> OrderSearch<'t> {
     /// `looks`: steps that are looked at at most.
     pub fn new(
         target: &'t Target,
         layout: &'t Layout,
         solids: &Solids,
-        burden: Option<&'t Burden>,
+        burden: Option<&'t LoadLimits>,
         looks: usize,
-    ) -> Passages<'t> {
+    ) -> OrderSearch<'t> {
         let (free, refused) = (BTreeMap::new(), BTreeSet::new());
-        let look = Look::thick(target, layout, solids);
-        Passages { layout, target, look, burden, free, refused, left: looks, overload: None }
+        let look = SweepCheck::thick(target, layout, solids);
+        OrderSearch { layout, target, look, burden, free, refused, left: looks, overload: None }
     }
 
     /// All faces but the root in an order in which each can fold. `wished`: such an order, to which it
@@ -98,7 +98,7 @@ impl<'t> Passages<'t> {
     }
 
     /// Whether nothing is seen to stand against these steps.
-    pub fn lets_pass(&self, steps: &[Vec<usize>]) -> bool {
+    pub fn is_collision_free(&self, steps: &[Vec<usize>]) -> bool {
         let mut folded = vec![false; self.layout.parent.len()];
         steps.iter().all(|step| {
             let passes = self.passes(&folded, step);
@@ -124,7 +124,7 @@ impl<'t> Passages<'t> {
             return Some(known);
         }
         self.left = self.left.checked_sub(1)?;
-        if let Some(Obstacle::Overload { face, torque }) = self.obstacle(folded, &[face])
+        if let Some(Violation::Overload { face, torque }) = self.obstacle(folded, &[face])
             && self.overload.is_none_or(|(least, _)| torque < least)
         {
             self.overload = Some((torque, face));
@@ -134,7 +134,7 @@ impl<'t> Passages<'t> {
         Some(is_free)
     }
 
-    fn obstacle(&self, folded: &[bool], moving: &[usize]) -> Option<Obstacle> {
+    fn obstacle(&self, folded: &[bool], moving: &[usize]) -> Option<Violation> {
         self.burden?.obstacle(self.target, self.layout, folded, moving)
     }
 

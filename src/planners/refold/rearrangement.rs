@@ -5,8 +5,8 @@
 //! wanted. To this is added how far the panels that lie elsewhere are from the cells that are still
 //! free, and what is best by both is looked at next: the series that is found need not be the shortest.
 
-use super::meeting::Solids;
-use super::plane::{Plane, Point, Side, Stroke, cell};
+use super::lattice_sheet::{Plane, Point, Side, Stroke, cell};
+use crate::planners::fold::sweep_collision::Solids;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
