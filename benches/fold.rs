@@ -46,7 +46,7 @@ fn main() {
         let settings = branch_and_bound::Settings {
             flat: true,
             root: Some(found.layout.root),
-            ..exact::Settings::default()
+            ..branch_and_bound::Settings::default()
         };
         let flat = time(&mut || {
             optimum(&target, &weights, &settings).expect("it has a flat one");

@@ -108,7 +108,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 
 fn proved(target: &Target, flat: bool, budget: u64) -> (Optimum, Duration) {
     let weights = Weights::uniform(target, MASS);
-    let settings = branch_and_bound::Settings { flat, budget, ..exact::Settings::default() };
+    let settings = branch_and_bound::Settings { flat, budget, ..branch_and_bound::Settings::default() };
     timed(|| optimum(target, &weights, &settings).expect("it has layouts"))
 }
 

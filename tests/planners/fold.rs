@@ -69,7 +69,7 @@ pub fn near(a: f64, b: f64, tol: f64) -> bool {
 }
 
 fn at_root(root: usize) -> branch_and_bound::Settings {
-    branch_and_bound::Settings { root: Some(root), ..exact::Settings::default() }
+    branch_and_bound::Settings { root: Some(root), ..branch_and_bound::Settings::default() }
 }
 
 fn all_layouts(root: Option<usize>, spectrum: bool) -> enumerate::Settings {
@@ -387,7 +387,7 @@ fn a_target_of_which_every_pattern_overlaps_is_refused() {
         faces.push(vec![0, i, i + 1]);
     }
     let target = Target::new(points, &faces).expect("it folds");
-    let settings = branch_and_bound::Settings { flat: true, ..exact::Settings::default() };
+    let settings = branch_and_bound::Settings { flat: true, ..branch_and_bound::Settings::default() };
     assert_eq!(optimum(&target, &weights(&target), &settings).err(), Some(NoLayout::AllOverlap));
     assert!(optimum(&target, &weights(&target), &branch_and_bound::Settings::default()).is_ok());
 }

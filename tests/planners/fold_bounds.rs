@@ -43,7 +43,7 @@ fn torus() -> Target {
 }
 
 fn settings(budget: u64) -> branch_and_bound::Settings {
-    branch_and_bound::Settings { budget, ..exact::Settings::default() }
+    branch_and_bound::Settings { budget, ..branch_and_bound::Settings::default() }
 }
 
 /// However soon a search ends, its bound is below the optimum and its layout above.

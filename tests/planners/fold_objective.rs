@@ -186,7 +186,8 @@ fn the_fewest_steps_are_the_radius() {
         let found = surveyed(&objective, &target, None, 10_000);
         assert_eq!(found.best[0].1[0], steps as f64, "{name}");
         // Of those, the one of least energy, by proof.
-        let height = branch_and_bound::Settings { height: Some(steps), ..exact::Settings::default() };
+        let height =
+            branch_and_bound::Settings { height: Some(steps), ..branch_and_bound::Settings::default() };
         let best = branch_and_bound::optimum(&target, &objective.weights, &height).expect("there are some");
         assert_eq!((best.proof, best.layout.heights()[best.layout.root]), (Proof::Optimal, steps), "{name}");
         assert!(near(best.energy, found.best[0].1[1], 1e-9), "{name}");
@@ -209,7 +210,7 @@ fn refused_layouts_are_followed_by_the_next_best() {
     })
     .expect("few faces");
     energies.sort_by(f64::total_cmp);
-    let settings = branch_and_bound::Settings { root: Some(0), ..exact::Settings::default() };
+    let settings = branch_and_bound::Settings { root: Some(0), ..branch_and_bound::Settings::default() };
     for refused in [0, 1, 5, 74, 75] {
         let mut asked: Vec<Layout> = Vec::new();
         let best = branch_and_bound::optimum_among(&target, &weights, &settings, &mut |layout| {

@@ -110,7 +110,7 @@ proptest! {
     fn no_proof_is_wrong(target in meshes(), root in 0..80usize, seed in 0..1000usize) {
         let weights = Weights::uniform(&target, MASS);
         let root = root % target.faces.len();
-        let settings = branch_and_bound::Settings { root: Some(root), budget: BUDGET, ..exact::Settings::default() };
+        let settings = branch_and_bound::Settings { root: Some(root), budget: BUDGET, ..branch_and_bound::Settings::default() };
         let found = branch_and_bound::optimum(&target, &weights, &settings).expect("it has layouts");
         prop_assert!(near(found.layout.energy(&weights), found.energy, 1e-12));
         prop_assert!(found.bound <= found.energy);
