@@ -24,11 +24,11 @@ mod members;
 mod module;
 mod names;
 mod operators;
-pub mod summary;
+pub(crate) mod summary;
 mod type_expr;
 pub mod typed;
 mod typed_expr;
-pub mod types;
+mod types;
 
 use crate::source::{Diagnostic, FileId, Files, Sources, Span, Symbol};
 use typed::DefId;

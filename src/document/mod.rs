@@ -4,7 +4,7 @@
 //! of its files, [`pictures`] draws what has instances, [`markdown`] resolves links, [`html`] writes it all
 //! down.
 
-pub mod examples;
+pub(crate) mod examples;
 mod html;
 mod markdown;
 mod outline;

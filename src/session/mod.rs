@@ -11,11 +11,11 @@ mod dependencies;
 mod kept;
 mod state;
 
-pub mod command;
-pub mod complete;
+pub(crate) mod command;
+pub(crate) mod complete;
 mod describe;
 pub mod entry;
-pub mod highlight;
+pub(crate) mod highlight;
 mod locals;
 mod members;
 mod reload;

@@ -3,17 +3,17 @@
 //! The lowest room of the left wing: it knows no grammar and no robots.
 
 pub mod code;
-pub mod diagnostic;
-pub mod excerpt;
+mod diagnostic;
+mod excerpt;
 pub mod files;
-pub mod foreign;
+pub(crate) mod foreign;
 pub mod json;
 pub mod library;
 pub mod render;
-pub mod span;
-pub mod suggest;
-pub mod symbol;
-pub mod text;
+mod span;
+pub(crate) mod suggest;
+mod symbol;
+mod text;
 
 pub use code::Code;
 pub use diagnostic::{Diagnostic, Label, Severity};

@@ -6,7 +6,7 @@
 //! itself, from the same steps of kinematics that the judge uses; only where the ground carries the
 //! robot is sampled, from the judge's own walk.
 
-pub mod page;
+mod page;
 
 mod data;
 mod findings;
@@ -21,7 +21,7 @@ mod stand;
 mod lattice;
 mod truss;
 
-pub mod picture;
+mod picture;
 
 mod bodies;
 mod colour;
@@ -29,9 +29,9 @@ mod mesh;
 mod palette;
 mod raster;
 
-pub mod fold_format;
+mod fold_format;
 
-pub mod surroundings;
+mod surroundings;
 mod svg;
 
 mod graph;
