@@ -34,7 +34,7 @@ struct Bindings {
 }
 
 impl<'a> Checker<'a> {
-    pub fn call(
+    pub(super) fn call(
         &mut self,
         scope: &mut Scope,
         span: Span,
@@ -155,7 +155,7 @@ impl<'a> Checker<'a> {
 
     /// `gaits.caterpillar`: the item of an imported file. `None` when the object is no file name;
     /// `Some(None)` when the file has no such item (reported).
-    pub fn file_item(
+    pub(super) fn file_item(
         &mut self,
         scope: &mut Scope,
         object: &ast::Expr,
@@ -260,7 +260,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Arguments in the order of the parameters.
-    pub fn arguments_of(
+    pub(super) fn arguments_of(
         &mut self,
         scope: &mut Scope,
         span: Span,

@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 /// What a name at the top of a file means.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Entity {
+pub(super) enum Entity {
     Def(DefId),
     /// `use std.gaits`: a file whose items are reached by `gaits.name`.
     File(usize),
@@ -27,7 +27,7 @@ pub enum Entity {
 
 /// A declaration as it stands in the tree.
 #[derive(Clone, Copy)]
-pub enum DefItem<'a> {
+pub(super) enum DefItem<'a> {
     Let(&'a ast::Let),
     Fn(&'a ast::Fn),
     Native(&'a ast::ExternFn),
@@ -45,7 +45,7 @@ pub enum DefItem<'a> {
     Gap,
 }
 
-pub struct DefInfo<'a> {
+pub(super) struct DefInfo<'a> {
     pub name: Symbol,
     pub span: Span,
     /// Of the whole declaration.
@@ -64,7 +64,7 @@ pub struct DefInfo<'a> {
 
 /// Parameters and result of what can be called.
 #[derive(Clone, Debug, Default)]
-pub struct Signature {
+pub(super) struct Signature {
     pub params: Vec<ParamInfo>,
     /// `None`: inferred from the body.
     pub result: Option<Type>,
@@ -73,14 +73,14 @@ pub struct Signature {
 
 /// A type parameter of an `extern fn`.
 #[derive(Clone, Copy, Debug)]
-pub struct TypeParam {
+pub(super) struct TypeParam {
     pub name: Symbol,
     pub bound: Bound,
 }
 
 /// What a type parameter may stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bound {
+pub(super) enum Bound {
     Anything,
     /// It is the dimension of quantities, no type of its own.
     Dimension,
@@ -90,7 +90,7 @@ pub enum Bound {
 }
 
 #[derive(Clone, Debug)]
-pub struct ParamInfo {
+pub(super) struct ParamInfo {
     pub name: Symbol,
     pub span: Span,
     pub ty: Type,
@@ -100,14 +100,14 @@ pub struct ParamInfo {
 
 impl ParamInfo {
     /// What has a default, or may be missing, need not be given.
-    pub fn may_be_left_out(&self) -> bool {
+    pub(super) fn may_be_left_out(&self) -> bool {
         self.has_default || self.variadic || matches!(self.ty, Type::Optional(_))
     }
 }
 
 /// The names in the body of a declaration with instances.
 #[derive(Default)]
-pub struct Members<'a> {
+pub(super) struct Members<'a> {
     pub list: Vec<MemberInfo<'a>>,
     pub index: HashMap<Symbol, MemberId>,
     /// Modules only.
@@ -119,7 +119,7 @@ pub struct Members<'a> {
     pub behaviors: Vec<BehaviorInfo<'a>>,
 }
 
-pub struct MemberInfo<'a> {
+pub(super) struct MemberInfo<'a> {
     pub name: Symbol,
     pub span: Span,
     pub doc: Option<Arc<str>>,
@@ -127,7 +127,7 @@ pub struct MemberInfo<'a> {
 }
 
 #[derive(Clone, Copy)]
-pub enum MemberInfoKind<'a> {
+pub(super) enum MemberInfoKind<'a> {
     Param(usize),
     Let(&'a ast::Let),
     Part(&'a ast::Part, usize),
@@ -139,7 +139,7 @@ pub enum MemberInfoKind<'a> {
     },
 }
 
-pub struct JointInfo<'a> {
+pub(super) struct JointInfo<'a> {
     pub name: Symbol,
     pub span: Span,
     pub doc: Option<Arc<str>>,
@@ -149,20 +149,20 @@ pub struct JointInfo<'a> {
     pub dimension: crate::units::Dimension,
 }
 
-pub struct PortInfo {
+pub(super) struct PortInfo {
     pub name: Symbol,
     pub span: Span,
     pub doc: Option<Arc<str>>,
     pub array: bool,
 }
 
-pub struct BehaviorInfo<'a> {
+pub(super) struct BehaviorInfo<'a> {
     pub ast: &'a ast::Behavior,
     pub doc: Option<Arc<str>>,
     pub signature: Rc<Signature>,
 }
 
-pub struct Checker<'a> {
+pub(super) struct Checker<'a> {
     pub loaded: &'a Loaded,
     pub sources: &'a Sources,
     pub defs: Vec<DefInfo<'a>>,
@@ -182,7 +182,7 @@ pub struct Checker<'a> {
 }
 
 /// The surroundings of an expression: its file, its locals, the instance whose body it stands in.
-pub struct Scope {
+pub(super) struct Scope {
     pub file: usize,
     pub this: Option<DefId>,
     /// Type parameters of the `extern fn` at hand.
@@ -224,22 +224,22 @@ impl Frame {
 }
 
 impl Scope {
-    pub fn new(file: usize, this: Option<DefId>) -> Scope {
+    pub(super) fn new(file: usize, this: Option<DefId>) -> Scope {
         Scope { file, this, type_params: Vec::new(), frame: Frame::default(), outer: Vec::new() }
     }
 
-    pub fn bind(&mut self, name: Symbol, ty: Type) -> Local {
+    pub(super) fn bind(&mut self, name: Symbol, ty: Type) -> Local {
         let local = self.frame.slot();
         self.frame.locals.push(Binding { name, local, ty });
         local
     }
 
     /// Where the inner scope that begins now ends: give it to [`Scope::close`].
-    pub fn open(&self) -> (usize, u32) {
+    pub(super) fn open(&self) -> (usize, u32) {
         (self.frame.locals.len(), self.frame.next)
     }
 
-    pub fn close(&mut self, mark: (usize, u32)) {
+    pub(super) fn close(&mut self, mark: (usize, u32)) {
         self.frame.locals.truncate(mark.0);
         // In a lambda, captures made since may lie above the mark: their slots stay taken.
         if self.outer.is_empty() {
@@ -248,28 +248,28 @@ impl Scope {
     }
 
     /// Slots that the body needs.
-    pub fn frame(&self) -> usize {
+    pub(super) fn frame(&self) -> usize {
         self.frame.size as usize
     }
 
     /// Whether a local of this name was bound since the mark.
-    pub fn bound_since(&self, mark: (usize, u32), name: Symbol) -> bool {
+    pub(super) fn bound_since(&self, mark: (usize, u32), name: Symbol) -> bool {
         self.frame.locals[mark.0..].iter().any(|b| b.name == name)
     }
 
-    pub fn enter_lambda(&mut self) {
+    pub(super) fn enter_lambda(&mut self) {
         self.outer.push(std::mem::take(&mut self.frame));
     }
 
     /// Ends the lambda's frame: its size and what it captures, (outside, inside).
-    pub fn leave_lambda(&mut self) -> (usize, Vec<(Local, Local)>) {
+    pub(super) fn leave_lambda(&mut self) -> (usize, Vec<(Local, Local)>) {
         let outer = self.outer.pop().expect("a lambda was entered");
         let frame = std::mem::replace(&mut self.frame, outer);
         let captures = frame.captured.iter().map(|(b, from)| (*from, b.local)).collect();
         (frame.size as usize, captures)
     }
 
-    pub fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
+    pub(super) fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
         self.local_at(name, self.outer.len()).map(|b| (b.local, b.ty))
     }
 
@@ -290,23 +290,23 @@ impl Scope {
     }
 
     /// The type of a local, without capturing it.
-    pub fn local_type(&self, name: Symbol) -> Option<&Type> {
+    pub(super) fn local_type(&self, name: Symbol) -> Option<&Type> {
         let frames = std::iter::once(&self.frame).chain(self.outer.iter().rev());
         frames.filter_map(|f| f.find(name)).map(|b| &b.ty).next()
     }
 
-    pub fn has_local(&self, name: Symbol) -> bool {
+    pub(super) fn has_local(&self, name: Symbol) -> bool {
         self.local_type(name).is_some()
     }
 
-    pub fn local_names(&self) -> impl Iterator<Item = &'static str> + '_ {
+    pub(super) fn local_names(&self) -> impl Iterator<Item = &'static str> + '_ {
         let frames = std::iter::once(&self.frame).chain(&self.outer);
         frames.flat_map(|frame| &frame.locals).map(|b| b.name.as_str())
     }
 }
 
 impl<'a> Checker<'a> {
-    pub fn new(loaded: &'a Loaded, sources: &'a Sources, diagnostics: Vec<Diagnostic>) -> Checker<'a> {
+    pub(super) fn new(loaded: &'a Loaded, sources: &'a Sources, diagnostics: Vec<Diagnostic>) -> Checker<'a> {
         Checker {
             loaded,
             sources,
@@ -321,26 +321,26 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn def(&self, id: DefId) -> &DefInfo<'a> {
+    pub(super) fn def(&self, id: DefId) -> &DefInfo<'a> {
         &self.defs[id.0 as usize]
     }
 
-    pub fn def_mut(&mut self, id: DefId) -> &mut DefInfo<'a> {
+    pub(super) fn def_mut(&mut self, id: DefId) -> &mut DefInfo<'a> {
         &mut self.defs[id.0 as usize]
     }
 
-    pub fn report(&mut self, diagnostic: Diagnostic) {
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
     /// What a name means at the top of a file, the prelude included.
-    pub fn entity(&self, file: usize, name: Symbol) -> Option<Entity> {
+    pub(super) fn entity(&self, file: usize, name: Symbol) -> Option<Entity> {
         let own = self.top(file).get(&name).copied();
         own.or_else(|| self.loaded.prelude.and_then(|p| self.top(p).get(&name).copied()))
     }
 
     /// The same, of a name as it stands in the text.
-    pub fn named_entity(&self, file: usize, name: Symbol, span: Span) -> Option<Entity> {
+    pub(super) fn named_entity(&self, file: usize, name: Symbol, span: Span) -> Option<Entity> {
         let found = self.entity(file, name);
         if let Some(Entity::Def(id)) = found {
             self.uses.borrow_mut().push((span, id));
@@ -349,7 +349,7 @@ impl<'a> Checker<'a> {
     }
 
     /// What the names at the top of a file mean, without the prelude.
-    pub fn top(&self, file: usize) -> &HashMap<Symbol, Entity> {
+    pub(super) fn top(&self, file: usize) -> &HashMap<Symbol, Entity> {
         &self.scopes[self.scope_index(file)]
     }
 
@@ -363,7 +363,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A built-in by its name in the prelude.
-    pub fn prelude_def(&self, name: &str) -> Option<DefId> {
+    pub(super) fn prelude_def(&self, name: &str) -> Option<DefId> {
         match self.top(self.loaded.prelude?).get(&Symbol::new(name)) {
             Some(Entity::Def(id)) => Some(*id),
             _ => None,
@@ -371,7 +371,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The names that can be seen from the top of a file.
-    pub fn visible_names(&self, file: usize) -> Vec<&'static str> {
+    pub(super) fn visible_names(&self, file: usize) -> Vec<&'static str> {
         let mut names: Vec<&str> = self.top(file).keys().map(|s| s.as_str()).collect();
         if let Some(prelude) = self.loaded.prelude {
             names.extend(self.top(prelude).keys().map(|s| s.as_str()));
@@ -380,7 +380,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Fills the scopes: the items of every file, then what each imports.
-    pub fn declare(&mut self) {
+    pub(super) fn declare(&mut self) {
         let mut of_entries = Vec::new();
         let in_session = self.loaded.files.iter().any(|file| file.entry);
         for (index, file) in self.loaded.files.iter().enumerate() {
@@ -414,7 +414,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether a piece that could not be read would have declared this name.
-    pub fn is_unread(&self, name: Symbol) -> bool {
+    pub(super) fn is_unread(&self, name: Symbol) -> bool {
         self.loaded.files.iter().any(|file| file.ast.unread.contains(&name))
     }
 
@@ -472,7 +472,7 @@ impl<'a> Checker<'a> {
         DefId(self.defs.len() as u32 - 1)
     }
 
-    pub fn declared_twice(&mut self, name: Symbol, first: Span, second: Span) {
+    pub(super) fn declared_twice(&mut self, name: Symbol, first: Span, second: Span) {
         self.report(
             Diagnostic::error(code::DECLARED_TWICE, format!("`{name}` is declared twice"))
                 .label(second, "declared again here")
@@ -546,7 +546,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Which family of instances a declaration has, if it has instances.
-    pub fn family(&self, id: DefId) -> Option<Family> {
+    pub(super) fn family(&self, id: DefId) -> Option<Family> {
         Some(match self.def(id).item {
             DefItem::Module(_) => Family::Module,
             DefItem::Config(_) => Family::Config,
@@ -559,7 +559,11 @@ impl<'a> Checker<'a> {
     }
 
     /// The whole program, once everything has been checked.
-    pub fn finish(self, statements: typed::Body, tests: Vec<typed::Test>) -> (Program, Vec<Diagnostic>) {
+    pub(super) fn finish(
+        self,
+        statements: typed::Body,
+        tests: Vec<typed::Test>,
+    ) -> (Program, Vec<Diagnostic>) {
         let mut own = Vec::new();
         let mut defs = Vec::with_capacity(self.defs.len());
         for (index, info) in self.defs.into_iter().enumerate() {

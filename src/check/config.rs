@@ -13,7 +13,7 @@ use crate::syntax::ast::{self, ConfigClauseKind};
 use crate::units::Dimension;
 
 impl<'a> Checker<'a> {
-    pub fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
+    pub(super) fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, Some(id));
         let params = self.typed_params(&mut scope, &config.params, &signature.params, false);
@@ -285,7 +285,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `body.side[i]` as an expression; every prefix has its own span.
-    pub fn path(&mut self, scope: &mut Scope, path: &'a ast::Path, want: Option<&Type>) -> Expr {
+    pub(super) fn path(&mut self, scope: &mut Scope, path: &'a ast::Path, want: Option<&Type>) -> Expr {
         let last = path.steps.len();
         let root_want = if last == 0 { want } else { None };
         let mut object = self.name_expr(scope, path.root.span, path.root.text, root_want);
@@ -332,7 +332,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A `port` clause of a configuration as a member.
-    pub fn config_port(&mut self, id: DefId, clause: &'a ConfigClauseKind, array: bool) -> MemberKind {
+    pub(super) fn config_port(&mut self, id: DefId, clause: &'a ConfigClauseKind, array: bool) -> MemberKind {
         let ConfigClauseKind::Port { name, count, value } = clause else {
             unreachable!("only port clauses are ports")
         };

@@ -7,7 +7,7 @@ use crate::source::Symbol;
 use crate::units::{Dimension, display};
 
 /// What a quantity of this dimension is called in a sentence: `an angular speed`.
-pub fn dimension_words(d: Dimension) -> String {
+pub(super) fn dimension_words(d: Dimension) -> String {
     let words = match d.name() {
         Some("Number") => "a number",
         Some("Length") => "a length",
@@ -30,7 +30,7 @@ pub fn dimension_words(d: Dimension) -> String {
 }
 
 /// With its usual unit: `an angular speed (rad/s)`.
-pub fn dimension_with_unit(d: Dimension) -> String {
+pub(super) fn dimension_with_unit(d: Dimension) -> String {
     let unit = display::usual_unit(d);
     let words = dimension_words(d);
     if unit.is_empty() || d.name().is_none() { words } else { format!("{words} ({unit})") }
@@ -38,7 +38,7 @@ pub fn dimension_with_unit(d: Dimension) -> String {
 
 impl Checker<'_> {
     /// A type in a sentence: `an angle`, `a list of lengths`, ``a `Smores` ``.
-    pub fn words(&self, ty: &Type) -> String {
+    pub(super) fn words(&self, ty: &Type) -> String {
         match ty {
             Type::Quantity(d) => dimension_words(*d),
             Type::Int => "a whole number".into(),
@@ -57,7 +57,7 @@ impl Checker<'_> {
     }
 
     /// A type as it is written.
-    pub fn name(&self, ty: &Type) -> String {
+    pub(super) fn name(&self, ty: &Type) -> String {
         type_name(ty, &|id| self.def(id).name)
     }
 }
@@ -114,7 +114,7 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
     }
 }
 
-pub fn family_name(family: Family) -> &'static str {
+pub(super) fn family_name(family: Family) -> &'static str {
     match family {
         Family::Module => "Module",
         Family::Config => "Config",

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// What an expression is wanted for, as messages name it.
 #[derive(Clone, Copy)]
-pub enum Role {
+pub(super) enum Role {
     Param(Symbol),
     Place(&'static str),
 }
@@ -26,22 +26,22 @@ impl std::fmt::Display for Role {
     }
 }
 
-pub fn expr_of(span: Span, ty: Type, kind: ExprKind) -> Expr {
+pub(super) fn expr_of(span: Span, ty: Type, kind: ExprKind) -> Expr {
     Expr { span, ty, kind }
 }
 
-pub fn error_expr(span: Span) -> Expr {
+pub(super) fn error_expr(span: Span) -> Expr {
     expr_of(span, Type::Error, ExprKind::Error)
 }
 
 impl<'a> Checker<'a> {
     /// An expression that must fit a type; reports where it does not.
-    pub fn expect(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: &Type, role: Role) -> Expr {
+    pub(super) fn expect(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: &Type, role: Role) -> Expr {
         let got = self.expr(scope, e, Some(want));
         self.coerce(got, want, role)
     }
 
-    pub fn coerce(&mut self, got: Expr, want: &Type, role: Role) -> Expr {
+    pub(super) fn coerce(&mut self, got: Expr, want: &Type, role: Role) -> Expr {
         if !self.fits(&got.ty, want) {
             self.mismatch(&got, want, role);
             return error_expr(got.span);
@@ -56,7 +56,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The text of a span, if it is short enough to be said in a sentence.
-    pub fn quoted(&self, span: Span) -> Option<&'a str> {
+    pub(super) fn quoted(&self, span: Span) -> Option<&'a str> {
         let text = self.sources.text(span);
         (text.len() <= 40 && !text.contains('\n')).then_some(text)
     }
@@ -94,7 +94,7 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    pub fn type_hint(&self, got: &Expr, want: &Type) -> Option<String> {
+    pub(super) fn type_hint(&self, got: &Expr, want: &Type) -> Option<String> {
         let written = self.quoted(got.span).unwrap_or("it");
         match (&got.ty, want) {
             (Type::Fn(f), _) if self.fits(&f.result, want) => Some(format!("call it: `{written}()`")),
@@ -117,7 +117,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn expr(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: Option<&Type>) -> Expr {
+    pub(super) fn expr(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: Option<&Type>) -> Expr {
         use ast::ExprKind as K;
         let span = e.span;
         match &e.kind {
@@ -306,7 +306,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The family of a type whose values have members.
-    pub fn instance_family(&self, ty: &Type) -> Option<Family> {
+    pub(super) fn instance_family(&self, ty: &Type) -> Option<Family> {
         match ty {
             Type::Instance(id) => self.family(*id),
             _ => None,
@@ -315,7 +315,7 @@ impl<'a> Checker<'a> {
 }
 
 /// The types that a wanted type stands for: itself, what an optional holds, the types of a choice.
-pub fn alternatives(ty: &Type) -> Vec<&Type> {
+pub(super) fn alternatives(ty: &Type) -> Vec<&Type> {
     match ty {
         Type::Optional(inner) => alternatives(inner),
         Type::Choice(choice) => choice.types.iter().flat_map(alternatives).collect(),
@@ -335,7 +335,7 @@ fn fn_of(want: &Type) -> &Type {
 }
 
 /// Whether a type mentions type parameters that are not bound yet.
-pub fn has_params(ty: &Type) -> bool {
+pub(super) fn has_params(ty: &Type) -> bool {
     match ty {
         Type::Param(_) | Type::QuantityParam { .. } => true,
         Type::List(t)

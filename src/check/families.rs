@@ -30,7 +30,7 @@ const STRUT_FACTS: [(&str, Dimension); 5] = [
 ];
 
 impl<'a> Checker<'a> {
-    pub fn check_facts(&mut self, id: DefId, facts: &'a ast::Facts) -> DefKind {
+    pub(super) fn check_facts(&mut self, id: DefId, facts: &'a ast::Facts) -> DefKind {
         let strut = self.family(id) == Some(Family::Strut);
         let known = if strut { STRUT_FACTS } else { CELL_FACTS };
         let signature = self.signature(id);
@@ -98,7 +98,7 @@ impl<'a> Checker<'a> {
         None
     }
 
-    pub fn check_lattice(&mut self, id: DefId, lattice: &'a ast::Lattice) -> DefKind {
+    pub(super) fn check_lattice(&mut self, id: DefId, lattice: &'a ast::Lattice) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
         let mut scope = Scope::new(file, Some(id));
@@ -110,7 +110,7 @@ impl<'a> Checker<'a> {
         DefKind::Lattice(LatticeDef { params, members, of, value, frame: scope.frame() })
     }
 
-    pub fn check_truss(&mut self, id: DefId, truss: &'a ast::Truss) -> DefKind {
+    pub(super) fn check_truss(&mut self, id: DefId, truss: &'a ast::Truss) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
         let mut scope = Scope::new(file, Some(id));

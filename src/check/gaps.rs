@@ -11,7 +11,7 @@ const GAPS_STEP: usize = 64;
 impl Checker<'_> {
     /// A file of a session may have more declarations when it is read again, or fewer: those behind it keep
     /// their identities.
-    pub fn leave_gaps(&mut self, file: usize, id: FileId) {
+    pub(super) fn leave_gaps(&mut self, file: usize, id: FileId) {
         let spare = self.defs.len() + GAPS_MIN;
         let span = Span::new(id, 0, 0);
         self.defs.resize_with(spare.next_multiple_of(GAPS_STEP), || DefInfo {

@@ -21,7 +21,7 @@ const STACK_LEFT_MIN: usize = 1 << 20;
 const STACK_PIECE: usize = 8 << 20;
 
 impl<'a> Checker<'a> {
-    pub fn signature(&mut self, id: DefId) -> Rc<Signature> {
+    pub(super) fn signature(&mut self, id: DefId) -> Rc<Signature> {
         if let Some(signature) = &self.def(id).signature {
             return signature.clone();
         }
@@ -73,7 +73,7 @@ impl<'a> Checker<'a> {
         Signature { params, result: Some(result), type_params: scope.type_params.clone() }
     }
 
-    pub fn params(&mut self, scope: &Scope, params: &'a [ast::Param]) -> Vec<ParamInfo> {
+    pub(super) fn params(&mut self, scope: &Scope, params: &'a [ast::Param]) -> Vec<ParamInfo> {
         let mut seen: Vec<(Symbol, Span)> = Vec::new();
         params
             .iter()
@@ -95,7 +95,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The parameters with their defaults; binds each as a local where the body has no members.
-    pub fn typed_params(
+    pub(super) fn typed_params(
         &mut self,
         scope: &mut Scope,
         asts: &'a [ast::Param],
@@ -119,7 +119,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The type of a top-level `let`.
-    pub fn inferred_type(&mut self, id: DefId, at: Option<Span>) -> Type {
+    pub(super) fn inferred_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         if let DefItem::Let(ast::Let { ty: Some(ty), .. }) = self.def(id).item {
             let scope = Scope::new(self.def(id).file, None);
             if self.def(id).inferred.is_none() {
@@ -132,7 +132,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The result of a function.
-    pub fn result_type(&mut self, id: DefId, at: Option<Span>) -> Type {
+    pub(super) fn result_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         match self.signature(id).result.clone() {
             Some(ty) => ty,
             None => self.inferred_by_body(id, at),
@@ -178,7 +178,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Works out a declaration, once.
-    pub fn check_def(&mut self, id: DefId) {
+    pub(super) fn check_def(&mut self, id: DefId) {
         if self.def(id).typed.is_some() || self.def(id).busy {
             return;
         }
@@ -221,7 +221,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The value of a `let`, of the type written if one is.
-    pub fn let_value(&mut self, scope: &mut Scope, x: &'a ast::Let) -> Expr {
+    pub(super) fn let_value(&mut self, scope: &mut Scope, x: &'a ast::Let) -> Expr {
         let written = x.ty.as_ref().map(|ty| self.type_expr(scope, ty));
         self.value_of_type(scope, x, written)
     }
@@ -312,7 +312,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn statements(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
+    pub(super) fn statements(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
         let mark = scope.open();
         statements.iter().filter_map(|s| self.statement(scope, mark, s)).collect()
     }
@@ -370,7 +370,7 @@ impl<'a> Checker<'a> {
         out
     }
 
-    pub fn require(&mut self, scope: &mut Scope, r: &'a ast::Require) -> super::typed::Require {
+    pub(super) fn require(&mut self, scope: &mut Scope, r: &'a ast::Require) -> super::typed::Require {
         super::typed::Require {
             span: r.span,
             condition: self.expect(scope, &r.condition, &Type::Bool, Role::Place("`require`")),
@@ -382,7 +382,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The statements and tests of the file that is run.
-    pub fn check_root(&mut self, file: usize) -> (Body, Vec<Test>) {
+    pub(super) fn check_root(&mut self, file: usize) -> (Body, Vec<Test>) {
         let mut scope = Scope::new(file, None);
         let mut statements = Vec::new();
         let mut tests = Vec::new();
@@ -405,7 +405,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Typed members of a body.
-    pub fn typed_members(&mut self, id: DefId) -> Vec<super::typed::Member> {
+    pub(super) fn typed_members(&mut self, id: DefId) -> Vec<super::typed::Member> {
         use super::checker::MemberInfoKind as I;
         use super::typed::MemberKind as M;
         let members = self.members(id);

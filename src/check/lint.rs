@@ -5,7 +5,7 @@ use super::typed::DefId;
 use crate::source::{Diagnostic, Span, Symbol, code};
 
 impl Checker<'_> {
-    pub fn lint_def(&mut self, id: DefId) {
+    pub(super) fn lint_def(&mut self, id: DefId) {
         let info = self.def(id);
         let (name, span) = (info.name, info.span);
         match info.item {
@@ -16,7 +16,7 @@ impl Checker<'_> {
         }
     }
 
-    pub fn lint_snake(&mut self, name: Symbol, span: Span, what: &str) {
+    pub(super) fn lint_snake(&mut self, name: Symbol, span: Span, what: &str) {
         if name.as_str().len() > 1 && name.as_str().contains(|c: char| c.is_ascii_uppercase()) {
             self.style(span, name, what, &snake(name.as_str()));
         }

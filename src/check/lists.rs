@@ -9,7 +9,7 @@ use crate::syntax::ast;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    pub fn list(
+    pub(super) fn list(
         &mut self,
         scope: &mut Scope,
         span: Span,
@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::list(common.unwrap_or(Type::Error)), ExprKind::List(out))
     }
 
-    pub fn comprehension(
+    pub(super) fn comprehension(
         &mut self,
         scope: &mut Scope,
         span: Span,
@@ -98,7 +98,7 @@ impl<'a> Checker<'a> {
     }
 
     /// What a `for` runs over, and the type of what it binds.
-    pub fn iterable(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> (Expr, Type) {
+    pub(super) fn iterable(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> (Expr, Type) {
         let got = self.expr(scope, e, None);
         let element = match &got.ty {
             Type::List(t) => (**t).clone(),
@@ -120,7 +120,13 @@ impl<'a> Checker<'a> {
         (got, element)
     }
 
-    pub fn range(&mut self, scope: &mut Scope, span: Span, from: &'a ast::Expr, to: &'a ast::Expr) -> Expr {
+    pub(super) fn range(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        from: &'a ast::Expr,
+        to: &'a ast::Expr,
+    ) -> Expr {
         let (a, b) = (self.expr(scope, from, None), self.expr(scope, to, None));
         let element = match (&a.ty, &b.ty) {
             (Type::Error, _) | (_, Type::Error) => return error_expr(span),
@@ -142,7 +148,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Range(Arc::new(element)), kind)
     }
 
-    pub fn index(
+    pub(super) fn index(
         &mut self,
         scope: &mut Scope,
         span: Span,
@@ -156,7 +162,7 @@ impl<'a> Checker<'a> {
         self.index_of(span, object, index)
     }
 
-    pub fn index_of(&mut self, span: Span, object: Expr, index: Expr) -> Expr {
+    pub(super) fn index_of(&mut self, span: Span, object: Expr, index: Expr) -> Expr {
         let element = match &object.ty {
             Type::List(t) => (**t).clone(),
             Type::Vec3(t) => (**t).clone(),
@@ -174,10 +180,10 @@ impl<'a> Checker<'a> {
     }
 }
 
-pub fn vec3_element(want: &Type) -> Option<&Type> {
+pub(super) fn vec3_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::Vec3(e) = t { Some(&**e) } else { None })
 }
 
-pub fn list_element(want: &Type) -> Option<&Type> {
+pub(super) fn list_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::List(e) = t { Some(&**e) } else { None })
 }

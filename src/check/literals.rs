@@ -10,7 +10,7 @@ use crate::units::Dimension;
 use crate::units::table::to_si;
 
 impl<'a> Checker<'a> {
-    pub fn number(
+    pub(super) fn number(
         &mut self,
         scope: &Scope,
         span: Span,
@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
 
     /// Whether a number of this name may be meant: a local, a parameter or `let` of the body, or a
     /// `let` of the file.
-    pub fn is_variable(&mut self, scope: &Scope, name: Symbol) -> bool {
+    pub(super) fn is_variable(&mut self, scope: &Scope, name: Symbol) -> bool {
         if let Some(ty) = scope.local_type(name) {
             return ty.dimension().is_some();
         }
@@ -64,7 +64,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn plain_number(&mut self, span: Span, text: &str) -> Expr {
+    pub(super) fn plain_number(&mut self, span: Span, text: &str) -> Expr {
         if !text.contains(['.', 'e', 'E']) {
             return match text.parse::<i64>() {
                 Ok(value) => expr_of(span, Type::Int, ExprKind::Int(value)),
@@ -77,7 +77,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn bad_number(&mut self, span: Span) -> Expr {
+    pub(super) fn bad_number(&mut self, span: Span) -> Expr {
         self.report(
             Diagnostic::error(code::BAD_NUMBER, "this number is too large")
                 .label(span, "beyond what a number can hold"),
@@ -85,7 +85,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    pub fn text(&mut self, scope: &mut Scope, span: Span, parts: &'a [ast::TextPart]) -> Expr {
+    pub(super) fn text(&mut self, scope: &mut Scope, span: Span, parts: &'a [ast::TextPart]) -> Expr {
         if let [] | [ast::TextPart::Literal(_)] = parts {
             let text = parts.first().map_or("", |p| match p {
                 ast::TextPart::Literal(text) => text.as_str(),
@@ -106,14 +106,14 @@ impl<'a> Checker<'a> {
     }
 }
 
-pub fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
+pub(super) fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
     factors.iter().fold(value, |value, (factor, power)| {
         let times = power.unsigned_abs();
         (0..times).fold(value, |v, _| if *power > 0 { to_si(v, *factor) } else { v / to_si(1.0, *factor) })
     })
 }
 
-pub fn direction(span: Span, axis: ast::Axis) -> Expr {
+pub(super) fn direction(span: Span, axis: ast::Axis) -> Expr {
     let one = |on: bool| expr_of(span, Type::NUMBER, ExprKind::Number(if on { 1.0 } else { 0.0 }));
     let parts = [ast::Axis::X, ast::Axis::Y, ast::Axis::Z].map(|a| one(a == axis));
     expr_of(span, Type::vec3(Dimension::NUMBER), ExprKind::Vec3(Box::new(parts)))

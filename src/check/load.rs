@@ -8,7 +8,7 @@ use crate::syntax::{self, ast};
 use std::collections::HashMap;
 
 /// A file of the program with what it imports.
-pub struct LoadedFile {
+pub(super) struct LoadedFile {
     pub ast: ast::File,
     pub imports: Vec<Import>,
     /// Whether it is an entry of a session: all entries have one scope.
@@ -19,14 +19,14 @@ pub struct LoadedFile {
 
 /// A name that a `use` brings into a file.
 #[derive(Clone, Copy)]
-pub struct Import {
+pub(super) struct Import {
     pub name: Symbol,
     pub span: Span,
     pub target: ImportTarget,
 }
 
 #[derive(Clone, Copy)]
-pub enum ImportTarget {
+pub(super) enum ImportTarget {
     /// Everything in a file, by `name.item`.
     File(usize),
     /// One item of a file; the span is that of the item's name in the `use`.
@@ -38,7 +38,7 @@ pub enum ImportTarget {
 /// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read. In a
 /// session the file to run is the newest entry, and no entry changes the places of those before it.
 #[derive(Default)]
-pub struct Loaded {
+pub(super) struct Loaded {
     pub files: Vec<LoadedFile>,
     pub root: Option<usize>,
     pub prelude: Option<usize>,
@@ -58,7 +58,7 @@ pub struct Entry {
     pub last: Option<Symbol>,
 }
 
-pub struct Loader<'a> {
+pub(super) struct Loader<'a> {
     files: &'a dyn Files,
     pub sources: Sources,
     pub diagnostics: Vec<Diagnostic>,
@@ -92,7 +92,7 @@ impl Place {
 }
 
 /// Loads `root` with all that it imports, and the prelude.
-pub fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>) {
+pub(super) fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
     let prelude = loader.load(Place::Library("prelude.mod".into())).ok();
     let root = match loader.load(Place::Project(root.into())) {
@@ -106,7 +106,7 @@ pub fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>)
 }
 
 /// Loads the entries of a session with all that they import, and the prelude.
-pub fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sources, Vec<Diagnostic>) {
+pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
     let prelude = loader.load(Place::Library("prelude.mod".into())).ok();
     let root = entries.iter().map(|entry| loader.entry(entry)).last();

@@ -14,7 +14,7 @@ pub enum Meaning {
 
 impl Checker<'_> {
     /// What names at the top of a file mean, by name.
-    pub fn meanings(&self, file: usize) -> Vec<(Symbol, Meaning)> {
+    pub(super) fn meanings(&self, file: usize) -> Vec<(Symbol, Meaning)> {
         let own = self.top(file).iter();
         let inherited = self.loaded.prelude.into_iter().flat_map(|prelude| self.top(prelude).iter());
         let mut found: Vec<(Symbol, Meaning)> = own

@@ -31,7 +31,7 @@ impl<'a> Members<'a> {
 }
 
 impl<'a> Checker<'a> {
-    pub fn members(&mut self, id: DefId) -> Rc<Members<'a>> {
+    pub(super) fn members(&mut self, id: DefId) -> Rc<Members<'a>> {
         if let Some(members) = &self.def(id).members {
             return members.clone();
         }
@@ -241,7 +241,13 @@ impl<'a> Checker<'a> {
     }
 
     /// A name that means a member, joint or port of the instance whose body this is.
-    pub fn own_member(&mut self, this: DefId, span: Span, name: Symbol, want: Option<&Type>) -> Option<Expr> {
+    pub(super) fn own_member(
+        &mut self,
+        this: DefId,
+        span: Span,
+        name: Symbol,
+        want: Option<&Type>,
+    ) -> Option<Expr> {
         let members = self.members(this);
         let known = members.index.contains_key(&name)
             || members.joint_index.contains_key(&name)
@@ -253,7 +259,7 @@ impl<'a> Checker<'a> {
         Some(self.field_of(span, object, ast::Name { text: name, span }, want))
     }
 
-    pub fn field(
+    pub(super) fn field(
         &mut self,
         scope: &mut Scope,
         span: Span,
@@ -287,7 +293,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `.joint` or `.port` behind what may be of the one name space or the other already.
-    pub fn chosen(&mut self, span: Span, object: Expr, field: ast::Name) -> Expr {
+    pub(super) fn chosen(&mut self, span: Span, object: Expr, field: ast::Name) -> Expr {
         match (field.text.as_str(), object.kind) {
             ("joint", kind @ ExprKind::Joint { .. }) | ("port", kind @ ExprKind::Port { .. }) => {
                 expr_of(span, object.ty, kind)
@@ -296,7 +302,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn field_of(&mut self, span: Span, object: Expr, field: ast::Name, want: Option<&Type>) -> Expr {
+    pub(super) fn field_of(
+        &mut self,
+        span: Span,
+        object: Expr,
+        field: ast::Name,
+        want: Option<&Type>,
+    ) -> Expr {
         match object.ty.clone() {
             Type::Error => error_expr(span),
             Type::Instance(id) => self.instance_field(span, object, id, field, want),
@@ -444,12 +456,12 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    pub fn plan_record(&self) -> Option<DefId> {
+    pub(super) fn plan_record(&self) -> Option<DefId> {
         self.prelude_def("plan").and(self.prelude_def("Plan"))
     }
 
     /// `plan(behavior)`, as it could have been written.
-    pub fn planned(&mut self, behavior: Expr) -> Expr {
+    pub(super) fn planned(&mut self, behavior: Expr) -> Expr {
         let def = self.prelude_def("plan").expect("the prelude declares what its record comes from");
         let record = self.prelude_def("Plan").expect("the prelude declares what `plan` gives");
         let mut args = vec![None; self.signature(def).params.len()];
@@ -470,7 +482,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The type of a member as seen from outside; `at` is where it is needed.
-    pub fn member_type(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Type {
+    pub(super) fn member_type(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Type {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
         match info.kind {
@@ -499,12 +511,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn is_part_type(&self, id: DefId) -> bool {
+    pub(super) fn is_part_type(&self, id: DefId) -> bool {
         matches!(self.family(id), Some(Family::Module | Family::Config))
     }
 
     /// The value of a `let` in a body, checked once in a scope of its own.
-    pub fn member_let(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Expr {
+    pub(super) fn member_let(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Expr {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
         let MemberInfoKind::Let(ast) = info.kind else { unreachable!("only lets have values here") };
@@ -525,16 +537,16 @@ impl<'a> Checker<'a> {
     }
 
     /// Expressions of members run in frames of their own: remembers the largest.
-    pub fn note_frame(&mut self, id: DefId, size: usize) {
+    pub(super) fn note_frame(&mut self, id: DefId, size: usize) {
         let known = self.member_frames.entry(id).or_default();
         *known = size.max(*known);
     }
 
-    pub fn member_frame(&self, id: DefId) -> usize {
+    pub(super) fn member_frame(&self, id: DefId) -> usize {
         self.member_frames.get(&id).copied().unwrap_or(0)
     }
 
-    pub fn declaration_cycle(&mut self, name: Symbol, span: Span, at: Option<Span>) {
+    pub(super) fn declaration_cycle(&mut self, name: Symbol, span: Span, at: Option<Span>) {
         let mut d = Diagnostic::error(code::DECLARATION_CYCLE, format!("`{name}` needs itself"))
             .label(at.unwrap_or(span), "needed here while it is being worked out");
         if at.is_some_and(|at| at != span) {

@@ -14,7 +14,7 @@ use crate::units::Dimension;
 use std::collections::HashMap;
 
 impl<'a> Checker<'a> {
-    pub fn check_connector(&mut self, id: DefId, connector: &'a ast::Connector) -> DefKind {
+    pub(super) fn check_connector(&mut self, id: DefId, connector: &'a ast::Connector) -> DefKind {
         let mut scope = Scope::new(self.def(id).file, None);
         let mut def = ConnectorDef {
             mates: Vec::new(),
@@ -105,7 +105,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn check_module(&mut self, id: DefId, module: &'a ast::Module) -> DefKind {
+    pub(super) fn check_module(&mut self, id: DefId, module: &'a ast::Module) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
         let mut scope = Scope::new(file, Some(id));

@@ -11,7 +11,13 @@ use crate::units::is_unit;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    pub fn name_expr(&mut self, scope: &mut Scope, span: Span, name: Symbol, want: Option<&Type>) -> Expr {
+    pub(super) fn name_expr(
+        &mut self,
+        scope: &mut Scope,
+        span: Span,
+        name: Symbol,
+        want: Option<&Type>,
+    ) -> Expr {
         if want.is_some_and(|w| is_word(w, name)) {
             return expr_of(span, Type::Choice(word_choice(name)), ExprKind::Word(name));
         }
@@ -42,13 +48,13 @@ impl<'a> Checker<'a> {
     }
 
     /// In a session `_` is the last value, where it is not what may be missing.
-    pub fn last_value(&self, scope: &Scope, want: Option<&Type>) -> Option<Symbol> {
+    pub(super) fn last_value(&self, scope: &Scope, want: Option<&Type>) -> Option<Symbol> {
         let may_miss = matches!(want, Some(Type::Optional(_)));
         self.loaded.files[scope.file].last.filter(|_| !may_miss)
     }
 
     /// A `_`: the last value of a session, or what is left out where something may be.
-    pub fn hole(&mut self, scope: &mut Scope, span: Span, want: Option<&Type>) -> Expr {
+    pub(super) fn hole(&mut self, scope: &mut Scope, span: Span, want: Option<&Type>) -> Expr {
         if let Some(name) = self.last_value(scope, want) {
             return self.name_expr(scope, span, name, want);
         }
@@ -67,7 +73,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn unknown_name(&mut self, scope: &Scope, span: Span, name: Symbol, want: Option<&Type>) -> Expr {
+    pub(super) fn unknown_name(
+        &mut self,
+        scope: &Scope,
+        span: Span,
+        name: Symbol,
+        want: Option<&Type>,
+    ) -> Expr {
         // Nobody knows what is wanted here, so it may be a word of a choice.
         if want.is_some_and(Type::is_error) {
             return error_expr(span);
@@ -124,7 +136,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A declaration used as a value.
-    pub fn def_value(&mut self, id: DefId, span: Span) -> Expr {
+    pub(super) fn def_value(&mut self, id: DefId, span: Span) -> Expr {
         match self.def(id).item {
             DefItem::Let(_) => {
                 let ty = self.inferred_type(id, Some(span));
@@ -158,7 +170,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A type name where an instance is wanted means its instance with all defaults.
-    pub fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
+    pub(super) fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
         let signature = self.signature(id);
         let missing: Vec<String> = signature
             .params
@@ -181,7 +193,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Names of members, joints and ports of a declaration, for suggestions.
-    pub fn member_names(&mut self, id: DefId) -> Vec<&'static str> {
+    pub(super) fn member_names(&mut self, id: DefId) -> Vec<&'static str> {
         let members = self.members(id);
         let list = members.list.iter().map(|m| m.name);
         let joints = members.joint_index.keys().copied();
@@ -190,7 +202,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-pub fn choice_of(want: &Type) -> Option<&super::types::Choice> {
+pub(super) fn choice_of(want: &Type) -> Option<&super::types::Choice> {
     match want {
         Type::Optional(inner) => choice_of(inner),
         Type::Choice(choice) => Some(choice),
@@ -198,10 +210,10 @@ pub fn choice_of(want: &Type) -> Option<&super::types::Choice> {
     }
 }
 
-pub fn is_word(want: &Type, name: Symbol) -> bool {
+pub(super) fn is_word(want: &Type, name: Symbol) -> bool {
     choice_of(want).is_some_and(|c| c.words.contains(&name))
 }
 
-pub fn word_choice(name: Symbol) -> Arc<super::types::Choice> {
+pub(super) fn word_choice(name: Symbol) -> Arc<super::types::Choice> {
     Arc::new(super::types::Choice { words: vec![name], types: Vec::new() })
 }

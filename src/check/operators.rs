@@ -10,7 +10,7 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    pub fn unary(
+    pub(super) fn unary(
         &mut self,
         scope: &mut Scope,
         span: Span,
@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub fn binary(
+    pub(super) fn binary(
         &mut self,
         scope: &mut Scope,
         span: Span,

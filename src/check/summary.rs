@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// What stands inside a declaration: how it is written, and what is said of it.
 #[derive(Clone, Debug)]
-pub struct Inside {
+pub(crate) struct Inside {
     pub group: Group,
     pub name: Symbol,
     /// `bend: Joint<Angle>`, `walk(steps: Int = 4)`
@@ -16,7 +16,7 @@ pub struct Inside {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
+pub(crate) enum Group {
     /// What the signature says, too.
     Parameter,
     Joint,
@@ -30,7 +30,7 @@ pub enum Group {
 
 impl Group {
     /// The word of the language, or what a record has instead.
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Group::Parameter => "parameter",
             Group::Joint => "joint",
@@ -45,7 +45,7 @@ impl Group {
 }
 
 /// As it is declared, without a body: `fn ramp(i: Int, n: Int = 4) -> Number`.
-pub fn signature(checked: &Checked, id: DefId) -> String {
+pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
     let program = &checked.program;
     let def = program.def(id);
     let params = params_of(program, id);
@@ -61,7 +61,7 @@ pub fn signature(checked: &Checked, id: DefId) -> String {
 }
 
 /// What a declaration declares: `module`, `config`, `fn`.
-pub fn word(kind: &DefKind) -> &'static str {
+pub(crate) fn word(kind: &DefKind) -> &'static str {
     match kind {
         DefKind::Let(_) => "let",
         DefKind::Fn(_) | DefKind::Native(_) => "fn",
@@ -90,13 +90,13 @@ fn with_default(checked: &Checked, param: &Param) -> String {
 }
 
 /// `n: Int`
-pub fn param_text(program: &Program, param: &Param) -> String {
+pub(crate) fn param_text(program: &Program, param: &Param) -> String {
     let dots = if param.variadic { "..." } else { "" };
     format!("{}: {}{dots}", param.name, program.type_name(&param.ty))
 }
 
 /// Parameters of what a call of this declaration takes.
-pub fn params_of(program: &Program, id: DefId) -> &[Param] {
+pub(crate) fn params_of(program: &Program, id: DefId) -> &[Param] {
     match &program.def(id).kind {
         DefKind::Fn(function) => &function.params,
         DefKind::Native(native) => &native.params,
@@ -111,7 +111,7 @@ pub fn params_of(program: &Program, id: DefId) -> &[Param] {
 
 /// Parameters, joints, ports, parts, values, behaviours, fields and methods, in the order of the text.
 /// Private names are left out.
-pub fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
+pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
     let program = &checked.program;
     let entry = |group, name: Symbol, head: String, doc: &Option<Arc<str>>| Inside {
         group,

@@ -37,7 +37,7 @@ const PLAIN: &[(&str, Type)] = &[
 const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
 
 impl<'a> Checker<'a> {
-    pub fn type_expr(&mut self, scope: &Scope, ty: &ast::TypeExpr) -> Type {
+    pub(super) fn type_expr(&mut self, scope: &Scope, ty: &ast::TypeExpr) -> Type {
         match &ty.kind {
             TypeKind::Error => Type::Error,
             TypeKind::Optional(inner) => Type::optional(self.type_expr(scope, inner)),
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Dimension and factor to SI of a unit as written; reports a name that is no unit.
-    pub fn unit(&mut self, unit: &ast::UnitExpr) -> Option<(Dimension, Vec<(f64, i32)>)> {
+    pub(super) fn unit(&mut self, unit: &ast::UnitExpr) -> Option<(Dimension, Vec<(f64, i32)>)> {
         let mut dimension = Dimension::NUMBER;
         let mut factors = Vec::new();
         for (name, power) in &unit.factors {
@@ -177,7 +177,7 @@ impl<'a> Checker<'a> {
     }
 
     /// What a dotted path means at the top of a file; `None`: no such thing (not reported).
-    pub fn path_entity(&self, file: usize, path: &[ast::Name]) -> Option<Entity> {
+    pub(super) fn path_entity(&self, file: usize, path: &[ast::Name]) -> Option<Entity> {
         let mut entity = self.named_entity(file, path[0].text, path[0].span)?;
         for name in &path[1..] {
             entity = match entity {
@@ -229,7 +229,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether a value of type `got` may stand where `want` is wanted (perhaps dropping radians).
-    pub fn fits(&self, got: &Type, want: &Type) -> bool {
+    pub(super) fn fits(&self, got: &Type, want: &Type) -> bool {
         match (got, want) {
             (Type::Error, _) | (_, Type::Error) => true,
             (Type::Nothing, Type::Any) => false,
@@ -260,7 +260,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A record and those that it *is a*, nearest first: `Folding`, `Plan`.
-    pub fn record_line(&self, id: DefId) -> Vec<DefId> {
+    pub(super) fn record_line(&self, id: DefId) -> Vec<DefId> {
         let mut line = vec![id];
         let mut last = id;
         while let DefItem::Record(ast::ExternType { is: Some(parent), .. }) = self.def(last).item
@@ -274,7 +274,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The type that two values have in common, as in the elements of a list.
-    pub fn join(&self, a: &Type, b: &Type) -> Option<Type> {
+    pub(super) fn join(&self, a: &Type, b: &Type) -> Option<Type> {
         if a.is_error() || b.is_error() {
             return Some(if a.is_error() { b.clone() } else { a.clone() });
         }

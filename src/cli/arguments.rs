@@ -10,7 +10,7 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(name = "modl", version, arg_required_else_help = true, after_help = EXAMPLES)]
 #[command(args_conflicts_with_subcommands = true)]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
     /// Evaluate and print; several are entered one after the other
@@ -34,7 +34,7 @@ Examples:
 Exit codes: 0 fine, 1 the program is wrong, 2 the call is wrong, 130 interrupted.";
 
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(super) enum Command {
     /// Run a program: print, verify, and write its plans
     #[command(
         after_help = "Examples:\n  modl run walkbot.mod\n  modl run walkbot.mod --out plans --seed 7\n  \
@@ -169,7 +169,7 @@ pub enum Command {
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Global options")]
-pub struct Globals {
+pub(super) struct Globals {
     /// Print one JSON object to standard output instead of text
     #[arg(long, global = true)]
     pub json: bool,
@@ -203,7 +203,7 @@ pub struct Globals {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Color {
+pub(super) enum Color {
     /// On terminals, unless NO_COLOR is set
     Auto,
     Always,

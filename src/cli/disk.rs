@@ -11,17 +11,17 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 /// No file of a project larger than this is read, bytes.
-pub const FILE_BYTES_MAX: usize = 64 << 20;
+pub(super) const FILE_BYTES_MAX: usize = 64 << 20;
 
 /// Files of a folder that are offered to who looks for a name.
 const LISTED_MAX: usize = 10_000;
 
 /// The name of a program that comes from standard input.
-pub const STDIN_NAME: &str = "<stdin>";
+pub(super) const STDIN_NAME: &str = "<stdin>";
 
 /// A project folder with the program that was named on the command line.
 #[derive(Debug)]
-pub struct Project {
+pub(super) struct Project {
     /// Absolute, without links.
     root: PathBuf,
     /// Read here instead of from the embedded library; absolute, without links.
@@ -37,7 +37,7 @@ pub struct Project {
 
 impl Project {
     /// A folder as a project without a program.
-    pub fn of_folder(root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
+    pub(super) fn of_folder(root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
         let root = root.unwrap_or(Path::new("."));
         Ok(Project {
             root: folder(root)?,
@@ -50,13 +50,17 @@ impl Project {
     }
 
     /// The same project, with its program to be read when it is asked for.
-    pub fn unread(self) -> Project {
+    pub(super) fn unread(self) -> Project {
         Project { name: String::new(), bytes: Vec::new(), ..self }
     }
 
     /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the
     /// folder of the file (after links), or what the user says.
-    pub fn open(file: &Path, root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
+    pub(super) fn open(
+        file: &Path,
+        root: Option<&Path>,
+        stdlib: Option<&Path>,
+    ) -> Result<Project, CallError> {
         let stdlib = stdlib.map(folder).transpose()?;
         if file == Path::new("-") {
             let root = root.unwrap_or(Path::new("."));
@@ -151,7 +155,7 @@ fn read_error(fault: ReadFault) -> ReadError {
 
 /// Why bytes can't be had. As text it continues "the file `x` ...".
 #[derive(Debug)]
-pub enum ReadFault {
+pub(super) enum ReadFault {
     /// Larger than this many bytes.
     TooLarge(usize),
     /// A folder, pipe or device.
@@ -187,7 +191,7 @@ fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
 }
 
 /// The bytes that the user named, if they are not too many; `-` is standard input.
-pub fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> {
+pub(super) fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> {
     let bytes = if file == Path::new("-") {
         read_at_most(io::stdin().lock(), bytes_max)
     } else {
@@ -204,7 +208,7 @@ fn read_at_most(stream: impl Read, bytes_max: usize) -> Result<Vec<u8>, ReadFaul
 }
 
 /// The system's words without the error number that Rust appends.
-pub fn system_words(e: &io::Error) -> String {
+pub(super) fn system_words(e: &io::Error) -> String {
     let text = e.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_owned()
 }

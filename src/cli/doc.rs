@@ -16,7 +16,7 @@ const FOLDER: &str = "doc";
 /// Folders within folders that are looked into.
 const DEPTH_MAX: usize = 16;
 
-pub fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let project =
         Project::of_folder(Some(globals.root.as_deref().unwrap_or(folder)), globals.stdlib.as_deref())?;
     let mut programs = Vec::new();

@@ -25,7 +25,7 @@ const HISTORY_MAX: usize = 10_000;
 const PROMPT: &str = "modl> ";
 
 /// What a person typed.
-pub enum Typed {
+pub(super) enum Typed {
     Entry(String),
     /// Ctrl-C: what was typed so far is thrown away.
     Nothing,
@@ -33,13 +33,13 @@ pub enum Typed {
     End,
 }
 
-pub struct Lines {
+pub(super) struct Lines {
     editor: Editor<Assistant, FileHistory>,
     history: Option<PathBuf>,
 }
 
 impl Lines {
-    pub fn new(color: bool) -> Result<Lines, CallError> {
+    pub(super) fn new(color: bool) -> Result<Lines, CallError> {
         let config = Config::builder()
             .max_history_size(HISTORY_MAX)
             .and_then(|config| config.history_ignore_dups(true))
@@ -59,7 +59,7 @@ impl Lines {
         Ok(Lines { editor, history })
     }
 
-    pub fn read(&mut self, knowledge: Knowledge) -> Result<Typed, CallError> {
+    pub(super) fn read(&mut self, knowledge: Knowledge) -> Result<Typed, CallError> {
         if let Some(assistant) = self.editor.helper_mut() {
             assistant.knowledge = Some(knowledge);
         }

@@ -9,7 +9,7 @@ use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, Files};
 
 /// An example that was run.
-pub struct Ran {
+pub(super) struct Ran {
     /// By which `--filter` finds it, and people.
     pub name: String,
     pub checked: Checked,
@@ -36,7 +36,12 @@ impl Host for Silent {
 }
 
 /// Runs the examples of a program whose name contains the filter.
-pub fn run(project: &Project, filter: Option<&str>, terminal: &Terminal, options: &Options) -> Vec<Ran> {
+pub(super) fn run(
+    project: &Project,
+    filter: Option<&str>,
+    terminal: &Terminal,
+    options: &Options,
+) -> Vec<Ran> {
     let Ok(bytes) = project.read(&project.name) else { return Vec::new() };
     let text = String::from_utf8_lossy(&bytes);
     let mut ran = Vec::new();

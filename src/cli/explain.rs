@@ -6,7 +6,7 @@ use super::terminal::print;
 use super::{CallError, Ending};
 use crate::source::{code, suggest::suggest};
 
-pub fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, CallError> {
     let Some(wanted) = wanted else {
         list(globals);
         return Ok(Ending::Fine);

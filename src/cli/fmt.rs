@@ -13,7 +13,7 @@ use std::{fs, io};
 /// Folders within folders that are looked into.
 const DEPTH_MAX: usize = 64;
 
-pub fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<Ending, CallError> {
     // All files are read first: a call that is wrong does nothing.
     let mut programs = Vec::new();
     for file in files {

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// No plan file larger than this is read, bytes.
 const PLAN_BYTES_MAX: usize = 1 << 30;
 
-pub fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
     // All files are read first: a call that is wrong does nothing.
     let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, CallError>>()?;
     listen_for_cancel();
@@ -41,7 +41,7 @@ pub fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
 }
 
 /// The plan that a file holds, or what is wrong with it and where.
-pub fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
+pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
     let mut sources = Sources::default();
     let Ok(text) = String::from_utf8(bytes) else {
         return Err(Box::new((
@@ -65,7 +65,7 @@ pub fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnost
 }
 
 /// The verdict on a plan file, which includes that its program makes its motion.
-pub fn judged(plan: &Plan) -> Verdict {
+pub(super) fn judged(plan: &Plan) -> Verdict {
     let mut verdict = plan::verify::verify(plan);
     // What is not sound has no program that could be played.
     if !verdict.failures.iter().any(|f| f.kind == CheckKind::Form)
@@ -100,7 +100,7 @@ fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Global
 }
 
 /// The bytes of a plan file, if they are not too many; `-` is standard input.
-pub fn read(file: &Path) -> Result<Vec<u8>, CallError> {
+pub(super) fn read(file: &Path) -> Result<Vec<u8>, CallError> {
     disk::read(file, PLAN_BYTES_MAX)
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 
 const PROGRAM: &str = include_str!("new_program.mod");
 
-pub fn run(name: &Path, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(name: &Path, globals: &Globals) -> Result<Ending, CallError> {
     let cannot =
         |e: std::io::Error| CallError(format!("cannot make `{}`: {}", name.display(), system_words(&e)));
     // Making the last folder fails where anything has its name, so nothing is ever overwritten.

@@ -13,7 +13,7 @@ const PREFIX: &str = ".modl-";
 
 /// Writes `bytes` to `path` below `folder`, making folders as needed. The file appears whole or not
 /// at all: it is written under another name beside its place, then moved. Gives the path to show.
-pub fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
+pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
     let path = join("", path).ok_or(WriteError::Outside)?;
     let relative = Path::new(&path);
     let Some(name) = relative.file_name() else {
@@ -30,7 +30,7 @@ pub fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, WriteErr
 
 /// Puts other bytes into a file that is there, wherever links lead; whole or not at all. Who may read
 /// it stays as it was.
-pub fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
+pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = fs::canonicalize(file)?;
     let found = fs::metadata(&target)?;
     if found.permissions().readonly() {

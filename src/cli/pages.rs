@@ -20,6 +20,6 @@ const PAGES: &[(&str, &str)] = embed![
 ];
 
 /// The page of a code, such as `E0301`.
-pub fn page(code: &str) -> Option<&'static str> {
+pub(super) fn page(code: &str) -> Option<&'static str> {
     PAGES.iter().find(|(known, _)| *known == code).map(|(_, page)| *page)
 }

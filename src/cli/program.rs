@@ -13,7 +13,7 @@ use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-pub enum Task {
+pub(super) enum Task {
     Run,
     /// As `Run`, and every plan is drawn.
     Show,
@@ -31,12 +31,12 @@ struct Tally {
     cancelled: bool,
 }
 
-pub fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
     run_all(files, &task, globals, None).map(|(ending, _)| ending)
 }
 
 /// Runs programs; what they depend on is noted, and a run that is stale ends early.
-pub fn run_watched(
+pub(super) fn run_watched(
     files: &[PathBuf],
     task: &Task,
     globals: &Globals,
@@ -46,7 +46,11 @@ pub fn run_watched(
 }
 
 /// Runs one program; gives the files that it wrote, too.
-pub fn run_and_list(file: &Path, task: Task, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
+pub(super) fn run_and_list(
+    file: &Path,
+    task: Task,
+    globals: &Globals,
+) -> Result<(Ending, Vec<String>), CallError> {
     run_all(&[file.to_owned()], &task, globals, None)
 }
 
@@ -177,13 +181,13 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
 }
 
 /// As many threads as the user wants, otherwise as many as there are processors.
-pub fn threads(globals: &Globals) -> usize {
+pub(super) fn threads(globals: &Globals) -> usize {
     let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     globals.threads.map_or_else(processors, |n| usize::try_from(n).unwrap_or(1))
 }
 
 /// The limits that the user wants.
-pub fn limits(globals: &Globals) -> Limits {
+pub(super) fn limits(globals: &Globals) -> Limits {
     let defaults = Limits::default();
     let or = |wish: Option<u64>, default: usize| {
         wish.map_or(default, |n| usize::try_from(n).unwrap_or(usize::MAX))

@@ -42,7 +42,7 @@ struct Talk<'g> {
 }
 
 /// `modl repl`
-pub fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> {
     let stdlib = globals.stdlib.as_deref();
     let (project, load) = match file {
         Some(file) => {
@@ -75,7 +75,7 @@ pub fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> 
 }
 
 /// `modl -e`
-pub fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallError> {
     let project = Project::of_folder(globals.root.as_deref(), globals.stdlib.as_deref())?;
     listen_for_cancel();
     let mut talk = Talk::new(project, globals);

@@ -18,7 +18,7 @@ const JSON_DIAGNOSTICS_MAX: usize = 10_000;
 
 /// What a command found. The fields are the JSON object.
 #[derive(Debug, Default, Serialize)]
-pub struct Report {
+pub(super) struct Report {
     /// Whether the exit code is 0.
     pub ok: bool,
     pub diagnostics: Vec<JsonDiagnostic>,
@@ -41,14 +41,14 @@ pub struct Report {
 }
 
 #[derive(Debug, Serialize)]
-pub struct JsonTest {
+pub(super) struct JsonTest {
     pub file: String,
     pub name: String,
     pub passed: bool,
 }
 
 #[derive(Debug, Serialize)]
-pub struct JsonPlan {
+pub(super) struct JsonPlan {
     pub file: String,
     pub ok: bool,
     pub verdict: Verdict,
@@ -57,7 +57,13 @@ pub struct JsonPlan {
 impl Report {
     /// Takes diagnostics in: kept for the JSON object, or printed at once. What was reported for
     /// another file of the same call already, such as a shared import, is not repeated.
-    pub fn add(&mut self, sources: &Sources, diagnostics: &[Diagnostic], style: &Style, globals: &Globals) {
+    pub(super) fn add(
+        &mut self,
+        sources: &Sources,
+        diagnostics: &[Diagnostic],
+        style: &Style,
+        globals: &Globals,
+    ) {
         let mut hidden = 0;
         for diagnostic in sorted(diagnostics) {
             let json = to_json(sources, std::slice::from_ref(diagnostic), style).remove(0);
@@ -87,7 +93,7 @@ impl Report {
     }
 
     /// Ends the report: prints the JSON object, or how many mistakes there are.
-    pub fn finish(&mut self, ok: bool, globals: &Globals) {
+    pub(super) fn finish(&mut self, ok: bool, globals: &Globals) {
         self.ok = ok;
         if globals.json {
             let text = serde_json::to_string_pretty(self).expect("a report is plain data");
@@ -107,7 +113,7 @@ fn counted(n: usize, word: &str) -> Option<String> {
 }
 
 /// Tells that the call is wrong.
-pub fn call_error(globals: &Globals, message: &str) {
+pub(super) fn call_error(globals: &Globals, message: &str) {
     if globals.json {
         let object = serde_json::json!({ "ok": false, "call_error": message });
         print(&format!("{object:#}\n"));
@@ -117,11 +123,11 @@ pub fn call_error(globals: &Globals, message: &str) {
 }
 
 /// How diagnostics are drawn on this terminal.
-pub fn style(globals: &Globals, folder: &str) -> Style {
+pub(super) fn style(globals: &Globals, folder: &str) -> Style {
     Style { width: width(), color: color(globals.color), folder: folder.to_owned(), ..Style::default() }
 }
 
-pub fn width() -> usize {
+pub(super) fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok()?.parse().ok();
     match terminal_size::terminal_size_of(stderr()) {
         Some((terminal_size::Width(columns), _)) => columns.into(),
@@ -129,7 +135,7 @@ pub fn width() -> usize {
     }
 }
 
-pub fn color(wish: Color) -> bool {
+pub(super) fn color(wish: Color) -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     match wish {
         Color::Always => true,

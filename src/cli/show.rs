@@ -11,7 +11,7 @@ use crate::view::{self, Showing};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-pub fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let is_plan = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     let (ending, written) =
         if is_plan { plan_file(file, globals)? } else { program::run_and_list(file, Task::Show, globals)? };
@@ -66,7 +66,7 @@ fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
 }
 
 /// Hands a page to whatever opens pages here.
-pub fn open_page(page: &str) -> Result<(), CallError> {
+pub(super) fn open_page(page: &str) -> Result<(), CallError> {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])
     } else if cfg!(windows) {

@@ -31,7 +31,7 @@ const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Installs the Ctrl-C handler of a command: it cancels the run, and exits the process with code 130 after
 /// a grace period. Files are written whole or not at all, so nothing is lost by that.
-pub fn listen_for_cancel() {
+pub(super) fn listen_for_cancel() {
     let on_signal = || {
         CANCELLED.store(true, Ordering::Relaxed);
         cancel_state().cancel();
@@ -43,7 +43,7 @@ pub fn listen_for_cancel() {
 }
 
 /// Returns the cancellation token of the current run.
-pub fn cancel_state() -> CancelState {
+pub(super) fn cancel_state() -> CancelState {
     CANCEL_STATE.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
@@ -58,7 +58,7 @@ static PRESSED: Mutex<Option<Instant>> = Mutex::new(None);
 
 /// Installs the Ctrl-C handler of a session: it cancels the work at hand, and abandons it after a grace
 /// period. While the session waits for input, it exits the process with code 130.
-pub fn listen_for_interrupt() {
+pub(super) fn listen_for_interrupt() {
     let on_signal = || {
         let mut pressed = PRESSED.lock().unwrap_or_else(PoisonError::into_inner);
         if !BUSY.load(Ordering::Relaxed) {
@@ -79,7 +79,7 @@ pub fn listen_for_interrupt() {
 }
 
 /// Calls `wait`, which waits for input; a signal meanwhile ends the process.
-pub fn idle<T>(wait: impl FnOnce() -> T) -> T {
+pub(super) fn idle<T>(wait: impl FnOnce() -> T) -> T {
     BUSY.store(false, Ordering::Relaxed);
     let typed = wait();
     *TYPED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
@@ -88,7 +88,7 @@ pub fn idle<T>(wait: impl FnOnce() -> T) -> T {
 }
 
 /// Resets the cancellation token for new work. A Ctrl-C pressed since the last input still cancels it.
-pub fn begin_work() {
+pub(super) fn begin_work() {
     let cancel_state = cancel_state();
     cancel_state.reset();
     let at = |clock: &Mutex<Option<Instant>>| *clock.lock().unwrap_or_else(PoisonError::into_inner);
@@ -99,7 +99,7 @@ pub fn begin_work() {
 
 /// Waits a grace period for cancelled work to end by `settle`, and returns whether it did. If it did not,
 /// work started from here on has a new cancellation token.
-pub fn settled(settle: impl FnOnce() -> bool) -> bool {
+pub(super) fn settled(settle: impl FnOnce() -> bool) -> bool {
     let old = cancel_state();
     let overdue = old.clone();
     std::thread::spawn(move || {
@@ -128,24 +128,24 @@ fn poll_progress() {
     });
 }
 
-pub fn cancelled() -> bool {
+pub(super) fn cancelled() -> bool {
     CANCELLED.load(Ordering::Relaxed)
 }
 
 /// Writes to standard output. That nobody reads it any more is no mistake: `modl ... | head` is quiet.
-pub fn print(text: &str) {
+pub(super) fn print(text: &str) {
     let mut out = io::stdout().lock();
     drop(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
 }
 
 /// Writes to standard error, as quietly.
-pub fn print_error(text: &str) {
+pub(super) fn print_error(text: &str) {
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }
 
 /// The outside of a run as a terminal user sees it.
 #[derive(Debug)]
-pub struct Terminal {
+pub(super) struct Terminal {
     folder: PathBuf,
     /// Lines printed, where they go into a JSON object instead of to standard output.
     pub printed: Option<Vec<String>>,
@@ -157,7 +157,7 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    pub fn new(globals: &Globals) -> Terminal {
+    pub(super) fn new(globals: &Globals) -> Terminal {
         let shows_progress = !globals.json && io::stderr().is_terminal();
         if shows_progress {
             poll_progress();
@@ -173,7 +173,7 @@ impl Terminal {
     }
 
     /// Takes a progress line away before something else is printed.
-    pub fn clear_progress(&mut self) {
+    pub(super) fn clear_progress(&mut self) {
         if std::mem::take(&mut self.progress_shown) {
             print_error("\r\x1b[K");
         }

@@ -8,7 +8,7 @@ use crate::units::display::{number, quantity};
 use std::fmt::Write;
 
 /// The whole verdict on a plan, several lines.
-pub fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
+pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     let mut out = format!("{name}: {}\n", if verdict.ok() { "verified" } else { "NOT verified" });
     line(&mut out, &summary(verdict));
     for world in &plan.worlds {

@@ -21,7 +21,7 @@ type Stamp = Option<(SystemTime, u64)>;
 
 /// The files that a run depends on.
 #[derive(Debug, Default)]
-pub struct Watched {
+pub(super) struct Watched {
     stamps: Mutex<BTreeMap<PathBuf, Stamp>>,
     /// Whether one of them changed since the run began.
     stale: AtomicBool,
@@ -30,13 +30,13 @@ pub struct Watched {
 impl Watched {
     /// The run depends on this file, which need not be there; called before it is read, so that no
     /// change is missed.
-    pub fn note(&self, file: &Path) {
+    pub(super) fn note(&self, file: &Path) {
         let mut stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
         stamps.entry(file.to_owned()).or_insert_with(|| stamp(file));
     }
 
     /// Whether the run is not worth ending any more.
-    pub fn stale(&self) -> bool {
+    pub(super) fn stale(&self) -> bool {
         self.stale.load(Ordering::Relaxed)
     }
 
@@ -58,7 +58,7 @@ fn stamp(file: &Path) -> Stamp {
 }
 
 /// Runs, and runs again after each change, until the user wants it to end.
-pub fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, CallError> {
     if let Some(file) = files.iter().find(|file| file.as_path() == Path::new("-")) {
         return Err(CallError(format!("`{}`: standard input does not change", file.display())));
     }

@@ -6,7 +6,7 @@ use crate::syntax::{self, ast};
 /// An example, as a text that stands where it does in its file: blanks take the place of the comment's
 /// marks, so that lines and columns are those of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Example {
+pub(crate) struct Example {
     pub text: String,
     /// The line of its first line, from 1.
     pub first_line: usize,
@@ -15,7 +15,7 @@ pub struct Example {
 }
 
 /// The examples of a program, in order.
-pub fn examples(text: &str) -> Vec<Example> {
+pub(crate) fn examples(text: &str) -> Vec<Example> {
     let parsed = syntax::parse(FileId(0), text);
     let docs = parsed.file.comments.iter().filter(|c| is_doc(c.kind)).map(|c| c.span.start as usize);
     let mut found: Vec<Example> = Vec::new();

@@ -4,14 +4,14 @@ use super::outline::{Entry, Page};
 use crate::check::summary::{Group, Inside};
 use std::fmt::Write as _;
 
-pub const STYLE: &str = include_str!("site.css");
-pub const SCRIPT: &str = include_str!("search.js");
+pub(super) const STYLE: &str = include_str!("site.css");
+pub(super) const SCRIPT: &str = include_str!("search.js");
 
 /// A piece of documentation as HTML.
-pub type Doc<'d> = &'d mut dyn FnMut(&str) -> String;
+pub(super) type Doc<'d> = &'d mut dyn FnMut(&str) -> String;
 
 /// Text that is no markup.
-pub fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
@@ -35,7 +35,7 @@ fn link(to: &str, words: &str) -> String {
 }
 
 /// The page of a file.
-pub fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
+pub(super) fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
     let mut body = format!("<h1>{}</h1>\n", escaped(&page.title));
     if let Some(text) = &page.doc {
         body.push_str(&doc(text));
@@ -121,7 +121,7 @@ fn wrapped(signature: &str) -> String {
 }
 
 /// What there is, page by page.
-pub fn index(pages: &[Page]) -> String {
+pub(super) fn index(pages: &[Page]) -> String {
     let mut body = String::from("<h1>Documentation</h1>\n");
     for page in pages {
         let _ = writeln!(
@@ -145,7 +145,7 @@ pub fn index(pages: &[Page]) -> String {
 }
 
 /// All configurations, by order, with what they can do.
-pub fn guide(pages: &[Page], doc: Doc) -> String {
+pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     let mut body = String::from(
         "<h1>Guide to the robots</h1>\n<p>A configuration of order 1 is made of modules; one of order 2, of \
          configurations of order 1 and modules; and so on.</p>\n",
@@ -191,7 +191,7 @@ pub fn guide(pages: &[Page], doc: Doc) -> String {
 }
 
 /// What can be searched for, as a script: name, words, address.
-pub fn search_index(pages: &[Page]) -> String {
+pub(super) fn search_index(pages: &[Page]) -> String {
     let mut rows = Vec::new();
     for page in pages {
         for entry in &page.entries {

@@ -3,7 +3,7 @@
 use pulldown_cmark::{BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag, html};
 
 /// Where names lead.
-pub trait Targets {
+pub(super) trait Targets {
     /// The address of a declaration, or of a member behind a dot, as seen from the page at hand.
     fn address(&self, name: &str) -> Option<String>;
 
@@ -12,7 +12,7 @@ pub trait Targets {
 }
 
 /// The HTML of a text, and the links in it that lead nowhere.
-pub fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
+pub(super) fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
     let mut lost = Vec::new();
     let mut lost_names = Vec::new();
     let mut resolve = |link: BrokenLink| {

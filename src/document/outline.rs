@@ -7,7 +7,7 @@ use crate::source::FileId;
 use std::sync::Arc;
 
 /// What a page tells of a file.
-pub struct Page {
+pub(super) struct Page {
     /// `std.smores`, or the file's path.
     pub title: String,
     /// The name of its file in the site.
@@ -17,7 +17,7 @@ pub struct Page {
 }
 
 /// A declaration.
-pub struct Entry {
+pub(super) struct Entry {
     pub name: String,
     /// `module`, `config`, `fn`.
     pub word: &'static str,
@@ -35,7 +35,7 @@ pub struct Entry {
 }
 
 /// The page of one file of a program; `None` for a file that declares nothing for others.
-pub fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Option<Page> {
+pub(super) fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Option<Page> {
     let source = checked.sources.file(file);
     let stem = source.name.trim_end_matches(".mod");
     let title = match stem.strip_prefix("std/") {

@@ -35,7 +35,11 @@ impl Host for Answers {
 }
 
 /// Finds out about every instance of a page that can be had without arguments; gives the pictures by name.
-pub fn drawn(page: &mut Page, files: &dyn Files, cancel_state: &CancelState) -> Vec<(String, Vec<u8>)> {
+pub(super) fn drawn(
+    page: &mut Page,
+    files: &dyn Files,
+    cancel_state: &CancelState,
+) -> Vec<(String, Vec<u8>)> {
     let import = match page.title.strip_prefix("std.") {
         Some(_) => page.title.clone(),
         None => format!("\"{}\"", page.title),

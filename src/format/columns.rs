@@ -4,7 +4,7 @@ use super::spacing::APART;
 
 /// A line that is laid out, but for the column of its last comment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Line {
+pub(super) struct Line {
     /// In spaces.
     pub indent: usize,
     /// Without indentation. May hold line breaks, in a text or comment.
@@ -14,7 +14,7 @@ pub struct Line {
 }
 
 impl Line {
-    pub fn blank() -> Line {
+    pub(super) fn blank() -> Line {
         Line::default()
     }
 
@@ -33,7 +33,7 @@ impl Line {
 
 /// The text of lines. Comments behind adjacent lines begin in one column; two blank lines are one, and
 /// none stands at either end.
-pub fn aligned(lines: Vec<Line>) -> String {
+pub(super) fn aligned(lines: Vec<Line>) -> String {
     let mut out = String::new();
     let mut blank = false;
     let same = |a: &Line, b: &Line| a.comment.is_some() == b.comment.is_some();

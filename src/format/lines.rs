@@ -14,7 +14,7 @@ struct Open {
 }
 
 /// The lines of a text, laid out anew where it can be read.
-pub fn lines(text: &str, outline: &Outline) -> Vec<Line> {
+pub(super) fn lines(text: &str, outline: &Outline) -> Vec<Line> {
     let mut layout = Layout { open: Vec::new(), lines: Vec::new(), before: None, opened: false };
     let start = outline.chunks.first().map_or(0, |chunk| chunk.range.start);
     let mut tokens = outline.tokens.iter().peekable();

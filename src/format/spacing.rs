@@ -4,7 +4,7 @@ use crate::syntax::{Role, Token, TokenKind};
 
 /// A token with what is known of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece<'t> {
+pub(super) struct Piece<'t> {
     pub token: Token,
     pub text: &'t str,
     pub role: Option<Role>,
@@ -15,18 +15,18 @@ pub struct Piece<'t> {
 }
 
 impl Piece<'_> {
-    pub fn is_comment(&self) -> bool {
+    pub(super) fn is_comment(&self) -> bool {
         matches!(
             self.token.kind,
             TokenKind::LineComment | TokenKind::BlockComment { .. } | TokenKind::UnclosedComment
         )
     }
 
-    pub fn opens(&self) -> bool {
+    pub(super) fn opens(&self) -> bool {
         self.token.kind == TokenKind::Open
     }
 
-    pub fn closes(&self) -> bool {
+    pub(super) fn closes(&self) -> bool {
         self.token.kind == TokenKind::Close
     }
 
@@ -38,10 +38,10 @@ impl Piece<'_> {
 }
 
 /// Between clauses that share a line, and before a comment behind what it is about.
-pub const APART: usize = 2;
+pub(super) const APART: usize = 2;
 
 /// The spaces before the last of the pieces of a line, of which there are two at least.
-pub fn before_last(line: &[Piece]) -> usize {
+pub(super) fn before_last(line: &[Piece]) -> usize {
     let [.., before, after] = line else { return 0 };
     if after.token.kind == TokenKind::LineComment {
         return APART;

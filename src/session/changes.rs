@@ -24,7 +24,7 @@ pub enum ChangeKind {
 }
 
 /// Differences between the declarations of files, by file and name.
-pub fn changes(before: &Checked, after: &Checked) -> Vec<Change> {
+pub(super) fn changes(before: &Checked, after: &Checked) -> Vec<Change> {
     let (old, new) = (declarations(before), declarations(after));
     let dependencies = Dependencies::of(after);
     let meant = meant(after);

@@ -4,7 +4,7 @@ use crate::source::suggest::suggest;
 
 /// What a person wants besides evaluating.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Command {
+pub(crate) enum Command {
     Help,
     Type(String),
     Doc(String),
@@ -23,7 +23,7 @@ pub enum Command {
 }
 
 /// Name, what follows it, and what it does; in the order of `:help`.
-pub const COMMANDS: &[(&str, &str, &str)] = &[
+pub(crate) const COMMANDS: &[(&str, &str, &str)] = &[
     ("help", "", "this list"),
     ("type", "EXPR", "the type of an expression, which is not evaluated"),
     ("doc", "NAME", "what a name means: signature and documentation; also `?NAME`"),
@@ -42,7 +42,7 @@ pub const COMMANDS: &[(&str, &str, &str)] = &[
 ];
 
 /// The command that a line is; `None` where it is none; else what is wrong with it.
-pub fn parse(line: &str) -> Option<Result<Command, String>> {
+pub(crate) fn parse(line: &str) -> Option<Result<Command, String>> {
     let line = line.trim();
     if let Some(name) = line.strip_prefix('?') {
         let name = name.trim().to_owned();
@@ -96,7 +96,7 @@ fn unquoted(path: &str) -> String {
 }
 
 /// The text of `:help`.
-pub fn help() -> String {
+pub(crate) fn help() -> String {
     let mut out =
         String::from("Type an expression, a declaration or a statement of the language; or one of\n\n");
     for (name, wants, does) in COMMANDS {

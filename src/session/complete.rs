@@ -7,7 +7,7 @@ use super::command::COMMANDS;
 use super::dependencies::meant;
 use super::kept::Kept;
 use super::locals::{Is, Local, locals};
-pub use super::members::Named;
+pub(crate) use super::members::Named;
 use super::members::{about, members, params_of_member};
 use super::state::{Session, is_given, value_type};
 use crate::check::summary::{param_text, params_of};
@@ -29,7 +29,7 @@ pub struct Knowledge {
 
 /// What may stand at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Completion {
+pub(crate) struct Completion {
     /// Where what it takes the place of begins, in bytes.
     pub start: usize,
     pub candidates: Vec<Named>,
@@ -50,7 +50,7 @@ impl Session {
 const HINT_MAX: usize = 60;
 
 /// What may stand at `at`, a place in bytes.
-pub fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completion {
+pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completion {
     let before = &text[..at];
     let mut completion = candidates(knowledge, before);
     let typed = before[completion.start..].to_owned();
@@ -61,7 +61,7 @@ pub fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completion {
 }
 
 /// The parameters that are still to come in the call in which a text ends, as a person reads them.
-pub fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
+pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
     let open = open_call(text)?;
     let callee = receiver(&text[..open])?;
     let inside = &text[open + 1..];

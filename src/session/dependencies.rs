@@ -6,7 +6,7 @@ use crate::source::{FileId, Span, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Who names whom, among the declarations of the project and the session.
-pub struct Dependencies<'c> {
+pub(super) struct Dependencies<'c> {
     checked: &'c Checked,
     /// By file: begin and end of every declaration, in order.
     places: BTreeMap<FileId, Vec<(u32, u32, DefId)>>,
@@ -15,7 +15,7 @@ pub struct Dependencies<'c> {
 }
 
 impl<'c> Dependencies<'c> {
-    pub fn of(checked: &'c Checked) -> Dependencies<'c> {
+    pub(super) fn of(checked: &'c Checked) -> Dependencies<'c> {
         let mut places: BTreeMap<FileId, Vec<(u32, u32, DefId)>> = BTreeMap::new();
         for &id in &checked.program.own {
             let def = checked.program.def(id);
@@ -32,7 +32,7 @@ impl<'c> Dependencies<'c> {
     }
 
     /// The declaration in which a place lies.
-    pub fn declaration_at(&self, span: Span) -> Option<DefId> {
+    pub(super) fn declaration_at(&self, span: Span) -> Option<DefId> {
         let defs = self.places.get(&span.file)?;
         let next = defs.partition_point(|(start, _, _)| *start <= span.start);
         let (_, end, id) = *defs.get(next.checked_sub(1)?)?;
@@ -40,7 +40,7 @@ impl<'c> Dependencies<'c> {
     }
 
     /// All that name one of these, or name something that does; without these themselves.
-    pub fn users_of(&self, named: &[DefId]) -> BTreeSet<DefId> {
+    pub(super) fn users_of(&self, named: &[DefId]) -> BTreeSet<DefId> {
         let mut found = BTreeSet::new();
         let mut waiting = named.to_vec();
         while let Some(id) = waiting.pop() {
@@ -51,7 +51,7 @@ impl<'c> Dependencies<'c> {
     }
 
     /// All that the text of a file needs: what it names, and what that names in turn.
-    pub fn needed_by(&self, file: FileId) -> BTreeSet<DefId> {
+    pub(super) fn needed_by(&self, file: FileId) -> BTreeSet<DefId> {
         let mut named: BTreeMap<DefId, Vec<DefId>> = BTreeMap::new();
         for (of, users) in &self.users {
             users.iter().for_each(|user| named.entry(*user).or_default().push(*of));
@@ -69,7 +69,7 @@ impl<'c> Dependencies<'c> {
 }
 
 /// The declarations that names at the top of the session mean, by name.
-pub fn meant(checked: &Checked) -> BTreeMap<Symbol, DefId> {
+pub(super) fn meant(checked: &Checked) -> BTreeMap<Symbol, DefId> {
     let meant = checked.names.iter().filter_map(|(name, meaning)| match meaning {
         Meaning::Def(id) => Some((*name, *id)),
         Meaning::File(_) => None,

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// What a piece of a text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
+pub(crate) enum Class {
     Keyword,
     /// The name of a type or of what has instances.
     Type,
@@ -17,7 +17,7 @@ pub enum Class {
 }
 
 /// The pieces of a text that have a class, in order.
-pub fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
+pub(crate) fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
     let command = text.trim_start();
     if command.starts_with(':') || command.starts_with('?') {
         let start = text.len() - command.len();

@@ -3,14 +3,14 @@
 
 /// A name of an unfinished text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Local {
+pub(super) struct Local {
     pub name: String,
     pub is: Is,
 }
 
 /// What is known of it, as it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Is {
+pub(super) enum Is {
     /// Of this type.
     Typed(String),
     /// As many of this type as are given.
@@ -48,7 +48,7 @@ const DECLARING: &[&str] = &[
 const CLAUSES: &[&str] = &["connect", "set", "base", "require", "expect", "touching", "alias"];
 
 /// The names that a text declares, the latest last.
-pub fn locals(text: &str) -> Vec<Local> {
+pub(super) fn locals(text: &str) -> Vec<Local> {
     let mut found = Vec::new();
     let mut rest = text;
     while let Some((word, after)) = next_word(rest) {

@@ -7,19 +7,19 @@ use crate::source::Symbol;
 
 /// A name that can be written, with a few words about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Named {
+pub(crate) struct Named {
     pub name: String,
     pub about: String,
 }
 
 impl Named {
-    pub fn new(name: impl Into<String>, about: impl Into<String>) -> Named {
+    pub(crate) fn new(name: impl Into<String>, about: impl Into<String>) -> Named {
         Named { name: name.into(), about: about.into() }
     }
 }
 
 /// What can follow `value.` for a value of this type.
-pub fn members(checked: &Checked, ty: &Type) -> Vec<Named> {
+pub(super) fn members(checked: &Checked, ty: &Type) -> Vec<Named> {
     let program = &checked.program;
     match ty {
         Type::Instance(id) => of_instance(program, *id),
@@ -109,13 +109,13 @@ fn sorted(mut found: Vec<Named>) -> Vec<Named> {
 }
 
 /// `(x: Length, n: Int) -> Angle`
-pub fn params_text(program: &Program, params: &[Param], result: &str) -> String {
+pub(super) fn params_text(program: &Program, params: &[Param], result: &str) -> String {
     let params: Vec<String> = params.iter().map(|p| param_text(program, p)).collect();
     format!("({}) -> {result}", params.join(", "))
 }
 
 /// Parameters of what is called by a name behind a dot.
-pub fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
+pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
     let program = &checked.program;
     let mut line = match ty {
         Type::Instance(id) => {
@@ -138,7 +138,7 @@ pub fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param
 }
 
 /// A few words about a declaration.
-pub fn about(program: &Program, id: DefId) -> String {
+pub(super) fn about(program: &Program, id: DefId) -> String {
     match &program.def(id).kind {
         DefKind::Let(binding) => program.type_name(&binding.ty),
         DefKind::Fn(f) => params_text(program, &f.params, &program.type_name(&f.result)),

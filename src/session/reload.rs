@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 ///
 /// What stands elsewhere in its file now is worked out again, too, unless it is plain data: values of
 /// robots and plans know the places that they come from.
-pub fn stale(before: &Checked, after: &Checked) -> Option<Vec<DefId>> {
+pub(super) fn stale(before: &Checked, after: &Checked) -> Option<Vec<DefId>> {
     let names = |checked: &Checked| -> Vec<_> {
         checked.sources.files().map(|(_, file)| file.name.to_string()).collect()
     };

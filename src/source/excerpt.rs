@@ -17,14 +17,14 @@ const LABEL_LINES_MAX: usize = 6;
 const TAB: usize = 4;
 
 /// Columns that a label's words need to the right of its middle; else its line is shifted.
-pub const LABEL_ROOM: usize = 14;
+pub(super) const LABEL_ROOM: usize = 14;
 
 /// What stands for text that was cut off.
 const CUT: &str = "…";
 
 /// Neighbouring lines of one file.
 #[derive(Debug)]
-pub struct Block {
+pub(super) struct Block {
     pub file: FileId,
     /// From 1.
     pub first_line: usize,
@@ -35,7 +35,7 @@ pub struct Block {
 
 /// Where a label lies in the excerpt.
 #[derive(Debug)]
-pub struct Mark {
+pub(super) struct Mark {
     /// In [`Excerpt::text`]; never empty, never past the last visible character.
     pub range: Range<usize>,
     /// In the file.
@@ -45,7 +45,7 @@ pub struct Mark {
 }
 
 #[derive(Debug, Default)]
-pub struct Excerpt {
+pub(super) struct Excerpt {
     pub text: String,
     pub blocks: Vec<Block>,
     /// One for each label, in the labels' order.
@@ -63,7 +63,7 @@ struct Place {
 }
 
 /// The excerpt that shows all `labels`, no line of it wider than `columns`.
-pub fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
+pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
     let places: Vec<Place> = labels.iter().map(|label| place(sources, label)).collect();
     let mut excerpt = Excerpt::default();
     let mut starts = vec![0; places.len()];
@@ -269,7 +269,7 @@ fn columns_of(c: char) -> usize {
 }
 
 /// A character that a terminal draws and does not obey.
-pub fn visible(c: char) -> char {
+pub(super) fn visible(c: char) -> char {
     match c {
         '\0'..='\u{1f}' => char::from_u32(0x2400 + c as u32).expect("control pictures follow the controls"),
         '\u{7f}' => '\u{2421}',

@@ -1,17 +1,17 @@
 //! Words of other languages, and what takes their place here: for people who come from there.
 
 /// What to write instead of a word that means nothing here but does in another language.
-pub fn instead(word: &str) -> Option<&'static str> {
+pub(crate) fn instead(word: &str) -> Option<&'static str> {
     INSTEAD.iter().find(|(words, _)| words.contains(&word)).map(|(_, instead)| *instead)
 }
 
 /// The type that is meant by its name in another language.
-pub fn of_type(name: &str) -> Option<&'static str> {
+pub(crate) fn of_type(name: &str) -> Option<&'static str> {
     TYPES.iter().find(|(names, _)| names.contains(&name)).map(|(_, ty)| *ty)
 }
 
 /// The unit that is meant by a longer name.
-pub fn unit(name: &str) -> Option<&'static str> {
+pub(crate) fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
 }
 

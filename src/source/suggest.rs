@@ -2,7 +2,7 @@
 
 /// The candidate nearest to `name`, if one is near enough to be what was meant.
 /// Ties go to the candidate that comes first in alphabetical order.
-pub fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()
         .filter(|candidate| *candidate != name && !candidate.starts_with('_'))

@@ -24,18 +24,18 @@ impl Tall {
 
 /// How strongly operators bind, loosest first.
 mod power {
-    pub const LAMBDA: u8 = 1;
-    pub const OR: u8 = 2;
-    pub const AND: u8 = 3;
-    pub const NOT: u8 = 4;
-    pub const COMPARISON: u8 = 5;
-    pub const MATED: u8 = 6;
-    pub const RANGE: u8 = 7;
-    pub const JOIN: u8 = 8;
-    pub const SUM: u8 = 9;
-    pub const PRODUCT: u8 = 10;
-    pub const SIGN: u8 = 11;
-    pub const POWER: u8 = 12;
+    pub(super) const LAMBDA: u8 = 1;
+    pub(super) const OR: u8 = 2;
+    pub(super) const AND: u8 = 3;
+    pub(super) const NOT: u8 = 4;
+    pub(super) const COMPARISON: u8 = 5;
+    pub(super) const MATED: u8 = 6;
+    pub(super) const RANGE: u8 = 7;
+    pub(super) const JOIN: u8 = 8;
+    pub(super) const SUM: u8 = 9;
+    pub(super) const PRODUCT: u8 = 10;
+    pub(super) const SIGN: u8 = 11;
+    pub(super) const POWER: u8 = 12;
 }
 
 /// What an infix operator makes of its operands.

@@ -38,7 +38,7 @@ pub enum TokenKind {
 
 /// Yields the tokens of a text; every byte that is no white space belongs to one.
 #[derive(Clone)]
-pub struct Lexer<'t> {
+pub(super) struct Lexer<'t> {
     bytes: &'t [u8],
     text: &'t str,
     at: usize,
@@ -48,7 +48,7 @@ pub struct Lexer<'t> {
 
 impl<'t> Lexer<'t> {
     /// Tokens from `start` on, which must not lie within a token.
-    pub fn new(text: &'t str, start: usize) -> Lexer<'t> {
+    pub(super) fn new(text: &'t str, start: usize) -> Lexer<'t> {
         Lexer { bytes: text.as_bytes(), text, at: start, plain_text: false }
     }
 
@@ -206,12 +206,12 @@ impl Lexer<'_> {
     }
 }
 
-pub fn is_word_byte(byte: u8) -> bool {
+pub(super) fn is_word_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
 /// Where the line that holds this place ends: at its line break, or at the end of the text.
-pub fn line_end(bytes: &[u8], start: usize) -> usize {
+pub(super) fn line_end(bytes: &[u8], start: usize) -> usize {
     bytes[start..].iter().position(|b| *b == b'\n').map_or(bytes.len(), |length| start + length)
 }
 

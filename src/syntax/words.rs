@@ -39,12 +39,12 @@ pub const CONFIG: &[&str] =
 pub const TRUSS: &[&str] = &["node", "strut", "let", "require", "if", "for"];
 
 /// What a clause goes on with, also on a new line.
-pub const GOING_ON: &[&str] = &[
+pub(super) const GOING_ON: &[&str] = &[
     "and", "or", "else", "in", "at", "turned", "collides", "facing", "up", "on", "of", "as", "is", "turn",
     "allows", "closed",
 ];
 
-pub fn is_reserved(word: &str) -> bool {
+pub(super) fn is_reserved(word: &str) -> bool {
     RESERVED.contains(&word)
 }
 
@@ -76,6 +76,6 @@ const FORMS: &[(&str, &str)] = &[
 ];
 
 /// How what begins with this word is written.
-pub fn form(word: &str) -> Option<&'static str> {
+pub(super) fn form(word: &str) -> Option<&'static str> {
     FORMS.iter().find(|(first, _)| *first == word).map(|(_, form)| *form)
 }

@@ -14,13 +14,13 @@ use crate::robot::{Kinematics, Library};
 const CELLS_MAX: usize = 20_000;
 
 /// A mesh in the world, m, with its colour.
-pub struct Drawn {
+pub(super) struct Drawn {
     pub mesh: Mesh,
     pub colour: Rgb,
 }
 
 /// Everything that is drawn at a time, s.
-pub fn drawn(showing: &Showing, time: f64) -> Vec<Drawn> {
+pub(super) fn drawn(showing: &Showing, time: f64) -> Vec<Drawn> {
     let plan = showing.plan;
     match &plan.body {
         Body::Tracks(tracks) => robot(showing, tracks, time),
@@ -53,7 +53,7 @@ fn robot(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Drawn> {
 }
 
 /// World poses of all links at a time.
-pub fn link_poses(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Pose> {
+pub(super) fn link_poses(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Pose> {
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];

@@ -4,9 +4,9 @@ use crate::robot::Assembly;
 
 /// Red, green, blue in 0..1, as a screen shows them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rgb(pub [f64; 3]);
+pub(super) struct Rgb(pub [f64; 3]);
 
-pub const PALETTE: [Rgb; 8] = [
+pub(super) const PALETTE: [Rgb; 8] = [
     hex(0x3865d4),
     hex(0xf5b116),
     hex(0x2aa264),
@@ -18,10 +18,10 @@ pub const PALETTE: [Rgb; 8] = [
 ];
 
 /// Of what a failure names.
-pub const FAILED: Rgb = hex(0xd9480f);
+pub(super) const FAILED: Rgb = hex(0xd9480f);
 
 /// Of what is no part of a robot: obstacles, and ground that is not flat.
-pub const AROUND: Rgb = hex(0xb4b8b2);
+pub(super) const AROUND: Rgb = hex(0xb4b8b2);
 
 /// From cold to warm (after cividis).
 const RAMP: [Rgb; 5] = [hex(0x1c4a86), hex(0x4f7196), hex(0x7f8c8d), hex(0xbca94f), hex(0xfddc3b)];
@@ -38,12 +38,12 @@ const fn hex(rgb: u32) -> Rgb {
 }
 
 impl Rgb {
-    pub fn mixed(self, other: Rgb, part: f64) -> Rgb {
+    pub(super) fn mixed(self, other: Rgb, part: f64) -> Rgb {
         Rgb(std::array::from_fn(|i| self.0[i] + (other.0[i] - self.0[i]) * part))
     }
 
     /// The colour of the link of this number in a module of this colour.
-    pub fn shaded(self, link: usize) -> Rgb {
+    pub(super) fn shaded(self, link: usize) -> Rgb {
         let shade = SHADES[link % SHADES.len()];
         if shade == 0.0 {
             return self;
@@ -54,14 +54,14 @@ impl Rgb {
     }
 
     /// Of a number in 0..1.
-    pub fn ramp(x: f64) -> Rgb {
+    pub(super) fn ramp(x: f64) -> Rgb {
         let x = x.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
         let i = (x as usize).min(RAMP.len() - 2);
         RAMP[i].mixed(RAMP[i + 1], x - i as f64)
     }
 
     /// `#rrggbb`
-    pub fn code(self) -> String {
+    pub(super) fn code(self) -> String {
         let [r, g, b] = self.0.map(|c| libm::round(c * 255.0) as u8);
         format!("#{r:02x}{g:02x}{b:02x}")
     }
@@ -69,7 +69,7 @@ impl Rgb {
 
 /// The part of the whole that each module belongs to, numbered in order: the first step of its path
 /// that is not the same for all.
-pub fn groups(robot: &Assembly) -> Vec<usize> {
+pub(super) fn groups(robot: &Assembly) -> Vec<usize> {
     let paths: Vec<Vec<&str>> = robot.modules.iter().map(|m| m.name.split('.').collect()).collect();
     let same = |step: usize| paths.iter().all(|path| path.len() > step + 1 && path[step] == paths[0][step]);
     let step = if paths.is_empty() { 0 } else { (0..).find(|step| !same(*step)).unwrap_or(0) };

@@ -15,7 +15,7 @@ const TEXTS_MAX: usize = 400_000;
 const CLEARANCES: usize = 160;
 
 /// The plan's data as the page's scripts read it.
-pub fn data(showing: &Showing) -> Value {
+pub(super) fn data(showing: &Showing) -> Value {
     let plan = showing.plan;
     let end = findings::end(plan);
     let moments = history(plan, end);

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 const TOL_TIME: f64 = 1e-3;
 
 /// Until when a plan is played: a failed one up to its first failure, s.
-pub fn end(plan: &Plan) -> f64 {
+pub(super) fn end(plan: &Plan) -> f64 {
     let duration = plan.body.duration();
     let failures = plan.verdict.iter().flat_map(|verdict| &verdict.failures);
     // What could not be judged at all failed at no time.
@@ -20,7 +20,7 @@ pub fn end(plan: &Plan) -> f64 {
     failures.map(|failure| failure.time).fold(duration, f64::min).clamp(0.0, duration.max(0.0))
 }
 
-pub fn verdict(plan: &Plan) -> Value {
+pub(super) fn verdict(plan: &Plan) -> Value {
     let Some(verdict) = &plan.verdict else {
         return json!({
             "stamp": "not judged", "checks": [], "worst": [], "failures": [], "notes": [], "events": [],
@@ -60,7 +60,7 @@ fn meeting(failure: &Failure, modules: &[usize], plan: &Plan) -> Option<Vec3> {
 }
 
 /// The modules that the first failure names, if a time is its own.
-pub fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
+pub(super) fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
     let first = plan.verdict.as_ref().and_then(|verdict| verdict.failures.first());
     first
         .filter(|failure| (failure.time - time).abs() <= TOL_TIME)
@@ -111,7 +111,7 @@ fn short_length(x: f64) -> f64 {
 }
 
 /// One line below the title.
-pub fn summary(showing: &Showing) -> String {
+pub(super) fn summary(showing: &Showing) -> String {
     let plan = showing.plan;
     let (count, what) = match &plan.body {
         Body::Tracks(tracks) => (tracks.robot.modules.len() as u64, "module"),
@@ -133,7 +133,7 @@ pub fn summary(showing: &Showing) -> String {
     parts.join(", ")
 }
 
-pub fn causes(causes: &[Cause]) -> Vec<Value> {
+pub(super) fn causes(causes: &[Cause]) -> Vec<Value> {
     let place = |c: &Cause| json!({ "file": c.file, "line": c.line, "text": c.text });
     let cause = |c: &Cause| {
         let caller = c.caller.as_deref().map(place);

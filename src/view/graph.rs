@@ -14,7 +14,7 @@ const BOND: f64 = 120.0;
 /// Where a port's name stands on its bond.
 const NEAR: f64 = 0.36;
 
-pub fn graph(showing: &Showing, tracks: &Tracks) -> String {
+pub(super) fn graph(showing: &Showing, tracks: &Tracks) -> String {
     let robot = &tracks.robot;
     let places = places(showing, tracks);
     let group = groups(robot);

@@ -5,7 +5,7 @@ use crate::plan::{Ratio, Run, Stages};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
-pub fn body(stages: &Stages, library: &Library) -> Value {
+pub(super) fn body(stages: &Stages, library: &Library) -> Value {
     let cell = library.cells.get(stages.cell);
     let stage = |stage: &crate::plan::Stage| {
         let (first, last) = stage.law.ramps();

@@ -26,7 +26,7 @@ struct Flat {
     look: String,
 }
 
-pub fn lattice(showing: &Showing, stages: &Stages) -> String {
+pub(super) fn lattice(showing: &Showing, stages: &Stages) -> String {
     let instants = stages.instants();
     let name = |i: usize| match i.checked_sub(1) {
         None => "start".to_owned(),
@@ -38,7 +38,7 @@ pub fn lattice(showing: &Showing, stages: &Stages) -> String {
     laid_out(showing, panels, instants.len() - shown)
 }
 
-pub fn truss(showing: &Showing, paths: &NodePaths) -> String {
+pub(super) fn truss(showing: &Showing, paths: &NodePaths) -> String {
     let shown = paths.keyframes.len().min(PANELS_MAX);
     let panels = paths.keyframes[..shown].iter().enumerate().map(|(i, keyframe)| {
         let name = if i == 0 {

@@ -13,7 +13,7 @@ const ROUND: usize = 40;
 const SMOOTH: f64 = 0.848;
 
 #[derive(Clone, Debug, Default)]
-pub struct Mesh {
+pub(super) struct Mesh {
     /// Corners, and the normals at them.
     pub triangles: Vec<([Vec3; 3], [Vec3; 3])>,
     /// Lines to draw.
@@ -22,7 +22,7 @@ pub struct Mesh {
 
 impl Mesh {
     /// Shapes of a link in the link's frame.
-    pub fn of(shapes: &[Placed]) -> Mesh {
+    pub(super) fn of(shapes: &[Placed]) -> Mesh {
         let mut mesh = Mesh::default();
         primitives(shapes, &mut |X, piece| match piece {
             Primitive::Box { size } => mesh.add_box(X, &size),
@@ -34,7 +34,7 @@ impl Mesh {
     }
 
     /// Faces and edges of a box around the frame's origin.
-    pub fn add_box(&mut self, X: &Pose, size: &Vec3) {
+    pub(super) fn add_box(&mut self, X: &Pose, size: &Vec3) {
         let corner = |i: usize| {
             let side = |axis: usize| if i >> axis & 1 == 1 { size[axis] / 2.0 } else { -size[axis] / 2.0 };
             Vec3::new(side(0), side(1), side(2))
@@ -48,7 +48,7 @@ impl Mesh {
     }
 
     /// A cylinder along z.
-    pub fn tube(&mut self, X: &Pose, radius: f64, length: f64) {
+    pub(super) fn tube(&mut self, X: &Pose, radius: f64, length: f64) {
         let rim = |i: usize, z: f64| {
             let (s, c) = libm::sincos(TAU * i as f64 / ROUND as f64);
             Vec3::new(radius * c, radius * s, z * length)
@@ -68,7 +68,7 @@ impl Mesh {
         }
     }
 
-    pub fn ball(&mut self, X: &Pose, radius: f64) {
+    pub(super) fn ball(&mut self, X: &Pose, radius: f64) {
         let (around, down) = (ROUND / 2, ROUND / 4);
         let point = |i: usize, j: usize| {
             let (s, c) = libm::sincos(TAU * i as f64 / around as f64);
@@ -112,7 +112,7 @@ impl Mesh {
         self.edges.extend(sharp.map(|((i, j), _)| [at(*i), at(*j)]));
     }
 
-    pub fn moved(&self, X: &Pose) -> Mesh {
+    pub(super) fn moved(&self, X: &Pose) -> Mesh {
         let at = |p: Vec3| X.transform_point(&p.into()).coords;
         let triangles = self.triangles.iter().map(|(p, n)| (p.map(at), n.map(|n| X.rotation * n)));
         Mesh { triangles: triangles.collect(), edges: self.edges.iter().map(|e| e.map(at)).collect() }

@@ -120,7 +120,7 @@ fn unmarked(json: &str) -> String {
 }
 
 /// Text for the places between tags.
-pub fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

@@ -2,7 +2,7 @@
 //! 1982), in whole numbers.
 
 /// Colours of one picture.
-pub const COLOURS_MAX: usize = 48;
+pub(super) const COLOURS_MAX: usize = 48;
 
 /// Bits of each of red, green and blue that tell colours apart.
 const BITS: u32 = 5;
@@ -19,7 +19,7 @@ struct Tone {
 }
 
 /// The colours, and the colour of each pixel by its place among them; pixels are red, green, blue.
-pub fn reduced(pixels: &[u8]) -> (Vec<[u8; 3]>, Vec<u8>) {
+pub(super) fn reduced(pixels: &[u8]) -> (Vec<[u8; 3]>, Vec<u8>) {
     let mut tones: Vec<Option<Tone>> = vec![None; 1 << (3 * BITS)];
     for pixel in pixels.chunks_exact(3) {
         let parts = [0, 1, 2].map(|k| pixel[k] >> (8 - BITS));

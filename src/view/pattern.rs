@@ -54,7 +54,7 @@ struct Cut {
 }
 
 /// The pattern; `None` where the modules are no flat panels on hinges.
-pub fn pattern(showing: &Showing, tracks: &Tracks) -> Option<String> {
+pub(super) fn pattern(showing: &Showing, tracks: &Tracks) -> Option<String> {
     let robot = &tracks.robot;
     let hinged = !robot.bonds.is_empty() && (0..robot.bonds.len()).all(|bond| robot.hinge(bond).is_some());
     let rigid = robot.modules.iter().enumerate().all(|(m, _)| robot.module_type(m).joints.is_empty());

@@ -70,7 +70,7 @@ pub fn png(showing: &Showing, still: &Still) -> Vec<u8> {
 }
 
 /// The same in a few colours, a fifth as large: for a page to hold.
-pub fn small_png(showing: &Showing, still: &Still) -> Vec<u8> {
+pub(super) fn small_png(showing: &Showing, still: &Still) -> Vec<u8> {
     let (colours, pixels) = palette::reduced(&pixels(&canvas(showing, still), still));
     encoded(still, &pixels, Some(&colours))
 }

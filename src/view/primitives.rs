@@ -6,7 +6,7 @@ use crate::geometry::pose::shifted;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
 /// A piece around the origin of its own frame; lengths in metres.
-pub enum Primitive<'a> {
+pub(super) enum Primitive<'a> {
     Box {
         size: Vec3,
     },
@@ -26,7 +26,7 @@ pub enum Primitive<'a> {
 }
 
 /// Hands every piece of shapes to `draw`, with its pose in the frame in which the shapes are placed.
-pub fn primitives(shapes: &[Placed], draw: &mut dyn FnMut(&Pose, Primitive)) {
+pub(super) fn primitives(shapes: &[Placed], draw: &mut dyn FnMut(&Pose, Primitive)) {
     shapes.iter().for_each(|placed| take_apart(placed, &Pose::identity(), draw));
 }
 
@@ -59,7 +59,7 @@ fn take_apart(placed: &Placed, X_LS: &Pose, draw: &mut dyn FnMut(&Pose, Primitiv
 }
 
 /// The rotation that takes +z to an axis.
-pub fn along(axis: &Vec3) -> Pose {
+pub(super) fn along(axis: &Vec3) -> Pose {
     let turn = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), axis);
     // The axis that points down: half a turn about x.
     let turn = turn.unwrap_or_else(|| {

@@ -35,7 +35,7 @@ struct Placed {
     size: [f64; 2],
 }
 
-pub fn program(showing: &Showing, tracks: &Tracks) -> String {
+pub(super) fn program(showing: &Showing, tracks: &Tracks) -> String {
     let mut drawer =
         Drawer { robot: &tracks.robot, group: groups(&tracks.robot), names: names(&tracks.robot), drawn: 0 };
     let root = showing.plan.program.as_ref().map(|program| &*program.root);

@@ -12,7 +12,7 @@ const LINE_LIFT: f64 = 1.0015;
 
 /// An eye: orthonormal axes right, up and backwards.
 #[derive(Clone, Copy, Debug)]
-pub struct Eye {
+pub(super) struct Eye {
     pub at: Vec3,
     pub right: Vec3,
     pub up: Vec3,
@@ -25,7 +25,7 @@ pub struct Eye {
 }
 
 /// A picture in the making.
-pub struct Canvas {
+pub(super) struct Canvas {
     pub width: usize,
     pub height: usize,
     pub colours: Vec<[f32; 3]>,
@@ -35,7 +35,7 @@ pub struct Canvas {
 
 /// A point in the picture: x and y in pixels, and its depth.
 #[derive(Clone, Copy, Debug)]
-pub struct Spot {
+pub(super) struct Spot {
     pub x: f64,
     pub y: f64,
     pub depth: f64,
@@ -43,14 +43,14 @@ pub struct Spot {
 
 impl Eye {
     /// Looks from `at` at `target`; z is up.
-    pub fn new(at: Vec3, target: Vec3, up: Vec3, half: f64, parallel: bool) -> Eye {
+    pub(super) fn new(at: Vec3, target: Vec3, up: Vec3, half: f64, parallel: bool) -> Eye {
         let back = (at - target).normalize();
         let right = up.cross(&back).normalize();
         Eye { at, right, up: back.cross(&right), back, half, parallel, distance: (at - target).norm() }
     }
 
     /// Where a point is in a picture of this size; `None` too near or behind.
-    pub fn spot(&self, p: &Vec3, width: usize, height: usize) -> Option<Spot> {
+    pub(super) fn spot(&self, p: &Vec3, width: usize, height: usize) -> Option<Spot> {
         let d = p - self.at;
         let away = -d.dot(&self.back);
         if !self.parallel && away < NEAR * self.distance {
@@ -65,7 +65,7 @@ impl Eye {
     }
 
     /// The direction of sight through a pixel.
-    pub fn ray(&self, x: f64, y: f64, width: usize, height: usize) -> Vec3 {
+    pub(super) fn ray(&self, x: f64, y: f64, width: usize, height: usize) -> Vec3 {
         let scale = self.half * 2.0 / height as f64;
         let (u, v) = ((x - width as f64 / 2.0) * scale, (height as f64 / 2.0 - y) * scale);
         (self.right * u + self.up * v - self.back).normalize()
@@ -73,13 +73,13 @@ impl Eye {
 }
 
 impl Canvas {
-    pub fn new(width: usize, height: usize) -> Canvas {
+    pub(super) fn new(width: usize, height: usize) -> Canvas {
         let pixels = width * height;
         Canvas { width, height, colours: vec![[0.0; 3]; pixels], depths: vec![f32::NEG_INFINITY; pixels] }
     }
 
     /// Fills triangles; `shade` colours a point by its place and normal.
-    pub fn fill(&mut self, mesh: &Mesh, eye: &Eye, shade: &mut dyn FnMut(Vec3, Vec3) -> [f32; 3]) {
+    pub(super) fn fill(&mut self, mesh: &Mesh, eye: &Eye, shade: &mut dyn FnMut(Vec3, Vec3) -> [f32; 3]) {
         for (corners, normals) in &mesh.triangles {
             let spots = corners.map(|p| eye.spot(&p, self.width, self.height));
             if let [Some(a), Some(b), Some(c)] = spots {
@@ -130,7 +130,7 @@ impl Canvas {
     }
 
     /// Draws lines of a width in pixels.
-    pub fn lines(&mut self, lines: &[[Vec3; 2]], eye: &Eye, width: usize, colour: Rgb) {
+    pub(super) fn lines(&mut self, lines: &[[Vec3; 2]], eye: &Eye, width: usize, colour: Rgb) {
         let colour = colour.0.map(|c| c as f32);
         for [p, q] in lines {
             let (Some(a), Some(b)) =

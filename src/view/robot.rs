@@ -10,13 +10,13 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
 /// Segments of one page; of longer plans the motion is drawn from evenly spaced positions.
-pub const SEGMENTS_MAX: usize = 60_000;
+pub(super) const SEGMENTS_MAX: usize = 60_000;
 
 /// Positions that a joint keeps at least when motion is thinned.
 const POSITIONS_MIN: usize = 16;
 
 /// The body of the page's plan, and what was left out.
-pub fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mut Vec<String>) -> Value {
+pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mut Vec<String>) -> Value {
     let robot = &tracks.robot;
     let mut forms = Forms::default();
     let trees = trees(tracks, &mut forms);

@@ -14,13 +14,13 @@ const FIRST_MESH: usize = 3;
 
 /// The meshes of a page, each once.
 #[derive(Default)]
-pub struct Meshes {
+pub(super) struct Meshes {
     pub list: Vec<Value>,
     known: Vec<String>,
 }
 
 /// The solids of a link, in its frame: `{shape, p, q, s}`.
-pub fn solids(shapes: &[Placed], meshes: &mut Meshes) -> Value {
+pub(super) fn solids(shapes: &[Placed], meshes: &mut Meshes) -> Value {
     let mut found = Vec::new();
     primitives(shapes, &mut |X, piece| {
         let (shape, size) = match piece {

@@ -21,7 +21,7 @@ const CONTACTS_MAX: usize = 20_000;
 const STANDS_MAX: usize = 500;
 
 /// `[time, x, y, z, qx, qy, qz, qw]`, straight between; of a plan without a walk the pose it starts in.
-pub fn base(moments: &[Moment], start: &Pose) -> Value {
+pub(super) fn base(moments: &[Moment], start: &Pose) -> Value {
     let key = |time: f64, pose: &Pose| {
         let (p, q) = (pose.translation.vector, pose.rotation);
         list([time, p.x, p.y, p.z, q.i, q.j, q.k, q.w])
@@ -70,7 +70,7 @@ fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
 }
 
 /// `[time, x, y, z of the centre of mass, margin or null, held, corners]`
-pub fn stands(moments: &[Moment]) -> Vec<Value> {
+pub(super) fn stands(moments: &[Moment]) -> Vec<Value> {
     let stride = moments.len().div_ceil(STANDS_MAX).max(1);
     let last = moments.len().saturating_sub(1);
     let chosen = moments.iter().enumerate().filter(|(i, _)| i % stride == 0 || *i == last);
@@ -86,7 +86,7 @@ pub fn stands(moments: &[Moment]) -> Vec<Value> {
 
 /// `[time, [x, y, ...]]` of the points that touch the ground, from each moment on at which they are
 /// others than before; and whether there were too many to tell them all.
-pub fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
+pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
     let most = moments.iter().map(|m| m.contacts.len()).max().unwrap_or(0);
     let afforded = CONTACTS_MAX / most.max(1);
     let stride = moments.len().div_ceil(afforded.max(1)).max(1);
@@ -109,7 +109,7 @@ fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
 }
 
 /// A curve in millimetres: `[[time, value], ...]`, through the least value that the judge found.
-pub fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> Vec<Value> {
+pub(super) fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> Vec<Value> {
     if let Some(least) = least.filter(|_| !points.is_empty()) {
         let at = points.partition_point(|(time, _)| *time <= least.0);
         points.insert(at, least);
@@ -118,7 +118,7 @@ pub fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> Vec<Valu
 }
 
 /// `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint by its limit.
-pub fn loads(moments: &[Moment]) -> Value {
+pub(super) fn loads(moments: &[Moment]) -> Value {
     let weighed: Vec<&Moment> = moments.iter().filter(|m| !m.loads.is_empty()).collect();
     let mut joints: Vec<usize> =
         weighed.iter().flat_map(|m| m.loads.iter().map(|(joint, _)| *joint)).collect();

@@ -9,13 +9,13 @@ const SQUARES_MAX: usize = 48;
 const AROUND: f64 = 0.5;
 
 /// Whether a level floor is drawn: there is ground, and no uneven one in its place.
-pub fn floor(plan: &Plan) -> bool {
+pub(super) fn floor(plan: &Plan) -> bool {
     let uneven = matches!(&plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
     !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor())
 }
 
 /// Each with its name.
-pub fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
+pub(super) fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
     let around = &paths.surroundings;
     let obstacles = around.obstacles.iter().enumerate();
     let named = obstacles.map(|(i, shapes)| (format!("obstacle {}", i + 1), shapes.clone()));

@@ -6,9 +6,9 @@ use crate::plan::{Body, Node, Plan};
 use std::fmt::Write as _;
 
 const FONT: &str = "ui-monospace, Menlo, Consolas, 'DejaVu Sans Mono', monospace";
-pub const INK: &str = "#1d2530";
-pub const SOFT: &str = "#7a828c";
-pub const PAPER: &str = "#fffefb";
+pub(super) const INK: &str = "#1d2530";
+pub(super) const SOFT: &str = "#7a828c";
+pub(super) const PAPER: &str = "#fffefb";
 
 /// Words stay legible where lines pass behind them.
 const HALO: &str = "paint-order=\"stroke\" stroke=\"#fffefb\" stroke-opacity=\"0.8\" stroke-width=\"0.22em\"";
@@ -18,7 +18,7 @@ const LAYER: &str =
     "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" inkscape:groupmode=\"layer\"";
 
 /// Width of a letter of the font, in parts of its size.
-pub const LETTER: f64 = 0.602;
+pub(super) const LETTER: f64 = 0.602;
 
 /// A drawing: flat panels joined by hinges as the pattern they are folded from, true to scale; a
 /// behaviour as its series-parallel graph; a configuration as a graph of modules; a lattice or truss
@@ -43,45 +43,45 @@ fn acts(plan: &Plan) -> bool {
 
 /// A drawing that grows.
 #[derive(Default)]
-pub struct Drawing {
+pub(super) struct Drawing {
     text: String,
 }
 
 /// How lines and surfaces look: attributes as SVG has them.
-pub type Look<'a> = &'a str;
+pub(super) type Look<'a> = &'a str;
 
 impl Drawing {
-    pub fn line(&mut self, a: [f64; 2], b: [f64; 2], look: Look) {
+    pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2], look: Look) {
         let [x1, y1, x2, y2] = [a[0], a[1], b[0], b[1]].map(short);
         writeln!(self.text, r#"<line x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}" {look}/>"#).expect("text grows");
     }
 
-    pub fn rect(&mut self, at: [f64; 2], size: [f64; 2], round: f64, look: Look) {
+    pub(super) fn rect(&mut self, at: [f64; 2], size: [f64; 2], round: f64, look: Look) {
         let [x, y, w, h, r] = [at[0], at[1], size[0], size[1], round].map(short);
         writeln!(self.text, r#"<rect x="{x}" y="{y}" width="{w}" height="{h}" rx="{r}" {look}/>"#)
             .expect("text grows");
     }
 
-    pub fn circle(&mut self, at: [f64; 2], radius: f64, look: Look) {
+    pub(super) fn circle(&mut self, at: [f64; 2], radius: f64, look: Look) {
         let [x, y, r] = [at[0], at[1], radius].map(short);
         writeln!(self.text, r#"<circle cx="{x}" cy="{y}" r="{r}" {look}/>"#).expect("text grows");
     }
 
-    pub fn polygon(&mut self, points: &[[f64; 2]], look: Look) {
+    pub(super) fn polygon(&mut self, points: &[[f64; 2]], look: Look) {
         let points: Vec<String> =
             points.iter().map(|[x, y]| format!("{},{}", short(*x), short(*y))).collect();
         writeln!(self.text, r#"<polygon points="{}" {look}/>"#, points.join(" ")).expect("text grows");
     }
 
     /// A layer that drawing programs and cutters switch on and off by its name.
-    pub fn layer(&mut self, name: &str, draw: impl FnOnce(&mut Drawing)) {
+    pub(super) fn layer(&mut self, name: &str, draw: impl FnOnce(&mut Drawing)) {
         writeln!(self.text, r#"<g id="{name}" {LAYER} inkscape:label="{name}">"#).expect("text grows");
         draw(self);
         self.text.push_str("</g>\n");
     }
 
     /// Text whose middle is at a place; any text is safe.
-    pub fn words(&mut self, at: [f64; 2], size: f64, colour: &str, words: &str) {
+    pub(super) fn words(&mut self, at: [f64; 2], size: f64, colour: &str, words: &str) {
         let ([x, y], size) = (at.map(short), short(size));
         let words = escaped(words);
         writeln!(
@@ -92,7 +92,7 @@ impl Drawing {
     }
 
     /// The whole file; `unit` is what a length of 1 is: `px` or `mm`.
-    pub fn finish(self, title: &str, from: [f64; 2], size: [f64; 2], unit: &str) -> String {
+    pub(super) fn finish(self, title: &str, from: [f64; 2], size: [f64; 2], unit: &str) -> String {
         let ([x, y], [w, h], title) = (from.map(short), size.map(short), escaped(title));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}{unit}\" height=\"{h}{unit}\" \
@@ -104,13 +104,13 @@ impl Drawing {
 }
 
 /// To a thousandth.
-pub fn short(x: f64) -> f64 {
+pub(super) fn short(x: f64) -> f64 {
     let x = libm::round(x * 1e3) / 1e3;
     if x.is_finite() { x + 0.0 } else { 0.0 }
 }
 
 /// A corner and the size of a box around points, with a rim.
-pub fn around(points: impl Iterator<Item = [f64; 2]>, rim: f64) -> ([f64; 2], [f64; 2]) {
+pub(super) fn around(points: impl Iterator<Item = [f64; 2]>, rim: f64) -> ([f64; 2], [f64; 2]) {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for p in points {
         for k in 0..2 {

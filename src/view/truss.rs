@@ -7,7 +7,7 @@ use crate::plan::{Interpolation, Keyframe, NodePaths};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
-pub fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) -> Value {
+pub(super) fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) -> Value {
     let strut = library.struts.get(paths.strut);
     let (low, high) = strut.map_or((0.0, 1.0), |strut| strut.length);
     json!({
