@@ -42,7 +42,7 @@ pub(super) enum DefItem<'a> {
     Lattice(&'a ast::Lattice),
     Truss(&'a ast::Truss),
     /// Nothing: the place of a declaration that may come.
-    Gap,
+    Vacant,
 }
 
 pub(super) struct DefInfo<'a> {
@@ -394,7 +394,7 @@ impl<'a> Checker<'a> {
                 }
             }
             if in_session && !file.entry && !self.sources.file(file.ast.id).library {
-                self.leave_gaps(index, file.ast.id);
+                self.reserve_definitions(index, file.ast.id);
             }
         }
         let mut of_entries = of_entries.into_iter().peekable();
@@ -568,7 +568,7 @@ impl<'a> Checker<'a> {
         let mut defs = Vec::with_capacity(self.defs.len());
         for (index, info) in self.defs.into_iter().enumerate() {
             let file: FileId = self.loaded.files[info.file].ast.id;
-            if !self.sources.file(file).library && !matches!(info.item, DefItem::Gap) {
+            if !self.sources.file(file).library && !matches!(info.item, DefItem::Vacant) {
                 own.push(DefId(index as u32));
             }
             let kind = info.typed.unwrap_or(DefKind::Error);

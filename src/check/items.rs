@@ -206,7 +206,7 @@ impl<'a> Checker<'a> {
             DefItem::Config(x) => self.check_config(id, x),
             DefItem::Lattice(x) => self.check_lattice(id, x),
             DefItem::Truss(x) => self.check_truss(id, x),
-            DefItem::Gap => DefKind::Error,
+            DefItem::Vacant => DefKind::Error,
         }
     }
 

@@ -7,7 +7,7 @@ use super::terminal::{listen_for_cancel, print_error};
 use super::{CallError, Ending, judge, output};
 use crate::interpret::WriteError;
 use crate::plan::{Body, Plan};
-use crate::view::{self, Showing};
+use crate::view::{self, RenderInput};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -44,8 +44,8 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
     let to = view::page_name(&own);
     let stem = to.strip_suffix(".html").unwrap_or(&to);
     let command = format!("modl show {own}");
-    let showing = Showing { title: title(&plan, stem), plan: &plan, texts: &[], command: &command };
-    let page = view::page(&showing);
+    let input = RenderInput { title: title(&plan, stem), plan: &plan, texts: &[], command: &command };
+    let page = view::page(&input);
     let written = output::write(&globals.out, &to, page.as_bytes()).map_err(|e| match e {
         WriteError::Outside => CallError(format!("the page of `{name}` would lie outside the output folder")),
         WriteError::Failed(why) => CallError(format!("the page of `{name}` can't be written: {why}")),

@@ -17,7 +17,7 @@ use crate::plan::{
     Settings, Stages, Surroundings, TrussLimits, World,
 };
 use crate::robot::Library;
-use crate::view::{self, Showing, Side, Still};
+use crate::view::{self, RenderInput, Side, StillOptions};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -119,14 +119,14 @@ impl Interpreter<'_> {
 
     fn drawn(&self, title: &str, plan: &Plan, form: Form) -> Vec<u8> {
         let texts = self.texts_of(plan);
-        let showing = Showing { title, plan, texts: &texts, command: &self.options.command };
+        let input = RenderInput { title, plan, texts: &texts, command: &self.options.command };
         match form {
-            Form::Page => view::page(&showing).into_bytes(),
-            Form::Svg => view::svg(&showing).into_bytes(),
+            Form::Page => view::page(&input).into_bytes(),
+            Form::Svg => view::svg(&input).into_bytes(),
             Form::Png { time, side } => {
-                let own = Still::default();
+                let own = StillOptions::default();
                 let (width, height) = self.options.picture.unwrap_or((own.width, own.height));
-                view::png(&showing, &Still { time, side, width, height })
+                view::png(&input, &StillOptions { time, side, width, height })
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::colour::{AROUND, FAILED, PALETTE, Rgb, groups};
 use super::mesh::Mesh;
 use super::primitives::along;
-use super::{Showing, findings, surroundings};
+use super::{RenderInput, findings, surroundings};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::articulated::base_at;
@@ -20,19 +20,19 @@ pub(super) struct Drawn {
 }
 
 /// Everything that is drawn at a time, s.
-pub(super) fn drawn(showing: &Showing, time: f64) -> Vec<Drawn> {
-    let plan = showing.plan;
+pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
+    let plan = input.plan;
     match &plan.body {
-        Body::Tracks(tracks) => robot(showing, tracks, time),
+        Body::Tracks(tracks) => robot(input, tracks, time),
         Body::Stages(stages) => cells(stages, &plan.library, time),
         Body::NodePaths(paths) => truss(paths, time),
     }
 }
 
-fn robot(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Drawn> {
-    let poses = link_poses(showing, tracks, time);
+fn robot(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Drawn> {
+    let poses = link_poses(input, tracks, time);
     let group = groups(&tracks.robot);
-    let failed = findings::failed_modules(showing.plan, time);
+    let failed = findings::failed_modules(input.plan, time);
     let mut drawn = Vec::new();
     let meshes: Vec<Vec<Mesh>> = tracks
         .robot
@@ -53,11 +53,11 @@ fn robot(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Drawn> {
 }
 
 /// World poses of all links at a time.
-pub(super) fn link_poses(showing: &Showing, tracks: &Tracks, time: f64) -> Vec<Pose> {
+pub(super) fn link_poses(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Pose> {
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
-    let base = base_at(showing.plan, time).unwrap_or(state.base);
+    let base = base_at(input.plan, time).unwrap_or(state.base);
     kinematics.link_poses(&state.joints, &base, &mut poses);
     poses
 }

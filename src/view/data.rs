@@ -2,7 +2,7 @@
 
 use super::number::number;
 use super::solids::Meshes;
-use super::{Showing, findings, lattice, robot, stand, surroundings, truss};
+use super::{RenderInput, findings, ground_pose, lattice, robot, surroundings, truss};
 use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
 use crate::plan::{Body, Bound, Ground, Plan, file};
 use crate::units::{Dimension, display, quantity};
@@ -15,44 +15,44 @@ const TEXTS_MAX: usize = 400_000;
 const CLEARANCES: usize = 160;
 
 /// The plan's data as the page's scripts read it.
-pub(super) fn data(showing: &Showing) -> Value {
-    let plan = showing.plan;
+pub(super) fn data(input: &RenderInput) -> Value {
+    let plan = input.plan;
     let end = findings::end(plan);
     let moments = history(plan, end);
     let mut meshes = Meshes::default();
     let mut notes = Vec::new();
     let body = match &plan.body {
         Body::Tracks(tracks) => {
-            let base = stand::base(&moments, &tracks.start.base);
+            let base = ground_pose::base(&moments, &tracks.start.base);
             robot::body(tracks, base, &mut meshes, &mut notes)
         }
         Body::Stages(stages) => lattice::body(stages, &plan.library),
         Body::NodePaths(paths) => truss::body(paths, &plan.library, &mut meshes),
     };
-    let (contacts, in_part) = stand::contacts(&moments);
+    let (contacts, in_part) = ground_pose::contacts(&moments);
     if in_part {
         notes.push(format!("of the contacts with the ground {CONTACTS_MAX} at most are marked"));
     }
     let clearance = clearance(plan, end, &mut notes);
     json!({
-        "title": showing.title,
-        "summary": findings::summary(showing),
+        "title": input.title,
+        "summary": findings::summary(input),
         "duration": number(plan.body.duration()),
         "end": number(end),
         "floor": 0,
         "ground": surroundings::floor(plan),
         "verdict": findings::verdict(plan),
         "causes": findings::causes(&plan.causes),
-        "sources": sources(showing.texts),
+        "sources": sources(input.texts),
         "notes": notes,
         "data": facts(plan),
         "texts": plan.provenance.sources,
-        "command": showing.command,
+        "command": input.command,
         "meshes": meshes.list,
-        "stand": stand::stands(&moments),
+        "stand": ground_pose::supports(&moments),
         "contacts": contacts,
         "clearance": clearance,
-        "loads": stand::loads(&moments),
+        "loads": ground_pose::loads(&moments),
         "body": body,
     })
 }
@@ -64,7 +64,7 @@ fn clearance(plan: &Plan, end: f64, notes: &mut Vec<String>) -> Vec<Value> {
         notes.push(format!("the curve of clearances goes through {} instants, evenly in time", points.len()));
     }
     let worst = plan.verdict.iter().find_map(|verdict| verdict.clearance.as_ref());
-    stand::curve(points, worst.filter(|worst| worst.time <= end).map(|worst| (worst.time, worst.value)))
+    ground_pose::curve(points, worst.filter(|worst| worst.time <= end).map(|worst| (worst.time, worst.value)))
 }
 
 fn sources(texts: &[(String, String)]) -> Vec<Value> {

@@ -1,6 +1,6 @@
 //! What the judge found, as a page tells it.
 
-use super::Showing;
+use super::RenderInput;
 use super::number::{number, vector};
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
@@ -111,8 +111,8 @@ fn short_length(x: f64) -> f64 {
 }
 
 /// One line below the title.
-pub(super) fn summary(showing: &Showing) -> String {
-    let plan = showing.plan;
+pub(super) fn summary(input: &RenderInput) -> String {
+    let plan = input.plan;
     let (count, what) = match &plan.body {
         Body::Tracks(tracks) => (tracks.robot.modules.len() as u64, "module"),
         Body::Stages(stages) => (stages.count, "cell"),

@@ -1,6 +1,6 @@
 //! A configuration as a graph: modules where they are, seen from a corner, and the bonds between them.
 
-use super::Showing;
+use super::RenderInput;
 use super::bodies::link_poses;
 use super::colour::{PALETTE, groups};
 use super::svg::{Drawing, INK, SOFT, around};
@@ -14,9 +14,9 @@ const BOND: f64 = 120.0;
 /// Where a port's name stands on its bond.
 const NEAR: f64 = 0.36;
 
-pub(super) fn graph(showing: &Showing, tracks: &Tracks) -> String {
+pub(super) fn graph(input: &RenderInput, tracks: &Tracks) -> String {
     let robot = &tracks.robot;
-    let places = places(showing, tracks);
+    let places = places(input, tracks);
     let group = groups(robot);
     let mut drawing = Drawing::default();
     for (bond, holds) in robot.bonds.iter().zip(&tracks.start.bonds) {
@@ -44,7 +44,7 @@ pub(super) fn graph(showing: &Showing, tracks: &Tracks) -> String {
         drawing.words([at[0], at[1] + 24.0], 10.0, INK, &instance.name);
     }
     let (from, size) = around(places.iter().copied(), 60.0);
-    drawing.finish(showing.title, from, size, "px")
+    drawing.finish(input.title, from, size, "px")
 }
 
 fn port(robot: &Assembly, at: PortRef) -> &str {
@@ -52,8 +52,8 @@ fn port(robot: &Assembly, at: PortRef) -> &str {
 }
 
 /// Middles of the modules in the drawing, scaled so that bonds have room.
-fn places(showing: &Showing, tracks: &Tracks) -> Vec<[f64; 2]> {
-    let poses = link_poses(showing, tracks, 0.0);
+fn places(input: &RenderInput, tracks: &Tracks) -> Vec<[f64; 2]> {
+    let poses = link_poses(input, tracks, 0.0);
     let mut first = 0;
     let middles: Vec<Vec3> = (0..tracks.robot.modules.len())
         .map(|module| {

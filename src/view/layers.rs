@@ -1,6 +1,6 @@
 //! Lattices and trusses stage by stage: one small drawing for each, seen from a corner.
 
-use super::Showing;
+use super::RenderInput;
 use super::colour::Rgb;
 use super::svg::{Drawing, INK, SOFT, around};
 use crate::geometry::Vec3;
@@ -26,7 +26,7 @@ struct Flat {
     look: String,
 }
 
-pub(super) fn lattice(showing: &Showing, stages: &Stages) -> String {
+pub(super) fn lattice(input: &RenderInput, stages: &Stages) -> String {
     let instants = stages.instants();
     let name = |i: usize| match i.checked_sub(1) {
         None => "start".to_owned(),
@@ -35,10 +35,10 @@ pub(super) fn lattice(showing: &Showing, stages: &Stages) -> String {
     let shown = instants.len().min(PANELS_MAX);
     let panels =
         (0..shown).map(|i| Panel { name: name(i), pieces: cubes(&stages.state(instants[i])) }).collect();
-    laid_out(showing, panels, instants.len() - shown)
+    laid_out(input, panels, instants.len() - shown)
 }
 
-pub(super) fn truss(showing: &Showing, paths: &NodePaths) -> String {
+pub(super) fn truss(input: &RenderInput, paths: &NodePaths) -> String {
     let shown = paths.keyframes.len().min(PANELS_MAX);
     let panels = paths.keyframes[..shown].iter().enumerate().map(|(i, keyframe)| {
         let name = if i == 0 {
@@ -51,7 +51,7 @@ pub(super) fn truss(showing: &Showing, paths: &NodePaths) -> String {
         let struts = paths.struts.iter().map(|&(a, b)| Flat { points: vec![at(a), at(b)], look: look(INK) });
         Panel { name, pieces: struts.collect() }
     });
-    laid_out(showing, panels.collect(), paths.keyframes.len() - shown)
+    laid_out(input, panels.collect(), paths.keyframes.len() - shown)
 }
 
 /// To the right and up, as seen from the corner.
@@ -89,7 +89,7 @@ fn faces(cell: &CellBox) -> [Flat; 3] {
     })
 }
 
-fn laid_out(showing: &Showing, panels: Vec<Panel>, untold: usize) -> String {
+fn laid_out(input: &RenderInput, panels: Vec<Panel>, untold: usize) -> String {
     let all = || panels.iter().flat_map(|p| p.pieces.iter().flat_map(|f| f.points.iter().copied()));
     let (from, size) = around(all(), 0.0);
     let scale = (PANEL - 30.0) / size[0].max(size[1]).max(1e-9);
@@ -113,5 +113,5 @@ fn laid_out(showing: &Showing, panels: Vec<Panel>, untold: usize) -> String {
         drawing.words([PANEL, tall + 10.0], 12.0, SOFT, &format!("and {untold} more, which are not drawn"));
         tall += HEAD;
     }
-    drawing.finish(showing.title, [0.0; 2], [panels.len().min(COLUMNS) as f64 * PANEL, tall + 10.0], "px")
+    drawing.finish(input.title, [0.0; 2], [panels.len().min(COLUMNS) as f64 * PANEL, tall + 10.0], "px")
 }

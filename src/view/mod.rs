@@ -14,9 +14,9 @@ mod number;
 
 mod primitives;
 
+mod ground_pose;
 mod robot;
 mod solids;
-mod stand;
 
 mod lattice;
 mod truss;
@@ -43,12 +43,12 @@ use crate::plan::Plan;
 
 pub use fold_format::{Crease, CreasePattern, fold_file};
 pub use page::{page, page_name};
-pub use picture::{Side, Still, png};
+pub use picture::{Side, StillOptions, png};
 pub use svg::svg;
 
 /// What is shown.
 #[derive(Clone, Copy, Debug)]
-pub struct Showing<'a> {
+pub struct RenderInput<'a> {
     /// Name of the robot, or of what else moves.
     pub title: &'a str,
     /// With the verdict it was given; `None` there is shown as "not judged".

@@ -1,7 +1,7 @@
 //! The page: one file, with its style, its scripts and the plan inside. It loads nothing.
 
 use super::picture::small_png;
-use super::{Showing, Still, data};
+use super::{RenderInput, StillOptions, data};
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
@@ -25,15 +25,15 @@ const SCRIPTS: [&str; 14] = [
 ];
 
 /// What is shown where the page can't play.
-const STILL: Still = Still { time: 0.0, side: super::Side::Corner, width: 480, height: 300 };
+const STILL: StillOptions = StillOptions { time: 0.0, side: super::Side::Corner, width: 480, height: 300 };
 
 /// The whole page. Nothing in the plan can break out of its place: the data is JSON in which `<`, `>`
 /// and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
-pub fn page(showing: &Showing) -> String {
+pub fn page(input: &RenderInput) -> String {
     let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
-    let plan = unmarked(&data::data(showing).to_string());
-    let title = escaped(showing.title);
-    let still = base64(&small_png(showing, &STILL));
+    let plan = unmarked(&data::data(input).to_string());
+    let title = escaped(input.title);
+    let still = base64(&small_png(input, &STILL));
     filled(&[
         ("title", &title),
         ("style", &lean(STYLE)),

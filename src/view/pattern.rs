@@ -6,7 +6,7 @@
 //! are cut apart and meet in the end bear the same letter.
 #![allow(non_snake_case)]
 
-use super::Showing;
+use super::RenderInput;
 use super::svg::{Drawing, INK, SOFT, around, short};
 use crate::geometry::{Pose, Shape, Vec3};
 use crate::plan::Tracks;
@@ -54,7 +54,7 @@ struct Cut {
 }
 
 /// The pattern; `None` where the modules are no flat panels on hinges.
-pub(super) fn pattern(showing: &Showing, tracks: &Tracks) -> Option<String> {
+pub(super) fn pattern(input: &RenderInput, tracks: &Tracks) -> Option<String> {
     let robot = &tracks.robot;
     let hinged = !robot.bonds.is_empty() && (0..robot.bonds.len()).all(|bond| robot.hinge(bond).is_some());
     let rigid = robot.modules.iter().enumerate().all(|(m, _)| robot.module_type(m).joints.is_empty());
@@ -109,7 +109,7 @@ pub(super) fn pattern(showing: &Showing, tracks: &Tracks) -> Option<String> {
             cuts.push(Cut { ends, inside: centre(&panel.corners), meets });
         }
     }
-    Some(drawn(showing, &panels, &folds, &cuts))
+    Some(drawn(input, &panels, &folds, &cuts))
 }
 
 /// By free port: the number of the pair of sides that meet, if it belongs to one.
@@ -190,7 +190,7 @@ fn order(tracks: &Tracks) -> Vec<usize> {
     found.into_iter().map(|(_, joint)| joint).collect()
 }
 
-fn drawn(showing: &Showing, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) -> String {
+fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) -> String {
     let mut drawing = Drawing::default();
     let size = panels
         .first()
@@ -232,7 +232,7 @@ fn drawn(showing: &Showing, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) -> S
         }
     });
     let (from, room) = around(panels.iter().flat_map(|p| p.corners.iter().copied()), size * 0.12);
-    drawing.finish(showing.title, from, room, "mm")
+    drawing.finish(input.title, from, room, "mm")
 }
 
 /// How the fold lines of a layer look.

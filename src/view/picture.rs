@@ -3,7 +3,7 @@
 use super::bodies::{Drawn, drawn};
 use super::colour::Rgb;
 use super::raster::{Canvas, Eye};
-use super::{Showing, findings, palette, surroundings};
+use super::{RenderInput, findings, palette, surroundings};
 use crate::geometry::Vec3;
 
 /// Pixels of a picture are the mean of so many by so many.
@@ -46,9 +46,9 @@ impl Side {
     }
 }
 
-/// What a still picture is like.
+/// The options of a still picture.
 #[derive(Clone, Copy, Debug)]
-pub struct Still {
+pub struct StillOptions {
     /// Seconds; clipped to what the page plays.
     pub time: f64,
     pub side: Side,
@@ -57,28 +57,28 @@ pub struct Still {
     pub height: usize,
 }
 
-impl Default for Still {
-    fn default() -> Still {
-        Still { time: 0.0, side: Side::Corner, width: 1280, height: 800 }
+impl Default for StillOptions {
+    fn default() -> StillOptions {
+        StillOptions { time: 0.0, side: Side::Corner, width: 1280, height: 800 }
     }
 }
 
 /// A picture as the bytes of a PNG file.
-pub fn png(showing: &Showing, still: &Still) -> Vec<u8> {
-    let pixels = pixels(&canvas(showing, still), still);
-    encoded(still, &pixels, None)
+pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
+    let pixels = pixels(&canvas(input, options), options);
+    encoded(options, &pixels, None)
 }
 
 /// The same in a few colours, a fifth as large: for a page to hold.
-pub(super) fn small_png(showing: &Showing, still: &Still) -> Vec<u8> {
-    let (colours, pixels) = palette::reduced(&pixels(&canvas(showing, still), still));
-    encoded(still, &pixels, Some(&colours))
+pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
+    let (colours, pixels) = palette::reduced(&pixels(&canvas(input, options), options));
+    encoded(options, &pixels, Some(&colours))
 }
 
-fn canvas(showing: &Showing, still: &Still) -> Canvas {
-    let time = still.time.clamp(0.0, findings::end(showing.plan));
-    let bodies = drawn(showing, time);
-    Scene::new(bodies, surroundings::floor(showing.plan), still).canvas()
+fn canvas(input: &RenderInput, options: &StillOptions) -> Canvas {
+    let time = options.time.clamp(0.0, findings::end(input.plan));
+    let bodies = drawn(input, time);
+    Scene::new(bodies, surroundings::floor(input.plan), options).canvas()
 }
 
 struct Scene {
@@ -96,12 +96,12 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(bodies: Vec<Drawn>, grounded: bool, still: &Still) -> Scene {
+    fn new(bodies: Vec<Drawn>, grounded: bool, options: &StillOptions) -> Scene {
         let (middle, radius) = ball(&bodies);
-        let (width, height) = (still.width * FINE, still.height * FINE);
+        let (width, height) = (options.width * FINE, options.height * FINE);
         let narrow = (width as f64 / height as f64).min(1.0);
         let distance = 0.92 * radius / (SIGHT / libm::sqrt(1.0 + SIGHT * SIGHT)) / narrow;
-        let at = middle + still.side.direction().normalize() * distance;
+        let at = middle + options.side.direction().normalize() * distance;
         let eye = Eye::new(at, middle, Vec3::z(), SIGHT, false);
         let sun = Eye::new(middle + SUN * (3.0 * radius), middle, Vec3::y(), 1.1 * radius, true);
         let mut shadows = Canvas::new(SHADOWS, SHADOWS);
@@ -224,8 +224,8 @@ fn ball(bodies: &[Drawn]) -> (Vec3, f64) {
 }
 
 /// The fine picture's means: red, green and blue of each pixel.
-fn pixels(canvas: &Canvas, still: &Still) -> Vec<u8> {
-    let (width, height) = (still.width, still.height);
+fn pixels(canvas: &Canvas, options: &StillOptions) -> Vec<u8> {
+    let (width, height) = (options.width, options.height);
     let mut pixels = Vec::with_capacity(width * height * 3);
     for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
         for part in 0..3 {
@@ -241,9 +241,9 @@ fn pixels(canvas: &Canvas, still: &Still) -> Vec<u8> {
 }
 
 /// Pixels as PNG: red, green and blue of each, or its place among the colours.
-fn encoded(still: &Still, pixels: &[u8], colours: Option<&[[u8; 3]]>) -> Vec<u8> {
+fn encoded(options: &StillOptions, pixels: &[u8], colours: Option<&[[u8; 3]]>) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, still.width as u32, still.height as u32);
+    let mut encoder = png::Encoder::new(&mut bytes, options.width as u32, options.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
     match colours {

@@ -1,7 +1,7 @@
 //! A behaviour as its series-parallel graph: what stands beside each other runs one after the other,
 //! what stands below each other at the same time.
 
-use super::Showing;
+use super::RenderInput;
 use super::colour::{PALETTE, groups};
 use super::svg::{Drawing, INK, LETTER, PAPER, SOFT};
 use crate::plan::{Action, Command, ExemptionKind, Node, Target, Tracks};
@@ -35,10 +35,10 @@ struct Placed {
     size: [f64; 2],
 }
 
-pub(super) fn program(showing: &Showing, tracks: &Tracks) -> String {
+pub(super) fn program(input: &RenderInput, tracks: &Tracks) -> String {
     let mut drawer =
         Drawer { robot: &tracks.robot, group: groups(&tracks.robot), names: names(&tracks.robot), drawn: 0 };
-    let root = showing.plan.program.as_ref().map(|program| &*program.root);
+    let root = input.plan.program.as_ref().map(|program| &*program.root);
     let whole = root.map_or_else(|| label("nothing".into(), SOFT.into()), |root| drawer.piece(root, 0));
     let mut drawing = Drawing::default();
     let rim = 24.0;
@@ -50,7 +50,7 @@ pub(super) fn program(showing: &Showing, tracks: &Tracks) -> String {
     draw(&mut drawing, &whole, [left + 20.0, rim]);
     drawing.circle([left, middle], 5.0, &format!("fill=\"{INK}\""));
     drawing.circle([right, middle], 5.0, &format!("fill=\"{PAPER}\" stroke=\"{INK}\" stroke-width=\"2\""));
-    drawing.finish(showing.title, [0.0, 0.0], [right + rim, whole.size[1] + 2.0 * rim], "px")
+    drawing.finish(input.title, [0.0, 0.0], [right + rim, whole.size[1] + 2.0 * rim], "px")
 }
 
 struct Drawer<'a> {

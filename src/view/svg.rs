@@ -1,7 +1,7 @@
 //! Still drawings as SVG: what is drawn depends on what is shown.
 
 use super::page::escaped;
-use super::{Showing, graph, layers, pattern, program};
+use super::{RenderInput, graph, layers, pattern, program};
 use crate::plan::{Body, Node, Plan};
 use std::fmt::Write as _;
 
@@ -23,15 +23,15 @@ pub(super) const LETTER: f64 = 0.602;
 /// A drawing: flat panels joined by hinges as the pattern they are folded from, true to scale; a
 /// behaviour as its series-parallel graph; a configuration as a graph of modules; a lattice or truss
 /// stage by stage.
-pub fn svg(showing: &Showing) -> String {
-    match &showing.plan.body {
-        Body::Tracks(tracks) => match pattern::pattern(showing, tracks) {
+pub fn svg(input: &RenderInput) -> String {
+    match &input.plan.body {
+        Body::Tracks(tracks) => match pattern::pattern(input, tracks) {
             Some(drawing) => drawing,
-            None if acts(showing.plan) => program::program(showing, tracks),
-            None => graph::graph(showing, tracks),
+            None if acts(input.plan) => program::program(input, tracks),
+            None => graph::graph(input, tracks),
         },
-        Body::Stages(stages) => layers::lattice(showing, stages),
-        Body::NodePaths(paths) => layers::truss(showing, paths),
+        Body::Stages(stages) => layers::lattice(input, stages),
+        Body::NodePaths(paths) => layers::truss(input, paths),
     }
 }
 

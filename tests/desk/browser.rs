@@ -14,7 +14,7 @@ use modl::plan::{
     Stages, TrussLimits, verify,
 };
 use modl::robot::{Cell, Kinematics, Library};
-use modl::view::{Showing, page};
+use modl::view::{RenderInput, page};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fs;
@@ -334,8 +334,8 @@ fn pages_play_in_a_browser() {
     for looks in &families {
         let file =
             if looks.name == HOSTILE { "hostile.html".to_owned() } else { format!("{}.html", looks.name) };
-        let showing = Showing { title: looks.name, plan: &looks.plan, texts: &[], command: "" };
-        fs::write(sandbox.path(&file), page(&showing)).expect("a file can be written");
+        let input = RenderInput { title: looks.name, plan: &looks.plan, texts: &[], command: "" };
+        fs::write(sandbox.path(&file), page(&input)).expect("a file can be written");
         let measured = std::env::var_os("MODL_PAGES").is_some();
         wanted.push(looks.wanted(&file, looks.name, measured));
     }

@@ -8,7 +8,7 @@ use crate::support::robots::{H, LEFT, TILT, chain, walk4};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
 use modl::plan::{Body, Plan};
 use modl::robot::Kinematics;
-use modl::view::{Showing, Side, Still, page, png, svg};
+use modl::view::{RenderInput, Side, StillOptions, page, png, svg};
 use serde_json::Value;
 
 /// Most bytes of a page without its plan.
@@ -21,7 +21,7 @@ fn rover() -> Plan {
 }
 
 fn shown(title: &str, plan: &Plan) -> String {
-    page(&Showing { title, plan, texts: &[], command: "modl run rover.mod" })
+    page(&RenderInput { title, plan, texts: &[], command: "modl run rover.mod" })
 }
 
 /// The text of the plan's data, as it stands in the page.
@@ -169,8 +169,8 @@ fn pixels(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
 #[test]
 fn a_picture_shows_the_robot_from_the_side_asked_for() {
     let plan = rover();
-    let showing = Showing { title: "rover", plan: &plan, texts: &[], command: "" };
-    let still = |time, side| png(&showing, &Still { time, side, width: 160, height: 100 });
+    let input = RenderInput { title: "rover", plan: &plan, texts: &[], command: "" };
+    let still = |time, side| png(&input, &StillOptions { time, side, width: 160, height: 100 });
     let (corner, top) = (still(0.0, Side::Corner), still(0.0, Side::Top));
     assert!(corner == still(0.0, Side::Corner), "the same bytes again");
     assert!(corner != top);
@@ -188,7 +188,7 @@ fn a_picture_shows_the_robot_from_the_side_asked_for() {
 }
 
 fn drawing(plan: &Plan) -> String {
-    svg(&Showing { title: HOSTILE, plan, texts: &[], command: "" })
+    svg(&RenderInput { title: HOSTILE, plan, texts: &[], command: "" })
 }
 
 #[test]

@@ -18,7 +18,7 @@ const LOADS_MAX: usize = 40_000;
 const CONTACTS_MAX: usize = 20_000;
 
 /// Moments whose support is drawn.
-const STANDS_MAX: usize = 500;
+const SUPPORTS_MAX: usize = 500;
 
 /// `[time, x, y, z, qx, qy, qz, qw]`, straight between; of a plan without a walk the pose it starts in.
 pub(super) fn base(moments: &[Moment], start: &Pose) -> Value {
@@ -70,8 +70,8 @@ fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
 }
 
 /// `[time, x, y, z of the centre of mass, margin or null, held, corners]`
-pub(super) fn stands(moments: &[Moment]) -> Vec<Value> {
-    let stride = moments.len().div_ceil(STANDS_MAX).max(1);
+pub(super) fn supports(moments: &[Moment]) -> Vec<Value> {
+    let stride = moments.len().div_ceil(SUPPORTS_MAX).max(1);
     let last = moments.len().saturating_sub(1);
     let chosen = moments.iter().enumerate().filter(|(i, _)| i % stride == 0 || *i == last);
     chosen
