@@ -8,6 +8,7 @@ pub mod polynomial;
 pub mod time;
 
 pub mod body;
+pub mod lattice;
 pub mod node_paths;
 pub mod program;
 pub mod ratio;

@@ -2,8 +2,8 @@
 //! exactly, up to a translation. Cells are alike, so those of the second take the numbers of the cells
 //! in whose places they begin.
 
+use super::lattice::{Cube, Grid};
 use super::stretches::{Stretch, stretches};
-use super::verify::lattice::{Cube, Grid};
 use super::{CauseId, Counter, Model, OperationError, Ratio, Run, Stage, Stages};
 
 /// The stages of the first plan, then those of the second, whose causes come behind `causes` others.

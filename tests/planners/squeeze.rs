@@ -5,7 +5,7 @@
 //! minutes: `MODL_WHOLE=1 cargo test --release --test all squeeze` tries them all, in the release profile sooner.
 
 use crate::support::lattices::{BALANCED, PAPER, TERMS, judged, judged_plan, plan_of, stages_of, unit_cell};
-use modl::plan::verify::lattice::{ends, peak_forces};
+use modl::plan::lattice::{end_shapes, peak_forces};
 use modl::plan::{Body, Law, OperationError, Ratio, Stages, joined, reversed};
 use modl::planners::squeeze::{
     Demand, Found, Method, Profile, Refusal, Task, Terms, Way, accordion, arms, fold, halve, shear, squeeze,
@@ -139,7 +139,7 @@ fn shapes_of_the_reference_become_rows_in_the_same_time() {
             assert!(near(time, number(&stage[1])), "{}: {stage}", shape["name"]);
         }
         let stages = stages_of(way.clone(), PAPER);
-        let (_, end) = ends(&stages).expect("it ends on the lattice");
+        let (_, end) = end_shapes(&stages).expect("it ends on the lattice");
         assert_eq!(end, (0..places.len() as i64).map(|x| [x, 0, 0]).collect::<Vec<_>>());
         let verdict = judged(way, PAPER);
         assert!(verdict.ok(), "{}: {:?}", shape["name"], verdict.failures);
@@ -241,7 +241,7 @@ fn assert_ends(body: &Body, from: &[[i64; 3]], to: &[[i64; 3]]) {
         places.sort_unstable();
         places
     };
-    assert_eq!(ends(stages).expect("cells are on the lattice"), (settled(from), settled(to)));
+    assert_eq!(end_shapes(stages).expect("cells are on the lattice"), (settled(from), settled(to)));
 }
 
 fn task<'a>(from: &'a [[i64; 3]], to: &'a [[i64; 3]]) -> Task<'a> {

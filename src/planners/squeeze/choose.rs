@@ -6,7 +6,7 @@ use super::way::{Frame, Terms, Way};
 use super::ways::{Candidate, MELT_MAX, ways};
 use super::{Demand, Found, Method, Refusal, Task};
 use crate::interrupt;
-use crate::plan::verify::lattice::{ends, least_time};
+use crate::plan::lattice::{end_shapes, time_lower_bound};
 use crate::plan::{CellLimits, Model, Ratio, Stages};
 use crate::robot::Cell;
 use crate::units::{Dimension, quantity};
@@ -79,7 +79,7 @@ pub fn squeeze(cell: &Cell, index: usize, task: &Task) -> Result<Found, Refusal>
     }
     let (method, balanced, stages) = best.ok_or(Refusal::Method { method: task.method })?;
     check_ends(&stages, &from, &to)?;
-    let lower_bound = least_time(&stages).map_err(Refusal::Defect)?;
+    let lower_bound = time_lower_bound(&stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     Ok(Found { why: why(task, method, balanced), stages, lower_bound, method, balanced })
 }
 
@@ -97,7 +97,7 @@ fn lacking(task: &Task, from: &Shape, limits: CellLimits) -> Refusal {
 
 /// The plan begins and ends as was asked: exactly, up to a translation.
 fn check_ends(stages: &Stages, from: &Shape, to: &Shape) -> Result<(), Refusal> {
-    let (start, end) = ends(stages).map_err(Refusal::Defect)?;
+    let (start, end) = end_shapes(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     if start != from.places || end != to.places {
         return Err(Refusal::Defect("the plan does not lead from the one shape to the other".into()));
     }

@@ -3,8 +3,8 @@
 use super::Refusal;
 use super::domain::{Domain, Spot};
 use super::way::{Builder, Terms, Way};
+use crate::plan::lattice::{Cube, greatest_relative_displacement};
 use crate::plan::stretches::{Stretch, stretches};
-use crate::plan::verify::lattice::{Cube, parting};
 
 /// Configurations of listed cells, one after another.
 pub struct Listed {
@@ -46,7 +46,8 @@ impl Listed {
             if spots == last {
                 continue;
             }
-            let parting = parting(&cubes(&last), &cubes(&spots), LINES).ok_or(Refusal::TooLarge)?;
+            let parting = greatest_relative_displacement(&cubes(&last), &cubes(&spots), LINES)
+                .ok_or(Refusal::TooLarge)?;
             let domains = runs(&last, &spots);
             last.clone_from(&spots);
             // Of distances, what is held is the difference; it comes in lines of the judge's grid.

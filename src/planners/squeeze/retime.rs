@@ -1,13 +1,13 @@
 //! Stages slowed down so that no contact carries more than it may. The geometry stays.
 
 use super::Refusal;
-use crate::plan::verify::lattice::peak_forces;
+use crate::plan::lattice::peak_forces;
 use crate::plan::{Law, Ratio, Stages};
 
 /// A stage whose greatest contact force is `f` takes `√(f / κ)` times as long under a bound `κ`. Stages
 /// that pass their speed on are slowed down alike.
 pub fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
-    let peaks = peak_forces(stages).map_err(Refusal::Defect)?;
+    let peaks = peak_forces(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     let least: Vec<Ratio> = peaks
         .iter()
         .map(|peak| {

@@ -1,21 +1,23 @@
-//! Stages in which cells move along one axis only.
+//! Contacts and overlaps of stages in which cells move along one axis only, by a sweep along that axis.
 //!
-//! Cells with the same cross-section make a lane. Within a lane, and between lanes whose
-//! cross-sections overlap, the order along the axis may not change and gaps are never negative: gaps
-//! are linear in the progress, so both ends say it for the whole stage, and neighbours say it for all.
+//! Cells with the same cross-section form a lane. Within a lane, and between lanes whose cross-sections
+//! overlap, the order along the axis may not change and gaps are never negative: gaps are linear in the path
+//! parameter, so both ends of the stage decide it for all of it, and neighbours decide it for all pairs.
 
-use super::contacts::Forest;
+use super::contacts::ContactForest;
 use super::grid::Cube;
 use super::tiles::{Section, Tile, Tiles};
 
-/// Two cells that meet: at the start of the stage, or on the way.
+/// Two cells that overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Meeting {
+pub struct Overlap {
+    /// The cells.
     pub cells: (u32, u32),
+    /// True if they overlap at the start of the stage, false if later only.
     pub at_start: bool,
 }
 
-/// A cell within its lane: its ends along the axis before and after.
+/// A cell within its lane: its faces along the axis before and after the stage.
 #[derive(Clone, Copy)]
 struct Place {
     before: (i64, i64),
@@ -36,65 +38,70 @@ struct Lanes {
 /// Comparisons of lanes that a stage may take, for each cell: sound plans take a few.
 const COMPARISONS_MAX: usize = 200;
 
-/// Judges the stage and joins the cells whose contact lasts. `None`: too entangled to be judged.
-pub fn judge(
+/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of
+/// two cells as an error. All cells move along `axis` only; `lines` is the number of grid lines to a cell.
+/// `None` where more lanes lie side by side than are compared.
+pub fn examine(
     before: &[Cube],
     after: &[Cube],
     axis: usize,
     lines: i64,
-    forest: &mut Forest,
-) -> Option<Result<(), Meeting>> {
+    forest: &mut ContactForest,
+) -> Option<Result<(), Overlap>> {
+    // Order within each lane.
     let lanes = Lanes::of(before, after, axis, lines)?;
     let all = 0..lanes.sections.len();
-    if let Some(meeting) = all.clone().find_map(|lane| in_line(lanes.lane(lane))) {
-        return Some(Err(meeting));
+    if let Some(overlap) = all.clone().find_map(|lane| in_line(lanes.lane(lane))) {
+        return Some(Err(overlap));
     }
-    let contacts = |places: &[Place], forest: &mut Forest| {
+    let contacts = |places: &[Place], forest: &mut ContactForest| {
         for pair in places.windows(2) {
             if pair[0].before.1 == pair[1].before.0 && pair[0].after.1 == pair[1].after.0 {
-                forest.touch(pair[0].cell, pair[1].cell, parting(&pair[0], &pair[1]));
+                forest.touch(pair[0].cell, pair[1].cell, relative_displacement(&pair[0], &pair[1]));
             }
         }
     };
     all.for_each(|lane| contacts(lanes.lane(lane), forest));
-    // Contacts along the axis come first: then the forces take the straight way.
+    // Order between lanes whose cross-sections overlap. Contacts along the axis come first: then the forces
+    // of the spanning forest run along it.
     let mut beside = Vec::new();
     let mut merged = Vec::new();
     let mut left = budget(before.len());
-    let mut meeting = None;
+    let mut overlap = None;
     lanes.neighbours(|a, b| {
         let (first, second) = (lanes.lane(a), lanes.lane(b));
         left = left.checked_sub(first.len() + second.len())?;
         match facing(&lanes.sections[a], &lanes.sections[b]) {
             Facing::Apart => {}
             Facing::Beside => beside.push((a as u32, b as u32)),
-            Facing::InLine if meeting.is_none() => {
+            Facing::InLine if overlap.is_none() => {
                 merge(first, second, &mut merged);
-                meeting = in_line(&merged);
+                overlap = in_line(&merged);
                 contacts(&merged, forest);
             }
             Facing::InLine => {}
         }
         Some(())
     })?;
-    if let Some(meeting) = meeting {
-        return Some(Err(meeting));
+    if let Some(overlap) = overlap {
+        return Some(Err(overlap));
     }
+    // Contacts between lanes whose cross-sections share an edge.
     for (a, b) in beside {
         side_by_side(lanes.lane(a as usize), lanes.lane(b as usize), |p, q| {
-            forest.touch(p.cell, q.cell, parting(p, q));
+            forest.touch(p.cell, q.cell, relative_displacement(p, q));
         });
     }
     Some(Ok(()))
 }
 
-/// Comparisons that a stage of so many cells may take.
+/// Returns the number of comparisons that a stage of so many cells may take.
 fn budget(cells: usize) -> usize {
     COMPARISONS_MAX.saturating_mul(cells).saturating_add(1000)
 }
 
 impl Lanes {
-    /// `None`: too many cross-sections in one place.
+    /// Sorts the cells into lanes. `None` where too many cross-sections share a tile.
     fn of(before: &[Cube], after: &[Cube], axis: usize, lines: i64) -> Option<Lanes> {
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
         let section = |cube: &Cube| [(cube.lo[b], cube.hi[b]), (cube.lo[c], cube.hi[c])];
@@ -146,7 +153,8 @@ impl Lanes {
         &self.places[self.starts[lane]..self.starts[lane + 1]]
     }
 
-    /// Calls with every pair of lanes that can touch: their corners are no more than a cell apart.
+    /// Calls `call` with every pair of lanes that can touch: those with corners no more than a cell apart.
+    /// Ends with `None` as soon as `call` does.
     fn neighbours(&self, mut call: impl FnMut(usize, usize) -> Option<()>) -> Option<()> {
         // In the same tile and the next of the row, and in three tiles of the next row: the other
         // halves of the pairs were met before.
@@ -166,21 +174,22 @@ impl Lanes {
     }
 }
 
-/// Twice the distance by which two cells move against each other.
-fn parting(a: &Place, b: &Place) -> i64 {
+/// Returns twice the relative displacement of two cells, in grid lines.
+fn relative_displacement(a: &Place, b: &Place) -> i64 {
     let moved = |p: &Place| p.after.0 + p.after.1 - p.before.0 - p.before.1;
     (moved(a) - moved(b)).abs()
 }
 
-/// The first two neighbours that meet.
-fn in_line(places: &[Place]) -> Option<Meeting> {
+/// Returns the first two neighbours in a lane that overlap.
+fn in_line(places: &[Place]) -> Option<Overlap> {
     places.windows(2).find_map(|pair| {
         let at_start = pair[0].before.1 > pair[1].before.0;
-        let meet = at_start || pair[0].after.1 > pair[1].after.0;
-        meet.then_some(Meeting { cells: (pair[0].cell, pair[1].cell), at_start })
+        let found = at_start || pair[0].after.1 > pair[1].after.0;
+        found.then_some(Overlap { cells: (pair[0].cell, pair[1].cell), at_start })
     })
 }
 
+/// Merges two lanes in order along the axis.
 fn merge(a: &[Place], b: &[Place], merged: &mut Vec<Place>) {
     merged.clear();
     let (mut i, mut j) = (0, 0);
@@ -197,9 +206,9 @@ fn merge(a: &[Place], b: &[Place], merged: &mut Vec<Place>) {
     merged.extend_from_slice(&b[j..]);
 }
 
-/// Finds the cells of two lanes that face each other all the while: their overlap along the axis is
-/// concave in the progress, so it is positive inside where it is nowhere negative at the ends, unless
-/// it is 0 at both.
+/// Calls `touch` with the cells of two lanes that face each other during the whole stage. Their overlap
+/// along the axis is a concave function of the path parameter, so it is positive inside where it is negative
+/// at neither end, unless it is 0 at both.
 fn side_by_side(a: &[Place], b: &[Place], mut touch: impl FnMut(&Place, &Place)) {
     let overlap = |p: (i64, i64), q: (i64, i64)| p.1.min(q.1) - p.0.max(q.0);
     let (mut i, mut j) = (0, 0);
@@ -220,7 +229,9 @@ fn side_by_side(a: &[Place], b: &[Place], mut touch: impl FnMut(&Place, &Place))
     }
 }
 
+/// The relation of the cross-sections of two lanes.
 enum Facing {
+    /// They share at most a corner.
     Apart,
     /// The cross-sections touch along an edge.
     Beside,

@@ -1,21 +1,23 @@
-//! Cross-sections of lanes, found by where they are.
+//! A spatial index of the cross-sections of lanes.
 //!
-//! The plane across the moving axis is tiled by cells. Where the tiles around all cells are about as many
-//! as the cells, a table holds them all; else a map does.
+//! The plane across the moving axis is tiled by squares of a cell's size. Where there are about as many tiles
+//! as cells, a dense table holds them; otherwise an ordered map does.
 
 use super::grid::Cube;
 use std::collections::BTreeMap;
 
-/// Cross-section: low and high along the two axes that do not change.
+/// A cross-section: lower and upper face along the two axes across the motion, in grid lines.
 pub type Section = [(i64, i64); 2];
 
-/// Along the second axis and the first.
+/// Coordinates of a tile, along the second axis and the first.
 pub type Tile = (i64, i64);
 
-/// Tiles in the table, for each cell.
+/// Greatest number of tiles in the dense table, for each cell.
 const TABLE_MAX: usize = 4;
+/// Stands for no lane.
 const NONE: u32 = u32::MAX;
 
+/// The lanes by the tile of their cross-section's lower corner.
 pub struct Tiles {
     lines: i64,
     origin: (i64, i64),
@@ -24,13 +26,14 @@ pub struct Tiles {
     /// The first lane of each tile, if there is a table.
     table: Option<Vec<u32>>,
     map: BTreeMap<Tile, u32>,
+    /// The cross-section of each lane.
     pub sections: Vec<Section>,
-    /// Of each lane: the next of its tile.
+    /// For each lane the next one of its tile.
     next: Vec<u32>,
 }
 
 impl Tiles {
-    /// Without lanes, for the cross-sections of these cells along two axes.
+    /// Returns an index without lanes for the cross-sections of these cells along the axes `b` and `c`.
     pub fn over(cubes: &[Cube], (b, c): (usize, usize), lines: i64) -> Tiles {
         let low = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).min().unwrap_or(0);
         let high = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).max().unwrap_or(0);
@@ -47,8 +50,8 @@ impl Tiles {
         (tile(section[1].0, self.origin.1), tile(section[0].0, self.origin.0))
     }
 
-    /// The number of a cross-section, a new one if it was not met before. `None` once there is nothing
-    /// left of `left`: each look at a lane takes one.
+    /// Returns the number of the lane with a cross-section, a new one if there is none yet. Each comparison
+    /// takes one from the budget `left`; `None` once it is used up.
     pub fn lane(&mut self, section: Section, left: &mut usize) -> Option<u32> {
         let tile = self.tile(&section);
         let first = match &mut self.table {
@@ -69,7 +72,7 @@ impl Tiles {
         Some(new)
     }
 
-    /// All lanes by tile, row after row.
+    /// Returns all lanes with their tiles, row after row.
     pub fn order(&self) -> Vec<(Tile, u32)> {
         let mut order = Vec::with_capacity(self.sections.len());
         let mut add = |first: u32| {

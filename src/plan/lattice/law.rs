@@ -1,4 +1,5 @@
-//! What one pass over the cells says of a stage, and the limits that it is held to: exact.
+//! The kinematics of one stage: sums and extremes of the displacements of its cells, and its time scaling,
+//! compared with limits in exact arithmetic.
 
 use super::grid::Cube;
 use super::window::Window;
@@ -6,30 +7,32 @@ use crate::plan::{Ratio, Stage};
 use num_bigint::BigInt;
 use std::cmp::Ordering;
 
-/// Sums and extremes of the change from one end of a stage to the other. Displacements are twice what
-/// they are, in lines of the grid: those of the sums of the two faces.
+/// Sums and extremes of the displacements of all cells over a stage. Displacements are counted twice, in
+/// grid lines: they are those of the sum of a cell's two faces.
 #[derive(Clone, Debug, Default)]
 pub struct Change {
-    /// Axes along which a face moves.
+    /// True for the axes along which a face moves.
     pub axes: [bool; 3],
-    /// Greatest displacement along an axis, with its cell.
+    /// Greatest magnitude of a displacement along an axis, with its cell.
     pub farthest: (i64, u32),
-    /// Sum of the displacements.
+    /// Sum of the displacements along each axis: zero if the centre of mass stays.
     pub drift: [i128; 3],
-    /// Greatest change of a size, with its cell.
+    /// Greatest change of an edge length, in grid lines (counted once), with its cell.
     pub resized: (i64, u32),
-    /// Smallest and largest size at the end, with their cells.
+    /// Smallest edge length at the end, in grid lines, with its cell.
     pub smallest: (i64, u32),
+    /// Largest edge length at the end, in grid lines, with its cell.
     pub largest: (i64, u32),
-    /// Twice twice the sum of place times displacement, as a cross product.
+    /// Four times the sum of the cross products of position and displacement: zero without angular momentum.
     pub turning: [i128; 3],
-    /// Sum of the squares of the displacements.
+    /// Sum of the squared norms of the displacements.
     pub squares: i128,
-    /// Greatest square of a displacement.
+    /// Greatest squared norm of a displacement.
     pub square: i128,
 }
 
 impl Change {
+    /// Returns the sums and extremes for the cells before and after a stage, in one pass.
     pub fn of(before: &[Cube], after: &[Cube]) -> Change {
         let mut change = Change { smallest: (i64::MAX, 0), ..Change::default() };
         for (cell, (old, new)) in before.iter().zip(after).enumerate() {
@@ -71,29 +74,34 @@ impl Change {
         change
     }
 
+    /// Returns true if no face of any cell moves.
     pub fn is_none(&self) -> bool {
         self.axes == [false; 3]
     }
 }
 
+/// Keeps the greater value with its cell.
 fn keep(worst: &mut (i64, u32), value: i64, cell: u32) {
     if value > worst.0 {
         *worst = (value, cell);
     }
 }
 
-/// The time law of a stage, for comparisons without a rounding.
-pub struct Pace {
+/// The time scaling `σ(t)` of a stage, which takes the path parameter from 0 to 1, with exact comparisons of
+/// the speeds and accelerations that follow from it.
+pub struct TimeScaling {
     time_squared: Ratio,
-    /// Peak of `σ'` times the duration.
+    /// Peak of `σ'` times the duration, as a fraction.
     speed: (i64, i64),
+    /// The parts of the duration in which the stage speeds up and slows down.
     ramps: (Ratio, Ratio),
     /// The shorter ramp's part of the duration.
     ramp: Ratio,
 }
 
-impl Pace {
-    pub fn of(stage: &Stage) -> Pace {
+impl TimeScaling {
+    /// Returns the time scaling of a stage, whose duration must not be zero if speeds are asked for.
+    pub fn of(stage: &Stage) -> TimeScaling {
         let (first, last) = stage.law.ramps();
         // 2 / (2 - first - last)
         let denominator = first.1 as i128 * last.1 as i128;
@@ -105,12 +113,17 @@ impl Pace {
             _ if first.order(last).is_le() => first,
             _ => last,
         };
-        Pace { time_squared: stage.time_squared, speed: (speed.0, speed.1), ramps: (first, last), ramp }
+        TimeScaling {
+            time_squared: stage.time_squared,
+            speed: (speed.0, speed.1),
+            ramps: (first, last),
+            ramp,
+        }
     }
 
-    /// How the greatest acceleration (or force) of what moves by `distance / lines` compares with a
-    /// limit.
-    pub fn acceleration(&self, distance: i128, lines: i128, limit: Ratio) -> Ordering {
+    /// Compares the peak acceleration (or force) of what moves by `distance / lines` cells over the stage with
+    /// a limit in cells per squared time unit.
+    pub fn compare_acceleration(&self, distance: i128, lines: i128, limit: Ratio) -> Ordering {
         // distance · speed / (ramp · T²) against the limit
         let product = |factors: &[i128]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
         let big = i128::from;
@@ -120,9 +133,9 @@ impl Pace {
         left.cmp(&right)
     }
 
-    /// How the square of the greatest acceleration compares with 1 of what moves by a distance with this
-    /// square, in lines.
-    pub fn acceleration_squared(&self, square: i128, lines: i128) -> Ordering {
+    /// Compares the squared peak acceleration with 1, for what moves by a distance with this square in
+    /// squared grid lines, `lines` to a cell.
+    pub fn compare_acceleration_squared(&self, square: i128, lines: i128) -> Ordering {
         let product = |factors: [i128; 3]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
         let big = i128::from;
         let (t, ramp) = (self.time_squared, self.ramp);
@@ -131,8 +144,9 @@ impl Pace {
         (BigInt::from(square) * &left * &left).cmp(&(&right * &right))
     }
 
-    /// How the square of the greatest speed of what moves by `distance / lines` compares with a limit.
-    pub fn speed_squared(&self, distance: i64, lines: i64, limit: Ratio) -> Ordering {
+    /// Compares the squared peak speed of what moves by `distance / lines` cells over the stage with a limit
+    /// in squared cells per squared time unit.
+    pub fn compare_speed_squared(&self, distance: i64, lines: i64, limit: Ratio) -> Ordering {
         let product = |factors: &[i64]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
         let (t, (up, down)) = (self.time_squared, self.speed);
         let left = product(&[distance, distance, up, up, t.1, limit.1]);
@@ -140,9 +154,15 @@ impl Pace {
         left.cmp(&right)
     }
 
-    /// The same of what moves by so much in the whole stage, while its progress is in a window. On a ramp
-    /// the square of `σ'` is linear in `σ`.
-    pub fn speed_squared_in(&self, window: Window, distance: i64, lines: i64, limit: Ratio) -> Ordering {
+    /// Compares the squared peak speed as [`TimeScaling::compare_speed_squared`] does, but only while the path
+    /// parameter is in a window. On a ramp the square of `σ'` is linear in `σ`.
+    pub fn compare_speed_squared_within(
+        &self,
+        window: Window,
+        distance: i64,
+        lines: i64,
+        limit: Ratio,
+    ) -> Ordering {
         let product = |factors: &[i128]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
         let (t, (up, down)) = (self.time_squared, self.speed);
         let big = i128::from;
@@ -156,28 +176,33 @@ impl Pace {
         };
         let rest = (window.from.1 - window.from.0, window.from.1);
         let (first, last) = (ramped(self.ramps.0, window.to), ramped(self.ramps.1, rest));
-        self.speed_squared(distance, lines, limit).min(first).min(last)
+        self.compare_speed_squared(distance, lines, limit).min(first).min(last)
     }
 
-    /// `σ''` at its peak times the square of the duration, as a fraction.
-    pub fn strain(&self) -> (i64, i64) {
+    /// Returns the peak of `σ''` times the square of the duration, as numerator and denominator.
+    pub fn acceleration_ratio(&self) -> (i64, i64) {
         (self.speed.0 * self.ramp.1, self.speed.1 * self.ramp.0)
     }
 
-    /// `σ'` at its peak, in units of time.
-    pub fn rate(&self) -> f64 {
+    /// Returns the peak of `σ'`, per time unit.
+    pub fn peak_speed(&self) -> f64 {
         self.speed.0 as f64 / self.speed.1 as f64 / libm::sqrt(self.time_squared.to_f64())
     }
 
-    /// `σ''` at its peak.
-    pub fn bend(&self) -> f64 {
+    /// Returns the peak of `σ''`, per squared time unit.
+    pub fn peak_acceleration(&self) -> f64 {
         self.speed.0 as f64 / self.speed.1 as f64 / self.ramp.to_f64() / self.time_squared.to_f64()
     }
 }
 
-/// Whether the cells go on with the velocities that they had: where a stage does not end at rest, or
-/// the next does not begin at rest. Each says a cell that does not.
-pub fn carries_on(
+/// Checks that velocities are continuous between two stages, where the first does not end at rest or the
+/// second does not begin at rest. Each stage is given with the cells at its outer end, `between` are those
+/// at the instant between them.
+///
+/// # Errors
+///
+/// The first cell whose velocity jumps.
+pub fn velocities_continue(
     (stage, before): (&Stage, &[Cube]),
     between: &[Cube],
     (next, after): (&Stage, &[Cube]),
@@ -187,13 +212,13 @@ pub fn carries_on(
     if out.0 != 0 && into.0 != 0 {
         return Ok(());
     }
-    let (first, second) = (Pace::of(stage), Pace::of(next));
+    let (first, second) = (TimeScaling::of(stage), TimeScaling::of(next));
     // Velocities are displacement · speed / T; their squares and signs say whether they are equal.
-    let factor = |pace: &Pace, moves: bool| {
-        let t = pace.time_squared;
+    let factor = |scaling: &TimeScaling, moves: bool| {
+        let t = scaling.time_squared;
         (
-            BigInt::from(pace.speed.0) * pace.speed.0 * t.1 * i64::from(moves),
-            BigInt::from(pace.speed.1) * pace.speed.1 * t.0,
+            BigInt::from(scaling.speed.0) * scaling.speed.0 * t.1 * i64::from(moves),
+            BigInt::from(scaling.speed.1) * scaling.speed.1 * t.0,
         )
     };
     let (left, right) = (factor(&first, out.0 == 0), factor(&second, into.0 == 0));

@@ -1,27 +1,31 @@
-//! Stretches of a stage's progress, from 0 to 1, with ends that are exact fractions.
+//! Intervals of the path parameter of a stage, which goes from 0 to 1, with exact fractions as ends.
 
 use super::grid::Cube;
 use std::cmp::Ordering;
 
-/// Numerator and positive denominator.
+/// A fraction: numerator and positive denominator, not reduced.
 pub type Fraction = (i128, i128);
 
+/// Compares two fractions exactly.
 pub fn order(a: Fraction, b: Fraction) -> Ordering {
     (a.0 * b.1).cmp(&(b.0 * a.1))
 }
 
-/// An open stretch of progress.
+/// An open interval of the path parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
+    /// Lower end.
     pub from: Fraction,
+    /// Upper end.
     pub to: Fraction,
 }
 
 impl Window {
+    /// The whole stage.
     pub const WHOLE: Window = Window { from: (0, 1), to: (1, 1) };
 
-    /// Keeps of it where what is `start` at 0 and `end` at 1, and linear between, is positive; nothing
-    /// if that is nowhere.
+    /// Returns the part of the interval on which the linear function with the values `start` at 0 and
+    /// `end` at 1 is positive; `None` if there is none.
     pub fn where_positive(self, start: i64, end: i64) -> Option<Window> {
         let (start, end) = (i128::from(start), i128::from(end));
         let mut window = self;
@@ -44,13 +48,14 @@ impl Window {
         order(window.from, window.to).is_lt().then_some(window)
     }
 
-    /// Whether it holds all of another.
-    pub fn holds(self, other: Window) -> bool {
+    /// Returns true if the interval contains all of another.
+    pub fn contains(self, other: Window) -> bool {
         order(self.from, other.from).is_le() && order(other.to, self.to).is_le()
     }
 }
 
-/// When, within a window, two cells overlap along an axis: each with its two ends.
+/// Returns the part of `window` on which the projections of two moving cells onto an axis overlap. Each
+/// cell is given by its state before and after the stage; faces move linearly. `None`: nowhere.
 pub fn overlap([a, b]: [(&Cube, &Cube); 2], axis: usize, window: Window) -> Option<Window> {
     let above =
         |p: (&Cube, &Cube), q: (&Cube, &Cube)| (p.0.hi[axis] - q.0.lo[axis], p.1.hi[axis] - q.1.lo[axis]);

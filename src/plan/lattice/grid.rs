@@ -1,51 +1,66 @@
-//! Lattices in whole numbers: every face of every cell on one grid, so that nothing is rounded.
+//! The integer grid that every face of every cell lies on, so that nothing is rounded.
 
+use super::fault::LatticeFault;
 use crate::plan::{Ratio, Run, Stages};
 
-/// A cell at one end of a stage, by its faces, in lines of the grid.
+/// An axis-aligned cell at one end of a stage: the coordinates of its lower and upper faces along x, y
+/// and z, in grid lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cube {
+    /// Lower faces.
     pub lo: [i64; 3],
+    /// Upper faces.
     pub hi: [i64; 3],
 }
 
 impl Cube {
-    /// Twice the centre.
+    /// Returns twice the coordinate of the centre along an axis, in grid lines.
     pub fn middle(&self, axis: usize) -> i64 {
         self.lo[axis] + self.hi[axis]
     }
 
+    /// Returns the edge length along an axis, in grid lines.
     pub fn size(&self, axis: usize) -> i64 {
         self.hi[axis] - self.lo[axis]
     }
 
-    /// The same cell elsewhere.
+    /// Returns the cell translated by so many grid lines along x, y and z.
     pub fn shifted(&self, by: [i64; 3]) -> Cube {
         let shifted = |face: [i64; 3]| [0, 1, 2].map(|axis| face[axis] + by[axis]);
         Cube { lo: shifted(self.lo), hi: shifted(self.hi) }
     }
 }
 
-/// No face is further out: sums over all cells of products of two of them stay below 2¹²⁷.
+/// Greatest coordinate of a face, in grid lines: sums over all cells of products of two of them stay
+/// below 2¹²⁷.
 const FACE_MAX: i128 = 1 << 48;
-/// Finest grid, lines a cell.
+/// Greatest number of grid lines to a cell.
 const LINES_MAX: i128 = 1 << 40;
 
-/// A grid that all faces of a plan, or of several, lie on.
+/// A grid that all faces of one plan, or of several, lie on.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
-    /// Lines a cell size.
+    /// Grid lines to the edge of a full-sized cell.
     pub lines: i64,
 }
 
 impl Grid {
-    /// Of all configurations of a plan.
-    pub fn of(stages: &Stages) -> Result<Grid, String> {
+    /// Returns the coarsest grid of all configurations of a plan.
+    ///
+    /// # Errors
+    ///
+    /// [`LatticeFault::GridTooFine`], as [`Grid::over`].
+    pub fn of(stages: &Stages) -> Result<Grid, LatticeFault> {
         Grid::over(stages.start.iter().chain(stages.stages.iter().flat_map(|stage| &stage.end)))
     }
 
-    /// The coarsest that there is; an error where it is too fine.
-    pub fn over<'a>(runs: impl Iterator<Item = &'a Run>) -> Result<Grid, String> {
+    /// Returns the coarsest grid of the faces of all cells of `runs`: the least common multiple of their
+    /// denominators.
+    ///
+    /// # Errors
+    ///
+    /// [`LatticeFault::GridTooFine`] where a cell would take more than 2⁴⁰ lines.
+    pub fn over<'a>(runs: impl Iterator<Item = &'a Run>) -> Result<Grid, LatticeFault> {
         let mut lines: i128 = 2;
         for run in runs {
             let steps = run.counters.iter().flat_map(|counter| counter.step);
@@ -56,7 +71,7 @@ impl Grid {
                     lines = lines / gcd(lines, denominator) * denominator;
                 }
                 if lines > LINES_MAX {
-                    return Err("the places of the cells are too fine to be judged exactly".into());
+                    return Err(LatticeFault::GridTooFine);
                 }
             }
         }
@@ -67,12 +82,16 @@ impl Grid {
         i128::from(self.lines / denominator) * i128::from(numerator)
     }
 
-    /// Puts the cells of these runs where they say.
-    pub fn place(self, runs: &[Run], cubes: &mut [Cube]) -> Result<(), String> {
+    /// Writes the cells that `runs` name to their indices in `cubes`; the others stay as they are.
+    ///
+    /// # Errors
+    ///
+    /// [`LatticeFault::CellsTooFar`] where a face would lie more than 2⁴⁸ lines from the origin.
+    pub fn place(self, runs: &[Run], cubes: &mut [Cube]) -> Result<(), LatticeFault> {
         runs.iter().try_for_each(|run| self.place_run(run, cubes))
     }
 
-    fn place_run(self, run: &Run, cubes: &mut [Cube]) -> Result<(), String> {
+    fn place_run(self, run: &Run, cubes: &mut [Cube]) -> Result<(), LatticeFault> {
         let mut cube = Cube::default();
         let mut steps = vec![[0_i64; 3]; run.counters.len()];
         for axis in 0..3 {
@@ -84,7 +103,7 @@ impl Grid {
                 step[axis] = line as i64;
             }
             if reach > FACE_MAX {
-                return Err("the cells are too far apart to be judged exactly".into());
+                return Err(LatticeFault::CellsTooFar);
             }
             cube.lo[axis] = (center - size / 2) as i64;
             cube.hi[axis] = (center + size / 2) as i64;
@@ -108,8 +127,8 @@ struct Steps {
     step: [i64; 3],
 }
 
-/// Writes the cells of the counters from here on. Each counter at least doubles their number, so there
-/// are few of them.
+/// Writes the cells of nested counters, outermost first. The recursion is as deep as there are counters;
+/// each at least doubles the number of cells, so there are few of them.
 fn spread(cubes: &mut [Cube], first: i64, cube: Cube, counters: &[Steps]) {
     let Some((counter, inner)) = counters.split_first() else {
         cubes[first as usize] = cube;

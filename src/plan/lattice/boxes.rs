@@ -1,28 +1,31 @@
-//! Stages in which cells move, or change, along several axes.
+//! Contacts and overlaps of stages in which cells move, or change their size, along several axes.
 //!
-//! Planes between which cells stay take the set apart: what is on two sides of one never meets. Of what
-//! can't be taken apart the pairs whose swept boxes overlap are judged one by one: two cells overlap at a
-//! progress where six linear inequalities hold.
+//! Broad phase: separating planes that no cell crosses split the set recursively, then pairs of swept
+//! bounding boxes are found in a uniform grid. Narrow phase: two cells overlap at a value of the path
+//! parameter at which six linear inequalities hold.
 
-use super::contacts::Forest;
+use super::contacts::ContactForest;
 use super::grid::Cube;
-use super::lanes::Meeting;
+use super::lanes::Overlap;
 use super::window::{self, Window};
 
-/// Pairs that are looked at, for each cell: cells that move by little have a few neighbours.
+/// Pairs that are examined, for each cell: cells that move by little have a few neighbours.
 const PAIRS_MAX: usize = 500;
 
-/// Judges the stage and joins the cells whose contact lasts. `None`: too entangled to be judged.
-pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Result<(), Meeting>> {
+/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of
+/// two cells as an error. `None` where more pairs come near each other than are examined.
+pub fn examine(before: &[Cube], after: &[Cube], forest: &mut ContactForest) -> Option<Result<(), Overlap>> {
+    // Contacts that last are contacts at the start, too: boxes that touch before the stage.
     let contacts = pairs_near(before, |i, j| {
         if lasts(before, after, i, j) {
             let moved = |k: usize, axis: usize| after[k].middle(axis) - before[k].middle(axis);
-            let parting = (0..3).map(|axis| (moved(i, axis) - moved(j, axis)).abs()).max();
-            forest.touch(i as u32, j as u32, parting.unwrap_or(0));
+            let relative = (0..3).map(|axis| (moved(i, axis) - moved(j, axis)).abs()).max();
+            forest.touch(i as u32, j as u32, relative.unwrap_or(0));
         }
         None
     });
     contacts?.ok();
+    // Overlaps are sought within each group that no separating plane splits.
     for group in groups(before, after) {
         let hulls: Vec<Cube> =
             group.iter().map(|&cell| hull(&before[cell as usize], &after[cell as usize])).collect();
@@ -30,8 +33,8 @@ pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Res
             let cells = (group[i].min(group[j]), group[i].max(group[j]));
             let (i, j) = (cells.0 as usize, cells.1 as usize);
             let at_start = overlap(&before[i], &before[j]);
-            let meet = at_start || meet((&before[i], &after[i]), (&before[j], &after[j]));
-            meet.then_some(Meeting { cells, at_start })
+            let found = at_start || overlaps_on_the_way((&before[i], &after[i]), (&before[j], &after[j]));
+            found.then_some(Overlap { cells, at_start })
         })?;
         if found.is_err() {
             return Some(found);
@@ -40,13 +43,13 @@ pub fn judge(before: &[Cube], after: &[Cube], forest: &mut Forest) -> Option<Res
     Some(Ok(()))
 }
 
-/// Halvings of a set of cells by which it is taken apart, one within the other.
+/// Greatest depth of the recursive splitting by separating planes.
 const DEPTH_MAX: usize = 12;
 
-/// Groups of cells that are not known to stay apart: planes across an axis that no cell crosses, neither
-/// at the start nor at the end, take the set apart, then those of another axis each part, and so on. Gaps
-/// are linear in the progress, so between two sides of such a plane nothing meets. Groups of one are left
-/// out.
+/// Returns the groups of cells that are not separated by axis-aligned planes. A plane that no cell crosses
+/// at the start, and one in the same order at the end, splits the set; the parts are split along the next
+/// axis. Gaps are linear in the path parameter, so nothing overlaps across such a plane. Groups of one
+/// cell are left out.
 fn groups(before: &[Cube], after: &[Cube]) -> Vec<Vec<u32>> {
     let mut found = Vec::new();
     let mut open = vec![((0..before.len() as u32).collect::<Vec<u32>>(), 0, DEPTH_MAX)];
@@ -66,7 +69,7 @@ fn groups(before: &[Cube], after: &[Cube]) -> Vec<Vec<u32>> {
     found
 }
 
-/// The cells between planes across an axis, where there are several.
+/// Returns the cells between successive separating planes across an axis; parts of one cell are left out.
 fn parts(before: &[Cube], after: &[Cube], mut cells: Vec<u32>, axis: usize) -> Vec<Vec<u32>> {
     let ends = |cell: u32| (&before[cell as usize], &after[cell as usize]);
     cells.sort_by_key(|&cell| (ends(cell).0.lo[axis], ends(cell).1.lo[axis]));
@@ -92,20 +95,17 @@ fn parts(before: &[Cube], after: &[Cube], mut cells: Vec<u32>, axis: usize) -> V
     parts
 }
 
-/// Looks at every pair of cells that come near each other in the stage. `None`: too many.
-pub fn pairs_near_on_the_way(
-    before: &[Cube],
-    after: &[Cube],
-    mut look: impl FnMut(usize, usize),
-) -> Option<()> {
-    let looked = pairs_near(&swept(before, after), |i, j| {
-        look(i, j);
+/// Calls `visit` with every pair of cells whose swept bounding boxes touch or overlap. `None` where there
+/// are too many.
+pub fn for_swept_pairs(before: &[Cube], after: &[Cube], mut visit: impl FnMut(usize, usize)) -> Option<()> {
+    let visited = pairs_near(&swept(before, after), |i, j| {
+        visit(i, j);
         None
     });
-    looked.map(|_| ())
+    visited.map(|_| ())
 }
 
-/// Boxes around all that each cell passes.
+/// Returns the bounding box of each cell's sweep.
 fn swept(before: &[Cube], after: &[Cube]) -> Vec<Cube> {
     before.iter().zip(after).map(|(a, b)| hull(a, b)).collect()
 }
@@ -123,8 +123,8 @@ fn overlap(a: &Cube, b: &Cube) -> bool {
     (0..3).all(|axis| a.lo[axis] < b.hi[axis] && b.lo[axis] < a.hi[axis])
 }
 
-/// Whether two cells are in contact over a face all the while: along one axis no gap at either end,
-/// along the others an overlap that is nowhere negative at the ends and not 0 at both.
+/// Returns true if two cells share a part of a face during the whole stage: along one axis the gap is 0 at
+/// both ends, along the others the overlap is negative at neither end and not 0 at both.
 fn lasts(before: &[Cube], after: &[Cube], i: usize, j: usize) -> bool {
     let gap = |cubes: &[Cube], a: usize, b: usize, axis: usize| cubes[b].lo[axis] - cubes[a].hi[axis];
     let closed = |axis: usize| {
@@ -139,25 +139,27 @@ fn lasts(before: &[Cube], after: &[Cube], i: usize, j: usize) -> bool {
     (0..3).any(|axis| closed(axis) && beside((axis + 1) % 3) && beside((axis + 2) % 3))
 }
 
-/// Whether two cells overlap at some progress from 0 to 1.
-fn meet(a: (&Cube, &Cube), b: (&Cube, &Cube)) -> bool {
+/// Returns true if two cells overlap at some value of the path parameter.
+fn overlaps_on_the_way(a: (&Cube, &Cube), b: (&Cube, &Cube)) -> bool {
     let axes = (0..3).try_fold(Window::WHOLE, |open, axis| window::overlap([a, b], axis, open));
     axes.is_some()
 }
 
-/// Along z, y and x.
+/// Coordinates of a tile of the uniform grid, along z, y and x.
 type Tile = (i64, i64, i64);
 
-/// Looks at every pair of boxes that touch or overlap, until one gives a meeting. `None`: too many.
+/// Calls `visit` with every pair of boxes that touch or overlap, until it returns an overlap. `None` where
+/// there are too many pairs. Broad phase on a uniform grid whose tiles are as large as the largest box.
 fn pairs_near(
     boxes: &[Cube],
-    mut look: impl FnMut(usize, usize) -> Option<Meeting>,
-) -> Option<Result<(), Meeting>> {
+    mut visit: impl FnMut(usize, usize) -> Option<Overlap>,
+) -> Option<Result<(), Overlap>> {
     let tile = boxes.iter().flat_map(|b| (0..3).map(|axis| b.size(axis))).max().unwrap_or(1).max(1);
     let key = |b: &Cube| -> Tile {
         let [x, y, z] = [0, 1, 2].map(|axis| b.lo[axis].div_euclid(tile));
         (z, y, x)
     };
+    // Boxes in the order of their tiles.
     let mut order: Vec<(Tile, u32)> = boxes.iter().enumerate().map(|(i, b)| (key(b), i as u32)).collect();
     order.sort_unstable();
     let mut left = PAIRS_MAX.saturating_mul(boxes.len()).saturating_add(1000);
@@ -183,8 +185,8 @@ fn pairs_near(
                 continue;
             }
             let (i, j) = (cell.min(other), cell.max(other));
-            if let Some(meeting) = look(i as usize, j as usize) {
-                return Some(Err(meeting));
+            if let Some(overlap) = visit(i as usize, j as usize) {
+                return Some(Err(overlap));
             }
         }
     }

@@ -1,13 +1,14 @@
-//! What no motion of a lattice can beat, whatever it does on the way.
+//! A lower bound on the duration of any motion between two shapes of a lattice, whatever the path.
 
 use crate::plan::Ratio;
 
-/// Contacts that a cell can have with sizes from a half on: nine on each of six sides, each shared.
+/// Greatest number of contacts for each cell if edges are at least half a cell long: nine on each of six
+/// sides, each contact shared by two cells.
 const CONTACTS: f64 = 27.0;
 
-/// A bound on the time, in units of time, below which no motion gets cells from one shape to the other.
-/// The centre of mass stays. `before` and `after` give twice the centres of all cells along an axis, in
-/// any order, in lines of a grid with so many to a cell.
+/// Returns a duration, in time units, below which no motion takes the cells from one shape to the other
+/// while the centre of mass stays. `before` and `after` give twice the centres of all cells along an axis,
+/// in any order, in grid lines; `lines` is the number of grid lines to a cell.
 ///
 /// Some cell must go at least as far along an axis as cells matched in order do, at worst, and to go
 /// `d` from rest to rest takes `2 √d`; for a row and a column `√(2 (n - 1))`. With contact forces of at

@@ -1,0 +1,135 @@
+//! Connectedness of cells by contacts, and the contact forces of a spanning forest.
+//!
+//! Contacts that last a whole stage are joined to trees by union and find. In a tree the contact forces are
+//! statically determinate: a contact carries what accelerates the cells behind it. That is the force
+//! certificate: summed over the contacts of a cell it gives the cell's own acceleration, exactly, because it
+//! is made of the same integers.
+
+use super::grid::Cube;
+
+/// A spanning forest of the contact graph of cells, with union and find.
+#[derive(Clone)]
+pub struct ContactForest {
+    /// The union-find parent of each cell.
+    above: Vec<u32>,
+    /// The edges of the forest: contacts that joined two trees.
+    pub links: Vec<(u32, u32)>,
+    /// Greatest relative displacement of two cells in contact along an axis, twice, in grid lines.
+    pub relative: i64,
+    /// The contact with the greatest relative displacement.
+    pub fastest: (u32, u32),
+}
+
+/// A cell while forces are passed on from the leaves.
+#[derive(Clone, Copy)]
+struct ForceNode {
+    /// Twice the sum of the displacements of the cell and of those behind it, in lines.
+    behind: i128,
+    /// Number of edges that are not removed yet.
+    degree: u32,
+    /// Exclusive or of the numbers of its neighbours: for a leaf the number of its only neighbour.
+    neighbours: u32,
+}
+
+impl ContactForest {
+    /// Returns the forest of `count` cells without contacts.
+    pub fn new(count: usize) -> ContactForest {
+        ContactForest {
+            above: (0..count as u32).collect(),
+            links: Vec::with_capacity(count.saturating_sub(1)),
+            relative: 0,
+            fastest: (0, 0),
+        }
+    }
+
+    fn root(&mut self, cell: u32) -> u32 {
+        let mut at = cell as usize;
+        while self.above[at] as usize != at {
+            self.above[at] = self.above[self.above[at] as usize];
+            at = self.above[at] as usize;
+        }
+        at as u32
+    }
+
+    /// Adds a contact that lasts the stage. `relative` is twice the greatest relative displacement of its
+    /// cells along an axis, in grid lines.
+    pub fn touch(&mut self, a: u32, b: u32, relative: i64) {
+        if relative > self.relative {
+            (self.relative, self.fastest) = (relative, (a, b));
+        }
+        let (p, q) = (self.root(a), self.root(b));
+        if p != q {
+            // The lower number leads, so that long chains stay flat.
+            self.above[p.max(q) as usize] = p.min(q);
+            self.links.push((a, b));
+        }
+    }
+
+    /// Returns the size and the first cell of each connected component, largest first.
+    pub fn components(&mut self) -> Vec<(usize, u32)> {
+        let mut sizes = vec![0_usize; self.above.len()];
+        for cell in 0..self.above.len() as u32 {
+            let root = self.root(cell);
+            sizes[root as usize] += 1;
+        }
+        let mut pieces: Vec<(usize, u32)> = sizes
+            .iter()
+            .enumerate()
+            .filter(|(_, size)| **size > 0)
+            .map(|(i, size)| (*size, i as u32))
+            .collect();
+        pieces.sort_by_key(|&(size, cell)| (std::cmp::Reverse(size), cell));
+        pieces
+    }
+
+    /// Returns true if all cells are in one connected component.
+    pub fn is_connected(&self) -> bool {
+        self.links.len() + 1 >= self.above.len()
+    }
+
+    /// Returns the greatest force along an axis that an edge of the forest carries, with that edge. The force
+    /// is given as twice the sum of the displacements of the cells behind the edge, in grid lines; its factor
+    /// follows from the time scaling of the stage.
+    ///
+    /// # Errors
+    ///
+    /// The sum that is left over at a root, where the displacements of a component do not add up to zero:
+    /// then an external force would be needed.
+    pub fn forces(&self, before: &[Cube], after: &[Cube], axis: usize) -> Result<(i128, (u32, u32)), i128> {
+        let moved = |(old, new): (&Cube, &Cube)| ForceNode {
+            behind: i128::from(new.middle(axis) - old.middle(axis)),
+            degree: 0,
+            neighbours: 0,
+        };
+        let mut nodes: Vec<ForceNode> = before.iter().zip(after).map(moved).collect();
+        for &(a, b) in &self.links {
+            let [p, q] = [a, b].map(|cell| cell as usize);
+            nodes[p].degree += 1;
+            nodes[p].neighbours ^= b;
+            nodes[q].degree += 1;
+            nodes[q].neighbours ^= a;
+        }
+        // Leaves are removed one by one; each passes its force on to its only neighbour.
+        let mut worst = (0, (0, 0));
+        for leaf in 0..nodes.len() {
+            let mut at = leaf;
+            while nodes[at].degree == 1 {
+                let ForceNode { behind: force, neighbours: next, .. } = nodes[at];
+                if force.abs() > worst.0 {
+                    worst = (force.abs(), (at as u32, next));
+                }
+                nodes[at] = ForceNode { behind: 0, degree: 0, neighbours: 0 };
+                let next = next as usize;
+                nodes[next].behind += force;
+                nodes[next].degree -= 1;
+                nodes[next].neighbours ^= at as u32;
+                at = next;
+            }
+        }
+        // What was not passed on is left at the roots.
+        match nodes.iter().find(|node| node.behind != 0) {
+            Some(node) => Err(node.behind),
+            None => Ok(worst),
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Measures of whole stages: relative displacements, contact forces, shapes at the ends, and the lower bound
+//! on the duration.
+
+use super::contacts::ContactForest;
+use super::fault::LatticeFault;
+use super::grid::{Cube, Grid};
+use super::lanes::Overlap;
+use super::law::{Change, TimeScaling};
+use super::lower_bound::lower_bound;
+use super::{boxes, lanes};
+use crate::plan::Stages;
+
+/// Returns twice the greatest relative displacement along an axis, in grid lines, of two cells that are in
+/// contact during the whole stage; `lines` is the number of grid lines to a cell. `None` where more pairs
+/// of cells come near each other than are examined.
+pub fn greatest_relative_displacement(before: &[Cube], after: &[Cube], lines: i64) -> Option<i64> {
+    let mut forest = ContactForest::new(before.len());
+    // Overlaps are found when the plan is judged.
+    let _ = examine(before, after, &Change::of(before, after), lines, &mut forest)?;
+    Some(forest.relative)
+}
+
+/// Returns for each stage the greatest contact force times the square of its duration, in the plan's units,
+/// as numerator and denominator.
+///
+/// # Errors
+///
+/// Every [`LatticeFault`] but [`LatticeFault::OffLattice`].
+pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
+    let grid = Grid::of(stages)?;
+    let mut before = vec![Cube::default(); stages.count as usize];
+    grid.place(&stages.start, &mut before)?;
+    let mut peaks = Vec::with_capacity(stages.stages.len());
+    for stage in &stages.stages {
+        let mut after = before.clone();
+        grid.place(&stage.end, &mut after)?;
+        let change = Change::of(&before, &after);
+        let mut forest = ContactForest::new(before.len());
+        let _ = examine(&before, &after, &change, grid.lines, &mut forest).ok_or(LatticeFault::Entangled)?;
+        let mut peak = 0;
+        for axis in 0..3 {
+            let along = forest.forces(&before, &after, axis).map_err(|_| LatticeFault::CentreMoves)?;
+            peak = peak.max(along.0);
+        }
+        let (times, over) = TimeScaling::of(stage).acceleration_ratio();
+        peaks.push((peak * i128::from(times), 2 * i128::from(grid.lines) * i128::from(over)));
+        before = after;
+    }
+    Ok(peaks)
+}
+
+/// Returns the duration, in seconds, below which no motion leads from the plan's first shape to its last
+/// under the same limits.
+///
+/// # Errors
+///
+/// [`LatticeFault::GridTooFine`] or [`LatticeFault::CellsTooFar`].
+pub fn time_lower_bound(stages: &Stages) -> Result<f64, LatticeFault> {
+    let grid = Grid::of(stages)?;
+    let mut cubes = vec![Cube::default(); stages.count as usize];
+    grid.place(&stages.start, &mut cubes)?;
+    let start = cubes.clone();
+    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    Ok(time_between(stages, &start, &cubes, grid))
+}
+
+/// Returns the lower bound on the duration between two configurations, in seconds.
+pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -> f64 {
+    let middles = |cubes: &[Cube], axis: usize| cubes.iter().map(|cube| cube.middle(axis)).collect();
+    let (before, after) = (|axis| middles(start, axis), |axis| middles(end, axis));
+    lower_bound(before, after, grid.lines, stages.model.contact_force) * stages.time_unit
+}
+
+/// Integer coordinates of places of a lattice.
+pub type Places = Vec<[i64; 3]>;
+
+/// Returns the places of the lattice that the cells fill at the start and at the end of a plan, sorted and
+/// translated so that the lowest along each axis is 0.
+///
+/// # Errors
+///
+/// [`LatticeFault::OffLattice`] where a cell does not fill a place; [`LatticeFault::GridTooFine`] or
+/// [`LatticeFault::CellsTooFar`].
+pub fn end_shapes(stages: &Stages) -> Result<(Places, Places), LatticeFault> {
+    let grid = Grid::of(stages)?;
+    let mut cubes = vec![Cube::default(); stages.count as usize];
+    grid.place(&stages.start, &mut cubes)?;
+    let start = places(&cubes, grid.lines)?;
+    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    Ok((start, places(&cubes, grid.lines)?))
+}
+
+fn places(cubes: &[Cube], lines: i64) -> Result<Places, LatticeFault> {
+    let low = [0, 1, 2].map(|axis| cubes.iter().map(|c| c.lo[axis]).min().unwrap_or(0));
+    let place = |cube: &Cube| {
+        let whole = (0..3).all(|axis| cube.size(axis) == lines && (cube.lo[axis] - low[axis]) % lines == 0);
+        let at = [0, 1, 2].map(|axis| (cube.lo[axis] - low[axis]) / lines);
+        if whole { Ok(at) } else { Err(LatticeFault::OffLattice) }
+    };
+    let mut places = cubes.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    places.sort_unstable();
+    Ok(places)
+}
+
+/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of
+/// two cells as an error; by a sweep where cells move along one axis only. `None` where more pairs of cells
+/// come near each other than are examined.
+pub fn examine(
+    before: &[Cube],
+    after: &[Cube],
+    change: &Change,
+    lines: i64,
+    forest: &mut ContactForest,
+) -> Option<Result<(), Overlap>> {
+    let moving: Vec<usize> = (0..3).filter(|&axis| change.axes[axis]).collect();
+    match moving[..] {
+        [axis] => lanes::examine(before, after, axis, lines, forest),
+        _ => boxes::examine(before, after, forest),
+    }
+}

@@ -1,0 +1,29 @@
+//! The law of lattice motion in exact integer arithmetic, which the planner of lattices and the judge share:
+//! where cells are, which of them overlap or are in contact during a stage, how fast they move under the
+//! stage's time scaling, and what forces their contacts carry.
+//!
+//! The law says what happens in a stage; it knows no limits of a plan, and accepts nothing. `squeeze` uses
+//! it to choose durations of stages, the judge ([`verify::lattice`](crate::plan::verify::lattice)) to compare
+//! every quantity of the finished stages with the plan's limits again.
+
+pub mod fault;
+pub mod grid;
+
+mod window;
+
+pub mod contacts;
+
+mod tiles;
+
+pub mod boxes;
+pub mod lanes;
+pub mod transient;
+
+pub mod law;
+pub mod lower_bound;
+
+pub mod measures;
+
+pub use fault::LatticeFault;
+pub use grid::{Cube, Grid};
+pub use measures::{Places, end_shapes, greatest_relative_displacement, peak_forces, time_lower_bound};

@@ -1,0 +1,82 @@
+//! A lattice plan under judgement, one of its stages, and how failures of a stage are recorded.
+
+use crate::plan::lattice::Cube;
+use crate::plan::lattice::law::{Change, TimeScaling};
+use crate::plan::verify::ledger::Ledger;
+use crate::plan::{CheckKind, Failure, Stage, Stages};
+use crate::robot::Cell;
+
+/// A plan under judgement.
+pub struct Judgement<'a> {
+    /// The stages.
+    pub stages: &'a Stages,
+    /// The cell that they are made of.
+    pub cell: &'a Cell,
+}
+
+/// One stage with the configurations at its two ends.
+pub struct Step<'a> {
+    /// The stage.
+    pub stage: &'a Stage,
+    /// The start of the stage, s.
+    pub from: f64,
+    /// The end of the stage, s.
+    pub to: f64,
+    /// The cells at its start.
+    pub before: &'a [Cube],
+    /// The cells at its end.
+    pub after: &'a [Cube],
+    /// Sums and extremes of the displacements.
+    pub change: Change,
+    /// Its time scaling.
+    pub scaling: TimeScaling,
+    /// Grid lines to a cell.
+    pub lines: i64,
+}
+
+impl Judgement<'_> {
+    /// Records a failure of a stage that has no value and no limit.
+    pub fn fail(
+        &self,
+        kind: CheckKind,
+        time: f64,
+        stage: Option<&Stage>,
+        message: String,
+        ledger: &mut Ledger,
+    ) {
+        self.fail_at(kind, time, stage, (message, 0.0, 0.0), &[], ledger);
+    }
+
+    /// Records a failure of a stage with its value, its limit and the cells concerned.
+    pub fn fail_at(
+        &self,
+        kind: CheckKind,
+        time: f64,
+        stage: Option<&Stage>,
+        (message, value, limit): (String, f64, f64),
+        cells: &[u32],
+        ledger: &mut Ledger,
+    ) {
+        ledger.fail(Failure { message, value, limit, at: names(cells), ..self.failure(kind, time, stage) });
+    }
+
+    /// Returns an empty failure, blamed on the command behind the stage.
+    pub fn failure(&self, kind: CheckKind, time: f64, stage: Option<&Stage>) -> Failure {
+        Failure {
+            kind,
+            time,
+            until: None,
+            at: vec![],
+            message: String::new(),
+            value: 0.0,
+            limit: 0.0,
+            blame: stage.map(|stage| stage.cause).into_iter().collect(),
+            blames_start: false,
+        }
+    }
+}
+
+/// Returns the names of cells in a report.
+pub fn names(cells: &[u32]) -> Vec<String> {
+    cells.iter().map(|cell| format!("cell {cell}")).collect()
+}
