@@ -1,6 +1,7 @@
 //! Documents and the rules of the house.
 
 pub mod docs;
+pub mod figures;
 pub mod library_guide;
 pub mod pages;
 pub mod readme;

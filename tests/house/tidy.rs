@@ -1,8 +1,8 @@
 //! The rules of the house, as far as a test can see them. What a rule is for: `docs/architecture.md`.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::support::sources::{code_lines, files, root, rust};
+use std::collections::BTreeSet;
+use std::path::Path;
 
 /// A file longer than this has a second subject.
 const LINES_MAX: usize = 600;
@@ -152,47 +152,6 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("std::thread", &["planners", "interpret", "cli"]),
     ("std::time", &["cli"]),
 ];
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// Every file of the repository with its path from the root, in order.
-fn files() -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![root().to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("the repository can be read") {
-            let path: PathBuf = entry.expect("the repository can be read").path();
-            let name =
-                path.strip_prefix(root()).expect("below the root").to_string_lossy().replace('\\', "/");
-            if [".git", "target", "out", "corpus", "artifacts"].contains(&name.as_str()) {
-                continue;
-            }
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.is_file() {
-                found.insert(name, fs::read(&path).expect("the file can be read"));
-            }
-        }
-    }
-    found
-}
-
-/// The Rust files below a folder, as text.
-fn rust(folder: &str) -> BTreeMap<String, String> {
-    let prefix = format!("{folder}/");
-    let chosen = files().into_iter().filter(|(name, _)| name.starts_with(&prefix) && name.ends_with(".rs"));
-    chosen.map(|(name, bytes)| (name, String::from_utf8(bytes).expect("Rust is UTF-8"))).collect()
-}
-
-/// The lines that are no comments, with their numbers.
-fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    text.lines()
-        .enumerate()
-        .map(|(i, line)| (i + 1, line))
-        .filter(|(_, line)| !line.trim_start().starts_with("//"))
-}
 
 fn fail_if_any(what: &str, faults: Vec<String>) {
     assert!(faults.is_empty(), "{what}:\n  {}", faults.join("\n  "));

@@ -8,6 +8,7 @@ pub mod motions;
 pub mod programs;
 pub mod replay;
 pub mod robots;
+pub mod sources;
 pub mod suite;
 pub mod terminal;
 pub mod tree;

@@ -1,0 +1,36 @@
+# What the checks need beside Rust, installed below target/; sourced by `.ci/run` and `.ci/full`.
+
+# The formatter and the lints of the toolchain.
+install_rust_tools() {
+  for tool in fmt clippy; do
+    cargo "$tool" --version >/dev/null 2>&1 || rustup component add "${tool/fmt/rustfmt}"
+  done
+}
+
+# pinocchio, a second opinion on kinematics (tests/robots/urdf.rs, benches/kinematics.rs). Where it can't be
+# installed, what asks for it says so and is skipped.
+install_python() {
+  local venv="$PWD/target/python"
+  if [ ! -x "$venv/bin/python" ]; then
+    python3 -m venv "$venv" || echo "no Python: the test against another library will be skipped"
+  fi
+  if [ -x "$venv/bin/python" ]; then
+    "$venv/bin/python" -c 'import pinocchio' 2>/dev/null \
+      || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check pin \
+      || echo "no pinocchio: the test against another library will be skipped"
+    export MODL_PYTHON="$venv/bin/python"
+  fi
+}
+
+# Debian's Chromium and playwright-core, for the tests that open pages in a browser (tests/desk/browser.rs).
+install_browser() {
+  if [ ! -x "${MODL_CHROMIUM:-/usr/bin/chromium}" ]; then
+    apt-get update -qq
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends chromium fonts-dejavu-core >/dev/null
+  fi
+  local browser="$PWD/target/browser"
+  if [ ! -d "$browser/node_modules/playwright-core" ]; then
+    mkdir -p "$browser"
+    npm install --prefix "$browser" --no-save --no-audit --no-fund --silent playwright-core@1
+  fi
+}
