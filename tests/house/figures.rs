@@ -12,6 +12,10 @@ fn figures_of_the_house() {
 }
 
 fn numbered_arguments() -> usize {
-    let natives = rust("src").into_iter().filter(|(file, _)| file.starts_with("src/natives/") || file.starts_with("src/interpret/natives"));
-    natives.map(|(_, text)| code_lines(&text).map(|(_, line)| line.matches("call.").count()).sum::<usize>()).sum()
+    let natives = rust("src")
+        .into_iter()
+        .filter(|(file, _)| file.starts_with("src/natives/") || file.starts_with("src/interpret/natives"));
+    natives
+        .map(|(_, text)| code_lines(&text).map(|(_, line)| line.matches("call.").count()).sum::<usize>())
+        .sum()
 }

@@ -69,14 +69,16 @@ pub fn imports() -> BTreeMap<String, BTreeSet<String>> {
 /// [`imports`] that have more than one file, largest first.
 pub fn knots() -> Vec<Vec<String>> {
     let graph = imports();
-    let reach: BTreeMap<&String, BTreeSet<&String>> = graph.keys().map(|file| (file, reached(file, &graph))).collect();
+    let reach: BTreeMap<&String, BTreeSet<&String>> =
+        graph.keys().map(|file| (file, reached(file, &graph))).collect();
     let mut knots: Vec<Vec<String>> = Vec::new();
     let mut seen = BTreeSet::new();
     for file in graph.keys() {
         if seen.contains(file) {
             continue;
         }
-        let knot: Vec<String> = reach[file].iter().filter(|o| reach[**o].contains(file)).map(|o| (*o).clone()).collect();
+        let knot: Vec<String> =
+            reach[file].iter().filter(|o| reach[**o].contains(file)).map(|o| (*o).clone()).collect();
         seen.extend(knot.iter().cloned());
         if knot.len() > 1 {
             knots.push(knot);
@@ -151,7 +153,11 @@ fn paths(file: &str, text: &str) -> Vec<Vec<String>> {
     }
     let mut in_use = false;
     for (_, line) in code_lines(text) {
-        let begins = line.trim_start().trim_start_matches("pub ").trim_start_matches("pub(crate) ").starts_with("use ");
+        let begins = line
+            .trim_start()
+            .trim_start_matches("pub ")
+            .trim_start_matches("pub(crate) ")
+            .starts_with("use ");
         in_use = begins || in_use;
         if !in_use {
             found.extend(inline_paths(line).iter().filter_map(|path| absolute(file, path)));
@@ -190,7 +196,8 @@ fn statements(text: &str) -> Vec<(bool, String)> {
 fn expand(tree: &str) -> Vec<(Vec<String>, String)> {
     let tree = tree.trim();
     if let Some((head, group)) = tree.split_once('{') {
-        let head: Vec<String> = head.split("::").filter(|p| !p.trim().is_empty()).map(|p| p.trim().to_owned()).collect();
+        let head: Vec<String> =
+            head.split("::").filter(|p| !p.trim().is_empty()).map(|p| p.trim().to_owned()).collect();
         let inner = group.rsplit_once('}').map_or(group, |(inner, _)| inner);
         let items = split_outside_braces(inner);
         let joined = items.iter().flat_map(|item| expand(item)).map(|(path, name)| {
@@ -202,7 +209,8 @@ fn expand(tree: &str) -> Vec<(Vec<String>, String)> {
         return joined.collect();
     }
     let (path, alias) = tree.split_once(" as ").map_or((tree, None), |(p, a)| (p, Some(a)));
-    let parts: Vec<String> = path.split("::").map(|p| p.trim().to_owned()).filter(|p| !p.is_empty()).collect();
+    let parts: Vec<String> =
+        path.split("::").map(|p| p.trim().to_owned()).filter(|p| !p.is_empty()).collect();
     let name = alias.map(str::trim).map(str::to_owned).or(parts.last().cloned()).unwrap_or_default();
     vec![(parts, name)]
 }
