@@ -34,7 +34,7 @@ fn of_truth(shape: &serde_json::Value) -> Mesh {
 
 fn split((points, faces): &Mesh, parts: usize, round: bool) -> Mesh {
     let faces: Vec<[usize; 3]> = faces.iter().map(|f| [f[0], f[1], f[2]]).collect();
-    let (points, faces) = subdivide::subdivided(points, &faces, parts);
+    let (points, faces) = subdivide(points, &faces, parts);
     let place = |p: Vec3| if round { p.normalize() * SIDE * parts as f64 } else { p };
     (points.into_iter().map(place).collect(), faces.iter().map(|f| f.to_vec()).collect())
 }

@@ -56,7 +56,7 @@ fn sweep(module: &ModuleType, joint: &Joint) -> Option<Overlap> {
     let depth = |q: f64| {
         let (at_parent, at_child) =
             (module.links[joint.parent].pose, moved(joint, q) * module.links[joint.child].pose);
-        -distance::between(&parent, &at_parent, &child, &at_child)
+        -distance::distance_of_solids(&parent, &at_parent, &child, &at_child)
     };
     let allowed = depth(0.0).max(0.0) + module.touch;
     let (low, high) = joint.limits.range.unwrap_or((0.0, std::f64::consts::TAU));

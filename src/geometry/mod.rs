@@ -1,32 +1,42 @@
-//! Poses, shapes and distances. The only user of parry; knows no robots.
+//! Poses, shapes, distances and the broad phase. The only user of parry; knows no robots.
+//!
+//! In reading order: vectors and poses ([`pose`], [`rigid_transform`]), declared shapes ([`Shape`]) and what makes them
+//! solids ([`soundness`]), convex parts and solids compiled from them ([`Part`], [`Solid`]), distances ([`distance`],
+//! [`closest_points`], [`contact_point()`]) and the search for near pairs ([`broad_phase`]).
 #![allow(non_snake_case)]
 
-pub mod angle;
-pub mod height_field;
-pub mod json;
-pub mod polygon;
+mod angle;
+mod height_field;
+pub(crate) mod json;
+mod polygon;
 pub mod pose;
 pub mod rigid_transform;
-pub mod shape;
+mod shape;
 
 pub mod soundness;
-pub mod subdivide;
+mod subdivide;
 pub mod volume;
 
-pub mod part;
-pub mod solid;
+mod part;
+mod solid;
 
+pub mod broad_phase;
+pub mod closest_points;
+mod contact_point;
 pub mod distance;
-pub mod meeting;
 
-mod approach;
+mod gjk;
 pub mod hull;
 
-pub use distance::Nearness;
+pub use angle::sin_cos;
+pub use contact_point::contact_point;
+pub use distance::SignedDistance;
 pub use height_field::HeightField;
 pub use part::Part;
+pub use polygon::triangulate;
 pub use pose::{Pose, Vec3};
 pub use rigid_transform::RigidTransform;
 pub use shape::{Placed, Shape};
 pub use solid::Solid;
 pub use soundness::Unsound;
+pub use subdivide::subdivide;

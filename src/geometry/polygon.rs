@@ -5,7 +5,7 @@ use super::Vec3;
 /// A plane polygon, convex or not, as triangles: three indices of its corners each, turning the same way
 /// as it does. Ears are cut off one by one (Meisters). A polygon that crosses itself gives triangles all
 /// the same, which overlap.
-pub fn triangulated(corners: &[Vec3]) -> Vec<[usize; 3]> {
+pub fn triangulate(corners: &[Vec3]) -> Vec<[usize; 3]> {
     // Newell's normal, of twice the area.
     let n = corners.len();
     let normal: Vec3 = (0..n).map(|i| corners[i].cross(&corners[(i + 1) % n])).sum();

@@ -17,7 +17,7 @@ enum Place {
 
 /// Every triangle as `parts`² triangles of the same shape; the triangles of a face follow each other, and
 /// keep its sense. `parts` is at least 1.
-pub fn subdivided(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surface {
+pub fn subdivide(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surface {
     let mut found: BTreeMap<Place, usize> = BTreeMap::new();
     let mut points: Vec<Vec3> = Vec::new();
     let mut triangles = Vec::with_capacity(faces.len() * parts * parts);

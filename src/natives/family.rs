@@ -280,7 +280,7 @@ fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     let faces = parts.checked_mul(parts).and_then(|squared| squared.checked_mul(triangles.len()));
     interpreter.check_list(faces.unwrap_or(usize::MAX), call.span)?;
-    let (vertices, faces) = subdivide::subdivided(&mesh.vertices, &triangles, parts);
+    let (vertices, faces) = subdivide(&mesh.vertices, &triangles, parts);
     Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: faces.into_iter().map(Vec::from).collect() })))
 }
 

@@ -260,7 +260,7 @@ fn goal(call: &Call, task: &Task) -> Eval<Goal> {
 fn triangles(mesh: &Mesh) -> Vec<[Vec3; 3]> {
     let fan = |face: &Vec<usize>| {
         let corner = |i: usize| mesh.vertices[face[i]];
-        crate::geometry::polygon::triangulated(&face.iter().map(|&i| mesh.vertices[i]).collect::<Vec<_>>())
+        crate::geometry::triangulate(&face.iter().map(|&i| mesh.vertices[i]).collect::<Vec<_>>())
             .into_iter()
             .map(|t| t.map(corner))
             .collect::<Vec<_>>()

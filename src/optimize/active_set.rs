@@ -1,20 +1,19 @@
-//! Strictly convex quadratic programmes by the dual active-set method of Goldfarb and Idnani (1983), for
-//! programmes to which rows are added while they are being solved: each solution begins with the rows
-//! that held the last one.
+//! Strictly convex quadratic programs by the dual active-set method of Goldfarb and Idnani (1983), for programs to
+//! which rows are added while they are being solved: each solution is warm-started from the active set of the last one.
 //!
-//! With `H = L Lᵀ`, `v = Lᵀ x`, `z = L⁻¹ a` the programme is to find the point v nearest to `v₀ = -L⁻¹ c`
-//! with `z·v ≤ b` for each row. The Gram matrix of the active rows is kept factored.
+//! With `H = L Lᵀ`, `v = Lᵀ x`, `z = L⁻¹ a` the program is to find the point v nearest to `v₀ = -L⁻¹ c` with `z·v ≤ b`
+//! for each row. The Gram matrix of the active rows' images z is kept as its Cholesky factor, which grows by a row
+//! where a row becomes active and is mended by Givens rotations where one is dropped.
 
-use super::factor::Factor;
-use super::linear::Unsolved;
-use super::sparse::Row;
+use super::linear::{Row, Unsolved};
+use super::sparse_cholesky::SparseCholesky;
 
-/// A row that is nearly a sum of active ones is taken for one: the part of its squared length that is left.
+/// The part of a row's squared length across the active rows below which it counts as a linear combination of them.
 const DEPENDENT: f64 = 1e-11;
-/// Changes of the active set, per row, until it is given up.
+/// Changes of the active set, for each row, after which the method gives up.
 const CHANGES_MAX: usize = 20;
 
-/// A vector by its entries that are not zero.
+/// A sparse vector: the indices and values of its entries that are not zero.
 #[derive(Clone, Debug, Default)]
 struct Sparse {
     at: Vec<usize>,
@@ -33,11 +32,12 @@ impl Sparse {
     }
 }
 
+/// A constraint.
 struct Line {
     terms: Vec<(usize, f64)>,
     right: f64,
     equal: bool,
-    /// z, once it was needed; with its squared length and its product with v₀.
+    /// The image z, once it was needed; with its squared length and its product with v₀.
     image: Option<(Sparse, f64, f64)>,
     active: bool,
 }
@@ -48,9 +48,10 @@ impl Line {
     }
 }
 
-pub struct ActiveSet {
-    factor: Factor,
-    /// v₀.
+/// A quadratic program with its active set.
+pub(super) struct ActiveSet {
+    factor: SparseCholesky,
+    /// The unconstrained optimum v₀.
     free: Vec<f64>,
     lines: Vec<Line>,
     /// The active rows with their multipliers, in the order of the factor's rows.
@@ -64,9 +65,11 @@ pub struct ActiveSet {
 }
 
 impl ActiveSet {
-    pub fn new(factor: Factor, linear: &[f64], tolerance: f64) -> ActiveSet {
+    /// Returns the program without rows for `H = L Lᵀ` and c; rows may be off by `tolerance`, in the units of their right
+    /// sides.
+    pub(super) fn new(factor: SparseCholesky, linear: &[f64], tolerance: f64) -> ActiveSet {
         let mut free: Vec<f64> = linear.iter().map(|c| -c).collect();
-        factor.forward(&mut free);
+        factor.solve_lower(&mut free);
         ActiveSet {
             work: vec![0.0; free.len()],
             factor,
@@ -80,16 +83,17 @@ impl ActiveSet {
     }
 
     /// Adds `a·x = b`, or `a·x ≤ b`. Rows are numbered as they come.
-    pub fn add(&mut self, (terms, right): Row, equal: bool) {
+    pub(super) fn add(&mut self, (terms, right): Row, equal: bool) {
         self.lines.push(Line { terms, right, equal, image: None, active: false });
     }
 
-    /// Another right side.
-    pub fn set(&mut self, line: usize, right: f64) {
+    /// Changes the right side of a row.
+    pub(super) fn set(&mut self, line: usize, right: f64) {
         self.lines[line].right = right;
     }
 
-    pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
+    /// Returns the optimal x. Equalities enter first, then the most violated inequality again and again.
+    pub(super) fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
         self.restart();
         for line in 0..self.lines.len() {
             if self.lines[line].equal && !self.lines[line].active {
@@ -98,7 +102,7 @@ impl ActiveSet {
         }
         for _ in 0..CHANGES_MAX * (self.lines.len() + 1) {
             let x = self.point();
-            let Some(line) = self.most_broken(&x) else {
+            let Some(line) = self.most_violated(&x) else {
                 return if self.active_hold(&x) { Ok(x) } else { Err(Unsolved::Numerical) };
             };
             self.enter(line)?;
@@ -106,19 +110,20 @@ impl ActiveSet {
         Err(Unsolved::Numerical)
     }
 
-    /// The next solution begins anew.
-    pub fn forget(&mut self) {
+    /// Empties the active set, so that the next solution begins anew.
+    pub(super) fn forget(&mut self) {
         self.active.clear();
         self.multipliers.clear();
         self.gram.clear();
         self.lines.iter_mut().for_each(|line| line.active = false);
     }
 
-    /// The multipliers for the right sides as they are now; rows that would pull are let go.
+    /// Works out the multipliers for the right sides as they are now, and drops rows with negative ones.
     fn restart(&mut self) {
         loop {
-            let lack: Vec<f64> = self.active.iter().map(|&line| self.lack(line)).collect();
-            self.multipliers = self.gram_solved(lack);
+            let violations: Vec<f64> =
+                self.active.iter().map(|&line| self.violation_at_start(line)).collect();
+            self.multipliers = self.gram_solved(violations);
             let pulls = self.multipliers.iter().zip(&self.active);
             let pulls = pulls.enumerate().filter(|(_, (m, line))| **m < 0.0 && !self.lines[**line].equal);
             let Some((worst, _)) = pulls.min_by(|a, b| a.1.0.total_cmp(b.1.0)) else { return };
@@ -126,19 +131,20 @@ impl ActiveSet {
         }
     }
 
-    /// By how much v₀ breaks an active row.
-    fn lack(&self, line: usize) -> f64 {
+    /// Returns by how much v₀ violates an active row.
+    fn violation_at_start(&self, line: usize) -> f64 {
         let line = &self.lines[line];
         line.image.as_ref().expect("active rows have images").2 - line.right
     }
 
-    /// x for the multipliers as they are.
+    /// Returns x for the multipliers as they are.
     fn point(&mut self) -> Vec<f64> {
         let mut v = self.nearest();
-        self.factor.back(&mut v);
+        self.factor.solve_upper(&mut v);
         v
     }
 
+    /// Returns v for the multipliers as they are.
     fn nearest(&self) -> Vec<f64> {
         let mut v = self.free.clone();
         for (line, multiplier) in self.active.iter().zip(&self.multipliers) {
@@ -147,21 +153,23 @@ impl ActiveSet {
         v
     }
 
-    /// Rows whose Gram matrix is nearly singular may be lost to rounding.
+    /// Returns true if the active rows hold: rows whose Gram matrix is nearly singular may be lost to rounding.
     fn active_hold(&self, x: &[f64]) -> bool {
         self.active.iter().all(|line| self.lines[*line].over(x).abs() <= self.tolerance)
     }
 
-    fn most_broken(&self, x: &[f64]) -> Option<usize> {
+    /// Returns the inequality that x violates most, by more than the tolerance.
+    fn most_violated(&self, x: &[f64]) -> Option<usize> {
         let open = self.lines.iter().enumerate().filter(|(_, line)| !line.active && !line.equal);
         let worst =
             open.map(|(i, line)| (i, line.over(x))).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
         worst.filter(|(_, over)| *over > self.tolerance).map(|(i, _)| i)
     }
 
-    /// Takes a row in, and lets others go as it comes.
+    /// Makes a row active, and drops those that block the way there (step 2 of the dual algorithm): partial steps up to
+    /// the first multiplier that vanishes, then the full step.
     fn enter(&mut self, line: usize) -> Result<(), Unsolved> {
-        self.imagine(line);
+        self.make_image(line);
         let mut own = 0.0;
         loop {
             let (image, square, _) = self.lines[line].image.as_ref().expect("just made");
@@ -173,8 +181,8 @@ impl ActiveSet {
                 .collect();
             let half = self.gram_forward(products);
             let falls = self.gram_back(half.clone());
-            // What of the row is across the active ones: from itself, for a difference of squares would be
-            // nothing but rounding where it is small.
+            // The part of the row across the active ones, from the row itself: a difference of squares would be nothing
+            // but rounding where it is small.
             for (other, fall) in self.active.iter().zip(&falls) {
                 self.lines[*other].image.as_ref().expect("active").0.add_to(&mut self.work, -fall);
             }
@@ -217,14 +225,15 @@ impl ActiveSet {
         }
     }
 
-    fn imagine(&mut self, line: usize) {
+    /// Works out the image z of a row, if it is not known.
+    fn make_image(&mut self, line: usize) {
         let line = &mut self.lines[line];
         if line.image.is_some() {
             return;
         }
         let mut z = vec![0.0; self.free.len()];
         line.terms.iter().for_each(|(i, a)| z[*i] += a);
-        self.factor.forward(&mut z);
+        self.factor.solve_lower(&mut z);
         let mut image = Sparse::default();
         for (i, value) in z.iter().enumerate().filter(|(_, value)| **value != 0.0) {
             image.at.push(i);
@@ -235,8 +244,7 @@ impl ActiveSet {
         line.image = Some((image, square, along));
     }
 
-    /// Lets the row at a place of the active set go: the factor's later rows are turned until they are
-    /// triangular again.
+    /// Drops the row at a place of the active set: Givens rotations make the factor's later rows triangular again.
     fn leave(&mut self, place: usize) {
         self.lines[self.active.remove(place)].active = false;
         self.multipliers.remove(place);
@@ -254,6 +262,7 @@ impl ActiveSet {
         }
     }
 
+    /// Forward substitution with the factor of the Gram matrix.
     fn gram_forward(&self, mut right: Vec<f64>) -> Vec<f64> {
         for (i, row) in self.gram.iter().enumerate() {
             let known: f64 = row[..i].iter().zip(&right).map(|(c, y)| c * y).sum();
@@ -262,6 +271,7 @@ impl ActiveSet {
         right
     }
 
+    /// Backward substitution with its transpose.
     fn gram_back(&self, mut right: Vec<f64>) -> Vec<f64> {
         for (i, row) in self.gram.iter().enumerate().rev() {
             right[i] /= row[i];

@@ -1,38 +1,51 @@
-//! Linear programmes, by an interior-point method. What it answers is close to the optimum, not a
-//! proof of it: who needs a proof checks the multipliers, which are returned for that.
+//! Linear programs, by an interior-point method. The answer is close to the optimum, not a proof of it: who needs a
+//! proof checks the Lagrange multipliers, which are returned for that.
 
-use super::sparse::{self, Row};
+use super::interior_point;
 use clarabel::algebra::CscMatrix;
 
-/// `min c·x` subject to `E x = e` and `G x ≤ g`. Rows are lists of (column, coefficient).
+/// A row `Σ coefficient · x[column]` of a constraint: terms (column, coefficient), and the value on the right.
+pub type Row = (Vec<(usize, f64)>, f64);
+
+/// The linear program `min c·x` subject to `E x = e` and `G x ≤ g`.
 #[derive(Clone, Debug, Default)]
-pub struct Problem {
+pub struct LinearProgram {
+    /// c, one cost for every variable.
     pub costs: Vec<f64>,
+    /// The rows of `E x = e`.
     pub equal: Vec<Row>,
+    /// The rows of `G x ≤ g`.
     pub at_most: Vec<Row>,
 }
 
-/// A solution with its multipliers: `c + Eᵀ y + Gᵀ z = 0`, `z ≥ 0`, as nearly as the solver gets.
+/// A solution with its Lagrange multipliers: `c + Eᵀ y + Gᵀ z = 0`, `z ≥ 0`, as nearly as the solver gets.
 #[derive(Clone, Debug)]
-pub struct Solution {
+pub struct LinearSolution {
+    /// The variables.
     pub x: Vec<f64>,
+    /// The multiplier of each equality.
     pub y: Vec<f64>,
+    /// The multiplier of each inequality; 0 where it is not active.
     pub z: Vec<f64>,
 }
 
-/// Why there is no solution.
+/// Why a program has no solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsolved {
     /// No x meets the constraints.
     Infeasible,
     /// The costs have no lower bound.
     Unbounded,
-    /// The solver did not get there.
+    /// The solver did not converge.
     Numerical,
 }
 
-pub fn linear_program(problem: &Problem) -> Result<Solution, Unsolved> {
+/// Solves a linear program.
+///
+/// # Errors
+/// The status of the solver where it found no solution. `Infeasible` and `Unbounded` hold to its tolerance of 1e-8.
+pub fn solve_linear_program(problem: &LinearProgram) -> Result<LinearSolution, Unsolved> {
     crate::interrupt::checkpoint();
     let n = problem.costs.len();
-    sparse::solved(&CscMatrix::zeros((n, n)), &problem.costs, &problem.equal, &problem.at_most)
+    interior_point::solve(&CscMatrix::zeros((n, n)), &problem.costs, &problem.equal, &problem.at_most)
 }

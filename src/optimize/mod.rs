@@ -1,7 +1,15 @@
-//! Optimisation. The only user of clarabel; knows no robots.
+//! Optimisation: linear programs, growing quadratic programs, Cholesky's decomposition. The only user of clarabel; knows
+//! no robots.
+
+pub mod cholesky;
+pub mod cuthill_mckee;
+mod sparse_cholesky;
+
+mod interior_point;
+mod linear;
 
 mod active_set;
-mod factor;
-pub mod linear;
-pub mod quadratic;
-mod sparse;
+mod quadratic;
+
+pub use linear::{LinearProgram, LinearSolution, Row, Unsolved, solve_linear_program};
+pub use quadratic::QuadraticProgram;

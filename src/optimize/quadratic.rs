@@ -1,41 +1,44 @@
-//! Convex quadratic programmes that grow: rows are added, and asked for more, between solutions.
+//! Convex quadratic programs that grow: rows are added, or their right sides changed, between solutions.
 //!
-//! Small ones, and those whose H is nearly diagonal, are solved by an active-set method that goes on from
-//! the last solution; others, and those that it can't solve, by an interior-point method from the start.
+//! Small ones, and those whose H is nearly diagonal, are solved by a dual active-set method that goes on from the last
+//! solution ([`super::active_set`]); others, and those that it can't solve, by an interior-point method from the start.
 
 use super::active_set::ActiveSet;
-use super::factor::Factor;
-use super::linear::Unsolved;
-use super::sparse;
-pub use super::sparse::Row;
+use super::interior_point;
+use super::linear::{Row, Unsolved};
+use super::sparse_cholesky::SparseCholesky;
 
-/// Multiplications to factor H up to which the active-set method was measured to be the faster.
+/// Multiplications to decompose H up to which the active-set method was measured to be the faster.
 const WORK_MAX: usize = 400_000_000;
 
-/// `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`. Rows are lists of (column, coefficient).
-pub struct Programme {
+/// The quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows come one by one.
+pub struct QuadraticProgram {
     /// Of the positive semidefinite H what is on and above the diagonal; entries at one place are summed.
     hessian: Vec<(usize, usize, f64)>,
+    /// c.
     linear: Vec<f64>,
-    /// With whether it is an equality.
+    /// Each row with whether it is an equality.
     rows: Vec<(Row, bool)>,
-    /// The same rows, by the same numbers.
+    /// The same rows, by the same numbers; `None` where H is singular or too dense.
     active: Option<ActiveSet>,
 }
 
-impl Programme {
+impl QuadraticProgram {
+    /// Returns the program without constraints. `hessian`: entries (row, column, value) of the positive semidefinite H on
+    /// and above the diagonal, of which those at one place are summed; `linear`: c, one entry for every variable;
     /// `tolerance`: how far rows may be off, in the units of their right sides.
-    pub fn new(hessian: Vec<(usize, usize, f64)>, linear: Vec<f64>, tolerance: f64) -> Programme {
-        let factor = Factor::new(linear.len(), &hessian, WORK_MAX);
+    pub fn new(hessian: Vec<(usize, usize, f64)>, linear: Vec<f64>, tolerance: f64) -> QuadraticProgram {
+        let factor = SparseCholesky::new(linear.len(), &hessian, WORK_MAX);
         let active = factor.map(|factor| ActiveSet::new(factor, &linear, tolerance));
-        Programme { hessian, linear, rows: Vec::new(), active }
+        QuadraticProgram { hessian, linear, rows: Vec::new(), active }
     }
 
+    /// Adds an equality `a·x = b`.
     pub fn equal(&mut self, row: Row) {
         self.add(row, true);
     }
 
-    /// Says its number.
+    /// Adds an inequality `a·x ≤ b`. Returns its number, for [`set`](Self::set).
     pub fn at_most(&mut self, row: Row) -> usize {
         self.add(row, false)
     }
@@ -48,7 +51,7 @@ impl Programme {
         self.rows.len() - 1
     }
 
-    /// Another right side for a row.
+    /// Changes the right side of a row.
     pub fn set(&mut self, row: usize, right: f64) {
         self.rows[row].0.1 = right;
         if let Some(active) = &mut self.active {
@@ -56,9 +59,13 @@ impl Programme {
         }
     }
 
+    /// Returns the optimal x for the rows as they are now.
+    ///
+    /// # Errors
+    /// Why there is none. `Numerical` also where a strictly convex program has a solution that rounding hides.
     pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
-        // Where this one fails the other decides, for rounding may hide a way here; if that can't, either,
-        // what was found first holds.
+        // Where the active-set method fails the other decides, for rounding may hide a way there; if that can't,
+        // either, what was found first holds.
         let mut doubt = Unsolved::Numerical;
         if let Some(active) = &mut self.active {
             match active.solve() {
@@ -68,11 +75,11 @@ impl Programme {
             active.forget();
         }
         let n = self.linear.len();
-        let hessian = sparse::matrix((n, n), self.hessian.iter().copied());
+        let hessian = interior_point::matrix((n, n), self.hessian.iter().copied());
         let of = |kind: bool| -> Vec<Row> {
             self.rows.iter().filter(|(_, equal)| *equal == kind).map(|(row, _)| row.clone()).collect()
         };
-        let solved = sparse::solved(&hessian, &self.linear, &of(true), &of(false));
+        let solved = interior_point::solve(&hessian, &self.linear, &of(true), &of(false));
         solved.map(|solution| solution.x).map_err(|why| if why == Unsolved::Numerical { doubt } else { why })
     }
 }

@@ -22,6 +22,8 @@ pub struct Kinematics {
     first_link: Vec<usize>,
     /// Index of the first joint of each module.
     first_joint: Vec<usize>,
+    /// The number of joints of the assembly, hinges of bonds included.
+    joint_count: usize,
     /// The joint of each bond that has a hinge.
     hinge_joint: Vec<Option<usize>>,
     /// Index in `steps` of each link's own step; `None` for the root and for loose links.
@@ -58,6 +60,7 @@ impl Kinematics {
             steps: Vec::with_capacity(links),
             first_link,
             first_joint,
+            joint_count: robot.joints().count(),
             hinge_joint,
             step_of: vec![None; links],
         };
@@ -70,6 +73,11 @@ impl Kinematics {
 
     pub fn link_count(&self) -> usize {
         self.step_of.len()
+    }
+
+    /// Returns the number of joints of the assembly, hinges of bonds included.
+    pub fn joint_count(&self) -> usize {
+        self.joint_count
     }
 
     pub fn link(&self, module: usize, link: usize) -> usize {
@@ -98,6 +106,14 @@ impl Kinematics {
     /// The step that places a link against its parent.
     pub fn step(&self, link: usize) -> Option<&Step> {
         self.step_of[link].map(|index| &self.steps[index])
+    }
+
+    /// Returns the step between two links that are neighbours in the tree, such as those that follow each other on a
+    /// [`path`](Self::path), and +1 where it leads from the first to the second, -1 where it leads back.
+    pub fn step_between(&self, from: usize, to: usize) -> (&Step, f64) {
+        let down = self.step(to).filter(|step| step.parent == from).map(|step| (step, 1.0));
+        let up = || self.step(from).filter(|step| step.parent == to).map(|step| (step, -1.0));
+        down.or_else(up).expect("the links are neighbours in the tree")
     }
 
     /// World poses of all links (`X_WL`), with the root module's body at `X_WR`. `joints` holds one

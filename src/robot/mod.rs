@@ -7,6 +7,8 @@ pub mod mass;
 pub mod rofi;
 pub mod rofi_json;
 
+pub mod inverse_kinematics;
+pub mod jacobian;
 pub mod kinematics;
 pub mod matching;
 pub mod step;

@@ -4,8 +4,7 @@
 //! axis passes the child's frame at `-offset`, which is zero for most modules and then costs nothing.
 
 use super::{JointKind, ModuleType};
-use crate::geometry::angle::sin_cos;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::{Pose, Vec3, sin_cos};
 use nalgebra::{Quaternion, UnitQuaternion};
 
 /// Components of axes and offsets below this are taken for the rounding of a declared zero.

@@ -365,7 +365,12 @@ fn a_collision_is_marked_where_the_modules_meet() {
         let gap = |(link, kind): (usize, &modl::robot::Link)| {
             let solid = Solid::new(&kind.collides).expect("the tests' shapes are sound");
             let X = poses[kinematics.link(module, link)];
-            modl::geometry::distance::between(&spot, &modl::geometry::pose::shifted(point), &solid, &X)
+            modl::geometry::distance::distance_of_solids(
+                &spot,
+                &modl::geometry::pose::shifted(point),
+                &solid,
+                &X,
+            )
         };
         let least = links.iter().enumerate().map(gap).fold(f64::INFINITY, f64::min);
         assert!(least < 1e-3, "the mark is {least} m off module {module}");

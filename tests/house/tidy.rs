@@ -21,7 +21,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("check", &["source", "units", "syntax"]),
     ("geometry", &["units"]),
     ("optimize", &["interrupt"]),
-    ("robot", &["interrupt", "units", "geometry"]),
+    ("robot", &["interrupt", "units", "geometry", "optimize"]),
     ("plan", &["interrupt", "units", "geometry", "optimize", "robot"]),
     ("behavior", &["interrupt", "units", "geometry", "robot", "plan"]),
     ("planners", &["interrupt", "units", "geometry", "optimize", "robot", "plan"]),

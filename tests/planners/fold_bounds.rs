@@ -20,7 +20,7 @@ fn whole() -> bool {
 fn sphere(parts: usize, round: bool) -> (Vec<Vec3>, Vec<Vec<usize>>) {
     let (points, faces) = mesh(&TRUTH["shapes"]["icosahedron"]);
     let faces: Vec<[usize; 3]> = faces.iter().map(|f| [f[0], f[1], f[2]]).collect();
-    let (points, faces) = subdivide::subdivided(&points, &faces, parts);
+    let (points, faces) = subdivide(&points, &faces, parts);
     let place = |p: Vec3| if round { p.normalize() * 0.1 } else { p };
     (points.into_iter().map(place).collect(), faces.iter().map(|f| f.to_vec()).collect())
 }

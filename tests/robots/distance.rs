@@ -2,7 +2,7 @@
 #![allow(non_snake_case)]
 
 use crate::support::robots::{boxed, millimetres};
-use modl::geometry::distance::{between, between_parts};
+use modl::geometry::distance::{distance_of_solids, signed_distance};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ fn cube(edge: f64) -> Solid {
 #[track_caller]
 fn check(a: &Solid, X_WA: Pose, b: &Solid, X_WB: Pose, expected: f64) {
     for (a, X_WA, b, X_WB) in [(a, X_WA, b, X_WB), (b, X_WB, a, X_WA)] {
-        let found = between(a, &X_WA, b, &X_WB);
+        let found = distance_of_solids(a, &X_WA, b, &X_WB);
         assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
     }
 }
@@ -124,8 +124,8 @@ fn the_parts_of_a_robot_at_rest_are_told_apart() {
     for (i, j) in (0..35).flat_map(|i| (0..i).map(move |j| (i, j))) {
         let X_AB = poses[i].inverse() * poses[j];
         for (a, b) in solids[i].parts.iter().flat_map(|a| solids[j].parts.iter().map(move |b| (a, b))) {
-            let found = between_parts(a, b, &X_AB);
-            let gap = modl::geometry::distance::gap_along(a, b, &X_AB, &found.normal);
+            let found = signed_distance(a, b, &X_AB);
+            let gap = modl::geometry::distance::separation_along(a, b, &X_AB, &found.normal);
             assert!((found.distance - gap).abs() < 1e-7, "links {i} and {j}: {found:?}, gap {gap}");
         }
     }
@@ -169,14 +169,14 @@ proptest! {
     ) {
         let (a, b) = (&a.parts[0], &b.parts[0]);
         let X_AB = shifted(Vec3::from(p)) * turned(Vec3::from(w), Vec3::from(w).norm());
-        let found = between_parts(a, b, &X_AB);
-        let gap = |n: &Vec3| modl::geometry::distance::gap_along(a, b, &X_AB, n);
+        let found = signed_distance(a, b, &X_AB);
+        let gap = |n: &Vec3| modl::geometry::distance::separation_along(a, b, &X_AB, n);
         prop_assert!((gap(&found.normal) - found.distance).abs() < 1e-6, "{} {found:?}", gap(&found.normal));
         for n in others.iter().filter(|n| Vec3::from(**n).norm() > 0.1) {
             prop_assert!(gap(&Vec3::from(*n).normalize()) <= found.distance + 1e-6);
         }
         let touching = shifted(-found.normal * found.distance) * X_AB;
-        let then = between_parts(a, b, &touching).distance;
+        let then = signed_distance(a, b, &touching).distance;
         prop_assert!(then.abs() < 1e-5, "{found:?} then {then}");
     }
 }

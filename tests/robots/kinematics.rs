@@ -331,12 +331,12 @@ fn sine_and_cosine_are_right_to_a_unit_or_two_in_the_last_place() {
     let angles =
         (0..200_000).map(|i| f64::from(i) * 1.234_567e-4 - 12.0).chain([0.0, 1e4, -99_999.9, 1e9, 1e-300]);
     for angle in angles {
-        let (s, c) = modl::geometry::angle::sin_cos(angle);
+        let (s, c) = modl::geometry::sin_cos(angle);
         let (s0, c0) = libm::sincos(angle);
         assert!((s - s0).abs() <= 4.5e-16 * s0.abs() + 1e-22, "sin {angle}: {s} is not {s0}");
         assert!((c - c0).abs() <= 4.5e-16 * c0.abs() + 1e-22, "cos {angle}: {c} is not {c0}");
     }
-    let (s, c) = modl::geometry::angle::sin_cos(f64::NAN);
+    let (s, c) = modl::geometry::sin_cos(f64::NAN);
     assert!(s.is_nan() && c.is_nan());
 }
 

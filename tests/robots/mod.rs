@@ -1,11 +1,14 @@
 //! Shapes, modules, kinematics and masses, against other truths.
 
+pub mod cholesky;
 pub mod designs;
 pub mod distance;
+pub mod jacobian;
 pub mod kinematics;
 pub mod mass;
 pub mod mesh_files;
 pub mod meshes;
+pub mod near_pairs;
 pub mod quadratic;
 pub mod rigidity;
 pub mod rofi;

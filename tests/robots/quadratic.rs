@@ -1,8 +1,7 @@
 //! Quadratic programmes against all sets of active rows: of the points at which some rows hold as
 //! equalities, the optimum is the best that keeps all.
 
-use modl::optimize::linear::Unsolved;
-use modl::optimize::quadratic::Programme;
+use modl::optimize::{QuadraticProgram, Unsolved};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -52,10 +51,10 @@ impl Case {
         best
     }
 
-    fn programme(&self) -> Programme {
+    fn programme(&self) -> QuadraticProgram {
         let entry = |i: usize, j: usize| (i, j, self.hessian[(i, j)]);
         let above = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
-        Programme::new(
+        QuadraticProgram::new(
             above.map(|(i, j)| entry(i, j)).collect(),
             self.linear.iter().copied().collect(),
             1e-10,

@@ -5,7 +5,7 @@ use super::kinematics::poses_at;
 use super::layout::Layout;
 use super::simulation::quintic;
 use super::target::Target;
-use crate::geometry::distance::near;
+use crate::geometry::distance::signed_distance_within;
 use crate::geometry::pose::shifted;
 use crate::geometry::{Part, Pose, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
@@ -191,7 +191,8 @@ struct State {
 impl Solids {
     /// Whether two panels meet; `X_AB`: from the frame in which the second's parts are to the first's.
     pub fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
-        let meet = |p: &Part, q: &Part| near(p, q, X_AB, None, -self.touch).distance < -self.touch;
+        let meet =
+            |p: &Part, q: &Part| signed_distance_within(p, q, X_AB, None, -self.touch).distance < -self.touch;
         self.parts[a].iter().any(|p| self.parts[b].iter().any(|q| meet(p, q)))
     }
 }

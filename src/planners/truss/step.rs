@@ -13,8 +13,7 @@ use super::stiffness::{self, Mode};
 use super::structure::{ROUNDING, Structure};
 use crate::geometry::Vec3;
 use crate::interrupt;
-use crate::optimize::linear::Unsolved;
-use crate::optimize::quadratic::{Programme, Row};
+use crate::optimize::{QuadraticProgram, Row, Unsolved};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
@@ -114,7 +113,7 @@ pub fn step(task: &Task, memory: &mut Memory) -> Result<Vec<Vec3>, Stuck> {
 struct Rows<'a> {
     task: &'a Task<'a>,
     columns: &'a [Option<usize>],
-    programme: Programme,
+    programme: QuadraticProgram,
     known: BTreeMap<Bound, Asked>,
     modes: OnceCell<Vec<Mode>>,
 }
@@ -143,7 +142,7 @@ impl<'a> Rows<'a> {
         // Each size is a variable of its own, above what it is the size of.
         let free = linear.len();
         linear.resize(free + objective.sizes.len(), 1.0);
-        let mut programme = Programme::new(hessian, linear, SOLVED * truss.unit);
+        let mut programme = QuadraticProgram::new(hessian, linear, SOLVED * truss.unit);
         for (i, terms) in objective.sizes.iter().enumerate() {
             for sign in [1.0, -1.0] {
                 let signed = |&(at, value): &(usize, f64)| Some((place(at)?, sign * value));

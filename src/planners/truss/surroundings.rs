@@ -1,7 +1,7 @@
 //! What is around a truss: solids that its struts keep away from, and ground that is not flat.
 
-use crate::geometry::distance::near;
-use crate::geometry::{HeightField, Nearness, Part, Pose, Solid, Vec3};
+use crate::geometry::closest_points::segment_part;
+use crate::geometry::{HeightField, Part, SignedDistance, Solid, Vec3};
 
 /// The ground that the middle of a truss goes up and down with is evened out over so many places around.
 const AROUND: [[f64; 2]; 9] = [
@@ -71,9 +71,8 @@ impl Surroundings {
 
     /// How near a strut is to a part, and the direction from the strut to it; more than `enough` need not
     /// be told exactly.
-    pub fn nearness(&self, (a, b): (Vec3, Vec3), part: usize, enough: f64) -> Nearness {
-        let strut = Part::capsule((a + b) / 2.0, (b - a) / 2.0, 0.0);
-        near(&strut, &self.parts[part].1, &Pose::identity(), None, enough)
+    pub fn nearness(&self, strut: (Vec3, Vec3), part: usize, enough: f64) -> SignedDistance {
+        segment_part(strut, &self.parts[part].1, enough)
     }
 
     /// Whether a strut of which no point is farther than `reach` from where it is here may meet a part.

@@ -1,6 +1,6 @@
 //! What can collide: the convex parts of all links, and which pairs may meet.
 
-use crate::geometry::distance::{between_parts, near};
+use crate::geometry::distance::{signed_distance, signed_distance_within};
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 
@@ -114,7 +114,7 @@ impl Bodies {
                 let balls = (centre(x) - centre(y)).norm() - x.part.radius - y.part.radius;
                 if balls < least {
                     let X_AB = poses[x.carrier].inverse() * poses[y.carrier];
-                    least = least.min(near(&x.part, &y.part, &X_AB, None, least).distance);
+                    least = least.min(signed_distance_within(&x.part, &y.part, &X_AB, None, least).distance);
                 }
             }
         }
@@ -170,7 +170,7 @@ fn pair(
     let allowed = kind.touch + if joined { drawn_overlap(kind, solids, x.0, y.0) } else { 0.0 };
     let fixed = stay(kind, x, y).then(|| {
         let X_AB = kind.links[x.1].pose.inverse() * kind.links[y.1].pose;
-        between_parts(&x.2, &y.2, &X_AB).distance
+        signed_distance(&x.2, &y.2, &X_AB).distance
     });
     Some(Inner { a, b, counts: !joined, allowed, fixed })
 }
@@ -206,7 +206,7 @@ fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) 
 fn drawn_overlap(kind: &ModuleType, solids: &[Solid], a: usize, b: usize) -> f64 {
     let X_AB = kind.links[a].pose.inverse() * kind.links[b].pose;
     let pairs = solids[a].parts.iter().flat_map(|p| solids[b].parts.iter().map(move |q| (p, q)));
-    pairs.map(|(p, q)| -between_parts(p, q, &X_AB).distance).fold(0.0, f64::max)
+    pairs.map(|(p, q)| -signed_distance(p, q, &X_AB).distance).fold(0.0, f64::max)
 }
 
 /// Farthest that any point of the module can be from its body's origin: by the joints' arms, however

@@ -13,7 +13,7 @@ use super::stance::Stance;
 use super::statics::{Push, Section, Structure};
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
-use crate::optimize::linear::linear_program;
+use crate::optimize::solve_linear_program;
 use crate::plan::verify::footprint;
 use nalgebra::{Matrix6, Vector6};
 
@@ -109,7 +109,7 @@ impl Question<'_> {
             return None;
         }
         let programme = Programme::new(self, &columns);
-        let solution = linear_program(&programme.problem).ok()?;
+        let solution = solve_linear_program(&programme.problem).ok()?;
         let bound = programme.bound(self, &columns, &solution);
         self.answer(&contacts, &columns, &solution.x[..columns.len()], bound)
     }

@@ -5,9 +5,8 @@ use super::bodies::{Bodies, Body, UnsoundLink};
 use super::collision::Precision;
 use super::history::base_at;
 use super::search::{Search, mated};
-use crate::geometry::distance::between_parts;
-use crate::geometry::meeting::meeting_point;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::distance::signed_distance;
+use crate::geometry::{Pose, Vec3, contact_point};
 use crate::plan::{Body as Form, Plan, Tracks, sound};
 use crate::robot::Kinematics;
 
@@ -57,13 +56,13 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
     let relative = |a: &Body, b: &Body| poses[a.carrier].inverse() * poses[b.carrier];
     let depth = |(a, b, allowed): &(usize, usize, f64)| {
         let (a, b) = (&bodies.bodies[*a], &bodies.bodies[*b]);
-        -between_parts(&a.part, &b.part, &relative(a, b)).distance - allowed
+        -signed_distance(&a.part, &b.part, &relative(a, b)).distance - allowed
     };
     let pairs = pairs(tracks, &bodies, &mated(&tracks.robot, &state.bonds, &kinematics), modules);
     let deepest = pairs.into_iter().map(|pair| (depth(&pair), pair)).max_by(|x, y| x.0.total_cmp(&y.0));
     let (_, (a, b, _)) = deepest.filter(|(depth, (.., allowed))| depth + allowed >= 0.0)?;
     let (a, b) = (&bodies.bodies[a], &bodies.bodies[b]);
-    let met = meeting_point(&a.part, &b.part, &relative(a, b));
+    let met = contact_point(&a.part, &b.part, &relative(a, b));
     Some(poses[a.carrier].transform_point(&met.into()).coords)
 }
 

@@ -4,7 +4,7 @@ use super::bodies::{Bodies, Body};
 use super::frame::Frame;
 use super::levels::Levels;
 use crate::geometry::Vec3;
-use crate::geometry::distance::near;
+use crate::geometry::distance::signed_distance_within;
 use crate::robot::Kinematics;
 
 /// Two modules that have not been told apart yet.
@@ -115,7 +115,7 @@ pub fn slab(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
 pub fn measure(frame: &Frame, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
     let X_AB = frame.relative(a.carrier, b.carrier);
     let start = (pair.normal != Vec3::zeros()).then_some(pair.normal);
-    let found = near(&a.part, &b.part, &X_AB, start, enough);
+    let found = signed_distance_within(&a.part, &b.part, &X_AB, start, enough);
     pair.normal = found.normal;
     found.distance
 }

@@ -5,7 +5,7 @@
 use super::forces::{Column, Question};
 use super::statics::{Load, LoadKind};
 use crate::geometry::Vec3;
-use crate::optimize::linear::{Problem, Solution};
+use crate::optimize::{LinearProgram, LinearSolution};
 use nalgebra::Vector6;
 
 const HALF_ROOT: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -26,7 +26,7 @@ const DIRECTIONS: [[f64; 3]; 9] = [
 /// Forces are in parts of the weight, moments in parts of the weight times a metre. Columns: sizes of
 /// the pushes, then six for every node but the first, then the greatest load.
 pub struct Programme {
-    pub problem: Problem,
+    pub problem: LinearProgram,
     rows: Vec<Row>,
 }
 
@@ -53,7 +53,7 @@ impl Programme {
         let rows = rows(question);
         let first = |node: usize| columns.len() + 6 * (node - 1);
         let last = columns.len() + 6 * (nodes.len() - 1);
-        let mut problem = Problem { costs: vec![0.0; last + 1], ..Problem::default() };
+        let mut problem = LinearProgram { costs: vec![0.0; last + 1], ..LinearProgram::default() };
         problem.costs[last] = 1.0;
         problem.equal = balances(question, columns, &nodes, &node_of);
         if question.bolted {
@@ -77,7 +77,7 @@ impl Programme {
     /// A bound from multipliers, whoever made them: for any weights `z ≥ 0` of the rows that sum to 1
     /// and any `y`, `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ
     /// of the contacts' pushes sum to 1, so that the least coefficient bounds the sum.
-    pub fn bound(&self, question: &Question, columns: &[Column], solution: &Solution) -> f64 {
+    pub fn bound(&self, question: &Question, columns: &[Column], solution: &LinearSolution) -> f64 {
         let z: Vec<f64> = solution.z[..self.rows.len()].iter().map(|z| z.max(0.0)).collect();
         let total: f64 = z.iter().sum();
         if total <= 0.0 {

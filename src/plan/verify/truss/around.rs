@@ -5,7 +5,7 @@
 //! the line about which it rolls.
 
 use super::judge::{Judged, Leg};
-use crate::geometry::distance::near;
+use crate::geometry::distance::signed_distance_within;
 use crate::geometry::{HeightField, Part, Pose, Solid, Unsound, Vec3, pose::turned};
 use crate::plan::verify::ledger::{Ledger, lower};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
@@ -82,7 +82,8 @@ impl Judged<'_> {
         let look = |at: f64| {
             let (p, q) = (place(leg, a, at), place(leg, b, at));
             let segment = Part::capsule((p + q) / 2.0, (q - p) / 2.0, 0.0);
-            near(&segment, part, &Pose::identity(), None, 2.0 * clearance + fastest).distance
+            signed_distance_within(&segment, part, &Pose::identity(), None, 2.0 * clearance + fastest)
+                .distance
         };
         let (mut at, mut least) = (0.0, (look(1.0), 1.0));
         let mut holds = false;
@@ -126,7 +127,8 @@ impl Judged<'_> {
             for part in parts() {
                 let gap = (segment.centre - part.centre).norm() - segment.radius - part.radius;
                 if least.is_none_or(|least| gap < least) {
-                    let apart = near(&segment, part, &Pose::identity(), None, f64::MAX).distance;
+                    let apart =
+                        signed_distance_within(&segment, part, &Pose::identity(), None, f64::MAX).distance;
                     least = Some(least.map_or(apart, |least: f64| least.min(apart)));
                 }
             }

@@ -1,24 +1,21 @@
-//! What linear and quadratic programmes have in common: their rows, put before the solver.
+//! Linear and quadratic programs put before clarabel's interior-point method.
 
-use super::linear::{Solution, Unsolved};
+use super::linear::{LinearSolution, Row, Unsolved};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
 };
 
-/// Terms (column, coefficient) and the value on the right.
-pub type Row = (Vec<(usize, f64)>, f64);
+/// Iterations of the solver at most.
+const ITERATIONS_MAX: u32 = 200;
 
-/// Iterations of the solver.
-const ROUNDS_MAX: u32 = 200;
-
-/// `min ½ xᵀ H x + c·x` subject to the rows; of H what is on and above the diagonal.
-pub fn solved(
+/// Solves `min ½ xᵀ H x + c·x` subject to the rows. `hessian` holds what of H is on and above the diagonal.
+pub(super) fn solve(
     hessian: &CscMatrix,
     costs: &[f64],
     equal: &[Row],
     at_most: &[Row],
-) -> Result<Solution, Unsolved> {
+) -> Result<LinearSolution, Unsolved> {
     let n = costs.len();
     let rows: Vec<_> = equal.iter().chain(at_most).collect();
     let entries = rows.iter().enumerate();
@@ -29,7 +26,7 @@ pub fn solved(
     let cones = [ZeroConeT(equal.len()), NonnegativeConeT(at_most.len())];
     let settings = DefaultSettingsBuilder::default()
         .verbose(false)
-        .max_iter(ROUNDS_MAX)
+        .max_iter(ITERATIONS_MAX)
         .max_threads(1)
         .build()
         .map_err(|_| Unsolved::Numerical)?;
@@ -39,7 +36,7 @@ pub fn solved(
     let (y, z) = solver.solution.z.split_at(equal.len());
     match solver.solution.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
-            Ok(Solution { x: solver.solution.x.clone(), y: y.to_vec(), z: z.to_vec() })
+            Ok(LinearSolution { x: solver.solution.x.clone(), y: y.to_vec(), z: z.to_vec() })
         }
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => Err(Unsolved::Infeasible),
         SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => Err(Unsolved::Unbounded),
@@ -47,8 +44,8 @@ pub fn solved(
     }
 }
 
-/// Entries (row, column, value); those at one place are summed.
-pub fn matrix(
+/// Returns a sparse matrix from entries (row, column, value); those at one place are summed.
+pub(super) fn matrix(
     (rows, columns): (usize, usize),
     entries: impl Iterator<Item = (usize, usize, f64)>,
 ) -> CscMatrix {

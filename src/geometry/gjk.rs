@@ -1,11 +1,11 @@
-//! Nearest points of convex parts that are apart: the method of Gilbert, Johnson and Keerthi.
+//! The nearest points of convex parts that are apart: the method of Gilbert, Johnson and Keerthi (GJK, 1988).
 //!
-//! Ours, because parry's stops some micrometres short on round parts, and the judge between samples
-//! needs to know from which side a distance is off. The method works on the difference of the two bodies, whose point nearest to
-//! the origin is the distance. It is bracketed: every point of the difference is at least as far as
-//! the nearest, and the gap along any direction is at most as large.
+//! Ours, because parry's stops some micrometres short on round parts, and the judge between samples needs to know
+//! from which side a distance is off. The method works on the Minkowski difference of the two bodies, of which the point
+//! nearest to the origin is as far from it as the bodies are from each other. The distance is bracketed: every point of
+//! the difference is at least as far as the nearest, and the separation along any direction is at most as large.
 
-use super::{Nearness, Part, Pose, Vec3};
+use super::{Part, Pose, SignedDistance, Vec3};
 
 /// The bracket is close enough below this width: relative, and in metres.
 const TOL_BRACKET: (f64, f64) = (1e-9, 1e-9);
@@ -13,20 +13,26 @@ const TOL_BRACKET: (f64, f64) = (1e-9, 1e-9);
 /// A point this near to the origin is at it, m.
 const TOL_ORIGIN: f64 = 1e-12;
 
-/// Polytopes take about ten rounds, round parts about thirty.
+/// Iterations at most: polytopes take about ten, round parts about thirty.
 const ROUNDS_MAX: usize = 100;
 
-/// The distance between the cores of two parts and its direction. Stops where the gap is known to be
-/// at least `enough`: then the gap is the distance returned. `towards`: a first guess from a to b.
-/// `None` where the cores meet or touch.
-pub fn approach(a: &Part, b: &Part, X_AB: &Pose, towards: &Vec3, enough: f64) -> Option<Nearness> {
+/// Returns the distance between the cores of two parts (m) and its direction in a's frame; `None` where the cores
+/// overlap or touch. Stops where the distance is known to be at least `enough`, and then returns that lower bound.
+/// `towards`: a first guess of the direction from a to b.
+pub(super) fn closest_cores(
+    a: &Part,
+    b: &Part,
+    X_AB: &Pose,
+    towards: &Vec3,
+    enough: f64,
+) -> Option<SignedDistance> {
     let R_BA = X_AB.rotation.inverse();
     // The point of the difference (b minus a) that is lowest along v.
     let lowest =
         |v: &Vec3| X_AB.transform_point(&b.core_support(&(R_BA * -v)).into()).coords - a.core_support(v);
     let mut simplex = Simplex { corners: [lowest(towards); 4], count: 1 };
     let mut nearest = simplex.corners[0];
-    let mut gap = Nearness { distance: f64::NEG_INFINITY, normal: Vec3::x() };
+    let mut gap = SignedDistance { distance: f64::NEG_INFINITY, normal: Vec3::x() };
     for _ in 0..ROUNDS_MAX {
         let distance = nearest.norm();
         if distance < TOL_ORIGIN {
@@ -36,7 +42,7 @@ pub fn approach(a: &Part, b: &Part, X_AB: &Pose, towards: &Vec3, enough: f64) ->
         let point = lowest(&normal);
         let along = normal.dot(&point);
         if along > gap.distance {
-            gap = Nearness { distance: along, normal };
+            gap = SignedDistance { distance: along, normal };
         }
         let close = distance - gap.distance <= TOL_BRACKET.0 * distance + TOL_BRACKET.1;
         if close || gap.distance >= enough || simplex.known().contains(&point) {
@@ -54,10 +60,10 @@ pub fn approach(a: &Part, b: &Part, X_AB: &Pose, towards: &Vec3, enough: f64) ->
         return None;
     }
     let distance = if gap.distance >= enough { gap.distance } else { nearest.norm() };
-    Some(Nearness { distance, normal: gap.normal })
+    Some(SignedDistance { distance, normal: gap.normal })
 }
 
-/// Up to four points of the difference.
+/// Up to four points of the Minkowski difference.
 struct Simplex {
     corners: [Vec3; 4],
     count: usize,
@@ -75,8 +81,9 @@ impl Simplex {
     }
 }
 
-/// The point of a simplex nearest to the origin; leaves in the simplex only the corners that carry
-/// it. `None` where the origin is inside, which can't be where the bodies are known to be `apart`.
+/// Returns the point of a simplex nearest to the origin, and leaves in the simplex only the corners that carry it (the
+/// distance subalgorithm, by trying all faces). `None` where the origin is inside, which can't be where the bodies are
+/// known to be `apart`.
 fn reduce(simplex: &mut Simplex, apart: bool) -> Option<Vec3> {
     let corners = simplex.corners;
     let count = simplex.count;
@@ -106,14 +113,14 @@ fn reduce(simplex: &mut Simplex, apart: bool) -> Option<Vec3> {
     Some(best.1)
 }
 
-/// The origin's projection on an edge, if it is between the ends.
+/// Returns the origin's projection on an edge, if it is between the ends.
 fn on_edge(a: &Vec3, b: &Vec3) -> Option<Vec3> {
     let ab = b - a;
     let t = -a.dot(&ab) / ab.norm_squared();
     (t > 0.0 && t < 1.0).then(|| a + ab * t)
 }
 
-/// The origin's projection on a triangle's plane, if it is inside the triangle.
+/// Returns the origin's projection on a triangle's plane, if it is inside the triangle.
 fn on_face(a: &Vec3, b: &Vec3, c: &Vec3) -> Option<Vec3> {
     let normal = (b - a).cross(&(c - a));
     let area = normal.norm_squared();
@@ -123,7 +130,7 @@ fn on_face(a: &Vec3, b: &Vec3, c: &Vec3) -> Option<Vec3> {
     inside.then(|| (a * weights[0] + b * weights[1] + c * weights[2]) / weights.iter().sum::<f64>())
 }
 
-/// Whether the origin is on the inner side of every face of a tetrahedron.
+/// Returns true if the origin is on the inner side of every face of a tetrahedron.
 fn holds_origin(corners: &[Vec3]) -> bool {
     let outside = |face: [usize; 3], inner: usize| {
         let [a, b, c] = face.map(|i| corners[i]);

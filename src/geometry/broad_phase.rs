@@ -1,0 +1,124 @@
+//! The broad phase of collision detection: which of many things may be near each other, by a uniform grid.
+//!
+//! One structure for balls of one size ([`near_points`]) and for boxes of many sizes ([`near_boxes`]). A grid, because
+//! modules and struts of a robot are of about the same size, so that a cell holds few of them and the work is in
+//! proportion to their number; it is made anew for every posture, which takes less than keeping a tree balanced.
+//! Pairs are told in an order that depends on nothing but the positions.
+
+use super::Vec3;
+
+/// Cells of the grid of boxes at most, for each box.
+const CELLS_PER_BOX: f64 = 8.0;
+
+/// Cells of the sorted grid along each axis: coordinates reach from -2²⁰ to 2²⁰ cells, farther than robots do.
+const CELLS_ALONG: u64 = 1 << 21;
+const CELLS_HALF: i64 = 1 << 20;
+
+/// An axis-aligned box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// The corner of least coordinates.
+    pub low: Vec3,
+    /// The corner of greatest coordinates.
+    pub high: Vec3,
+}
+
+impl Aabb {
+    /// Returns the box around some points; of none, the box that no union with another changes.
+    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
+        let none = Aabb { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
+        points.into_iter().fold(none, |all, p| Aabb { low: all.low.inf(&p), high: all.high.sup(&p) })
+    }
+
+    /// Returns the gap to another box along each axis, 0 where they overlap: its length is the distance of the boxes.
+    #[inline]
+    pub fn gap(&self, other: &Aabb) -> Vec3 {
+        (self.low - other.high).sup(&(other.low - self.high)).sup(&Vec3::zeros())
+    }
+}
+
+/// Calls `found(i, j, d²)` once for every pair `i < j` of `count` points at a distance less than `reach` (> 0), with the
+/// square of that distance, both in the unit of the points. Coordinates must lie within 2²⁰ times `reach`.
+///
+/// Points are sorted into cubes of that size, cubes into columns, and columns by their coordinates: so the three cubes
+/// of a column that may hold a point's neighbours are one stretch of the list, and for each of the columns around,
+/// the stretch goes on as the points do. There is no hash table and no memory for empty cubes.
+pub fn near_points(
+    count: usize,
+    point: impl Fn(usize) -> Vec3,
+    reach: f64,
+    found: &mut dyn FnMut(usize, usize, f64),
+) {
+    const COLUMN: u64 = CELLS_ALONG;
+    let cube = |x: f64| (libm::floor(x / reach) as i64 + CELLS_HALF) as u64;
+    let key = |p: &Vec3| cube(p.x) * COLUMN * COLUMN + cube(p.y) * COLUMN + cube(p.z);
+    // Cubes in order of their columns, and in a column from below; within a cube by index.
+    let mut order: Vec<(u64, u32)> = (0..count).map(|index| (key(&point(index)), index as u32)).collect();
+    order.sort_unstable();
+    let sorted: Vec<Vec3> = order.iter().map(|(_, index)| point(*index as usize)).collect();
+    let mut test = |i: usize, j: usize| {
+        let squared = (sorted[j] - sorted[i]).norm_squared();
+        if squared < reach * reach {
+            let (a, b) = (order[i].1 as usize, order[j].1 as usize);
+            found(a.min(b), a.max(b), squared);
+        }
+    };
+    // Of the 26 neighbouring cubes the 13 that come later: one in the same column, three in each of four others.
+    let columns = [COLUMN, COLUMN * COLUMN - COLUMN, COLUMN * COLUMN, COLUMN * COLUMN + COLUMN];
+    let mut first = [0; 4];
+    for (i, (here, _)) in order.iter().enumerate() {
+        for (j, (there, _)) in order.iter().enumerate().skip(i + 1) {
+            if *there > here + 1 {
+                break;
+            }
+            test(i, j);
+        }
+        for (first, column) in first.iter_mut().zip(columns) {
+            while *first < order.len() && order[*first].0 < here + column - 1 {
+                *first += 1;
+            }
+            for (j, (there, _)) in order.iter().enumerate().skip(*first) {
+                if *there > here + column + 1 {
+                    break;
+                }
+                test(i, j);
+            }
+        }
+    }
+}
+
+/// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0) of each other along every
+/// axis, up to rounding: a superset of those that are nearer than `reach`. Ordered by j, then by cell and i. `cell` (> 0) is the size of
+/// a cell at least, best about that of a box; grids of more than eight cells for each box are made coarser.
+pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, found: &mut dyn FnMut(usize, usize)) {
+    let margin = Vec3::repeat(reach / 2.0);
+    let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, b| low.inf(&b.low)) - margin;
+    let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, b| high.sup(&b.high)) + margin;
+    let mut size = cell.max(reach);
+    let counts = |size: f64| (high - low).map(|length| libm::floor(length / size) + 1.0);
+    while counts(size).product() > CELLS_PER_BOX * boxes.len() as f64 + 1.0 {
+        size *= 2.0;
+    }
+    let counts = counts(size).map(|count| count as usize);
+    let index = |p: Vec3| ((p - low) / size).map(|v| v.max(0.0) as usize);
+    let mut grid: Vec<Vec<usize>> = vec![Vec::new(); counts.product()];
+    for (j, box_j) in boxes.iter().enumerate() {
+        let (from, to) = (index(box_j.low - margin), index(box_j.high + margin));
+        for a in from.x..=to.x.min(counts.x - 1) {
+            for b in from.y..=to.y.min(counts.y - 1) {
+                for c in from.z..=to.z.min(counts.z - 1) {
+                    let members = &mut grid[(a * counts.y + b) * counts.z + c];
+                    for &i in members.iter() {
+                        let near = boxes[i].gap(box_j).iter().all(|gap| *gap <= reach);
+                        // Of the cells that both are in, the first speaks for the pair.
+                        let corner = boxes[i].low.sup(&box_j.low) - margin;
+                        if near && index(corner) == nalgebra::Vector3::new(a, b, c) {
+                            found(i, j);
+                        }
+                    }
+                    members.push(j);
+                }
+            }
+        }
+    }
+}

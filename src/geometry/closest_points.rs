@@ -1,0 +1,135 @@
+//! Closest points of points, segments, triangles and boxes, in closed form.
+//!
+//! Distances are never negative unless said otherwise: a point, segment or triangle has no inside. Signed distances of
+//! convex parts and solids, by the method of Gilbert, Johnson and Keerthi, are in [`super::distance`]. All coordinates
+//! of one call are in one frame, in metres. The algorithms are those of Ericson, *Real-Time Collision Detection*
+//! (2005), chapter 5, unless another source is named.
+
+use super::broad_phase::Aabb;
+use super::distance::signed_distance_within;
+use super::{Part, Pose, SignedDistance, Vec3};
+
+/// A segment from its first point to its second; the two may be one point.
+pub type Segment = (Vec3, Vec3);
+
+/// The squared sine of the angle of two segments below which they count as parallel in [`segment_segment`].
+const PARALLEL_SINE_SQUARED: f64 = 1e-9;
+
+/// The closest points of two segments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentPair {
+    /// The distance of the two points, m; not negative.
+    pub distance: f64,
+    /// The unit vector from the second segment's point to the first's. Where the segments meet, it is across both of
+    /// them, with arbitrary sign, and +z where they have no common perpendicular.
+    pub normal: Vec3,
+    /// The positions of the points along the first and the second segment, as parts of the lengths, 0 to 1.
+    pub along: (f64, f64),
+}
+
+/// Returns the closest points of two segments (Ericson 5.1.9).
+///
+/// Of parallel segments, which have many closest pairs, it gives one that depends continuously on neither. Segments at
+/// an angle of less than 3e-5 rad count as parallel; the distance is then too great by at most the angle times half
+/// a length. Where that matters, [`segment_segment_distance`] is exact at any angle.
+pub fn segment_segment(p: Segment, q: Segment) -> SegmentPair {
+    let (u, v, w) = (p.1 - p.0, q.1 - q.0, p.0 - q.0);
+    let (a, b, c, d, e) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
+    let determinant = a * c - b * b;
+    // The closest points of the two lines, then clamped to the one segment and to the other by turns.
+    let along_p = if determinant > PARALLEL_SINE_SQUARED * a * c {
+        ((b * e - c * d) / determinant).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    let project = |from: f64, over: f64| if over > 0.0 { (from / over).clamp(0.0, 1.0) } else { 0.0 };
+    let along_q = project(b * along_p + e, c);
+    let along_p = project(b * along_q - d, a);
+    let along_q = project(b * along_p + e, c);
+    pair_at(p, q, (along_p, along_q))
+}
+
+/// Returns the first or second end (`end` is 0 or 1) of a segment with the point of another that is closest to it.
+pub fn end_segment(p: Segment, end: usize, q: Segment) -> SegmentPair {
+    let point = if end == 0 { p.0 } else { p.1 };
+    let v = q.1 - q.0;
+    let along = (point - q.0).dot(&v) / v.norm_squared().max(f64::MIN_POSITIVE);
+    pair_at(p, q, (end as f64, along.clamp(0.0, 1.0)))
+}
+
+fn pair_at(p: Segment, q: Segment, along: (f64, f64)) -> SegmentPair {
+    let apart = p.0 + (p.1 - p.0) * along.0 - q.0 - (q.1 - q.0) * along.1;
+    let distance = apart.norm();
+    let across = || (p.1 - p.0).cross(&(q.1 - q.0)).try_normalize(0.0).unwrap_or_else(Vec3::z);
+    let normal = if distance > 0.0 { apart / distance } else { across() };
+    SegmentPair { distance, normal, along }
+}
+
+/// Returns the distance of two segments, m, exact to rounding at any angle between them.
+///
+/// It is the least of the four distances from an end to the other segment, and of the distance of the lines where their
+/// closest points, by Cramer's rule from the common perpendicular, lie inside both segments.
+pub fn segment_segment_distance(p: Segment, q: Segment) -> f64 {
+    let (u, v) = (p.1 - p.0, q.1 - q.0);
+    let normal = u.cross(&v);
+    let ends = [
+        point_segment_distance(p.0, q),
+        point_segment_distance(p.1, q),
+        point_segment_distance(q.0, p),
+        point_segment_distance(q.1, p),
+    ];
+    let least = ends.into_iter().fold(f64::INFINITY, f64::min);
+    let area = normal.norm_squared();
+    let apart = q.0 - p.0;
+    let (s, t) = (apart.cross(&v).dot(&normal), apart.cross(&u).dot(&normal));
+    let inside = |x: f64| 0.0 < x && x < area;
+    if area > 0.0 && inside(s) && inside(t) {
+        least.min(apart.dot(&normal).abs() / area.sqrt())
+    } else {
+        least
+    }
+}
+
+/// Returns the position along a segment, as a part of its length from 0 to 1, of its point closest to `point`
+/// (Ericson 5.1.2); 0 where the segment is a point.
+pub fn point_segment(point: Vec3, (a, b): Segment) -> f64 {
+    let along = b - a;
+    let length = along.norm_squared();
+    if length > 0.0 { ((point - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// Returns the distance of a point from a segment, m.
+pub fn point_segment_distance(point: Vec3, segment: Segment) -> f64 {
+    let (a, b) = segment;
+    (point - a - (b - a) * point_segment(point, segment)).norm()
+}
+
+/// Returns the point of a triangle that is closest to `point`, by the region of Voronoi that the point lies in (Ericson
+/// 5.1.5). A triangle whose corners lie on one line is treated as its edges.
+pub fn point_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
+    let normal = (b - a).cross(&(c - a));
+    let area = normal.norm_squared();
+    let p = point - a;
+    // Barycentric coordinates of the projection on the plane: of b and c, times the squared area.
+    let (of_b, of_c) = (p.cross(&(c - a)).dot(&normal), (b - a).cross(&p).dot(&normal));
+    if area > 0.0 && of_b >= 0.0 && of_c >= 0.0 && of_b + of_c <= area {
+        return a + (b - a) * (of_b / area) + (c - a) * (of_c / area);
+    }
+    let on = |edge: Segment| edge.0 + (edge.1 - edge.0) * point_segment(point, edge);
+    let candidates = [on((a, b)), on((b, c)), on((c, a))];
+    let nearer = |x: Vec3, y: Vec3| if (y - point).norm() < (x - point).norm() { y } else { x };
+    candidates.into_iter().reduce(nearer).unwrap_or(a)
+}
+
+/// Returns the signed distance of a point from a box, m: negative inside, where it is the depth below the nearest face.
+pub fn point_box(point: Vec3, around: &Aabb) -> f64 {
+    let outside = (around.low - point).sup(&(point - around.high));
+    if outside.max() < 0.0 { outside.max() } else { outside.sup(&Vec3::zeros()).norm() }
+}
+
+/// Returns the signed distance of a segment from a convex part, both in one frame, and its direction from the segment
+/// to the part; negative where the segment goes through the part. It need not be exact where it is more than `enough`, m.
+pub fn segment_part((a, b): Segment, part: &Part, enough: f64) -> SignedDistance {
+    let segment = Part::capsule((a + b) / 2.0, (b - a) / 2.0, 0.0);
+    signed_distance_within(&segment, part, &Pose::identity(), None, enough)
+}

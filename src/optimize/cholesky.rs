@@ -1,0 +1,168 @@
+//! Cholesky's decomposition `A = L Lᵀ` of symmetric positive definite matrices (Cholesky–Banachiewicz, row by row).
+//!
+//! Matrices are kept in the envelope (skyline) of their lower half: every row from its first entry that may differ
+//! from zero up to the diagonal. `L` fills nothing outside the envelope of `A` (George and Liu 1981, sec. 4.2). A dense
+//! matrix is the case in which every row begins in column 0. Used by inverse kinematics (dense, 6 to 106 rows) and, in
+//! an order that keeps the envelope small ([`super::sparse_cholesky`]), by the active-set quadratic programmes. Small
+//! systems of a size known when compiled are left to nalgebra's own decomposition, which needs no heap.
+
+/// The lower half of a symmetric matrix, by rows, within an envelope.
+#[derive(Clone, Debug)]
+pub struct SymmetricMatrix {
+    /// The first column of each row.
+    first: Vec<usize>,
+    /// The index in `values` of each row's first entry, and one more at the end.
+    start: Vec<usize>,
+    values: Vec<f64>,
+}
+
+/// The treatment of a pivot that is not positive enough, so that the matrix is not positive definite within rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PivotRule {
+    /// The decomposition fails where a pivot is not above this part of the diagonal entry it comes from.
+    Refuse(f64),
+    /// The pivot is raised to this value, in the units of the matrix: the solution is damped instead of refused.
+    Raise(f64),
+}
+
+/// The factor `L`, lower triangular with a positive diagonal, in the envelope of the matrix it comes from.
+#[derive(Clone, Debug)]
+pub struct Cholesky {
+    lower: SymmetricMatrix,
+}
+
+impl SymmetricMatrix {
+    /// Returns the zero matrix of a size with room for every entry.
+    pub fn dense(size: usize) -> SymmetricMatrix {
+        SymmetricMatrix::with_envelope(vec![0; size])
+    }
+
+    /// Returns the zero matrix whose row `i` has room for the columns from `first[i]`, which is at most `i`.
+    pub fn with_envelope(first: Vec<usize>) -> SymmetricMatrix {
+        let mut start = Vec::with_capacity(first.len() + 1);
+        start.push(0);
+        let mut end = 0;
+        for (row, first) in first.iter().enumerate() {
+            assert!(*first <= row, "a row's envelope reaches to the diagonal");
+            end += row + 1 - first;
+            start.push(end);
+        }
+        SymmetricMatrix { first, start, values: vec![0.0; end] }
+    }
+
+    /// Returns the number of rows.
+    pub fn size(&self) -> usize {
+        self.first.len()
+    }
+
+    /// Returns the first column of a row's envelope.
+    #[inline]
+    pub fn first(&self, row: usize) -> usize {
+        self.first[row]
+    }
+
+    /// Returns a row's entries from the first column of its envelope up to the diagonal.
+    #[inline]
+    pub fn row(&self, row: usize) -> &[f64] {
+        &self.values[self.start[row]..self.start[row + 1]]
+    }
+
+    /// Returns a row's entries from the first column of its envelope up to the diagonal.
+    #[inline]
+    pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
+        &mut self.values[self.start[row]..self.start[row + 1]]
+    }
+
+    /// Adds to the entry at a row and column of the lower half, which must lie in the envelope.
+    #[inline]
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        let first = self.first[row];
+        self.row_mut(row)[column - first] += value;
+    }
+
+    /// Returns the sum of the diagonal.
+    pub fn trace(&self) -> f64 {
+        (0..self.size()).map(|row| self.values[self.start[row + 1] - 1]).sum()
+    }
+
+    /// Returns the multiplications that a decomposition takes, to the leading order.
+    pub fn work(&self) -> usize {
+        self.first.iter().enumerate().map(|(row, first)| (row - first) * (row - first)).sum::<usize>() / 2
+    }
+
+    /// Decomposes the matrix in place. Returns `None` where the rule refuses a pivot.
+    pub fn cholesky(mut self, rule: PivotRule) -> Option<Cholesky> {
+        for i in 0..self.size() {
+            let (done, rest) = self.values.split_at_mut(self.start[i]);
+            let from = self.first[i];
+            let row = &mut rest[..i + 1 - from];
+            for j in from..i {
+                let other = &done[self.start[j]..self.start[j + 1]];
+                let first = self.first[j];
+                let common = from.max(first);
+                let sum = dot(&row[common - from..j - from], &other[common - first..j - first]);
+                row[j - from] = (row[j - from] - sum) / other[j - first];
+            }
+            let (diagonal, before) = row.split_last_mut()?;
+            let pivot = *diagonal - dot(before, before);
+            *diagonal = libm::sqrt(rule.accepted(pivot, *diagonal)?);
+        }
+        Some(Cholesky { lower: self })
+    }
+}
+
+impl PivotRule {
+    fn accepted(self, pivot: f64, diagonal: f64) -> Option<f64> {
+        match self {
+            PivotRule::Refuse(part) => (pivot > part * diagonal).then_some(pivot),
+            PivotRule::Raise(least) => Some(pivot.max(least)),
+        }
+    }
+}
+
+impl Cholesky {
+    /// Returns the factor `L`.
+    pub fn lower(&self) -> &SymmetricMatrix {
+        &self.lower
+    }
+
+    /// Replaces `b` by `L⁻¹ b` (forward substitution). Leading zeros of `b` stay zeros and cost nothing.
+    pub fn solve_lower(&self, b: &mut [f64]) {
+        let begin = b.iter().position(|value| *value != 0.0).unwrap_or(b.len());
+        for i in begin..b.len() {
+            let first = self.lower.first[i].max(begin);
+            let row = &self.lower.row(i)[first - self.lower.first[i]..];
+            let Some((pivot, row)) = row.split_last() else { continue };
+            b[i] = (b[i] - dot(row, &b[first..i])) / pivot;
+        }
+    }
+
+    /// Replaces `y` by `L⁻ᵀ y` (backward substitution).
+    pub fn solve_upper(&self, y: &mut [f64]) {
+        for i in (0..y.len()).rev() {
+            let Some((pivot, row)) = self.lower.row(i).split_last() else { continue };
+            let value = y[i] / pivot;
+            y[i] = value;
+            y[self.lower.first[i]..i].iter_mut().zip(row).for_each(|(x, l)| *x -= l * value);
+        }
+    }
+
+    /// Replaces the right side `b` by the solution of `A x = b`.
+    pub fn solve(&self, b: &mut [f64]) {
+        self.solve_lower(b);
+        self.solve_upper(b);
+    }
+}
+
+/// Returns the dot product by four sums side by side, which a processor adds at once.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in a4.zip(b4) {
+        for k in 0..4 {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
+}

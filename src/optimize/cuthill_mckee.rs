@@ -1,0 +1,50 @@
+//! The order of Cuthill and McKee (1969): rows of a sparse symmetric matrix numbered so that entries keep near the
+//! diagonal, in a narrow band or a small envelope.
+
+/// Numbers the rows that hang together with `start`, breadth first; of the neighbours of a row those with fewer
+/// neighbours come first, and of these those of smaller index. Appends them to `order` and marks them in `known`,
+/// where `start` must not be marked yet. `neighbours` lists for each row the others with which it shares an entry.
+pub fn number_from(start: usize, neighbours: &[Vec<usize>], known: &mut [bool], order: &mut Vec<usize>) {
+    known[start] = true;
+    let mut at = order.len();
+    order.push(start);
+    while at < order.len() {
+        let mut next: Vec<usize> = neighbours[order[at]].iter().copied().filter(|j| !known[*j]).collect();
+        next.sort_by_key(|j| (neighbours[*j].len(), *j));
+        next.iter().for_each(|j| known[*j] = true);
+        order.extend(next);
+        at += 1;
+    }
+}
+
+/// Returns for each of n rows the others with which it shares an entry, ascending; `entries` are (row, column) on
+/// either side of the diagonal, in any order and number.
+pub fn neighbours(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Vec<Vec<usize>> {
+    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); n];
+    for (i, j) in entries.filter(|(i, j)| i != j) {
+        neighbours[i].push(j);
+        neighbours[j].push(i);
+    }
+    for list in &mut neighbours {
+        list.sort_unstable();
+        list.dedup();
+    }
+    neighbours
+}
+
+/// Returns the reverse order of Cuthill and McKee of a matrix with entries at these places (George 1971): it has the
+/// same band and an envelope that is never larger. Every part that hangs together begins at a row of fewest neighbours.
+pub fn reverse_order(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let neighbours = neighbours(n, entries);
+    let mut order = Vec::with_capacity(n);
+    let mut known = vec![false; n];
+    let mut by_degree: Vec<usize> = (0..n).collect();
+    by_degree.sort_by_key(|i| (neighbours[*i].len(), *i));
+    for start in by_degree {
+        if !known[start] {
+            number_from(start, &neighbours, &mut known, &mut order);
+        }
+    }
+    order.reverse();
+    order
+}

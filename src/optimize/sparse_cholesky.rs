@@ -1,0 +1,56 @@
+//! Cholesky's decomposition of sparse matrices, in the order of reverse Cuthill and McKee.
+
+use super::cholesky::{Cholesky, PivotRule, SymmetricMatrix};
+use super::cuthill_mckee;
+
+/// A pivot below this part of the diagonal's entry means that the matrix is not positive definite: rounding is 1e-16.
+const PIVOT_MIN: f64 = 1e-14;
+
+/// `L Lᵀ = P A Pᵀ`, where the permutation P keeps the envelope of L small.
+pub(crate) struct SparseCholesky {
+    /// The row of L for each row of A, and the row of A for each row of L.
+    position: Vec<usize>,
+    order: Vec<usize>,
+    factor: Cholesky,
+}
+
+impl SparseCholesky {
+    /// Decomposes an n × n matrix given by its entries on and above the diagonal, or below; entries at one place are
+    /// summed. Returns `None` if it is not positive definite, or would take more multiplications than `work_max`.
+    pub(crate) fn new(n: usize, entries: &[(usize, usize, f64)], work_max: usize) -> Option<SparseCholesky> {
+        let order = cuthill_mckee::reverse_order(n, entries.iter().map(|&(i, j, _)| (i, j)));
+        let mut position = vec![0; n];
+        order.iter().enumerate().for_each(|(at, i)| position[*i] = at);
+        let lower = |&(i, j, v): &(usize, usize, f64)| {
+            let (a, b) = (position[i], position[j]);
+            (a.max(b), a.min(b), v)
+        };
+        let mut first: Vec<usize> = (0..n).collect();
+        for (row, column, _) in entries.iter().map(lower) {
+            first[row] = first[row].min(column);
+        }
+        let mut matrix = SymmetricMatrix::with_envelope(first);
+        if matrix.work() > work_max {
+            return None;
+        }
+        for (row, column, value) in entries.iter().map(lower) {
+            matrix.add(row, column, value);
+        }
+        let factor = matrix.cholesky(PivotRule::Refuse(PIVOT_MIN))?;
+        Some(SparseCholesky { position, order, factor })
+    }
+
+    /// Replaces x by `L⁻¹ P x`.
+    pub(crate) fn solve_lower(&self, x: &mut [f64]) {
+        let mut y: Vec<f64> = self.order.iter().map(|i| x[*i]).collect();
+        self.factor.solve_lower(&mut y);
+        x.copy_from_slice(&y);
+    }
+
+    /// Replaces y by `Pᵀ L⁻ᵀ y`.
+    pub(crate) fn solve_upper(&self, y: &mut [f64]) {
+        self.factor.solve_upper(y);
+        let x: Vec<f64> = self.position.iter().map(|at| y[*at]).collect();
+        y.copy_from_slice(&x);
+    }
+}

@@ -1,0 +1,485 @@
+//! Inverse kinematics by damped least squares (Buss 2005, *Introduction to inverse kinematics with Jacobian transpose,
+//! pseudoinverse and damped least squares methods*), with joint limits, a secondary task and inequality rows.
+//!
+//! [`solve`] is the descent that all share. What is to be reached is told by an [`IkProblem`]: residual, rows of the
+//! Jacobian, and, if there is more than one wish, a preferred change and linear inequalities. [`reach`] poses the usual
+//! problem: a frame of an assembly that is to be at a pose. The planner `tosnake` poses another: two docks that are to
+//! meet while balls keep apart.
+//!
+//! One step solves
+//!
+//!   minimise over Δq: |Δq − Δq₀|² + |J Δq − e|² / λ   subject to Δq within the limits, A Δq ≥ b
+//!
+//! where Δq₀ is the preferred change (what of it leaves the task alone is kept: it acts in the null space of J), in the
+//! dual form `Δq = Δq₀ + Jᵀ y`, `(J Jᵀ + λ) y = e − J Δq₀`: a system of the size of the task, decomposed by Cholesky
+//! ([`crate::optimize::cholesky`]). The inequalities are rows beside those of J by an active-set method: what is
+//! violated is taken in, and what would pull is dropped. A joint at its limit is fixed for the rest of the step.
+
+use super::jacobian::{LinkFrame, geometric_jacobian};
+use super::{Assembly, JointKind, JointOwner, Kinematics};
+use crate::geometry::rigid_transform::rotation_vector;
+use crate::geometry::{Pose, RigidTransform, Vec3};
+use crate::interrupt;
+use crate::optimize::cholesky::{PivotRule, SymmetricMatrix};
+use nalgebra::{DMatrix, Vector6};
+
+/// A linear condition on the changes of joints: `Σ factor · Δq[joint] = goal`, or at least that.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Joint and factor; a joint may stand more than once, and its factors are then summed.
+    pub terms: Vec<(usize, f64)>,
+    /// The value on the right, in the unit of the factors times that of the joints.
+    pub goal: f64,
+}
+
+/// The state of a descent at some joint positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evaluation {
+    /// The norm of the residual of the task: it sets the damping.
+    pub residual: f64,
+    /// What is to become less from iteration to iteration, residual and violations of inequalities together.
+    pub merit: f64,
+    /// True where the task is fulfilled.
+    pub converged: bool,
+}
+
+/// What is to be reached. Joint positions are numbered as the problem likes; every method after
+/// [`evaluate`](IkProblem::evaluate) is about the positions given there last.
+pub trait IkProblem {
+    /// Works out what the other methods need at these joint positions; `iteration` counts from 0.
+    fn evaluate(&mut self, q: &[f64], iteration: usize) -> Evaluation;
+
+    /// Returns the rows of the task: `J Δq = e`, with the residual e (wanted less found) cut to what one step can do.
+    fn task(&self) -> Vec<Row>;
+
+    /// Returns the preferred change Δq₀ of every joint: the secondary task.
+    fn preferred(&self, count: usize) -> Vec<f64> {
+        vec![0.0; count]
+    }
+
+    /// Shortens a change to what is near enough for the linear model to hold.
+    fn shorten(&self, change: &mut [f64]);
+
+    /// Returns the inequality of a number: `Σ factor · Δq ≥ goal`.
+    fn inequality(&self, number: usize) -> Row;
+
+    /// Returns the numbers of the inequalities that a change violates by more than a tolerance and that are not among
+    /// the active ones, the worst first.
+    fn violated(&self, change: &[f64], active: &[usize]) -> Vec<usize>;
+
+    /// Takes notice of the joint positions after a step.
+    fn stepped(&mut self, _q: &[f64]) {}
+}
+
+/// Limits and weights of the descent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Iterations at most.
+    pub iterations_max: usize,
+    /// Iterations without [`progress`](Settings::progress) after which the descent counts as stalled.
+    pub patience: usize,
+    /// The part of the best merit so far that a merit has to come below to count as progress.
+    pub progress: f64,
+    /// The damping λ is this times the squared residual, at most this itself (Levenberg–Marquardt damping after
+    /// Sugihara 2011): strong far away, where the linear model is poor, and gone near the solution.
+    pub damping: f64,
+    /// The least damping, in the unit of `J Jᵀ`.
+    pub damping_min: f64,
+    /// The part of the trace of `J Jᵀ` that is added to λ, against rounding where J is singular.
+    pub damping_of_trace: f64,
+    /// The damping of inequality rows, in the unit of `A Aᵀ`.
+    pub damping_inequality: f64,
+    /// Rounds of the active-set method in one step.
+    pub rounds_max: usize,
+    /// Inequalities that are active at most.
+    pub active_max: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            iterations_max: 200,
+            patience: 25,
+            progress: 0.9,
+            damping: 1e-4,
+            damping_min: 1e-12,
+            damping_of_trace: 1e-10,
+            damping_inequality: 1e-6,
+            rounds_max: 12,
+            active_max: 100,
+        }
+    }
+}
+
+/// Why a descent ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopReason {
+    /// The task is fulfilled.
+    Converged,
+    /// The merit made no progress for as long as the settings allow: a local minimum, a singular posture, or limits.
+    Stalled,
+    /// All iterations were used.
+    IterationLimit,
+    /// The goal is farther from the held link than the links between reach; nothing was tried.
+    OutOfReach,
+    /// Bonds do not connect the frame with the held link; nothing was tried.
+    NotConnected,
+}
+
+/// A pivot of `J Jᵀ + λ` that rounding has made smaller than this is raised to it.
+const PIVOT_MIN: f64 = 1e-12;
+
+/// Changes `q` by damped least squares until the problem is solved, or not. `limits` are the least and greatest
+/// position of every joint, which the result keeps (infinite ones are allowed). Returns why it ended, and the number of
+/// steps taken; `q` holds the last positions in any case.
+pub fn solve(
+    problem: &mut dyn IkProblem,
+    q: &mut [f64],
+    limits: &[(f64, f64)],
+    settings: &Settings,
+) -> (StopReason, usize) {
+    assert_eq!(q.len(), limits.len(), "limits for every joint");
+    let (mut best, mut since) = (f64::INFINITY, 0);
+    for iteration in 0..settings.iterations_max {
+        interrupt::checkpoint();
+        let state = problem.evaluate(q, iteration);
+        if state.converged {
+            return (StopReason::Converged, iteration);
+        }
+        if state.merit < settings.progress * best {
+            (best, since) = (state.merit, 0);
+        } else {
+            since += 1;
+            if since > settings.patience {
+                return (StopReason::Stalled, iteration);
+            }
+        }
+        let change = step(problem, q, limits, state.residual, settings);
+        for ((q, change), limits) in q.iter_mut().zip(&change).zip(limits) {
+            *q = (*q + change).clamp(limits.0, limits.1);
+        }
+        problem.stepped(q);
+    }
+    (StopReason::IterationLimit, settings.iterations_max)
+}
+
+/// Returns one step: damped least squares under the limits and the inequalities, by the active-set method.
+fn step(
+    problem: &dyn IkProblem,
+    q: &[f64],
+    limits: &[(f64, f64)],
+    residual: f64,
+    settings: &Settings,
+) -> Vec<f64> {
+    let mut rows = problem.task();
+    let task = rows.len();
+    let preferred = problem.preferred(q.len());
+    let damping = settings.damping * (residual * residual).min(1.0) + settings.damping_min;
+    let mut fixed = vec![false; q.len()];
+    let mut active: Vec<usize> = Vec::new();
+    let mut change = vec![0.0; q.len()];
+    for round in 0..settings.rounds_max {
+        // The step for the rows that are active now.
+        rows.truncate(task);
+        rows.extend(active.iter().map(|&number| problem.inequality(number)));
+        let (solved, multipliers) = damped_least_squares(&rows, task, &preferred, &fixed, damping, settings);
+        change = solved;
+        problem.shorten(&mut change);
+        if round + 1 == settings.rounds_max {
+            break;
+        }
+        // Inequalities with a negative multiplier would be kept by pulling: they are dropped.
+        let mut pushing = multipliers[task..].iter().map(|multiplier| *multiplier >= 0.0);
+        let before = active.len();
+        active.retain(|_| pushing.next().unwrap_or(true));
+        let mut changed = active.len() != before;
+        // Violated ones are taken in, the worst first.
+        let room = settings.active_max.saturating_sub(active.len());
+        for number in problem.violated(&change, &active).into_iter().take(room) {
+            active.push(number);
+            changed = true;
+        }
+        // Joints that the step would take beyond a limit are fixed where they are.
+        for (index, fixed) in fixed.iter_mut().enumerate() {
+            let wanted = q[index] + change[index];
+            if !*fixed && wanted.clamp(limits[index].0, limits[index].1) != wanted {
+                *fixed = true;
+                changed = true;
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    change
+}
+
+/// Returns the change nearest to the preferred one that meets the rows, the first `task` of them damped, by joints that
+/// are not fixed; with the multipliers of the rows.
+fn damped_least_squares(
+    rows: &[Row],
+    task: usize,
+    preferred: &[f64],
+    fixed: &[bool],
+    damping: f64,
+    settings: &Settings,
+) -> (Vec<f64>, Vec<f64>) {
+    let count = preferred.len();
+    let mut dense = vec![0.0; rows.len() * count];
+    for (row, out) in rows.iter().zip(dense.chunks_mut(count.max(1))) {
+        for &(joint, factor) in row.terms.iter().filter(|(joint, _)| !fixed[*joint]) {
+            out[joint] += factor;
+        }
+    }
+    // J Jᵀ, and what the preferred change leaves to do.
+    let mut gram = SymmetricMatrix::dense(rows.len());
+    let mut right = vec![0.0; rows.len()];
+    for (i, row) in rows.iter().enumerate() {
+        let sums = gram.row_mut(i);
+        for &(joint, _) in &row.terms {
+            let factor = dense[i * count + joint];
+            if factor == 0.0 {
+                continue;
+            }
+            for (j, sum) in sums.iter_mut().enumerate() {
+                *sum += factor * dense[j * count + joint];
+            }
+        }
+        let done = row.terms.iter().map(|&(joint, _)| dense[i * count + joint] * preferred[joint]);
+        right[i] = row.goal - done.sum::<f64>();
+    }
+    let trace = gram.trace().max(TRACE_MIN);
+    for i in 0..rows.len() {
+        let damped = damping + settings.damping_of_trace * trace;
+        gram.add(i, i, if i < task { damped } else { settings.damping_inequality });
+    }
+    if let Some(factor) = gram.cholesky(PivotRule::Raise(PIVOT_MIN)) {
+        factor.solve(&mut right);
+    }
+    let mut change: Vec<f64> =
+        preferred.iter().zip(fixed).map(|(p, fixed)| if *fixed { 0.0 } else { *p }).collect();
+    for (i, row) in rows.iter().enumerate() {
+        for &(joint, _) in &row.terms {
+            change[joint] += dense[i * count + joint] * right[i];
+        }
+    }
+    (change, right)
+}
+
+/// The trace of `J Jᵀ` counts as at least this, so that a task that no joint moves is damped, too.
+const TRACE_MIN: f64 = 1e-9;
+
+/// What of a pose is to be reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// Origin and orientation: six rows.
+    Pose,
+    /// The origin alone: three rows.
+    Position,
+}
+
+/// A frame of an assembly that is to be at a pose.
+pub struct Reach<'a> {
+    /// The robot.
+    pub robot: &'a Assembly,
+    /// Its kinematics, for the bonds that hold.
+    pub kinematics: &'a Kinematics,
+    /// The frame that is to be moved.
+    pub frame: LinkFrame,
+    /// The module whose body stays where it is, and its world pose.
+    pub base: (usize, Pose),
+    /// Where the frame is to be, `X_WF`.
+    pub goal: Pose,
+    /// What of that matters.
+    pub aim: Aim,
+    /// Positions that joints are drawn to as far as the goal allows (secondary task), one for every joint.
+    pub rest: Option<&'a [f64]>,
+    /// How near is near enough: m, and rad.
+    pub tolerance: (f64, f64),
+}
+
+/// The result of [`reach`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reached {
+    /// Positions of all joints by [`super::JointId`], radians or metres; within the joints' limits.
+    pub joints: Vec<f64>,
+    /// Why the descent ended; only [`StopReason::Converged`] means that the goal is reached.
+    pub stop: StopReason,
+    /// Steps taken.
+    pub iterations: usize,
+    /// The distance of the frame's origin from the goal, m.
+    pub distance: f64,
+    /// The angle between the frame and the goal, rad.
+    pub angle: f64,
+}
+
+/// No joint moves farther in one iteration: rad, or parts of the length of the chain.
+const CHANGE_MAX: f64 = 0.2;
+
+/// The share of the way to the rest positions that is preferred in one step.
+const REST_GAIN: f64 = 0.1;
+
+/// The angle that one step corrects at most, rad.
+const ANGLE_STEP_MAX: f64 = 0.4;
+
+/// Finds joint positions that bring a frame to a pose, from those of `start`. Fixed, passive and mimicking joints are
+/// not commanded; the limits of mimicking joints are not regarded, nor collisions, nor bonds that close loops.
+pub fn reach(task: &Reach, start: &[f64], settings: &Settings) -> Reached {
+    let mut joints = start.to_vec();
+    let held = task.kinematics.link(task.base.0, 0);
+    let path = task.kinematics.path(held, task.frame.link);
+    let limits = limits(task.robot, start);
+    let length = path.as_deref().map_or(0.0, |path| chain_length(task, path, &limits));
+    let mut problem = FrameProblem {
+        task,
+        held,
+        limits: &limits,
+        scale: if length.is_finite() && length > 0.0 { length } else { 1.0 },
+        q: start.to_vec(),
+        poses: vec![Pose::identity(); task.kinematics.link_count()],
+        jacobian: DMatrix::zeros(6, joints.len()),
+        error: Vector6::zeros(),
+    };
+    let (stop, iterations) = if path.is_none() {
+        (StopReason::NotConnected, 0)
+    } else if (task.goal.translation.vector - task.base.1.translation.vector).norm()
+        > length + task.tolerance.0
+    {
+        (StopReason::OutOfReach, 0)
+    } else {
+        solve(&mut problem, &mut joints, &limits, settings)
+    };
+    problem.update(&joints);
+    let (distance, angle) =
+        (problem.error.fixed_rows::<3>(0).norm(), problem.error.fixed_rows::<3>(3).norm());
+    Reached { joints, stop, iterations, distance, angle }
+}
+
+/// Returns the range of every joint that takes commands; the others stay where they are.
+fn limits(robot: &Assembly, start: &[f64]) -> Vec<(f64, f64)> {
+    let of = |(owner, q): (JointOwner, &f64)| {
+        let range = match owner {
+            JointOwner::Bond(bond) => robot.hinge(bond).and_then(|hinge| hinge.limits.range),
+            JointOwner::Module { module, joint } => {
+                let joint = &robot.module_type(module).joints[joint];
+                if joint.kind == JointKind::Fixed || joint.passive || joint.mimic.is_some() {
+                    return (*q, *q);
+                }
+                joint.limits.range
+            }
+        };
+        range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
+    };
+    robot.joints().zip(start).map(of).collect()
+}
+
+/// Returns a bound on the distance from the held link's origin to the frame's, whatever the joints do, m.
+fn chain_length(task: &Reach, path: &[usize], limits: &[(f64, f64)]) -> f64 {
+    let own = task.frame.X_LF.translation.vector.norm();
+    let of = |pair: &[usize]| {
+        let (step, _) = task.kinematics.step_between(pair[0], pair[1]);
+        let travel = match step.motion {
+            super::step::Motion::Along(_) => {
+                let most = |&(joint, factor): &(usize, f64)| {
+                    let (low, high): (f64, f64) = limits[joint];
+                    factor.abs() * low.abs().max(high.abs())
+                };
+                step.terms().iter().map(most).sum()
+            }
+            _ => 0.0,
+        };
+        step.shift.norm() + step.offset.norm() + travel
+    };
+    own + path.windows(2).map(of).sum::<f64>()
+}
+
+struct FrameProblem<'a> {
+    task: &'a Reach<'a>,
+    held: usize,
+    limits: &'a [(f64, f64)],
+    /// Lengths are measured in this, m, so that they weigh as angles do.
+    scale: f64,
+    q: Vec<f64>,
+    poses: Vec<Pose>,
+    jacobian: DMatrix<f64>,
+    /// Wanted less found: translation (m), rotation vector (rad), in the world.
+    error: Vector6<f64>,
+}
+
+impl FrameProblem<'_> {
+    fn update(&mut self, q: &[f64]) {
+        let (base, X_WB) = self.task.base;
+        self.q.copy_from_slice(q);
+        if let Some(jacobian) = self.moved(base, &X_WB) {
+            self.jacobian = jacobian;
+        }
+        let found = self.task.frame.pose(&self.poses);
+        let apart = self.task.goal.translation.vector - found.translation.vector;
+        let turn = RigidTransform::from(&Pose::from_parts(
+            Vec3::zeros().into(),
+            self.task.goal.rotation * found.rotation.inverse(),
+        ));
+        let turn = rotation_vector(&turn.rotation);
+        self.error = Vector6::new(apart.x, apart.y, apart.z, turn.x, turn.y, turn.z);
+    }
+
+    fn moved(&mut self, base: usize, X_WB: &Pose) -> Option<DMatrix<f64>> {
+        self.task.kinematics.link_poses_from(base, &self.q, X_WB, &mut self.poses);
+        geometric_jacobian(self.task.kinematics, &self.poses, &self.task.frame, self.held)
+    }
+
+    fn rows(&self) -> usize {
+        match self.task.aim {
+            Aim::Pose => 6,
+            Aim::Position => 3,
+        }
+    }
+}
+
+impl IkProblem for FrameProblem<'_> {
+    fn evaluate(&mut self, q: &[f64], _iteration: usize) -> Evaluation {
+        self.update(q);
+        let (place, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
+        let turn = if self.task.aim == Aim::Pose { turn } else { 0.0 };
+        let residual = libm::hypot(place / self.scale, turn);
+        let converged = place <= self.task.tolerance.0 && turn <= self.task.tolerance.1;
+        Evaluation { residual, merit: residual, converged }
+    }
+
+    fn task(&self) -> Vec<Row> {
+        let (place, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
+        let cut = [self.scale / place.max(f64::MIN_POSITIVE), ANGLE_STEP_MAX / turn.max(f64::MIN_POSITIVE)];
+        let row = |i: usize| {
+            let unit = if i < 3 { 1.0 / self.scale } else { 1.0 };
+            let free = |joint: &usize| self.limits[*joint].0 < self.limits[*joint].1;
+            let moving = (0..self.q.len()).filter(free);
+            let terms = moving.map(|joint| (joint, unit * self.jacobian[(i, joint)]));
+            Row {
+                terms: terms.filter(|(_, factor)| *factor != 0.0).collect(),
+                goal: unit * self.error[i] * cut[i / 3].min(1.0),
+            }
+        };
+        (0..self.rows()).map(row).collect()
+    }
+
+    fn preferred(&self, count: usize) -> Vec<f64> {
+        let Some(rest) = self.task.rest else { return vec![0.0; count] };
+        let free = |joint: usize| self.limits[joint].0 < self.limits[joint].1;
+        let toward = |joint: usize| if free(joint) { REST_GAIN * (rest[joint] - self.q[joint]) } else { 0.0 };
+        (0..count).map(toward).collect()
+    }
+
+    fn shorten(&self, change: &mut [f64]) {
+        let greatest = change.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+        let part = (CHANGE_MAX / greatest.max(f64::MIN_POSITIVE)).min(1.0);
+        change.iter_mut().for_each(|c| *c *= part);
+    }
+
+    fn inequality(&self, _number: usize) -> Row {
+        Row::default()
+    }
+
+    fn violated(&self, _change: &[f64], _active: &[usize]) -> Vec<usize> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,117 @@
+//! The geometric Jacobian of a frame on a link: how fast it moves for each joint that moves (Siciliano et al., *Robotics*
+//! 2009, sec. 3.1).
+
+use super::step::{Motion, Step};
+use super::{Assembly, Kinematics, PortRef};
+use crate::geometry::{Pose, Vec3};
+use nalgebra::{DMatrix, Matrix6};
+
+/// A frame that is fixed to a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkFrame {
+    /// The link, by the numbering of [`Kinematics`].
+    pub link: usize,
+    /// The pose of the frame in the link's frame.
+    pub X_LF: Pose,
+}
+
+impl LinkFrame {
+    /// Returns the frame of a link itself.
+    pub fn of_link(link: usize) -> LinkFrame {
+        LinkFrame { link, X_LF: Pose::identity() }
+    }
+
+    /// Returns the frame of a port: origin on the mating face, +x outward, +z up.
+    pub fn of_port(robot: &Assembly, kinematics: &Kinematics, port: PortRef) -> LinkFrame {
+        let declared = &robot.module_type(port.module).ports[port.port];
+        LinkFrame { link: kinematics.link(port.module, declared.link), X_LF: declared.pose }
+    }
+
+    /// Returns `X_WF` from the world poses of all links.
+    pub fn pose(&self, poses: &[Pose]) -> Pose {
+        poses[self.link] * self.X_LF
+    }
+}
+
+/// The axis of a joint in the world, and how its position moves what the joint carries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointAxis {
+    /// A turn about the line through `point` (m) along the unit vector `axis`, by the right-hand rule.
+    Revolute {
+        /// The direction of the line.
+        axis: Vec3,
+        /// A point on it.
+        point: Vec3,
+    },
+    /// A shift along a unit vector.
+    Prismatic {
+        /// The direction.
+        axis: Vec3,
+    },
+}
+
+impl JointAxis {
+    /// Returns the linear and the angular velocity, in the world, of a carried frame with its origin at `p` (m), for
+    /// a joint velocity of 1: m and 1 for a turn of 1 rad/s, 1 and 0 for a shift of 1 m/s.
+    pub fn velocity(&self, p: &Vec3) -> (Vec3, Vec3) {
+        match self {
+            JointAxis::Revolute { axis, point } => (axis.cross(&(p - point)), *axis),
+            JointAxis::Prismatic { axis } => (*axis, Vec3::zeros()),
+        }
+    }
+}
+
+impl Step {
+    /// Returns the axis about or along which this step moves its child against its parent; `None` where it is fixed.
+    /// `poses` are the world poses of all links.
+    pub fn joint_axis(&self, poses: &[Pose]) -> Option<JointAxis> {
+        let (X_WA, X_WB) = (&poses[self.parent], &poses[self.link]);
+        match (self.motion, self.motion.axis()) {
+            (Motion::Along(direction), _) => Some(JointAxis::Prismatic { axis: X_WA.rotation * direction }),
+            (_, Some(axis)) => {
+                let point = X_WB.transform_point(&(-self.offset).into()).coords;
+                Some(JointAxis::Revolute { axis: X_WB.rotation * axis, point })
+            }
+            (_, None) => None,
+        }
+    }
+}
+
+/// Returns the geometric Jacobian `J` (6 × n) of a frame F while the link `held` stays where it is; `None` where bonds
+/// do not connect the two, so that joints do not decide how they lie to each other.
+///
+/// `J · q̇` is the velocity of F: rows 0 to 2 the linear velocity of its origin (m/s), rows 3 to 5 its angular velocity
+/// (rad/s), both in the frame of `poses`, the world. Columns are the joints of the assembly by [`super::JointId`], q̇ in
+/// rad/s or m/s. Columns of joints off the path between the two links, of fixed joints and of mimics are zero; what
+/// mimics do is in the columns of the joints that they follow. Bonds that close loops are not regarded.
+pub fn geometric_jacobian(
+    kinematics: &Kinematics,
+    poses: &[Pose],
+    frame: &LinkFrame,
+    held: usize,
+) -> Option<DMatrix<f64>> {
+    let origin = frame.pose(poses).translation.vector;
+    let mut jacobian = DMatrix::zeros(6, kinematics.joint_count());
+    for pair in kinematics.path(held, frame.link)?.windows(2) {
+        let (step, sign) = kinematics.step_between(pair[0], pair[1]);
+        let Some(axis) = step.joint_axis(poses) else { continue };
+        let (linear, angular) = axis.velocity(&origin);
+        for &(joint, factor) in step.terms() {
+            let mut column = jacobian.column_mut(joint);
+            let mut rows = column.fixed_rows_mut::<3>(0);
+            rows += linear * (sign * factor);
+            let mut rows = column.fixed_rows_mut::<3>(3);
+            rows += angular * (sign * factor);
+        }
+    }
+    Some(jacobian)
+}
+
+/// Returns the six columns of the Jacobian of a frame with its origin at `p_WF` (m) that belong to a floating base with
+/// its origin at `p_WB`, which carries it: for the base's linear velocity (three columns), then its angular velocity, in
+/// the world. Rows are those of [`geometric_jacobian`].
+pub fn base_jacobian(p_WF: &Vec3, p_WB: &Vec3) -> Matrix6<f64> {
+    let mut jacobian = Matrix6::identity();
+    jacobian.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(p_WF - p_WB).cross_matrix());
+    jacobian
+}

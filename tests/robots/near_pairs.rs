@@ -1,0 +1,167 @@
+//! Closest points against brute force and identities, and the broad phase against all pairs.
+
+use crate::support::robots;
+use modl::geometry::broad_phase::{Aabb, near_boxes, near_points};
+use modl::geometry::closest_points::{
+    end_segment, point_box, point_segment, point_segment_distance, point_triangle, segment_part,
+    segment_segment, segment_segment_distance,
+};
+use modl::geometry::{Part, Pose, RigidTransform, Vec3, rigid_transform};
+use nalgebra::{Rotation3, Unit};
+use proptest::prelude::*;
+
+fn vector() -> impl Strategy<Value = Vec3> {
+    (-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0).prop_map(|(x, y, z)| Vec3::new(x, y, z))
+}
+
+fn segment() -> impl Strategy<Value = (Vec3, Vec3)> {
+    // Some are points, some parallel to an axis.
+    (vector(), vector(), 0..8).prop_map(|(a, b, kind)| match kind {
+        0 => (a, a),
+        1 => (a, a + Vec3::x() * b.x),
+        2 => (a, a + Vec3::y() * b.y),
+        _ => (a, b),
+    })
+}
+
+const PARTS: usize = 200;
+
+/// The least distance over the points of a grid on both, and how much it may be too large.
+fn sampled(p: (Vec3, Vec3), q: (Vec3, Vec3)) -> (f64, f64) {
+    let on = |s: (Vec3, Vec3), i: usize| s.0 + (s.1 - s.0) * (i as f64 / PARTS as f64);
+    let of = |i: usize| (0..=PARTS).map(move |j| (on(p, i) - on(q, j)).norm()).fold(f64::INFINITY, f64::min);
+    let least = (0..=PARTS).map(of).fold(f64::INFINITY, f64::min);
+    (least, ((p.1 - p.0).norm() + (q.1 - q.0).norm()) / (2.0 * PARTS as f64))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..robots::seeded() })]
+
+    #[test]
+    fn segments_are_as_far_apart_as_samples_say(p in segment(), q in segment()) {
+        let found = segment_segment(p, q);
+        let (least, coarse) = sampled(p, q);
+        prop_assert!(found.distance <= least + 1e-12 && found.distance >= least - coarse);
+        // The witnesses are on the segments and as far apart as is said.
+        let (s, t) = found.along;
+        prop_assert!((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t));
+        let apart = p.0 + (p.1 - p.0) * s - q.0 - (q.1 - q.0) * t;
+        prop_assert!((apart - found.normal * found.distance).norm() < 1e-12);
+        prop_assert!((found.normal.norm() - 1.0).abs() < 1e-12);
+        // The same either way round, and by the exact distance; ends are never nearer.
+        prop_assert!((segment_segment(q, p).distance - found.distance).abs() < 1e-12);
+        prop_assert!((segment_segment((p.1, p.0), q).distance - found.distance).abs() < 1e-12);
+        prop_assert!((segment_segment_distance(p, q) - found.distance).abs() < 1e-12);
+        prop_assert!((0..2).all(|end| end_segment(p, end, q).distance >= found.distance - 1e-12));
+    }
+
+    /// Segments that cross at a tiny angle meet.
+    #[test]
+    fn the_exact_distance_holds_at_any_angle(power in 1i32..9, height in 0.0f64..0.1) {
+        let slope = libm::pow(10.0, f64::from(-power));
+        let p = (Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0));
+        let q = (Vec3::new(-1.0, -slope, height), Vec3::new(1.0, slope, height));
+        prop_assert!((segment_segment_distance(p, q) - height).abs() < 1e-12);
+        prop_assert!((segment_segment(p, q).distance - height).abs() < 4e-5);
+    }
+
+    #[test]
+    fn a_point_of_a_triangle_is_nearest(point in vector(), a in vector(), b in vector(), c in vector()) {
+        let nearest = point_triangle(point, [a, b, c]);
+        let distance = (nearest - point).norm();
+        for i in 0..=40 {
+            for j in 0..=40 - i {
+                let (u, v) = (f64::from(i) / 40.0, f64::from(j) / 40.0);
+                prop_assert!((a + (b - a) * u + (c - a) * v - point).norm() >= distance - 1e-12);
+            }
+        }
+        // It is in the triangle: no farther from its corners' plane and edges than rounding.
+        prop_assert!((point_triangle(nearest, [c, a, b]) - nearest).norm() < 1e-12);
+        let edges = [(a, b), (b, c), (c, a)].map(|edge| point_segment_distance(point, edge));
+        prop_assert!(edges.iter().all(|edge| *edge >= distance - 1e-12));
+    }
+
+    #[test]
+    fn boxes_and_parts_agree(point in vector(), p in segment(), low in vector(), size in vector()) {
+        let size = size.abs() + Vec3::repeat(0.05);
+        let around = Aabb { low, high: low + size };
+        let part = Part::boxed(low + size / 2.0, [0, 1, 2].map(|i| Vec3::ith(i, size[i] / 2.0)));
+        let distance = point_box(point, &around);
+        let of_part = segment_part((point, point), &part, f64::MAX).distance;
+        prop_assert!((distance - of_part).abs() < 1e-6, "{distance} and {of_part}");
+        // A segment is as near as its nearest point.
+        let on = |i: usize| p.0 + (p.1 - p.0) * (i as f64 / PARTS as f64);
+        let least = (0..=PARTS).map(|i| point_box(on(i), &around)).fold(f64::INFINITY, f64::min);
+        let found = segment_part(p, &part, f64::MAX).distance;
+        if least > 0.0 {
+            prop_assert!(found <= least + 1e-8 && found >= least - (p.1 - p.0).norm() / PARTS as f64);
+        } else {
+            prop_assert!(found <= 1e-8);
+        }
+    }
+
+    #[test]
+    fn a_degenerate_segment_is_a_point(point in vector(), a in vector()) {
+        prop_assert_eq!(point_segment(point, (a, a)), 0.0);
+        prop_assert_eq!(point_segment_distance(point, (a, a)), (point - a).norm());
+    }
+
+    #[test]
+    fn grids_find_all_near_pairs_of_points(
+        points in proptest::collection::vec(vector(), 0..80), spread in 0.1f64..20.0, reach in 0.05f64..3.0,
+        snapped: bool,
+    ) {
+        let at = |p: &Vec3| if snapped { (p * spread).map(|x| (x / reach).round() * reach) } else { p * spread };
+        let points: Vec<Vec3> = points.iter().map(at).collect();
+        let mut found = Vec::new();
+        near_points(points.len(), |i| points[i], reach, &mut |i, j, squared| {
+            assert_eq!(squared, (points[i] - points[j]).norm_squared());
+            found.push((i, j));
+        });
+        let mut again = Vec::new();
+        near_points(points.len(), |i| points[i], reach, &mut |i, j, _| again.push((i, j)));
+        prop_assert_eq!(&found, &again);
+        found.sort_unstable();
+        let near = |&(i, j): &(usize, usize)| (points[i] - points[j]).norm_squared() < reach * reach;
+        let all: Vec<(usize, usize)> =
+            (0..points.len()).flat_map(|i| (i + 1..points.len()).map(move |j| (i, j))).filter(near).collect();
+        prop_assert_eq!(found, all);
+    }
+
+    #[test]
+    fn grids_find_all_near_pairs_of_boxes(
+        corners in proptest::collection::vec((vector(), vector()), 0..60), spread in 0.5f64..10.0,
+        reach in 0.0f64..2.0, cell in 0.05f64..3.0,
+    ) {
+        let boxes: Vec<Aabb> =
+            corners.iter().map(|(a, b)| Aabb::around([a * spread, a * spread + b])).collect();
+        let mut found = Vec::new();
+        near_boxes(&boxes, reach, cell, &mut |i, j| found.push((i, j)));
+        found.sort_unstable();
+        let near = |&(i, j): &(usize, usize)| boxes[i].gap(&boxes[j]).iter().all(|gap| *gap <= reach);
+        let all: Vec<(usize, usize)> =
+            (0..boxes.len()).flat_map(|i| (i + 1..boxes.len()).map(move |j| (i, j))).filter(near).collect();
+        prop_assert_eq!(found, all);
+    }
+
+    /// The two forms of a rigid displacement are one group.
+    #[test]
+    fn rigid_transforms_are_poses(a in vector(), b in vector(), p in vector(), turns in vector()) {
+        let pose = |axis: Vec3, angle: f64| Pose::new(axis, axis.normalize() * angle);
+        let (x, y) = (pose(a, 3.0 * turns.x), pose(b, 3.0 * turns.y));
+        let (m, n) = (RigidTransform::from(&x), RigidTransform::from(&y));
+        let same = |m: &RigidTransform, x: &Pose| {
+            let other = RigidTransform::from(x);
+            (m.rotation - other.rotation).amax() < 1e-14 && (m.translation - other.translation).amax() < 1e-14
+        };
+        prop_assert!(same(&(m * n), &(x * y)) && same(&m.inverse(), &x.inverse()));
+        prop_assert!((m.transform_point(&p) - (x * nalgebra::Point3::from(p)).coords).amax() < 1e-14);
+        prop_assert!(same(&m, &Pose::from(&m)));
+        prop_assert!((rigid_transform::rotation_vector(&m.rotation) - x.rotation.scaled_axis()).amax() < 1e-9);
+        // Half turns have an axis, too.
+        let half = Rotation3::from_axis_angle(&Unit::new_normalize(a), std::f64::consts::PI);
+        let found = rigid_transform::rotation_vector(half.matrix());
+        prop_assert!((found.norm() - std::f64::consts::PI).abs() < 1e-9);
+        prop_assert!(found.cross(&a).norm() < 1e-7 * a.norm());
+    }
+}
