@@ -47,7 +47,7 @@ fn is_plain(def: &Def) -> bool {
     }
     match &def.kind {
         DefKind::Let(binding) => plain(&binding.ty),
-        // A gap.
+        // A vacant definition.
         DefKind::Error => true,
         _ => false,
     }

@@ -1,4 +1,4 @@
-//! What there is to see of a plan at a time: coloured meshes in the world.
+//! The visible bodies of a plan at one time: coloured triangle meshes in the world frame.
 
 use super::colour::{AROUND, FAILED, PALETTE, Rgb, groups};
 use super::mesh::Mesh;
@@ -10,16 +10,18 @@ use crate::plan::verify::articulated::base_at;
 use crate::plan::{Body, CellBox, NodePaths, Stages, Tracks};
 use crate::robot::{Kinematics, Library};
 
-/// Cells of one still picture; of more every second, third, ... is drawn.
+/// The most cells in one picture; of a larger lattice every second, third, ... cell is drawn.
 const CELLS_MAX: usize = 20_000;
 
-/// A mesh in the world, m, with its colour.
+/// A mesh in the world frame, in metres, with its colour.
 pub(super) struct Drawn {
+    /// The mesh in the world frame, in metres.
     pub mesh: Mesh,
+    /// The colour of all its faces.
     pub colour: Rgb,
 }
 
-/// Everything that is drawn at a time, s.
+/// Returns all bodies at a time in seconds, in the order in which they are drawn.
 pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
     let plan = input.plan;
     match &plan.body {
@@ -29,6 +31,7 @@ pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
     }
 }
 
+/// Returns the links of an articulated robot, failed modules in the colour of failure.
 fn robot(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Drawn> {
     let poses = link_poses(input, tracks, time);
     let group = groups(&tracks.robot);
@@ -52,7 +55,7 @@ fn robot(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Drawn> {
     drawn
 }
 
-/// World poses of all links at a time.
+/// Returns the pose of each link in the world at a time in seconds.
 pub(super) fn link_poses(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Pose> {
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
@@ -62,6 +65,7 @@ pub(super) fn link_poses(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec
     poses
 }
 
+/// Returns the cells of a lattice as cubes.
 fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
     let size = library.cells.get(stages.cell).map_or(1.0, |cell| cell.size);
     let cells = stages.state(time);
@@ -77,6 +81,7 @@ fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
     cells.iter().step_by(cells.len().div_ceil(CELLS_MAX).max(1)).map(cube).collect()
 }
 
+/// Returns the struts of a truss as cylinders and its nodes as balls.
 fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {
     let nodes: Vec<Vec3> = paths.state(time).into_iter().map(Vec3::from).collect();
     let lengths = paths.lengths(time);

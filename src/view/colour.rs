@@ -1,11 +1,12 @@
-//! Colours that people who see no red, no green or no blue tell apart, too: those of the page.
+//! Colours, the same as those of the page, that people with colour blindness can tell apart.
 
 use crate::robot::Assembly;
 
-/// Red, green, blue in 0..1, as a screen shows them.
+/// A colour as red, green and blue in 0..1, sRGB encoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rgb(pub [f64; 3]);
 
+/// The colours of modules, by number modulo their count.
 pub(super) const PALETTE: [Rgb; 8] = [
     hex(0x3865d4),
     hex(0xf5b116),
@@ -17,18 +18,19 @@ pub(super) const PALETTE: [Rgb; 8] = [
     hex(0xa0c7aa),
 ];
 
-/// Of what a failure names.
+/// The colour of modules that a failure names.
 pub(super) const FAILED: Rgb = hex(0xd9480f);
 
-/// Of what is no part of a robot: obstacles, and ground that is not flat.
+/// The colour of the surroundings: obstacles, and ground that is not flat.
 pub(super) const AROUND: Rgb = hex(0xb4b8b2);
 
-/// From cold to warm (after cividis).
+/// A colour scale from cold to warm (after cividis).
 const RAMP: [Rgb; 5] = [hex(0x1c4a86), hex(0x4f7196), hex(0x7f8c8d), hex(0xbca94f), hex(0xfddc3b)];
 
-/// Parts of one module are told apart by brightness.
+/// The brightness offset of each link of a module, by which its links are told apart.
 const SHADES: [f64; 8] = [0.0, 0.22, -0.42, -0.3, -0.3, 0.34, -0.2, 0.12];
 
+/// Returns the colour of `0xrrggbb`.
 const fn hex(rgb: u32) -> Rgb {
     Rgb([
         ((rgb >> 16) & 0xff) as f64 / 255.0,
@@ -38,11 +40,12 @@ const fn hex(rgb: u32) -> Rgb {
 }
 
 impl Rgb {
+    /// Returns the linear mixture of two colours: this one at `part` 0, `other` at 1.
     pub(super) fn mixed(self, other: Rgb, part: f64) -> Rgb {
         Rgb(std::array::from_fn(|i| self.0[i] + (other.0[i] - self.0[i]) * part))
     }
 
-    /// The colour of the link of this number in a module of this colour.
+    /// Returns the shade of this module colour for the link with this index.
     pub(super) fn shaded(self, link: usize) -> Rgb {
         let shade = SHADES[link % SHADES.len()];
         if shade == 0.0 {
@@ -53,22 +56,22 @@ impl Rgb {
         Rgb(dulled.0.map(|c| (c * (1.0 + 0.55 * shade)).min(1.0)))
     }
 
-    /// Of a number in 0..1.
+    /// Returns the colour of a number in 0..1 on the scale from cold to warm; clamps others.
     pub(super) fn ramp(x: f64) -> Rgb {
         let x = x.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
         let i = (x as usize).min(RAMP.len() - 2);
         RAMP[i].mixed(RAMP[i + 1], x - i as f64)
     }
 
-    /// `#rrggbb`
+    /// Returns the colour as `#rrggbb`.
     pub(super) fn code(self) -> String {
         let [r, g, b] = self.0.map(|c| libm::round(c * 255.0) as u8);
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 }
 
-/// The part of the whole that each module belongs to, numbered in order: the first step of its path
-/// that is not the same for all.
+/// Returns the group of each module, numbered in order of appearance: modules are grouped by the first
+/// component of their path that is not common to all.
 pub(super) fn groups(robot: &Assembly) -> Vec<usize> {
     let paths: Vec<Vec<&str>> = robot.modules.iter().map(|m| m.name.split('.').collect()).collect();
     let same = |step: usize| paths.iter().all(|path| path.len() > step + 1 && path[step] == paths[0][step]);

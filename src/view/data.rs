@@ -1,4 +1,4 @@
-//! Everything that a page knows of a plan.
+//! The data of a plan that a page holds, as JSON.
 
 use super::number::number;
 use super::solids::Meshes;
@@ -8,13 +8,13 @@ use crate::plan::{Body, Bound, Ground, Plan, file};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};
 
-/// Bytes of source texts in one page; beyond that only the lines that command something.
+/// The most bytes of source texts in one page; if there are more, no text is included.
 const TEXTS_MAX: usize = 400_000;
 
-/// Points of the curve of clearances.
+/// The number of samples of the clearance curve.
 const CLEARANCES: usize = 160;
 
-/// The plan's data as the page's scripts read it.
+/// Returns the data of a plan as the page's scripts read it.
 pub(super) fn data(input: &RenderInput) -> Value {
     let plan = input.plan;
     let end = findings::end(plan);
@@ -57,7 +57,8 @@ pub(super) fn data(input: &RenderInput) -> Value {
     })
 }
 
-/// The curve of clearances, through the least that the judge found.
+/// Returns the clearance curve through the least clearance that the judge found. Adds a note where it is
+/// sampled.
 fn clearance(plan: &Plan, end: f64, notes: &mut Vec<String>) -> Vec<Value> {
     let points = clearances(plan, end, CLEARANCES);
     if (2..=CLEARANCES).contains(&points.len()) {
@@ -67,6 +68,7 @@ fn clearance(plan: &Plan, end: f64, notes: &mut Vec<String>) -> Vec<Value> {
     ground_pose::curve(points, worst.filter(|worst| worst.time <= end).map(|worst| (worst.time, worst.value)))
 }
 
+/// Returns the source texts with their lines, numbered from 1.
 fn sources(texts: &[(String, String)]) -> Vec<Value> {
     if texts.iter().map(|(_, text)| text.len()).sum::<usize>() > TEXTS_MAX {
         return vec![];
@@ -76,7 +78,7 @@ fn sources(texts: &[(String, String)]) -> Vec<Value> {
     texts.iter().map(|(name, text)| json!({ "name": name, "lines": lines(text) })).collect()
 }
 
-/// What a person wants to know of a plan, as (name, words).
+/// Returns the facts about a plan that its page lists, as (name, text).
 fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     let time = |t| quantity(t, Dimension::TIME);
     let made = &plan.provenance;
@@ -117,7 +119,7 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts
 }
 
-/// Of the plan file without its verdict.
+/// Returns the digest of the plan file without its verdict.
 fn hash(plan: &Plan) -> String {
     let bare = Plan { verdict: None, ..plan.clone() };
     file::digest(&file::write(&bare).unwrap_or_default())

@@ -1,4 +1,4 @@
-//! What the judge found, as a page tells it.
+//! The findings of the judge as a page shows them.
 
 use super::RenderInput;
 use super::number::{number, vector};
@@ -8,18 +8,19 @@ use crate::plan::{Body, Cause, CheckKind, Failure, Plan, Verdict, Worst};
 use crate::units::{Dimension, display, quantity};
 use serde_json::{Value, json};
 
-/// A picture within this of a failure shows it, s.
+/// The tolerance within which a picture's time is that of a failure, in seconds.
 const TOL_TIME: f64 = 1e-3;
 
-/// Until when a plan is played: a failed one up to its first failure, s.
+/// Returns the time in seconds at which playing ends: the duration, or the first failure.
 pub(super) fn end(plan: &Plan) -> f64 {
     let duration = plan.body.duration();
     let failures = plan.verdict.iter().flat_map(|verdict| &verdict.failures);
-    // What could not be judged at all failed at no time.
+    // A plan whose form is wrong has no time of failure.
     let failures = failures.filter(|failure| failure.kind != CheckKind::Form);
     failures.map(|failure| failure.time).fold(duration, f64::min).clamp(0.0, duration.max(0.0))
 }
 
+/// Returns the verdict as JSON: stamp, checks, worst values, failures, notes and events.
 pub(super) fn verdict(plan: &Plan) -> Value {
     let Some(verdict) = &plan.verdict else {
         return json!({
@@ -37,6 +38,7 @@ pub(super) fn verdict(plan: &Plan) -> Value {
     })
 }
 
+/// Returns one failure as JSON, with the indices of the modules that it names.
 fn failure(failure: &Failure, plan: &Plan) -> Value {
     let modules = modules(&failure.at, plan);
     json!({
@@ -50,7 +52,8 @@ fn failure(failure: &Failure, plan: &Plan) -> Value {
     })
 }
 
-/// Where two modules of a collision meet, in the world, m.
+/// Returns the point where two modules of a collision touch, in the world frame, in metres; `None` for
+/// other failures.
 fn meeting(failure: &Failure, modules: &[usize], plan: &Plan) -> Option<Vec3> {
     if failure.kind != CheckKind::Collision {
         return None;
@@ -59,7 +62,8 @@ fn meeting(failure: &Failure, modules: &[usize], plan: &Plan) -> Option<Vec3> {
     collision_point(plan, (first, last), failure.time)
 }
 
-/// The modules that the first failure names, if a time is its own.
+/// Returns the indices of the modules that the first failure names, if `time` (s) is the time of that
+/// failure.
 pub(super) fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
     let first = plan.verdict.as_ref().and_then(|verdict| verdict.failures.first());
     first
@@ -67,7 +71,7 @@ pub(super) fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
         .map_or_else(Vec::new, |f| modules(&f.at, plan))
 }
 
-/// The modules that are named, or whose links, joints or ports are.
+/// Returns the indices of the modules with these names, or with links, joints or ports of these names.
 fn modules(names: &[String], plan: &Plan) -> Vec<usize> {
     let Body::Tracks(tracks) = &plan.body else { return vec![] };
     let mut found = Vec::new();
@@ -83,7 +87,7 @@ fn modules(names: &[String], plan: &Plan) -> Vec<usize> {
     found
 }
 
-/// `[time, words]` of each worst value.
+/// Returns `[time, text]` of each worst value.
 fn worst(verdict: &Verdict) -> Vec<Value> {
     let length = |x: f64| quantity(short_length(x), Dimension::LENGTH);
     let percent = |x: f64| format!("{}%", display::number(libm::round(x * 1e4) / 1e2));
@@ -105,12 +109,12 @@ fn worst(verdict: &Verdict) -> Vec<Value> {
     lines.into_iter().flatten().collect()
 }
 
-/// To a hundredth of a millimetre.
+/// Rounds a length in metres to a hundredth of a millimetre.
 fn short_length(x: f64) -> f64 {
     libm::round(x * 1e5) / 1e5
 }
 
-/// One line below the title.
+/// Returns the summary line below the title of a page.
 pub(super) fn summary(input: &RenderInput) -> String {
     let plan = input.plan;
     let (count, what) = match &plan.body {
@@ -133,6 +137,7 @@ pub(super) fn summary(input: &RenderInput) -> String {
     parts.join(", ")
 }
 
+/// Returns the causes with their places in the source.
 pub(super) fn causes(causes: &[Cause]) -> Vec<Value> {
     let place = |c: &Cause| json!({ "file": c.file, "line": c.line, "text": c.text });
     let cause = |c: &Cause| {

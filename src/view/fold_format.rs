@@ -1,44 +1,50 @@
-//! A crease pattern as a file of the FOLD format, version 1.2: the flat net as key frame, which stands
-//! alone for programs that know no frames, and what is folded after every step as further frames.
+//! Crease patterns in the FOLD file format, version 1.2. The flat net is the key frame, which stands alone
+//! for programs that ignore frames; the folded state after each step is a further frame.
 
 use serde_json::{Map, Value, json};
 
-/// What the file says of its lengths.
+/// Millimetres per metre; the file states its unit as mm.
 const MILLIMETRES: f64 = 1e3;
 
-/// Angles smaller than this are no fold, rad.
+/// Angles smaller than this are flat creases, in radians.
 const ANGLE_MIN: f64 = 1e-9;
 
-/// A sheet with its creases.
+/// A crease pattern: a triangulated sheet with its creases and its folded states.
 #[derive(Clone, Debug, Default)]
 pub struct CreasePattern {
+    /// The title of the file.
     pub title: String,
-    /// In the plane, m; the sheet is seen from what will be outside.
+    /// The vertices in the plane of the sheet, in metres, seen from the side that becomes the outside.
     pub vertices: Vec<[f64; 2]>,
-    /// Counterclockwise.
+    /// The triangles as indices into `vertices`, counterclockwise.
     pub faces: Vec<[usize; 3]>,
-    /// By face: the module that it is.
+    /// The name of the module of each face, by index.
     pub modules: Vec<String>,
+    /// The boundary edges and hinges.
     pub edges: Vec<Crease>,
-    /// Where the vertices are after each step, m.
+    /// The positions of the vertices after each step, in metres; one list for each step.
     pub folded: Vec<Vec<[f64; 3]>>,
 }
 
+/// An edge of a crease pattern: a hinge between two faces, or a boundary edge.
 #[derive(Clone, Debug)]
 pub struct Crease {
+    /// The indices of the two ends in [`CreasePattern::vertices`].
     pub vertices: [usize; 2],
-    /// One for outline, two for a hinge.
+    /// The adjacent faces as indices: one for a boundary edge, two for a hinge.
     pub faces: Vec<usize>,
-    /// Of a hinge, rad: positive where it becomes convex, seen from outside. `None` for outline.
+    /// The fold angle of a hinge at the end, in radians: positive where the fold is convex as seen from
+    /// outside. `None` for a boundary edge.
     pub angle: Option<f64>,
-    /// The step in which it folds, from 1.
+    /// The step in which the hinge folds, from 1; `None` if it never folds.
     pub step: Option<usize>,
-    /// The edge that meets this one when all is folded.
+    /// The index of the edge that coincides with this one in the folded state.
     pub glued: Option<usize>,
 }
 
 impl Crease {
-    /// Seen from outside a convex hinge is a mountain; outline is a boundary.
+    /// Returns the FOLD assignment: `B` boundary, `F` flat, `M` mountain (convex as seen from outside), `V`
+    /// valley.
     fn assignment(&self) -> &'static str {
         match self.angle {
             None => "B",
@@ -48,14 +54,14 @@ impl Crease {
         }
     }
 
-    /// Degrees; the format counts valleys positive.
+    /// Returns the fold angle in degrees. FOLD counts valleys positive.
     fn fold_angle(&self) -> Value {
         // Adding zero leaves no negative one.
         self.angle.map_or(Value::Null, |angle| json!(-angle.to_degrees() + 0.0))
     }
 }
 
-/// The text of the file.
+/// Returns the text of the FOLD file.
 pub fn fold_file(pattern: &CreasePattern) -> String {
     let edges = &pattern.edges;
     let by_edge = |value: &dyn Fn(&Crease) -> Value| Value::Array(edges.iter().map(value).collect());

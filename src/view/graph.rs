@@ -1,4 +1,5 @@
-//! A configuration as a graph: modules where they are, seen from a corner, and the bonds between them.
+//! A configuration as a graph in SVG: modules at their places, in a view from a corner, and the bonds
+//! between them.
 
 use super::RenderInput;
 use super::bodies::link_poses;
@@ -8,12 +9,13 @@ use crate::geometry::Vec3;
 use crate::plan::Tracks;
 use crate::robot::{Assembly, PortRef};
 
-/// Pixels of a bond of mean length.
+/// The length of a mean bond in pixels.
 const BOND: f64 = 120.0;
 
-/// Where a port's name stands on its bond.
+/// The position of a port's name along its bond, in parts of the bond's length.
 const NEAR: f64 = 0.36;
 
+/// Returns the SVG of a configuration.
 pub(super) fn graph(input: &RenderInput, tracks: &Tracks) -> String {
     let robot = &tracks.robot;
     let places = places(input, tracks);
@@ -47,11 +49,12 @@ pub(super) fn graph(input: &RenderInput, tracks: &Tracks) -> String {
     drawing.finish(input.title, from, size, "px")
 }
 
+/// Returns the name of a port.
 fn port(robot: &Assembly, at: PortRef) -> &str {
     &robot.module_type(at.module).ports[at.port].name
 }
 
-/// Middles of the modules in the drawing, scaled so that bonds have room.
+/// Returns the centres of the modules in the drawing, in pixels, scaled so that labels of bonds have room.
 fn places(input: &RenderInput, tracks: &Tracks) -> Vec<[f64; 2]> {
     let poses = link_poses(input, tracks, 0.0);
     let mut first = 0;

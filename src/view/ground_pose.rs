@@ -1,26 +1,29 @@
-//! How the robot gets along and stands: from the judge's walk, thinned to what an eye can follow.
+//! The base pose, support and contacts of the robot on the ground over time: from the judge's rollout,
+//! thinned to what is visible.
 
 use super::number::{list, number, place};
 use crate::geometry::Pose;
 use crate::plan::verify::articulated::{self, Moment};
 use serde_json::{Value, json};
 
-/// A base pose is left out where those beside it give it to within this, m and (of quaternions) 1.
+/// A base pose is left out where interpolation between its neighbours is within this of it: metres for
+/// positions, 1 for quaternion components.
 const TOL_BASE: f64 = 1e-4;
 
-/// Longest run of base poses that one straight piece may stand for.
+/// The most base poses that one linear piece replaces.
 const RUN_MAX: usize = 64;
 
-/// Numbers of all loads together.
+/// The most load ratios in one page.
 const LOADS_MAX: usize = 40_000;
 
-/// Points of contact with the ground in one page.
+/// The most contact points in one page.
 const CONTACTS_MAX: usize = 20_000;
 
-/// Moments whose support is drawn.
+/// The most moments with a support polygon in one page.
 const SUPPORTS_MAX: usize = 500;
 
-/// `[time, x, y, z, qx, qy, qz, qw]`, straight between; of a plan without a walk the pose it starts in.
+/// Returns base poses as `[time, x, y, z, qx, qy, qz, qw]`, linear between; the start pose alone if the
+/// plan has no rollout.
 pub(super) fn base(moments: &[Moment], start: &Pose) -> Value {
     let key = |time: f64, pose: &Pose| {
         let (p, q) = (pose.translation.vector, pose.rotation);
@@ -33,7 +36,7 @@ pub(super) fn base(moments: &[Moment], start: &Pose) -> Value {
     Value::Array(kept.into_iter().map(|i| key(moments[i].time, &moments[i].base)).collect())
 }
 
-/// The moments between which straight lines are near enough.
+/// Returns the indices of the moments between which linear interpolation is within tolerance.
 fn kept(moments: &[Moment]) -> Vec<usize> {
     let mut kept = vec![0];
     let mut from = 0;
@@ -50,7 +53,7 @@ fn kept(moments: &[Moment]) -> Vec<usize> {
     kept
 }
 
-/// Whether a moment is where the line between two others has it.
+/// Returns whether moment `i` is within tolerance of the line between two others.
 fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
     let numbers = |at: usize| {
         let (p, q) = (moments[at].base.translation.vector, moments[at].base.rotation);
@@ -69,7 +72,8 @@ fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
     (0..7).all(near)
 }
 
-/// `[time, x, y, z of the centre of mass, margin or null, held, corners]`
+/// Returns `[time, x, y, z of the centre of mass, margin or null, held, corners]` of each moment; the
+/// corners are those of the support polygon.
 pub(super) fn supports(moments: &[Moment]) -> Vec<Value> {
     let stride = moments.len().div_ceil(SUPPORTS_MAX).max(1);
     let last = moments.len().saturating_sub(1);
@@ -84,8 +88,8 @@ pub(super) fn supports(moments: &[Moment]) -> Vec<Value> {
         .collect()
 }
 
-/// `[time, [x, y, ...]]` of the points that touch the ground, from each moment on at which they are
-/// others than before; and whether there were too many to tell them all.
+/// Returns `[time, [x, y, ...]]` of the points that touch the ground, for each moment at which they differ
+/// from those before; and whether the judge's limit of contacts truncated them.
 pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
     let most = moments.iter().map(|m| m.contacts.len()).max().unwrap_or(0);
     let afforded = CONTACTS_MAX / most.max(1);
@@ -102,13 +106,14 @@ pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
     (told, most >= articulated::CONTACTS_MAX)
 }
 
-/// Whether points are where others were, as far as an eye can tell.
+/// Returns whether two sets of points are equal within tolerance.
 fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     let near = |(p, q): (&[f64; 2], &[f64; 2])| p.iter().zip(q).all(|(x, y)| (x - y).abs() <= TOL_BASE);
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// A curve in millimetres: `[[time, value], ...]`, through the least value that the judge found.
+/// Returns a curve in millimetres, `[[time, value], ...]`, from points in metres; `least` is inserted at
+/// its time.
 pub(super) fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> Vec<Value> {
     if let Some(least) = least.filter(|_| !points.is_empty()) {
         let at = points.partition_point(|(time, _)| *time <= least.0);
@@ -117,7 +122,7 @@ pub(super) fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> V
     points.iter().map(|(time, value)| json!([number(*time), number(value * 1e3)])).collect()
 }
 
-/// `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint by its limit.
+/// Returns `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint in parts of its limit.
 pub(super) fn loads(moments: &[Moment]) -> Value {
     let weighed: Vec<&Moment> = moments.iter().filter(|m| !m.loads.is_empty()).collect();
     let mut joints: Vec<usize> =

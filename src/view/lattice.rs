@@ -1,10 +1,11 @@
-//! A lattice of expanding cubes in a page: its runs as they stand in the plan.
+//! The data of a lattice plan in a page: runs of cells as they are in the plan.
 
 use super::number::{list, number};
 use crate::plan::{Ratio, Run, Stages};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
+/// Returns the stages, start cells and laws of a lattice plan as JSON.
 pub(super) fn body(stages: &Stages, library: &Library) -> Value {
     let cell = library.cells.get(stages.cell);
     let stage = |stage: &crate::plan::Stage| {
@@ -27,7 +28,7 @@ pub(super) fn body(stages: &Stages, library: &Library) -> Value {
     })
 }
 
-/// `[first, [[count, stride, dx, dy, dz], ...], centre, size]`, in cell sizes.
+/// Returns runs as `[first, [[count, stride, dx, dy, dz], ...], centre, size]`, in cell sizes.
 fn runs(runs: &[Run]) -> Vec<Value> {
     let ratios = |r: &[Ratio; 3]| list(r.iter().map(|r| r.to_f64()));
     let run = |run: &Run| {

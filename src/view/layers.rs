@@ -1,4 +1,4 @@
-//! Lattices and trusses stage by stage: one small drawing for each, seen from a corner.
+//! Lattice and truss plans as SVG: one small drawing per stage, in a view from a corner.
 
 use super::RenderInput;
 use super::colour::Rgb;
@@ -6,26 +6,31 @@ use super::svg::{Drawing, INK, SOFT, around};
 use crate::geometry::Vec3;
 use crate::plan::{CellBox, NodePaths, Stages};
 
-/// Small drawings of one file, and cells of each.
+/// The most panels of one file.
 const PANELS_MAX: usize = 24;
+/// The most cells of one panel; of a larger lattice every second, third, ... cell is drawn.
 const CELLS_MAX: usize = 4000;
 
-/// Side of a small drawing, pixels, and how many stand beside each other.
+/// The side of a panel in pixels.
 const PANEL: f64 = 260.0;
+/// The number of panels in a row.
 const COLUMNS: usize = 4;
+/// The height of a panel's title in pixels.
 const HEAD: f64 = 26.0;
 
-/// One drawing: its name, and flat pieces from the farthest to the nearest.
+/// One panel: its title, and its polygons from the farthest to the nearest.
 struct Panel {
     name: String,
     pieces: Vec<Flat>,
 }
 
+/// A polygon in the plane of the drawing, with its SVG attributes.
 struct Flat {
     points: Vec<[f64; 2]>,
     look: String,
 }
 
+/// Returns the SVG of a lattice plan, one panel per stage.
 pub(super) fn lattice(input: &RenderInput, stages: &Stages) -> String {
     let instants = stages.instants();
     let name = |i: usize| match i.checked_sub(1) {
@@ -38,6 +43,7 @@ pub(super) fn lattice(input: &RenderInput, stages: &Stages) -> String {
     laid_out(input, panels, instants.len() - shown)
 }
 
+/// Returns the SVG of a truss plan, one panel per keyframe.
 pub(super) fn truss(input: &RenderInput, paths: &NodePaths) -> String {
     let shown = paths.keyframes.len().min(PANELS_MAX);
     let panels = paths.keyframes[..shown].iter().enumerate().map(|(i, keyframe)| {
@@ -54,14 +60,14 @@ pub(super) fn truss(input: &RenderInput, paths: &NodePaths) -> String {
     laid_out(input, panels.collect(), paths.keyframes.len() - shown)
 }
 
-/// To the right and up, as seen from the corner.
+/// Returns the orthographic projection of a point: x to the right, y down.
 fn flat(p: &Vec3) -> [f64; 2] {
     let (back, up) = (Vec3::new(0.57, -0.71, 0.52).normalize(), Vec3::z());
     let right = up.cross(&back).normalize();
     [p.dot(&right), -p.dot(&back.cross(&right))]
 }
 
-/// The three faces of each cube that are seen, the farthest cubes first.
+/// Returns the three visible faces of each cube, the farthest cubes first.
 fn cubes(cells: &[CellBox]) -> Vec<Flat> {
     let back = Vec3::new(0.57, -0.71, 0.52);
     let mut order: Vec<&CellBox> = cells.iter().step_by(cells.len().div_ceil(CELLS_MAX).max(1)).collect();
@@ -72,9 +78,10 @@ fn cubes(cells: &[CellBox]) -> Vec<Flat> {
     order.into_iter().flat_map(faces).collect()
 }
 
+/// Returns the three faces of a cube that face the viewer.
 fn faces(cell: &CellBox) -> [Flat; 3] {
     let full = cell.size.iter().product();
-    // Away from x, from -y and from z: the sides that the corner sees.
+    // The sides towards +x, -y and +z, which the view from the corner shows.
     [(0, 1.0, 0.78), (1, -1.0, 0.62), (2, 1.0, 1.0)].map(|(axis, side, light)| {
         let corner = |u: f64, v: f64| {
             let mut p = Vec3::from(cell.center);
@@ -89,6 +96,7 @@ fn faces(cell: &CellBox) -> [Flat; 3] {
     })
 }
 
+/// Returns the SVG of panels in rows; `untold` is the number of panels left out.
 fn laid_out(input: &RenderInput, panels: Vec<Panel>, untold: usize) -> String {
     let all = || panels.iter().flat_map(|p| p.pieces.iter().flat_map(|f| f.points.iter().copied()));
     let (from, size) = around(all(), 0.0);

@@ -1,4 +1,4 @@
-//! Shapes as triangles and sharp edges, for pictures that are drawn here and not in a browser.
+//! Shapes as triangle meshes with sharp edges, for pictures that are rendered here and not in a browser.
 #![allow(non_snake_case)]
 
 use super::primitives::{Primitive, primitives};
@@ -6,22 +6,23 @@ use crate::geometry::{Placed, Pose, Vec3};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-/// Flat pieces that a full turn is drawn with.
+/// The number of facets of a full circle.
 const ROUND: usize = 40;
 
-/// Faces whose normals have a greater cosine are one smooth surface: 32 degrees.
+/// Adjacent faces whose normals have a greater cosine than this are shaded smoothly: 32 degrees.
 const SMOOTH: f64 = 0.848;
 
+/// A triangle mesh with its sharp edges; lengths in metres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
-    /// Corners, and the normals at them.
+    /// The corners of each triangle, and the normals at them.
     pub triangles: Vec<([Vec3; 3], [Vec3; 3])>,
-    /// Lines to draw.
+    /// The sharp edges, drawn as lines.
     pub edges: Vec<[Vec3; 2]>,
 }
 
 impl Mesh {
-    /// Shapes of a link in the link's frame.
+    /// Returns the mesh of the shapes of a link, in the link's frame.
     pub(super) fn of(shapes: &[Placed]) -> Mesh {
         let mut mesh = Mesh::default();
         primitives(shapes, &mut |X, piece| match piece {
@@ -33,7 +34,7 @@ impl Mesh {
         mesh
     }
 
-    /// Faces and edges of a box around the frame's origin.
+    /// Adds a box centred at the origin of frame `X`; `size` holds its edge lengths in metres.
     pub(super) fn add_box(&mut self, X: &Pose, size: &Vec3) {
         let corner = |i: usize| {
             let side = |axis: usize| if i >> axis & 1 == 1 { size[axis] / 2.0 } else { -size[axis] / 2.0 };
@@ -47,7 +48,7 @@ impl Mesh {
         self.surface(X, &points, &triangles);
     }
 
-    /// A cylinder along z.
+    /// Adds a cylinder along z, centred at the origin of frame `X`; radius and length in metres.
     pub(super) fn tube(&mut self, X: &Pose, radius: f64, length: f64) {
         let rim = |i: usize, z: f64| {
             let (s, c) = libm::sincos(TAU * i as f64 / ROUND as f64);
@@ -68,6 +69,7 @@ impl Mesh {
         }
     }
 
+    /// Adds a ball around the origin of frame `X`; radius in metres.
     pub(super) fn ball(&mut self, X: &Pose, radius: f64) {
         let (around, down) = (ROUND / 2, ROUND / 4);
         let point = |i: usize, j: usize| {
@@ -83,7 +85,7 @@ impl Mesh {
         }
     }
 
-    /// A surface with its sharp edges as lines.
+    /// Adds a surface and its sharp edges.
     fn surface(&mut self, X: &Pose, points: &[Vec3], triangles: &[[u32; 3]]) {
         let at = |i: u32| X.transform_point(&points[i as usize].into()).coords;
         let corners: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(at)).collect();
@@ -112,6 +114,7 @@ impl Mesh {
         self.edges.extend(sharp.map(|((i, j), _)| [at(*i), at(*j)]));
     }
 
+    /// Returns the mesh transformed by `X`.
     pub(super) fn moved(&self, X: &Pose) -> Mesh {
         let at = |p: Vec3| X.transform_point(&p.into()).coords;
         let triangles = self.triangles.iter().map(|(p, n)| (p.map(at), n.map(|n| X.rotation * n)));

@@ -1,10 +1,9 @@
-//! Plans as pictures: a page that plays a plan, and still pictures.
+//! Plans as pictures: a page that plays a plan, still pictures, drawings and crease patterns.
 //!
-//! The room is handed a plan with its verdict and gives back text or bytes; it writes no files. What
-//! a page needs is gathered by [`data`] (the plan's own numbers, thinned where there are too many)
-//! and put between the style and the scripts of `page/` by [`page`]. The page computes the poses
-//! itself, from the same steps of kinematics that the judge uses; only where the ground carries the
-//! robot is sampled, from the judge's own walk.
+//! The room receives a plan with its verdict and returns text or bytes; it writes no files. The data of a
+//! page is collected by [`data`] (the plan's own numbers, thinned where there are too many) and inserted
+//! between the style and the scripts of `page/` by [`page`]. The page computes the poses itself, by the
+//! same kinematics as the judge; only the base pose on the ground is sampled, from the judge's own rollout.
 
 mod page;
 
@@ -46,15 +45,15 @@ pub use page::{page, page_name};
 pub use picture::{Side, StillOptions, png};
 pub use svg::svg;
 
-/// What is shown.
+/// The input of all renderers: a plan with the texts around it.
 #[derive(Clone, Copy, Debug)]
 pub struct RenderInput<'a> {
-    /// Name of the robot, or of what else moves.
+    /// The name of the robot, or of the other moving thing.
     pub title: &'a str,
-    /// With the verdict it was given; `None` there is shown as "not judged".
+    /// The plan. One without a verdict is shown as "not judged".
     pub plan: &'a Plan,
-    /// Texts of the user's own files that the causes name, as (name, text); may be empty.
+    /// The user's source files that the causes name, as (name, text); may be empty.
     pub texts: &'a [(String, String)],
-    /// The command that makes the same again; may be empty.
+    /// The command line that makes the same plan again; may be empty.
     pub command: &'a str,
 }

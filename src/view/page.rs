@@ -1,4 +1,4 @@
-//! The page: one file, with its style, its scripts and the plan inside. It loads nothing.
+//! The page of a plan: one HTML file with style, scripts and the plan inside. It loads nothing.
 
 use super::picture::small_png;
 use super::{RenderInput, StillOptions, data};
@@ -6,7 +6,7 @@ use super::{RenderInput, StillOptions, data};
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
 
-/// In the order in which they build on each other.
+/// The scripts in order of dependency.
 const SCRIPTS: [&str; 14] = [
     include_str!("page/math.js"),
     include_str!("page/motion.js"),
@@ -24,11 +24,11 @@ const SCRIPTS: [&str; 14] = [
     include_str!("page/main.js"),
 ];
 
-/// What is shown where the page can't play.
+/// The options of the still picture that is shown where scripts cannot run.
 const STILL: StillOptions = StillOptions { time: 0.0, side: super::Side::Corner, width: 480, height: 300 };
 
-/// The whole page. Nothing in the plan can break out of its place: the data is JSON in which `<`, `>`
-/// and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
+/// Returns the HTML of the page. Nothing in the plan can break out of its place: the data is JSON in which
+/// `<`, `>` and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
 pub fn page(input: &RenderInput) -> String {
     let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
     let plan = unmarked(&data::data(input).to_string());
@@ -43,20 +43,22 @@ pub fn page(input: &RenderInput) -> String {
     ])
 }
 
-/// What the page of a plan file is called: as the file, with another ending. Of a path the page's
-/// path, beside the file.
+/// Returns the path of the page of a plan file: the same path with the ending `.html` instead of
+/// `.plan.json` or `.json`.
 pub fn page_name(plan_file: &str) -> String {
     let stem = without(without(plan_file, ".json"), ".plan");
     format!("{stem}.html")
 }
 
+/// Returns the name without an ending, compared regardless of case.
 fn without<'a>(name: &'a str, ending: &str) -> &'a str {
     let at = name.len().saturating_sub(ending.len());
     let ends = name.get(at..).is_some_and(|rest| rest.eq_ignore_ascii_case(ending));
     if ends { &name[..at] } else { name }
 }
 
-/// The template with a text at each of its places, which are looked for in the template only.
+/// Returns the template with texts for its placeholders. Placeholders are searched in the template only,
+/// never in an inserted text.
 fn filled(texts: &[(&str, &str)]) -> String {
     let mut page = String::new();
     let mut rest = PAGE;
@@ -79,7 +81,7 @@ fn filled(texts: &[(&str, &str)]) -> String {
     page + rest
 }
 
-/// Without indentation and lines of comments: they are for readers of the source.
+/// Returns a script or style without indentation and comment lines.
 fn lean(text: &str) -> String {
     let mut lean = String::with_capacity(text.len());
     let kept = text.lines().map(str::trim).filter(|line| {
@@ -93,7 +95,7 @@ fn lean(text: &str) -> String {
     lean
 }
 
-/// Bytes as text, by RFC 4648.
+/// Returns bytes as base64 text (RFC 4648).
 fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
@@ -107,7 +109,7 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// JSON without a character that could mean something in a page.
+/// Returns JSON with `<`, `>`, `&` and line separators escaped, so that it has no meaning as markup.
 fn unmarked(json: &str) -> String {
     let mut text = String::with_capacity(json.len());
     for letter in json.chars() {
@@ -119,7 +121,7 @@ fn unmarked(json: &str) -> String {
     text
 }
 
-/// Text for the places between tags.
+/// Returns text escaped for HTML and SVG.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -129,7 +131,7 @@ pub(super) fn escaped(text: &str) -> String {
             '&' => escaped.push_str("&amp;"),
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&#39;"),
-            // No page or drawing may hold other control characters, whichever way they are written.
+            // Other control characters are not allowed in HTML or XML in any notation.
             c if c.is_control() => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }

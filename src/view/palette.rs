@@ -1,24 +1,24 @@
-//! A picture in few colours: by cutting the colours that occur into boxes at their medians (Heckbert
-//! 1982), in whole numbers.
+//! Colour quantisation by median cut (Heckbert 1982), in integers.
 
-/// Colours of one picture.
+/// The most colours of one picture.
 pub(super) const COLOURS_MAX: usize = 48;
 
-/// Bits of each of red, green and blue that tell colours apart.
+/// The bits of red, green and blue that are distinguished.
 const BITS: u32 = 5;
 
-/// A colour as far as it is told apart, with what of the picture has it.
+/// A quantised colour with its statistics in the picture.
 #[derive(Clone, Copy)]
 struct Tone {
-    /// Red, green and blue in [`BITS`] each.
+    /// Red, green and blue in [`BITS`] bits each.
     parts: [u8; 3],
-    /// Pixels.
+    /// The number of pixels of this colour.
     count: u64,
-    /// Of their red, green and blue.
+    /// The sums of their red, green and blue.
     sums: [u64; 3],
 }
 
-/// The colours, and the colour of each pixel by its place among them; pixels are red, green, blue.
+/// Returns the palette of a picture, and the palette index of each pixel. `pixels` holds red, green and
+/// blue of each pixel.
 pub(super) fn reduced(pixels: &[u8]) -> (Vec<[u8; 3]>, Vec<u8>) {
     let mut tones: Vec<Option<Tone>> = vec![None; 1 << (3 * BITS)];
     for pixel in pixels.chunks_exact(3) {
@@ -36,16 +36,18 @@ pub(super) fn reduced(pixels: &[u8]) -> (Vec<[u8; 3]>, Vec<u8>) {
     (boxes.iter().map(|tones| mean(tones)).collect(), pixels.chunks_exact(3).map(of).collect())
 }
 
+/// Returns the index of a quantised colour in the table of all.
 fn place(parts: [u8; 3]) -> usize {
     parts.iter().fold(0, |place, part| place << BITS | usize::from(*part))
 }
 
+/// Returns the mean colour of tones, rounded.
 fn mean(tones: &[Tone]) -> [u8; 3] {
     let count = tones.iter().map(|tone| tone.count).sum::<u64>().max(1);
     [0, 1, 2].map(|k| ((tones.iter().map(|tone| tone.sums[k]).sum::<u64>() + count / 2) / count) as u8)
 }
 
-/// The tones in as many boxes as there may be colours, the widest cut first.
+/// Partitions the tones into at most [`COLOURS_MAX`] boxes, the widest box cut at its median first.
 fn boxes(all: Vec<Tone>) -> Vec<Vec<Tone>> {
     let mut boxes = vec![all];
     while boxes.len() < COLOURS_MAX {
@@ -66,7 +68,7 @@ fn boxes(all: Vec<Tone>) -> Vec<Vec<Tone>> {
     boxes
 }
 
-/// The greatest difference of red, green or blue in a box, and of which of them.
+/// Returns the extent of a box along its longest channel, and that channel.
 fn width(tones: &[Tone]) -> (u8, usize) {
     let spread = |part: usize| {
         let values = || tones.iter().map(|tone| tone.parts[part]);

@@ -1,9 +1,9 @@
-//! Flat panels joined by hinges as the pattern they are cut and folded from, true to scale, in layers:
-//! panels, cuts, mountains, valleys, hinges that stay level, numbers.
+//! Crease patterns as SVG: flat panels joined by hinges, cut and folded from one sheet, true to scale, in
+//! layers for panels, cuts, mountains, valleys, flat hinges and numbers.
 //!
-//! The sheet is seen from the panels' front, the outside of what it becomes. Panels are numbered from 0
-//! as in the design; hinges from 1 in the order in which they fold, with their angles; two edges that
-//! are cut apart and meet in the end bear the same letter.
+//! The sheet is seen from the front of the panels, the outside of the folded shape. Panels are numbered
+//! from 0 as in the design; hinges from 1 in the order in which they fold, with their angles; two cut edges
+//! that coincide in the end have the same letter.
 #![allow(non_snake_case)]
 
 use super::RenderInput;
@@ -12,25 +12,27 @@ use crate::geometry::{Pose, Shape, Vec3};
 use crate::plan::Tracks;
 use crate::robot::{JointOwner, Kinematics, ModuleType, PortRef};
 
-/// A panel's corner may be this far above or below the sheet, m: rounding of poses.
+/// The tolerance of a panel's corner above or below the sheet, in metres; covers rounding of poses.
 const TOL_FLAT: f64 = 1e-6;
 
-/// Middles of edges that are nearer than this in the end meet, m.
+/// Two edges whose midpoints are nearer than this in the end coincide, in metres.
 const TOL_MEET: f64 = 1e-5;
 
-/// Angles smaller than this are no fold, rad.
+/// Angles smaller than this are flat creases, in radians.
 const ANGLE_MIN: f64 = 1e-6;
 
+/// Millimetres per metre.
 const MILLIMETRES: f64 = 1e3;
 
 const MOUNTAIN: &str = "#c0392b";
 const VALLEY: &str = "#0b63a5";
 
-/// Places in the plane, mm, y down.
+/// A point in the drawing, in mm, y down.
 type Point = [f64; 2];
+/// An edge from its first to its second end.
 type Side = [Point; 2];
 
-/// A panel in the plane.
+/// A panel as a polygon in the drawing.
 struct Panel {
     corners: Vec<Point>,
 }
@@ -38,22 +40,22 @@ struct Panel {
 /// A fold line between two panels.
 struct Fold {
     ends: Side,
-    /// At the end of the plan, rad.
+    /// The angle at the end of the plan, in radians.
     angle: f64,
-    /// From 1, in order of time; 0 where it never moves.
+    /// The position in folding order, from 1; 0 for a hinge that never moves.
     order: usize,
 }
 
-/// A side along which the sheet is cut.
+/// An edge along which the sheet is cut.
 struct Cut {
     ends: Side,
-    /// The middle of its panel.
+    /// The centre of its panel.
     inside: Point,
-    /// Shared with the side that it meets in the end.
+    /// The number of the letter that it shares with the edge it coincides with in the end.
     meets: Option<usize>,
 }
 
-/// The pattern; `None` where the modules are no flat panels on hinges.
+/// Returns the crease pattern of a plan as SVG; `None` if its modules are not flat panels on hinges.
 pub(super) fn pattern(input: &RenderInput, tracks: &Tracks) -> Option<String> {
     let robot = &tracks.robot;
     let hinged = !robot.bonds.is_empty() && (0..robot.bonds.len()).all(|bond| robot.hinge(bond).is_some());
@@ -112,7 +114,7 @@ pub(super) fn pattern(input: &RenderInput, tracks: &Tracks) -> Option<String> {
     Some(drawn(input, &panels, &folds, &cuts))
 }
 
-/// By free port: the number of the pair of sides that meet, if it belongs to one.
+/// Returns for each free port the number of the pair of edges that coincide, if it belongs to one.
 fn meeting(free: &[(PortRef, Vec3)]) -> Vec<Option<usize>> {
     let mut pairs = vec![None; free.len()];
     let mut count = 0;
@@ -128,12 +130,13 @@ fn meeting(free: &[(PortRef, Vec3)]) -> Vec<Option<usize>> {
     pairs
 }
 
+/// Returns the position on the sheet in mm, y down, of a point in metres.
 fn on_paper(place: &Vec3) -> Point {
     [place.x * MILLIMETRES, -place.y * MILLIMETRES]
 }
 
-/// The outline of a module, if it lies in the sheet. A triangle with a port in the middle of each of
-/// its edges goes from edge to edge, though the body may stay a little inside.
+/// Returns the outline of a module, if it lies in the sheet. A triangle with a port in the middle of each
+/// edge extends from edge to edge, though its body may be inset a little.
 fn panel(kind: &ModuleType, X: &Pose) -> Option<Panel> {
     let [link] = &kind.links[..] else { return None };
     let [placed] = &link.shape[..] else { return None };
@@ -160,17 +163,19 @@ fn panel(kind: &ModuleType, X: &Pose) -> Option<Panel> {
     (upright && corners.len() >= 3).then_some(Panel { corners })
 }
 
+/// Returns the mean of points.
 fn centre(points: &[Point]) -> Point {
     let count = points.len().max(1) as f64;
     [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / count)
 }
 
+/// Returns the edges of a panel.
 fn sides(panel: &Panel) -> impl Iterator<Item = Side> + '_ {
     let count = panel.corners.len();
     (0..count).map(move |i| [panel.corners[i], panel.corners[(i + 1) % count]])
 }
 
-/// The side of a panel whose middle is nearest to a place.
+/// Returns the edge of a panel whose midpoint is nearest to a point.
 fn side(panel: &Panel, at: Point) -> Side {
     let away = |s: &Side| {
         let [x, y] = centre(s);
@@ -179,7 +184,7 @@ fn side(panel: &Panel, at: Point) -> Side {
     sides(panel).min_by(|a, b| away(a).total_cmp(&away(b))).expect("a panel has three sides")
 }
 
-/// Joints in the order in which they first move.
+/// Returns the joints in the order in which they first move.
 fn order(tracks: &Tracks) -> Vec<usize> {
     let moves = |track: &crate::plan::Track| {
         let first = track.segments.iter().find(|s| s.control.iter().any(|c| *c != s.control[0]))?;
@@ -190,6 +195,7 @@ fn order(tracks: &Tracks) -> Vec<usize> {
     found.into_iter().map(|(_, joint)| joint).collect()
 }
 
+/// Returns the SVG of panels, folds and cuts.
 fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) -> String {
     let mut drawing = Drawing::default();
     let size = panels
@@ -235,13 +241,13 @@ fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) ->
     drawing.finish(input.title, from, room, "mm")
 }
 
-/// How the fold lines of a layer look.
+/// The style of the fold lines of a layer.
 struct Style {
     name: &'static str,
     colour: &'static str,
-    /// Dash and gap, in widths of the pen.
+    /// Lengths of dash and gap, in widths of the pen.
     dashes: [f64; 2],
-    /// Whether a hinge that folds by an angle (rad) is on the layer.
+    /// Returns whether a hinge with this fold angle (rad) belongs to the layer.
     belongs: fn(f64) -> bool,
 }
 
@@ -251,10 +257,10 @@ const STYLES: [Style; 3] = [
     Style { name: "level", colour: SOFT, dashes: [2.0, 6.0], belongs: |angle| angle.abs() < ANGLE_MIN },
 ];
 
-/// How far from its edge towards the panel's middle a letter stands.
+/// The distance of a letter from its edge, as a part of the way to the panel's centre.
 const INWARDS: f64 = 0.25;
 
-/// A, B, ..., Z, AA, AB, ...
+/// Returns a label: A, B, ..., Z, AA, AB, ...
 fn letters(number: usize) -> String {
     let last = char::from(b'A' + (number % 26) as u8);
     if number < 26 { last.to_string() } else { letters(number / 26 - 1) + &last.to_string() }

@@ -1,38 +1,49 @@
-//! A still picture of a plan at a time, as PNG: drawn on the processor, the same bytes everywhere.
+//! A still picture of a plan at one time, as PNG, rendered on the processor: the same bytes on every
+//! machine.
 
 use super::bodies::{Drawn, drawn};
 use super::colour::Rgb;
-use super::raster::{Canvas, Eye};
+use super::raster::{Camera, Canvas};
 use super::{RenderInput, findings, palette, surroundings};
 use crate::geometry::Vec3;
 
-/// Pixels of a picture are the mean of so many by so many.
-const FINE: usize = 3;
+/// Supersampling: a pixel is the mean of this many by this many samples.
+const SUPERSAMPLING: usize = 3;
 
-/// Pixels of the map of shadows, each way.
-const SHADOWS: usize = 1400;
+/// The width and height of the shadow map, in samples.
+const SHADOW_MAP_SIZE: usize = 1400;
 
-/// Tangent of half the angle of sight: 38 degrees, as on the page.
-const SIGHT: f64 = 0.344_327_6;
+/// The tangent of half the vertical field of view (38 degrees, as on the page).
+const HALF_FOV_TANGENT: f64 = 0.344_327_6;
 
+/// The direction towards the sun; unit length.
 const SUN: Vec3 = Vec3::new(0.334, -0.437, 0.835);
+/// The colour of the sky at the top of the picture.
 const ABOVE: Rgb = Rgb([0.906, 0.918, 0.925]);
+/// The colour of the sky at the horizon.
 const BELOW: Rgb = Rgb([0.965, 0.957, 0.937]);
+/// The colour of grid lines and shadows on the ground.
 const INK: Rgb = Rgb([0.125, 0.188, 0.235]);
 
-/// From where a picture is taken. +x is ahead.
+/// The viewpoint of a picture. +x of the world is the front.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
+    /// From the front right, above.
     Corner,
+    /// From +x.
     Front,
+    /// From -x.
     Back,
+    /// From +y.
     Left,
+    /// From -y.
     Right,
+    /// From +z, with +x up in the picture.
     Top,
 }
 
 impl Side {
-    /// The direction towards the eye; need not be of unit length.
+    /// Returns the direction from the scene to the camera; not of unit length.
     fn direction(self) -> Vec3 {
         match self {
             Side::Corner => Vec3::new(0.57, -0.71, 0.41),
@@ -40,7 +51,7 @@ impl Side {
             Side::Back => Vec3::new(-1.0, 0.0, 0.12),
             Side::Left => Vec3::new(0.0, 1.0, 0.12),
             Side::Right => Vec3::new(0.0, -1.0, 0.12),
-            // A little from behind, or there would be no right and left.
+            // Slightly from behind, so that right and left are defined.
             Side::Top => Vec3::new(-0.001, 0.0, 1.0),
         }
     }
@@ -49,11 +60,13 @@ impl Side {
 /// The options of a still picture.
 #[derive(Clone, Copy, Debug)]
 pub struct StillOptions {
-    /// Seconds; clipped to what the page plays.
+    /// The time of the picture in seconds; clipped to the part that is played.
     pub time: f64,
+    /// The viewpoint.
     pub side: Side,
-    /// Pixels.
+    /// The width in pixels.
     pub width: usize,
+    /// The height in pixels.
     pub height: usize,
 }
 
@@ -63,77 +76,82 @@ impl Default for StillOptions {
     }
 }
 
-/// A picture as the bytes of a PNG file.
+/// Returns a picture as the bytes of a PNG file.
 pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     let pixels = pixels(&canvas(input, options), options);
     encoded(options, &pixels, None)
 }
 
-/// The same in a few colours, a fifth as large: for a page to hold.
+/// Returns a picture as PNG with at most [`palette::COLOURS_MAX`] colours, a fifth as large, for a page to
+/// hold.
 pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     let (colours, pixels) = palette::reduced(&pixels(&canvas(input, options), options));
     encoded(options, &pixels, Some(&colours))
 }
 
+/// Renders the bodies at the time of the picture.
 fn canvas(input: &RenderInput, options: &StillOptions) -> Canvas {
     let time = options.time.clamp(0.0, findings::end(input.plan));
     let bodies = drawn(input, time);
     Scene::new(bodies, surroundings::floor(input.plan), options).canvas()
 }
 
+/// A scene with its camera and light.
 struct Scene {
     bodies: Vec<Drawn>,
-    eye: Eye,
-    sun: Eye,
+    camera: Camera,
+    sun: Camera,
     shadows: Canvas,
     middle: Vec3,
     radius: f64,
     grounded: bool,
     width: usize,
     height: usize,
-    /// From light to what a screen is told, in 1024 steps.
+    /// Gamma correction from linear light to sRGB, in 1024 steps.
     gamma: Vec<f32>,
 }
 
 impl Scene {
     fn new(bodies: Vec<Drawn>, grounded: bool, options: &StillOptions) -> Scene {
         let (middle, radius) = ball(&bodies);
-        let (width, height) = (options.width * FINE, options.height * FINE);
+        let (width, height) = (options.width * SUPERSAMPLING, options.height * SUPERSAMPLING);
         let narrow = (width as f64 / height as f64).min(1.0);
-        let distance = 0.92 * radius / (SIGHT / libm::sqrt(1.0 + SIGHT * SIGHT)) / narrow;
+        let distance = 0.92 * radius
+            / (HALF_FOV_TANGENT / libm::sqrt(1.0 + HALF_FOV_TANGENT * HALF_FOV_TANGENT))
+            / narrow;
         let at = middle + options.side.direction().normalize() * distance;
-        let eye = Eye::new(at, middle, Vec3::z(), SIGHT, false);
-        let sun = Eye::new(middle + SUN * (3.0 * radius), middle, Vec3::y(), 1.1 * radius, true);
-        let mut shadows = Canvas::new(SHADOWS, SHADOWS);
+        let camera = Camera::new(at, middle, Vec3::z(), HALF_FOV_TANGENT, false);
+        let sun = Camera::new(middle + SUN * (3.0 * radius), middle, Vec3::y(), 1.1 * radius, true);
+        let mut shadows = Canvas::new(SHADOW_MAP_SIZE, SHADOW_MAP_SIZE);
         for body in &bodies {
             shadows.fill(&body.mesh, &sun, &mut |_, _| [0.0; 3]);
         }
         let gamma = (0..1024).map(|i| libm::pow(f64::from(i) / 1023.0, 1.0 / 2.2) as f32).collect();
-        Scene { bodies, eye, sun, shadows, middle, radius, grounded, width, height, gamma }
+        Scene { bodies, camera, sun, shadows, middle, radius, grounded, width, height, gamma }
     }
 
     fn canvas(&self) -> Canvas {
         let mut canvas = Canvas::new(self.width, self.height);
         for body in &self.bodies {
             let base = body.colour.0.map(|c| libm::pow(c, 2.2));
-            canvas.fill(&body.mesh, &self.eye, &mut |p, n| self.lit(base, p, n));
+            canvas.fill(&body.mesh, &self.camera, &mut |p, n| self.lit(base, p, n));
         }
         for body in &self.bodies {
             let dark = Rgb(body.colour.0.map(|c| c * 0.42));
-            canvas.lines(&body.mesh.edges, &self.eye, FINE - 1, dark);
+            canvas.lines(&body.mesh.edges, &self.camera, SUPERSAMPLING - 1, dark);
         }
         self.background(&mut canvas);
         canvas
     }
 
-    /// The colour of a point of a surface.
+    /// Returns the shaded colour of a surface point.
     fn lit(&self, base: [f64; 3], p: Vec3, normal: Vec3) -> [f32; 3] {
         let n = normal.normalize();
         let facing = n.dot(&SUN).max(0.0);
         let direct =
             if facing > 0.0 { facing * self.sunlight(&(p + n * (0.004 * self.radius))) } else { 0.0 };
         let sky = 0.5 + 0.5 * n.z;
-        let away = (self.eye.at - p).normalize();
+        let away = (self.camera.at - p).normalize();
         let rim = 1.0 - n.dot(&away).max(0.0);
         const SKY: [(f64, f64, f64); 3] = [(0.30, 0.56, 0.92), (0.29, 0.60, 0.88), (0.28, 0.66, 0.80)];
         let part = |i: usize| {
@@ -144,20 +162,22 @@ impl Scene {
         [part(0), part(1), part(2)]
     }
 
+    /// Returns linear light in 0..1 as a gamma-corrected value.
     fn shown(&self, light: f64) -> f32 {
         self.gamma[(light.clamp(0.0, 1.0) * 1023.0) as usize]
     }
 
-    /// How much of the sun a point sees, 0..1.
+    /// Returns the part of the sun visible from a point, 0..1, by the shadow map filtered over nine
+    /// samples.
     fn sunlight(&self, p: &Vec3) -> f64 {
-        let Some(spot) = self.sun.spot(p, SHADOWS, SHADOWS) else { return 1.0 };
+        let Some(spot) = self.sun.project(p, SHADOW_MAP_SIZE, SHADOW_MAP_SIZE) else { return 1.0 };
         let slack = 0.006 * self.radius;
         let mut seen = 0;
         for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
             let (x, y) = (spot.x.floor() as i64 + dx, spot.y.floor() as i64 + dy);
-            let inside = |c: i64| (0..SHADOWS as i64).contains(&c);
+            let inside = |c: i64| (0..SHADOW_MAP_SIZE as i64).contains(&c);
             let dark = inside(x) && inside(y) && {
-                let depth = self.shadows.depths[y as usize * SHADOWS + x as usize];
+                let depth = self.shadows.depths[y as usize * SHADOW_MAP_SIZE + x as usize];
                 f64::from(depth) > spot.depth + slack
             };
             seen += usize::from(!dark);
@@ -165,7 +185,7 @@ impl Scene {
         seen as f64 / 9.0
     }
 
-    /// The sky, and the ground with its grid and shadows, where nothing else is.
+    /// Draws the sky, and the ground with grid and shadows, where no body covers a pixel.
     fn background(&self, canvas: &mut Canvas) {
         for y in 0..self.height {
             let up = 1.0 - y as f64 / self.height as f64;
@@ -182,30 +202,30 @@ impl Scene {
         }
     }
 
-    /// How much ink the ground has at a pixel.
+    /// Returns the darkness of the ground at a pixel, 0..1: grid lines and shadow.
     fn ground(&self, x: usize, y: usize) -> f64 {
-        let ray = self.eye.ray(x as f64 + 0.5, y as f64 + 0.5, self.width, self.height);
-        if ray.z >= 0.0 || self.eye.at.z <= 0.0 {
+        let ray = self.camera.ray(x as f64 + 0.5, y as f64 + 0.5, self.width, self.height);
+        if ray.z >= 0.0 || self.camera.at.z <= 0.0 {
             return 0.0;
         }
-        let away = -self.eye.at.z / ray.z;
-        let p = self.eye.at + ray * away;
-        let reach = f64::max(6.0 * self.radius, 2.5 * self.eye.distance);
+        let away = -self.camera.at.z / ray.z;
+        let p = self.camera.at + ray * away;
+        let reach = f64::max(6.0 * self.radius, 2.5 * self.camera.distance);
         let out = libm::hypot(p.x - self.middle.x, p.y - self.middle.y) / reach;
         if out >= 0.95 {
             return 0.0;
         }
         let u = ((out - 0.15) / 0.8).clamp(0.0, 1.0);
         let fade = 1.0 - u * u * (3.0 - 2.0 * u);
-        // What a pixel covers: across the ray, and along the ground.
-        let pixel = 2.0 * SIGHT * away / self.height as f64;
+        // The footprint of a pixel: across the ray, and along the ground.
+        let pixel = 2.0 * HALF_FOV_TANGENT * away / self.height as f64;
         let long = pixel / -ray.z;
         let grid = |step: f64| {
             let line = |c: f64| {
                 let off = (c / step - libm::round(c / step)).abs() * step;
-                (1.5 - off / f64::max(pixel * FINE as f64 * 0.7, long * 0.7)).clamp(0.0, 1.0)
+                (1.5 - off / f64::max(pixel * SUPERSAMPLING as f64 * 0.7, long * 0.7)).clamp(0.0, 1.0)
             };
-            f64::max(line(p.x), line(p.y)) * (step / long / FINE as f64 / 8.0 - 0.25).clamp(0.0, 1.0)
+            f64::max(line(p.x), line(p.y)) * (step / long / SUPERSAMPLING as f64 / 8.0 - 0.25).clamp(0.0, 1.0)
         };
         let step = libm::pow(10.0, libm::floor(libm::log10(self.radius * 0.9)));
         let lines = f64::max(grid(step) * 0.10, grid(10.0 * step) * 0.22);
@@ -214,7 +234,7 @@ impl Scene {
     }
 }
 
-/// The middle and half the size of a box around everything, m.
+/// Returns the centre and half the diagonal of the bounding box of all bodies, in metres.
 fn ball(bodies: &[Drawn]) -> (Vec3, f64) {
     let points = || bodies.iter().flat_map(|b| b.mesh.triangles.iter().flat_map(|(p, _)| p));
     let Some(first) = points().next() else { return (Vec3::zeros(), 1.0) };
@@ -223,24 +243,24 @@ fn ball(bodies: &[Drawn]) -> (Vec3, f64) {
     ((low + high) / 2.0, ((high - low).norm() / 2.0).max(1e-6))
 }
 
-/// The fine picture's means: red, green and blue of each pixel.
+/// Returns red, green and blue of each pixel: the means of its samples.
 fn pixels(canvas: &Canvas, options: &StillOptions) -> Vec<u8> {
     let (width, height) = (options.width, options.height);
     let mut pixels = Vec::with_capacity(width * height * 3);
     for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
         for part in 0..3 {
-            let fine = (0..FINE * FINE).map(|i| {
-                let (fx, fy) = (x * FINE + i % FINE, y * FINE + i / FINE);
+            let fine = (0..SUPERSAMPLING * SUPERSAMPLING).map(|i| {
+                let (fx, fy) = (x * SUPERSAMPLING + i % SUPERSAMPLING, y * SUPERSAMPLING + i / SUPERSAMPLING);
                 canvas.colours[fy * canvas.width + fx][part]
             });
-            let mean = fine.sum::<f32>() / (FINE * FINE) as f32;
+            let mean = fine.sum::<f32>() / (SUPERSAMPLING * SUPERSAMPLING) as f32;
             pixels.push(libm::roundf(mean * 255.0) as u8);
         }
     }
     pixels
 }
 
-/// Pixels as PNG: red, green and blue of each, or its place among the colours.
+/// Returns pixels as PNG: red, green and blue of each, or palette indices if `colours` is given.
 fn encoded(options: &StillOptions, pixels: &[u8], colours: Option<&[[u8; 3]]>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, options.width as u32, options.height as u32);

@@ -1,11 +1,11 @@
-//! Shapes taken apart into what can be drawn: boxes, tubes, balls and surfaces of triangles. Pages and
-//! still pictures draw the same pieces.
+//! Shapes taken apart into drawable primitives: boxes, cylinders, balls and triangle surfaces. Pages and
+//! still pictures draw the same primitives.
 #![allow(non_snake_case)]
 
 use crate::geometry::pose::shifted;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
-/// A piece around the origin of its own frame; lengths in metres.
+/// A primitive around the origin of its own frame; lengths in metres.
 pub(super) enum Primitive<'a> {
     Box {
         size: Vec3,
@@ -25,11 +25,12 @@ pub(super) enum Primitive<'a> {
     },
 }
 
-/// Hands every piece of shapes to `draw`, with its pose in the frame in which the shapes are placed.
+/// Calls `draw` with each primitive of `shapes` and its pose in the frame in which the shapes are placed.
 pub(super) fn primitives(shapes: &[Placed], draw: &mut dyn FnMut(&Pose, Primitive)) {
     shapes.iter().for_each(|placed| take_apart(placed, &Pose::identity(), draw));
 }
 
+/// Calls `draw` with each primitive of one shape placed in frame L.
 fn take_apart(placed: &Placed, X_LS: &Pose, draw: &mut dyn FnMut(&Pose, Primitive)) {
     let X = X_LS * placed.pose;
     match &placed.shape {
@@ -58,7 +59,7 @@ fn take_apart(placed: &Placed, X_LS: &Pose, draw: &mut dyn FnMut(&Pose, Primitiv
     }
 }
 
-/// The rotation that takes +z to an axis.
+/// Returns the rotation that takes +z to a unit axis.
 pub(super) fn along(axis: &Vec3) -> Pose {
     let turn = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), axis);
     // The axis that points down: half a turn about x.

@@ -1,5 +1,5 @@
-//! A behaviour as its series-parallel graph: what stands beside each other runs one after the other,
-//! what stands below each other at the same time.
+//! A behaviour as its series-parallel graph in SVG: serial steps side by side, parallel branches one below
+//! the other.
 
 use super::RenderInput;
 use super::colour::{PALETTE, groups};
@@ -8,10 +8,10 @@ use crate::plan::{Action, Command, ExemptionKind, Node, Target, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner};
 use crate::units::{Dimension, quantity};
 
-/// Actions that are drawn; of those beyond it is said that there are more.
+/// The most actions drawn; an ellipsis stands for those beyond.
 const ACTIONS_MAX: usize = 1500;
 
-/// Compositions within compositions that are drawn.
+/// The deepest nesting drawn.
 const DEPTH_MAX: usize = 60;
 
 const SIZE: f64 = 11.0;
@@ -21,7 +21,7 @@ const BELOW: f64 = 8.0;
 const RIM: f64 = 9.0;
 const HEAD: f64 = 16.0;
 
-/// A piece with its place worked out, from its upper left corner.
+/// A laid-out piece of the graph; coordinates from its upper left corner.
 enum Piece {
     Label { words: String, colour: String },
     Row(Vec<Placed>),
@@ -35,6 +35,7 @@ struct Placed {
     size: [f64; 2],
 }
 
+/// Returns the SVG of a behaviour.
 pub(super) fn program(input: &RenderInput, tracks: &Tracks) -> String {
     let mut drawer =
         Drawer { robot: &tracks.robot, group: groups(&tracks.robot), names: names(&tracks.robot), drawn: 0 };
@@ -56,12 +57,12 @@ pub(super) fn program(input: &RenderInput, tracks: &Tracks) -> String {
 struct Drawer<'a> {
     robot: &'a Assembly,
     group: Vec<usize>,
-    /// Of each joint, and its module.
+    /// Name, module and whether it is prismatic, of each joint.
     names: Vec<(String, Option<usize>, bool)>,
     drawn: usize,
 }
 
-/// Name, module and whether it is prismatic, of each joint.
+/// Returns name, module and whether it is prismatic, of each joint.
 fn names(robot: &Assembly) -> Vec<(String, Option<usize>, bool)> {
     let name = |owner| match owner {
         JointOwner::Module { module, joint } => {

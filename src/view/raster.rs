@@ -1,70 +1,81 @@
-//! Triangles and lines into pixels with a buffer of depths, by the rule of edge functions.
+//! A software rasteriser: triangles and lines into pixels with a depth buffer, by edge functions.
 
 use super::colour::Rgb;
 use super::mesh::Mesh;
 use crate::geometry::Vec3;
 
-/// Nearer than this to the eye, in parts of the distance to the middle, nothing is drawn.
+/// The near plane: nothing nearer to the camera than this part of the distance to the target is drawn.
 const NEAR: f64 = 0.02;
 
-/// Lines are drawn as if they were nearer by this part of their distance: they lie on surfaces.
+/// Lines are drawn as if nearer by this factor, so that they are visible on the surfaces they lie on.
 const LINE_LIFT: f64 = 1.0015;
 
-/// An eye: orthonormal axes right, up and backwards.
+/// A camera with orthonormal axes right, up and back.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Eye {
+pub(super) struct Camera {
+    /// The position in the world, in metres.
     pub at: Vec3,
+    /// The unit vector to the right of the picture.
     pub right: Vec3,
+    /// The unit vector to the top of the picture.
     pub up: Vec3,
+    /// The unit vector from the target to the camera.
     pub back: Vec3,
-    /// Half the height of the picture at distance 1; of a parallel view: in metres.
+    /// Half the height of the picture at distance 1; of an orthographic camera in metres.
     pub half: f64,
+    /// True for an orthographic camera.
     pub parallel: bool,
-    /// Distance to the middle of what is seen, m.
+    /// The distance to the target, in metres.
     pub distance: f64,
 }
 
-/// A picture in the making.
+/// An image with its depth buffer.
 pub(super) struct Canvas {
+    /// Width in pixels.
     pub width: usize,
+    /// Height in pixels.
     pub height: usize,
+    /// Linear red, green and blue of each pixel, row by row from the top.
     pub colours: Vec<[f32; 3]>,
-    /// One over the distance, or its negative in a parallel view: the greater is nearer.
+    /// One over the distance, or its negative for an orthographic camera: the greater is nearer.
     pub depths: Vec<f32>,
 }
 
-/// A point in the picture: x and y in pixels, and its depth.
+/// A projected point: x and y in pixels, and its depth.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
+pub(super) struct Projected {
+    /// Pixels from the left edge.
     pub x: f64,
+    /// Pixels from the top edge.
     pub y: f64,
+    /// Depth as in [`Canvas::depths`].
     pub depth: f64,
 }
 
-impl Eye {
-    /// Looks from `at` at `target`; z is up.
-    pub(super) fn new(at: Vec3, target: Vec3, up: Vec3, half: f64, parallel: bool) -> Eye {
+impl Camera {
+    /// Returns a camera at `at` that looks at `target`, both in metres; see [`Camera::half`] for `half`.
+    pub(super) fn new(at: Vec3, target: Vec3, up: Vec3, half: f64, parallel: bool) -> Camera {
         let back = (at - target).normalize();
         let right = up.cross(&back).normalize();
-        Eye { at, right, up: back.cross(&right), back, half, parallel, distance: (at - target).norm() }
+        Camera { at, right, up: back.cross(&right), back, half, parallel, distance: (at - target).norm() }
     }
 
-    /// Where a point is in a picture of this size; `None` too near or behind.
-    pub(super) fn spot(&self, p: &Vec3, width: usize, height: usize) -> Option<Spot> {
+    /// Projects a point into a picture of this size; `None` if it is behind the near plane.
+    pub(super) fn project(&self, p: &Vec3, width: usize, height: usize) -> Option<Projected> {
         let d = p - self.at;
         let away = -d.dot(&self.back);
         if !self.parallel && away < NEAR * self.distance {
             return None;
         }
         let scale = height as f64 / 2.0 / self.half / if self.parallel { 1.0 } else { away };
-        Some(Spot {
+        Some(Projected {
             x: width as f64 / 2.0 + d.dot(&self.right) * scale,
             y: height as f64 / 2.0 - d.dot(&self.up) * scale,
             depth: if self.parallel { -away } else { 1.0 / away },
         })
     }
 
-    /// The direction of sight through a pixel.
+    /// Returns the unit direction of the ray through a pixel.
     pub(super) fn ray(&self, x: f64, y: f64, width: usize, height: usize) -> Vec3 {
         let scale = self.half * 2.0 / height as f64;
         let (u, v) = ((x - width as f64 / 2.0) * scale, (height as f64 / 2.0 - y) * scale);
@@ -73,17 +84,24 @@ impl Eye {
 }
 
 impl Canvas {
+    /// Returns an empty image of this size in pixels.
     pub(super) fn new(width: usize, height: usize) -> Canvas {
         let pixels = width * height;
         Canvas { width, height, colours: vec![[0.0; 3]; pixels], depths: vec![f32::NEG_INFINITY; pixels] }
     }
 
-    /// Fills triangles; `shade` colours a point by its place and normal.
-    pub(super) fn fill(&mut self, mesh: &Mesh, eye: &Eye, shade: &mut dyn FnMut(Vec3, Vec3) -> [f32; 3]) {
+    /// Rasterises the triangles of a mesh; `shade` returns the colour of a point by its position and
+    /// normal.
+    pub(super) fn fill(
+        &mut self,
+        mesh: &Mesh,
+        camera: &Camera,
+        shade: &mut dyn FnMut(Vec3, Vec3) -> [f32; 3],
+    ) {
         for (corners, normals) in &mesh.triangles {
-            let spots = corners.map(|p| eye.spot(&p, self.width, self.height));
+            let spots = corners.map(|p| camera.project(&p, self.width, self.height));
             if let [Some(a), Some(b), Some(c)] = spots {
-                self.triangle([a, b, c], eye.parallel, &mut |weights| {
+                self.triangle([a, b, c], camera.parallel, &mut |weights| {
                     let mix = |of: &[Vec3; 3]| of[0] * weights[0] + of[1] * weights[1] + of[2] * weights[2];
                     shade(mix(corners), mix(normals))
                 });
@@ -91,7 +109,12 @@ impl Canvas {
         }
     }
 
-    fn triangle(&mut self, spots: [Spot; 3], parallel: bool, colour: &mut dyn FnMut([f64; 3]) -> [f32; 3]) {
+    fn triangle(
+        &mut self,
+        spots: [Projected; 3],
+        parallel: bool,
+        colour: &mut dyn FnMut([f64; 3]) -> [f32; 3],
+    ) {
         let [a, b, c] = spots;
         let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         if area == 0.0 || !area.is_finite() {
@@ -100,7 +123,7 @@ impl Canvas {
         let range = |low: f64, high: f64, size: usize| {
             (low.floor().max(0.0) as usize, (high.ceil().max(0.0) as usize).min(size))
         };
-        let bounds = |pick: fn(&Spot) -> f64| {
+        let bounds = |pick: fn(&Projected) -> f64| {
             let values = spots.each_ref().map(pick);
             (values.iter().copied().fold(f64::MAX, f64::min), values.iter().copied().fold(f64::MIN, f64::max))
         };
@@ -129,12 +152,12 @@ impl Canvas {
         }
     }
 
-    /// Draws lines of a width in pixels.
-    pub(super) fn lines(&mut self, lines: &[[Vec3; 2]], eye: &Eye, width: usize, colour: Rgb) {
+    /// Rasterises lines of a width in pixels.
+    pub(super) fn lines(&mut self, lines: &[[Vec3; 2]], camera: &Camera, width: usize, colour: Rgb) {
         let colour = colour.0.map(|c| c as f32);
         for [p, q] in lines {
             let (Some(a), Some(b)) =
-                (eye.spot(p, self.width, self.height), eye.spot(q, self.width, self.height))
+                (camera.project(p, self.width, self.height), camera.project(q, self.width, self.height))
             else {
                 continue;
             };
@@ -150,6 +173,7 @@ impl Canvas {
         }
     }
 
+    /// Writes a square of pixels where it is not hidden.
     fn dot(&mut self, x: f64, y: f64, width: usize, depth: f32, colour: [f32; 3]) {
         for (dx, dy) in (0..width).flat_map(|dx| (0..width).map(move |dy| (dx as f64, dy as f64))) {
             let (x, y) = (x + dx, y + dy);

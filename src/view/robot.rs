@@ -1,4 +1,4 @@
-//! An articulated robot in a page: its modules, the steps of its kinematics, its tracks.
+//! The data of an articulated robot in a page: its modules, the steps of its kinematics, its tracks.
 
 use super::number::{list, number, rotation, vector};
 use super::solids::{Meshes, solids};
@@ -9,13 +9,13 @@ use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, ModuleType};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
-/// Segments of one page; of longer plans the motion is drawn from evenly spaced positions.
+/// The most segments of one page; the motion of a longer plan is sampled at even distances in time.
 pub(super) const SEGMENTS_MAX: usize = 60_000;
 
-/// Positions that a joint keeps at least when motion is thinned.
+/// The least number of samples that a joint keeps when its motion is sampled.
 const POSITIONS_MIN: usize = 16;
 
-/// The body of the page's plan, and what was left out.
+/// Returns the body of the plan as JSON. Adds a note for each thing left out.
 pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mut Vec<String>) -> Value {
     let robot = &tracks.robot;
     let mut forms = Forms::default();
@@ -35,10 +35,12 @@ pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mu
     })
 }
 
+/// Returns the name of a bond, by its two ports.
 fn bond_name(robot: &Assembly, bond: &crate::robot::Bond) -> String {
     format!("{} -- {}", robot.port_name(bond.a), robot.port_name(bond.b))
 }
 
+/// Returns a module type: its links with their shapes, and its joints.
 fn module_type(kind: &ModuleType, meshes: &mut Meshes) -> Value {
     let links = kind.links.iter().map(|link| {
         let judged = if link.collides == link.shape { Value::Null } else { solids(&link.collides, meshes) };
@@ -51,7 +53,7 @@ fn module_type(kind: &ModuleType, meshes: &mut Meshes) -> Value {
     json!({ "name": kind.name, "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>() })
 }
 
-/// `[name, module, module]` of each bond that is a joint, in order of joint.
+/// Returns `[name, module, module]` of each bond that is a joint, in order of joint.
 fn hinges(robot: &Assembly) -> Vec<Value> {
     let hinge = |owner| match owner {
         JointOwner::Bond(bond) => {
@@ -63,7 +65,7 @@ fn hinges(robot: &Assembly) -> Vec<Value> {
     robot.joints().filter_map(hinge).collect()
 }
 
-/// Kinds of steps, each once: a robot has many modules of few types.
+/// Distinct transforms of kinematic steps, each once: a robot has many modules of few types.
 #[derive(Default)]
 struct Forms {
     list: Vec<Value>,
@@ -71,6 +73,7 @@ struct Forms {
 }
 
 impl Forms {
+    /// Returns the index of a step's transform; adds it if it is new.
     fn index(&mut self, step: &Step) -> usize {
         let mut form = Map::new();
         form.insert("shift".into(), vector(&step.shift));
@@ -93,7 +96,7 @@ impl Forms {
     }
 }
 
-/// The trees over which poses are found, one from each instant at which bonds change.
+/// Returns the kinematic trees, one for each instant at which bonds change.
 fn trees(tracks: &Tracks, forms: &mut Forms) -> Vec<Value> {
     let mut times = vec![0.0];
     times.extend(tracks.docks.iter().map(|dock| dock.time));
@@ -112,6 +115,7 @@ fn trees(tracks: &Tracks, forms: &mut Forms) -> Vec<Value> {
     trees.into_iter().map(|(_, tree)| tree).collect()
 }
 
+/// Returns the kinematic tree for the bonds that hold from a time on, in seconds.
 fn tree(robot: &Assembly, bonds: &[bool], time: f64, forms: &mut Forms) -> Value {
     let kinematics = Kinematics::new(robot, bonds, robot.base);
     let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();
@@ -119,7 +123,8 @@ fn tree(robot: &Assembly, bonds: &[bool], time: f64, forms: &mut Forms) -> Value
     json!({ "time": number(time), "root": kinematics.link(robot.base, 0), "steps": steps, "loose": loose })
 }
 
-/// `[link, parent, form, joint]`; several joints, or one with a factor, as `[joint, factor, ...]`.
+/// Returns a step as `[link, parent, form, joint]`; several joints, or one with a factor, as `[joint,
+/// factor, ...]`.
 fn step_value(step: &Step, forms: &mut Forms) -> Value {
     let form = forms.index(step);
     match step.terms()[..] {
@@ -132,7 +137,7 @@ fn step_value(step: &Step, forms: &mut Forms) -> Value {
     }
 }
 
-/// `[joint, segments]`, a segment `[start, end, cause, control points...]`.
+/// Returns `[joint, segments]` of each track; a segment is `[start, end, cause, control points...]`.
 fn joint_tracks(tracks: &Tracks, notes: &mut Vec<String>) -> Vec<Value> {
     let count: usize = tracks.tracks.iter().map(|t| t.segments.len()).sum();
     let thinned = count > SEGMENTS_MAX;
@@ -150,13 +155,14 @@ fn joint_tracks(tracks: &Tracks, notes: &mut Vec<String>) -> Vec<Value> {
     tracks.tracks.iter().map(|track| json!([track.joint.0, segments(track)])).collect()
 }
 
+/// Returns a segment as a list of numbers.
 fn segment(segment: &Segment) -> Value {
     let mut numbers = vec![number(segment.start), number(segment.end), json!(segment.cause.0)];
     numbers.extend(segment.control.iter().map(|c| number(*c)));
     Value::Array(numbers)
 }
 
-/// Straight pieces between positions at even distances in time.
+/// Returns a track as linear segments between samples at even distances in time.
 fn sampled(tracks: &Tracks, track: &Track, positions: usize) -> Vec<Segment> {
     let start = tracks.start.joints[track.joint.0 as usize];
     let time = |i: usize| tracks.duration * i as f64 / positions as f64;
@@ -171,6 +177,7 @@ fn sampled(tracks: &Tracks, track: &Track, positions: usize) -> Vec<Segment> {
     (0..positions).filter_map(piece).collect()
 }
 
+/// Returns `[time, is a docking, bond, cause]` of each docking event.
 fn docks(tracks: &Tracks) -> Vec<Value> {
     let dock = |d: &crate::plan::Dock| json!([number(d.time), d.kind == DockKind::Dock, d.bond, d.cause.0]);
     tracks.docks.iter().map(dock).collect()

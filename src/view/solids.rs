@@ -6,7 +6,7 @@ use super::primitives::{Primitive, primitives};
 use crate::geometry::{Placed, Vec3};
 use serde_json::{Value, json};
 
-/// Unit shapes that every page has: 0 a box, 1 a cylinder along z, 2 a ball.
+/// The indices of the unit shapes that every page has: a box, a cylinder along z, a ball.
 const BOX: usize = 0;
 const CYLINDER: usize = 1;
 const BALL: usize = 2;
@@ -15,11 +15,12 @@ const FIRST_MESH: usize = 3;
 /// The meshes of a page, each once.
 #[derive(Default)]
 pub(super) struct Meshes {
+    /// The meshes in order of index, as JSON.
     pub list: Vec<Value>,
     known: Vec<String>,
 }
 
-/// The solids of a link, in its frame: `{shape, p, q, s}`.
+/// Returns the solids of a link, in its frame: `{shape, p, q, s}`.
 pub(super) fn solids(shapes: &[Placed], meshes: &mut Meshes) -> Value {
     let mut found = Vec::new();
     primitives(shapes, &mut |X, piece| {
@@ -36,7 +37,7 @@ pub(super) fn solids(shapes: &[Placed], meshes: &mut Meshes) -> Value {
 }
 
 impl Meshes {
-    /// The number of a mesh's shape.
+    /// Returns the shape index of a mesh; adds the mesh if it is new.
     fn index(&mut self, points: &[Vec3], triangles: &[[u32; 3]]) -> usize {
         let radius = points.iter().map(Vec3::norm).fold(0.0, f64::max);
         let mesh = json!({

@@ -1,20 +1,21 @@
-//! What is around a truss, as solids to draw: its obstacles, and the part of its ground that it is on.
+//! The surroundings of a truss as solids to draw: its obstacles, and the part of the terrain that it walks
+//! on.
 
 use crate::geometry::{HeightField, Placed, Pose, Shape, Vec3};
 use crate::plan::{Body, NodePaths, Plan};
 
-/// Squares of ground that are drawn each way.
+/// The most grid squares of terrain that are drawn in each direction.
 const SQUARES_MAX: usize = 48;
-/// How far the ground is drawn around where the nodes are, in the width of the truss at the start.
+/// The margin of drawn terrain around the nodes, in widths of the truss at the start.
 const AROUND: f64 = 0.5;
 
-/// Whether a level floor is drawn: there is ground, and no uneven one in its place.
+/// Returns whether a level floor is drawn: the world has a floor, and no terrain replaces it.
 pub(super) fn floor(plan: &Plan) -> bool {
     let uneven = matches!(&plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
     !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor())
 }
 
-/// Each with its name.
+/// Returns the obstacles and the terrain, each with its name.
 pub(super) fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
     let around = &paths.surroundings;
     let obstacles = around.obstacles.iter().enumerate();
@@ -23,7 +24,7 @@ pub(super) fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
     named.chain(terrain).collect()
 }
 
-/// Triangles over what the truss walks on; of a fine grid every second height, third, ...
+/// Returns the terrain under the truss as triangles; of a fine grid every second height, third, ...
 fn ground(paths: &NodePaths, field: &HeightField) -> Placed {
     let range = |axis: usize, keyframes: usize| {
         let nodes = paths.keyframes[..keyframes].iter().flat_map(|keyframe| &keyframe.nodes).map(|p| p[axis]);

@@ -1,4 +1,4 @@
-//! A truss in a page: its nodes at the keyframes of its plan.
+//! The data of a truss plan in a page: its nodes at the keyframes of the plan.
 
 use super::number::{list, number};
 use super::solids::{Meshes, solids};
@@ -7,6 +7,7 @@ use crate::plan::{Interpolation, Keyframe, NodePaths};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
+/// Returns struts, keyframes and surroundings of a truss plan as JSON.
 pub(super) fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) -> Value {
     let strut = library.struts.get(paths.strut);
     let (low, high) = strut.map_or((0.0, 1.0), |strut| strut.length);
