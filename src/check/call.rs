@@ -1,4 +1,4 @@
-//! Calls: what is called, and which argument goes to which parameter.
+//! Calls: the callee, and the assignment of arguments to parameters.
 
 use super::checker::{Bound, Checker, DefItem, Entity, ParamInfo, Scope, Signature, TypeParam};
 use super::expr::{Role, error_expr, expr_of, has_params};
@@ -12,7 +12,7 @@ use crate::units::Dimension;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// What a callee turned out to be.
+/// The resolved callee of a call.
 enum Callee {
     /// A function, or a declaration with instances.
     Def(DefId),
@@ -20,12 +20,13 @@ enum Callee {
     Method(DefId, Expr),
     /// A behaviour of a configuration, with its object.
     Behavior(Expr, DefId, usize),
+    /// A function value.
     Value(Expr),
-    /// Reported already.
+    /// An erroneous callee that has been reported.
     Error,
 }
 
-/// What the type parameters of a built-in stand for in one call.
+/// The types and dimensions bound to the type parameters of a built-in in one call.
 #[derive(Default)]
 struct Bindings {
     types: Vec<Option<Type>>,
@@ -34,6 +35,7 @@ struct Bindings {
 }
 
 impl<'a> Checker<'a> {
+    /// Checks a call.
     pub(super) fn call(
         &mut self,
         scope: &mut Scope,
@@ -69,6 +71,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Resolves a callee.
     fn callee(&mut self, scope: &mut Scope, callee: &'a ast::Expr) -> Callee {
         match &callee.kind {
             ast::ExprKind::Name(name) => self.named_callee(scope, callee.span, *name),
@@ -80,6 +83,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Resolves a callee that is a name.
     fn named_callee(&mut self, scope: &mut Scope, span: Span, name: Symbol) -> Callee {
         if let Some((local, ty)) = scope.local(name) {
             return Callee::Value(expr_of(span, ty, ExprKind::Local(local)));
@@ -103,6 +107,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns a declaration as callee; reports one that cannot be called.
     fn def_callee(&mut self, id: DefId, span: Span) -> Callee {
         match self.def(id).item {
             DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) => Callee::Def(id),
@@ -114,6 +119,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Resolves a callee `object.name`.
     fn field_callee(
         &mut self,
         scope: &mut Scope,
@@ -153,8 +159,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `gaits.caterpillar`: the item of an imported file. `None` when the object is no file name;
-    /// `Some(None)` when the file has no such item (reported).
+    /// Returns the item `gaits.caterpillar` of an imported file. `None` if the object is no file name;
+    /// `Some(None)` if the file has no such item (reported).
     pub(super) fn file_item(
         &mut self,
         scope: &mut Scope,
@@ -183,12 +189,14 @@ impl<'a> Checker<'a> {
         Some(found)
     }
 
+    /// Returns the index of a behaviour of a configuration.
     fn behavior_index(&mut self, id: DefId, name: Symbol) -> Option<usize> {
         let DefItem::Config(_) = self.def(id).item else { return None };
         let members = self.members(id);
         members.behaviors.iter().position(|b| b.ast.name.text == name)
     }
 
+    /// Returns a method of a record, inherited ones included.
     fn method(&self, record: DefId, name: Symbol) -> Option<DefId> {
         let line = self.record_line(record);
         let found = self.defs.iter().position(|info| {
@@ -197,6 +205,7 @@ impl<'a> Checker<'a> {
         found.map(|i| DefId(i as u32))
     }
 
+    /// Checks a call of a declaration.
     fn call_def(
         &mut self,
         scope: &mut Scope,
@@ -213,11 +222,12 @@ impl<'a> Checker<'a> {
             Some(ty) => bindings.apply(ty),
             None => self.result_type(id, Some(span)),
         };
-        // A type parameter that no argument has bound is what is wanted of the result.
+        // A type parameter that no argument binds is inferred from the expected type.
         let result = if has_params(&result) { want.cloned().unwrap_or(Type::Error) } else { result };
         expr_of(span, result, ExprKind::Call { def: id, args })
     }
 
+    /// Checks a call of a function value.
     fn call_value(&mut self, scope: &mut Scope, span: Span, callee: Expr, args: &'a [ast::Arg]) -> Expr {
         let Type::Fn(f) = callee.ty.clone() else {
             if !callee.ty.is_error() {
@@ -259,7 +269,7 @@ impl<'a> Checker<'a> {
         expr_of(span, f.result.clone(), ExprKind::CallValue { callee: Box::new(callee), args: typed })
     }
 
-    /// Arguments in the order of the parameters.
+    /// Returns checked arguments in the order of the parameters.
     pub(super) fn arguments_of(
         &mut self,
         scope: &mut Scope,
@@ -271,7 +281,7 @@ impl<'a> Checker<'a> {
         self.arguments(scope, span, name, signature, None, args).0
     }
 
-    /// Arguments in the order of the parameters, and what the type parameters stand for.
+    /// Returns checked arguments in the order of the parameters, and the bindings of the type parameters.
     fn arguments(
         &mut self,
         scope: &mut Scope,
@@ -343,11 +353,11 @@ impl<'a> Checker<'a> {
         for (index, param) in params.iter().enumerate().filter(|(_, p)| !p.may_be_left_out()) {
             if !filled[index] {
                 missing.push(format!("`{}`", param.name));
-                // What is computed without it is unknown, not wrong.
+                // A result computed without it is unknown, not an error.
                 out[index] = Some(error_expr(span));
             }
         }
-        // An argument under a wrong name was most likely meant for what is missing.
+        // An argument under an unknown name was most likely meant for the missing parameter.
         if !missing.is_empty() && !misnamed {
             self.report(
                 Diagnostic::error(code::ARGUMENTS, format!("`{name}` also needs {}", missing.join(", ")))
@@ -363,6 +373,7 @@ impl<'a> Checker<'a> {
         (out, bindings)
     }
 
+    /// Reports an argument whose name is that of no parameter.
     fn no_parameter(&mut self, function: Symbol, name: ast::Name, params: &[ParamInfo]) {
         let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
         let mut d =
@@ -376,6 +387,7 @@ impl<'a> Checker<'a> {
         self.report(d);
     }
 
+    /// Reports an argument for which there is no parameter.
     fn too_many(&mut self, function: Symbol, arg: &ast::Arg, params: &[ParamInfo], named: bool) {
         let d = if named {
             Diagnostic::error(code::ARGUMENTS, "an argument without a name stands behind a named one")
@@ -389,6 +401,7 @@ impl<'a> Checker<'a> {
         self.report(d);
     }
 
+    /// Checks one argument against the type of its parameter.
     fn argument(
         &mut self,
         scope: &mut Scope,
@@ -404,6 +417,7 @@ impl<'a> Checker<'a> {
         self.bind_argument(got, &param.ty, param.name, bindings)
     }
 
+    /// Checks that an argument fits a type with type parameters, and binds them.
     fn bind_argument(&mut self, got: Expr, pattern: &Type, name: Symbol, bindings: &mut Bindings) -> Expr {
         if got.ty.is_error() {
             return got;
@@ -427,7 +441,7 @@ impl<'a> Checker<'a> {
         if has_params(&want) { got } else { self.coerce(got, &want, Role::Param(name)) }
     }
 
-    /// The list of a variadic parameter: of the arguments, or the one list that was given.
+    /// Returns the list of a variadic parameter: of the remaining arguments, or the one list given.
     fn variadic(
         &mut self,
         scope: &mut Scope,
@@ -470,7 +484,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::List(Arc::new(ty)), ExprKind::List(items))
     }
 
-    /// Binds the type parameters in `pattern` so that `got` fits it, if that can be.
+    /// Binds the type parameters in `pattern` so that `got` fits it; returns whether it does.
     fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
         match (pattern, got) {
             (_, Type::Error) => true,
@@ -525,6 +539,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Unifies two function types: parameters and result.
     fn unify_fn(&self, pattern: &FnType, got: &FnType, bindings: &mut Bindings) -> bool {
         if pattern.params.len() != got.params.len() {
             return false;
@@ -536,13 +551,14 @@ impl<'a> Checker<'a> {
 }
 
 impl Bindings {
+    /// Returns bindings of `params` in which nothing is bound.
     fn new(params: &[TypeParam]) -> Bindings {
         let n = params.len();
         let bounds = params.iter().map(|p| p.bound).collect();
         Bindings { types: vec![None; n], dimensions: vec![None; n], bounds }
     }
 
-    /// A type with what is bound put in.
+    /// Returns a type with the bound parameters substituted.
     fn apply(&self, ty: &Type) -> Type {
         let inner = |t: &Arc<Type>| Arc::new(self.apply(t));
         match ty {

@@ -1,8 +1,8 @@
-//! The state of checking: declarations, what is known of them, and what has been said.
+//! The state of checking: declarations with what is known of them, and the diagnostics so far.
 //!
-//! Declarations see each other in any order, so everything about one is found when first needed:
-//! its signature (from what is written), its members, and its typed body (the only thing that can
-//! wait for another body, through inferred types; a circle of those is an error).
+//! Declarations refer to each other in any order, so each fact about one is computed when first needed: its
+//! signature (from its text), its members, and its typed body. Only a typed body can need another body,
+//! through inferred types; a cycle of those is an error.
 
 use super::load::{ImportTarget, Loaded};
 use super::typed::{self, DefId, DefKind, Local, MemberId, Program};
@@ -15,17 +15,18 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// What a name at the top of a file means.
+/// The entity that a name at the top of a file stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Entity {
+    /// A declaration.
     Def(DefId),
     /// `use std.gaits`: a file whose items are reached by `gaits.name`.
     File(usize),
-    /// Reported already.
+    /// An erroneous name that has been reported.
     Error,
 }
 
-/// A declaration as it stands in the tree.
+/// The tree of a declaration.
 #[derive(Clone, Copy)]
 pub(super) enum DefItem<'a> {
     Let(&'a ast::Let),
@@ -41,44 +42,57 @@ pub(super) enum DefItem<'a> {
     Config(&'a ast::Config),
     Lattice(&'a ast::Lattice),
     Truss(&'a ast::Truss),
-    /// Nothing: the place of a declaration that may come.
+    /// A vacant definition, reserved for a later declaration.
     Vacant,
 }
 
+/// The state of checking of one declaration.
 pub(super) struct DefInfo<'a> {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
-    /// Of the whole declaration.
+    /// The span of the whole declaration.
     pub whole: Span,
-    /// Index among the loaded files.
+    /// Its file, an index into the loaded files.
     pub file: usize,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// Its tree.
     pub item: DefItem<'a>,
+    /// Its signature, once computed.
     pub signature: Option<Rc<Signature>>,
+    /// Its members, once computed.
     pub members: Option<Rc<Members<'a>>>,
+    /// Its typed body, once computed.
     pub typed: Option<DefKind>,
-    /// The type of a `let`, or the inferred result of a `fn`.
+    /// The type of a `let`, or the inferred result of a `fn`, once computed.
     pub inferred: Option<Type>,
+    /// True while its body is being checked; needing it then is a cycle.
     pub busy: bool,
 }
 
-/// Parameters and result of what can be called.
+/// The signature of a declaration that can be called.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Signature {
+    /// The parameters, in order.
     pub params: Vec<ParamInfo>,
-    /// `None`: inferred from the body.
+    /// The declared result; `None` if it is inferred from the body.
     pub result: Option<Type>,
+    /// The type parameters of an `extern fn`.
     pub type_params: Vec<TypeParam>,
 }
 
 /// A type parameter of an `extern fn`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TypeParam {
+    /// Its name.
     pub name: Symbol,
+    /// The types that it may stand for.
     pub bound: Bound,
 }
 
-/// What a type parameter may stand for.
+/// The bound of a type parameter: the types that it may stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Bound {
     Anything,
@@ -89,49 +103,66 @@ pub(super) enum Bound {
     Family(Family),
 }
 
+/// A parameter of a signature.
 #[derive(Clone, Debug)]
 pub(super) struct ParamInfo {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// Its type.
     pub ty: Type,
+    /// True if it has a default.
     pub has_default: bool,
+    /// True if it takes all remaining positional arguments.
     pub variadic: bool,
 }
 
 impl ParamInfo {
-    /// What has a default, or may be missing, need not be given.
+    /// Returns whether an argument may be left out: the parameter has a default, is variadic or optional.
     pub(super) fn may_be_left_out(&self) -> bool {
         self.has_default || self.variadic || matches!(self.ty, Type::Optional(_))
     }
 }
 
-/// The names in the body of a declaration with instances.
+/// The names inside a declaration with instances.
 #[derive(Default)]
 pub(super) struct Members<'a> {
+    /// All members by [`MemberId`].
     pub list: Vec<MemberInfo<'a>>,
+    /// The members by name.
     pub index: HashMap<Symbol, MemberId>,
-    /// Modules only.
+    /// The joints; modules only.
     pub joints: Vec<JointInfo<'a>>,
+    /// Joints by name, aliases included.
     pub joint_index: HashMap<Symbol, usize>,
+    /// The ports, arrays as one; modules only.
     pub ports: Vec<PortInfo>,
+    /// Ports by name, aliases included.
     pub port_index: HashMap<Symbol, usize>,
-    /// Configurations only.
+    /// The behaviours; configurations only.
     pub behaviors: Vec<BehaviorInfo<'a>>,
 }
 
+/// A member by its text.
 pub(super) struct MemberInfo<'a> {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// Its kind, with its tree.
     pub kind: MemberInfoKind<'a>,
 }
 
+/// The kinds of members.
 #[derive(Clone, Copy)]
 pub(super) enum MemberInfoKind<'a> {
     Param(usize),
     Let(&'a ast::Let),
     Part(&'a ast::Part, usize),
-    /// Whether it is an array.
+    /// A port clause, and whether it is an array.
     Port(&'a ast::ConfigClauseKind, bool),
     Behavior(usize),
     Node {
@@ -139,62 +170,85 @@ pub(super) enum MemberInfoKind<'a> {
     },
 }
 
+/// A joint of a module by its text.
 pub(super) struct JointInfo<'a> {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// The clause that declares it.
     pub clause: &'a ast::ModuleClauseKind,
-    /// The clause `joint b = -a` of a joint that has a declaration besides.
+    /// A further clause `joint b = -a` by which a joint between links follows others.
     pub follows: Option<&'a ast::ModuleClauseKind>,
+    /// The dimension of its position.
     pub dimension: crate::units::Dimension,
 }
 
+/// A port of a module by its text.
 pub(super) struct PortInfo {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// True for an array.
     pub array: bool,
 }
 
+/// A behaviour of a configuration by its text.
 pub(super) struct BehaviorInfo<'a> {
+    /// Its tree.
     pub ast: &'a ast::Behavior,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// Its parameters; the result is a behaviour.
     pub signature: Rc<Signature>,
 }
 
+/// The state of checking a program.
 pub(super) struct Checker<'a> {
+    /// The parsed files.
     pub loaded: &'a Loaded,
+    /// The texts.
     pub sources: &'a Sources,
+    /// All declarations, by [`DefId`].
     pub defs: Vec<DefInfo<'a>>,
-    /// By file; entries of a session have that of the first one.
+    /// The scope of each file; entries of a session use that of the first entry.
     scopes: Vec<HashMap<Symbol, Entity>>,
-    /// The index of the file whose scope the entries of a session have.
+    /// The index of the file whose scope the entries of a session share.
     shared: Option<usize>,
-    /// Where declarations are named.
+    /// The spans at which declarations are named.
     pub uses: RefCell<Vec<(Span, DefId)>>,
-    /// Values of members' `let`s, checked when first needed; `None` while that is going on.
+    /// The values of members' `let`s, once checked; `None` while one is being checked.
     pub member_lets: HashMap<(DefId, MemberId), Option<typed::Expr>>,
-    /// Slots that the expressions of a declaration's members need.
+    /// The number of slots that the expressions of a declaration's members need.
     pub member_frames: HashMap<DefId, usize>,
+    /// The diagnostics so far.
     pub diagnostics: Vec<Diagnostic>,
-    /// Declarations that are being worked out, each needed by the one before.
+    /// The number of declarations being checked, each needed by the one before.
     pub open_declarations: usize,
 }
 
-/// The surroundings of an expression: its file, its locals, the instance whose body it stands in.
+/// The scope of an expression: its file, its locals, and the declaration whose instance `this` is.
 pub(super) struct Scope {
+    /// The file, an index into the loaded files.
     pub file: usize,
+    /// The declaration in whose body the expression is.
     pub this: Option<DefId>,
-    /// Type parameters of the `extern fn` at hand.
+    /// The type parameters of the `extern fn` being checked.
     pub type_params: Vec<TypeParam>,
     frame: Frame,
     /// Frames around a lambda, innermost last.
     outer: Vec<Frame>,
 }
 
-/// The locals of one body; a lambda has a frame of its own.
+/// The locals of one body. A lambda has a frame of its own.
 #[derive(Default)]
 struct Frame {
+    /// Copies of locals of the outer frames, each with the outer local.
     locals: Vec<Binding>,
     /// Locals of the frames outside, copied in, and where from.
     captured: Vec<(Binding, Local)>,
@@ -210,6 +264,7 @@ struct Binding {
 }
 
 impl Frame {
+    /// Reserves the next slot.
     fn slot(&mut self) -> Local {
         let local = Local(self.next);
         self.next += 1;
@@ -217,6 +272,7 @@ impl Frame {
         local
     }
 
+    /// Returns the innermost local of a name, captures included.
     fn find(&self, name: Symbol) -> Option<&Binding> {
         let own = self.locals.iter().rev().find(|b| b.name == name);
         own.or_else(|| self.captured.iter().map(|(b, _)| b).find(|b| b.name == name))
@@ -224,21 +280,24 @@ impl Frame {
 }
 
 impl Scope {
+    /// Returns a scope without locals.
     pub(super) fn new(file: usize, this: Option<DefId>) -> Scope {
         Scope { file, this, type_params: Vec::new(), frame: Frame::default(), outer: Vec::new() }
     }
 
+    /// Adds a local to the innermost scope.
     pub(super) fn bind(&mut self, name: Symbol, ty: Type) -> Local {
         let local = self.frame.slot();
         self.frame.locals.push(Binding { name, local, ty });
         local
     }
 
-    /// Where the inner scope that begins now ends: give it to [`Scope::close`].
+    /// Opens an inner scope, and returns the mark at which [`Scope::close`] closes it.
     pub(super) fn open(&self) -> (usize, u32) {
         (self.frame.locals.len(), self.frame.next)
     }
 
+    /// Closes an inner scope: its locals end, and their slots are free again.
     pub(super) fn close(&mut self, mark: (usize, u32)) {
         self.frame.locals.truncate(mark.0);
         // In a lambda, captures made since may lie above the mark: their slots stay taken.
@@ -247,21 +306,22 @@ impl Scope {
         }
     }
 
-    /// Slots that the body needs.
+    /// Returns the number of slots that the body needs.
     pub(super) fn frame(&self) -> usize {
         self.frame.size as usize
     }
 
-    /// Whether a local of this name was bound since the mark.
+    /// Returns whether a local of this name was added since the mark.
     pub(super) fn bound_since(&self, mark: (usize, u32), name: Symbol) -> bool {
         self.frame.locals[mark.0..].iter().any(|b| b.name == name)
     }
 
+    /// Starts the frame of a lambda.
     pub(super) fn enter_lambda(&mut self) {
         self.outer.push(std::mem::take(&mut self.frame));
     }
 
-    /// Ends the lambda's frame: its size and what it captures, (outside, inside).
+    /// Ends the frame of a lambda, and returns its size and its captures as (outer local, inner local).
     pub(super) fn leave_lambda(&mut self) -> (usize, Vec<(Local, Local)>) {
         let outer = self.outer.pop().expect("a lambda was entered");
         let frame = std::mem::replace(&mut self.frame, outer);
@@ -269,11 +329,12 @@ impl Scope {
         (frame.size as usize, captures)
     }
 
+    /// Returns a local by name, captured from an outer frame if need be.
     pub(super) fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
         self.local_at(name, self.outer.len()).map(|b| (b.local, b.ty))
     }
 
-    /// A local as seen from the frame at this depth, captured from the frames outside if need be.
+    /// Returns a local as seen from the frame at this depth, captured from the frames outside if need be.
     fn local_at(&mut self, name: Symbol, depth: usize) -> Option<Binding> {
         if let Some(binding) = self.frame_at(depth).find(name) {
             return Some(binding.clone());
@@ -285,20 +346,23 @@ impl Scope {
         Some(inside)
     }
 
+    /// Returns the frame at a depth; the innermost has the number of outer frames.
     fn frame_at(&mut self, depth: usize) -> &mut Frame {
         if depth == self.outer.len() { &mut self.frame } else { &mut self.outer[depth] }
     }
 
-    /// The type of a local, without capturing it.
+    /// Returns the type of a local, without capturing it.
     pub(super) fn local_type(&self, name: Symbol) -> Option<&Type> {
         let frames = std::iter::once(&self.frame).chain(self.outer.iter().rev());
         frames.filter_map(|f| f.find(name)).map(|b| &b.ty).next()
     }
 
+    /// Returns whether there is a local of this name.
     pub(super) fn has_local(&self, name: Symbol) -> bool {
         self.local_type(name).is_some()
     }
 
+    /// Returns the names of all locals in scope.
     pub(super) fn local_names(&self) -> impl Iterator<Item = &'static str> + '_ {
         let frames = std::iter::once(&self.frame).chain(&self.outer);
         frames.flat_map(|frame| &frame.locals).map(|b| b.name.as_str())
@@ -306,6 +370,7 @@ impl Scope {
 }
 
 impl<'a> Checker<'a> {
+    /// Returns the state before any declaration is entered. `diagnostics` are those of loading.
     pub(super) fn new(loaded: &'a Loaded, sources: &'a Sources, diagnostics: Vec<Diagnostic>) -> Checker<'a> {
         Checker {
             loaded,
@@ -321,25 +386,28 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns the state of a declaration.
     pub(super) fn def(&self, id: DefId) -> &DefInfo<'a> {
         &self.defs[id.0 as usize]
     }
 
+    /// Returns the state of a declaration, to change it.
     pub(super) fn def_mut(&mut self, id: DefId) -> &mut DefInfo<'a> {
         &mut self.defs[id.0 as usize]
     }
 
+    /// Adds a diagnostic.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
-    /// What a name means at the top of a file, the prelude included.
+    /// Returns the entity of a name at the top of a file, the prelude included.
     pub(super) fn entity(&self, file: usize, name: Symbol) -> Option<Entity> {
         let own = self.top(file).get(&name).copied();
         own.or_else(|| self.loaded.prelude.and_then(|p| self.top(p).get(&name).copied()))
     }
 
-    /// The same, of a name as it stands in the text.
+    /// Returns the entity of a name at the top of a file, and records the use at `span`.
     pub(super) fn named_entity(&self, file: usize, name: Symbol, span: Span) -> Option<Entity> {
         let found = self.entity(file, name);
         if let Some(Entity::Def(id)) = found {
@@ -348,21 +416,23 @@ impl<'a> Checker<'a> {
         found
     }
 
-    /// What the names at the top of a file mean, without the prelude.
+    /// Returns the names at the top of a file, without the prelude.
     pub(super) fn top(&self, file: usize) -> &HashMap<Symbol, Entity> {
         &self.scopes[self.scope_index(file)]
     }
 
+    /// Returns the index of a file's scope.
     fn scope_index(&self, file: usize) -> usize {
         if self.loaded.files[file].entry { self.shared.unwrap_or(file) } else { file }
     }
 
+    /// Sets the entity of a name at the top of a file.
     fn set(&mut self, file: usize, name: Symbol, entity: Entity) {
         let index = self.scope_index(file);
         self.scopes[index].insert(name, entity);
     }
 
-    /// A built-in by its name in the prelude.
+    /// Returns a built-in by its name in the prelude.
     pub(super) fn prelude_def(&self, name: &str) -> Option<DefId> {
         match self.top(self.loaded.prelude?).get(&Symbol::new(name)) {
             Some(Entity::Def(id)) => Some(*id),
@@ -370,7 +440,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The names that can be seen from the top of a file.
+    /// Returns the names visible at the top of a file.
     pub(super) fn visible_names(&self, file: usize) -> Vec<&'static str> {
         let mut names: Vec<&str> = self.top(file).keys().map(|s| s.as_str()).collect();
         if let Some(prelude) = self.loaded.prelude {
@@ -379,7 +449,7 @@ impl<'a> Checker<'a> {
         names
     }
 
-    /// Fills the scopes: the items of every file, then what each imports.
+    /// Fills the scopes: the items of every file, then its imports.
     pub(super) fn declare(&mut self) {
         let mut of_entries = Vec::new();
         let in_session = self.loaded.files.iter().any(|file| file.entry);
@@ -399,7 +469,7 @@ impl<'a> Checker<'a> {
         }
         let mut of_entries = of_entries.into_iter().peekable();
         for (index, file) in self.loaded.files.iter().enumerate() {
-            // One entry after the other: the later one counts.
+            // In order of entries, so that the last one counts.
             while let Some((_, (name, id))) = of_entries.next_if(|(of, _)| *of == index) {
                 self.enter(index, name, id);
             }
@@ -413,11 +483,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a piece that could not be read would have declared this name.
+    /// Returns whether a piece of text that could not be read would have declared this name.
     pub(super) fn is_unread(&self, name: Symbol) -> bool {
         self.loaded.files.iter().any(|file| file.ast.unread.contains(&name))
     }
 
+    /// Adds the declaration of an item, if it is one.
     fn declare_item(&mut self, file: usize, item: &'a ast::Item) -> Option<(ast::Name, DefId)> {
         use ast::ItemKind as K;
         let (name, def) = match &item.kind {
@@ -444,7 +515,7 @@ impl<'a> Checker<'a> {
         Some((name, id))
     }
 
-    /// Enters a declaration into its file's scope.
+    /// Enters a declaration into the scope of its file; reports a second one of the same name.
     fn enter(&mut self, file: usize, name: ast::Name, id: DefId) {
         if let Some(Entity::Def(first)) = self.top(file).get(&name.text).copied()
             && self.def(first).file == file
@@ -455,6 +526,7 @@ impl<'a> Checker<'a> {
         self.set(file, name.text, Entity::Def(id));
     }
 
+    /// Adds a declaration that has not been checked yet.
     fn add_def(&mut self, file: usize, name: ast::Name, whole: &ast::Item, item: DefItem<'a>) -> DefId {
         self.defs.push(DefInfo {
             name: name.text,
@@ -472,6 +544,7 @@ impl<'a> Checker<'a> {
         DefId(self.defs.len() as u32 - 1)
     }
 
+    /// Reports a name declared twice.
     pub(super) fn declared_twice(&mut self, name: Symbol, first: Span, second: Span) {
         self.report(
             Diagnostic::error(code::DECLARED_TWICE, format!("`{name}` is declared twice"))
@@ -481,13 +554,14 @@ impl<'a> Checker<'a> {
         );
     }
 
+    /// Enters an import into the scope of its file.
     fn declare_import(&mut self, file: usize, import: &super::load::Import) {
         let entity = match import.target {
             ImportTarget::Error => Entity::Error,
             ImportTarget::File(target) => Entity::File(target),
             ImportTarget::Item { file: target, item, span } => self.imported(target, item, span),
         };
-        // In a session a later import counts.
+        // In a session the later import counts.
         let older = |first| self.loaded.files[file].entry && self.def(first).file != file;
         if let Some(Entity::Def(first)) = self.top(file).get(&import.name).copied()
             && entity != Entity::Error
@@ -513,10 +587,11 @@ impl<'a> Checker<'a> {
         self.set(file, import.name, entity);
     }
 
+    /// Returns the entity that an import of an item stands for; reports an unknown or private one.
     fn imported(&mut self, target: usize, item: Symbol, span: Span) -> Entity {
         let id = self.loaded.files[target].ast.id;
         let shown = self.sources.file(id).name.clone();
-        // Only what a file declares itself can be imported from it.
+        // Only a file's own declarations can be imported from it.
         let own = self.top(target).get(&item).copied();
         let declared = own.filter(|e| matches!(e, Entity::Def(id) if self.def(*id).file == target));
         match declared {
@@ -545,7 +620,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Which family of instances a declaration has, if it has instances.
+    /// Returns the family of a declaration with instances.
     pub(super) fn family(&self, id: DefId) -> Option<Family> {
         Some(match self.def(id).item {
             DefItem::Module(_) => Family::Module,
@@ -558,7 +633,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// The whole program, once everything has been checked.
+    /// Returns the typed program and the diagnostics, once every declaration has been checked.
     pub(super) fn finish(
         self,
         statements: typed::Body,

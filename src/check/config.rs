@@ -13,6 +13,7 @@ use crate::syntax::ast::{self, ConfigClauseKind};
 use crate::units::Dimension;
 
 impl<'a> Checker<'a> {
+    /// Checks a `config`.
     pub(super) fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, Some(id));
@@ -51,11 +52,12 @@ impl<'a> Checker<'a> {
         for behavior in &behaviors.behaviors {
             def.behaviors.push(self.behavior(id, behavior));
         }
-        // Expressions of members were checked in scopes of their own.
+        // Expressions of members are checked in scopes of their own.
         def.frame = scope.frame().max(self.member_frame(id));
         DefKind::Config(def)
     }
 
+    /// Checks a `part`.
     fn part(&mut self, scope: &mut Scope, id: DefId, part: &'a ast::Part) -> PartDef {
         self.lint_snake(part.name.text, part.name.span, "parts");
         let mark = scope.open();
@@ -80,12 +82,13 @@ impl<'a> Checker<'a> {
         };
         scope.close(mark);
         let member = self.members(id).index[&part.name.text];
-        // An unknown type was reported; `DefId(u32::MAX)` would be a trap, so the configuration
-        // itself stands in, and elaboration sees the error type of the member first.
+        // An unknown type has been reported. No `DefId` exists for it, so the configuration itself stands
+        // in; elaboration sees the error type of the member first.
         let of = of.unwrap_or(id);
         PartDef { member, name: part.name.text, span: part.name.span, of, count, args, ty_span: part.ty_span }
     }
 
+    /// Returns the declaration that a part is an instance of; reports one without instances.
     fn part_type(&mut self, scope: &Scope, part: &'a ast::Part) -> Option<DefId> {
         let path = &part.ty;
         let last = path[path.len() - 1];
@@ -126,13 +129,14 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// The loaded library file that declares a name, as it is imported.
+    /// Returns the import path of the loaded library file that declares a name.
     fn library_home(&self, name: &str) -> Option<String> {
         let info = self.defs.iter().find(|d| d.name == name && self.sources.file(d.span.file).library)?;
         let file = &self.sources.file(info.span.file).name;
         Some(file.trim_end_matches(".mod").replace('/', "."))
     }
 
+    /// Checks the path of a `base` clause.
     fn base(&mut self, scope: &mut Scope, path: &'a ast::Path) -> Option<Expr> {
         let base = self.path(scope, path, None);
         match &base.ty {
@@ -149,6 +153,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks a `behavior`.
     fn behavior(&mut self, id: DefId, info: &super::checker::BehaviorInfo<'a>) -> BehaviorDef {
         let mut scope = Scope::new(self.def(id).file, Some(id));
         let ast = info.ast;
@@ -167,6 +172,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks an `allow` clause.
     fn exemption(&mut self, scope: &mut Scope, e: &'a ast::Exemption) -> Option<Exemption> {
         let known = ["unstable", "slip", "collision", "overload"];
         let part = Type::AnyOf(Family::Config);
@@ -205,6 +211,7 @@ impl<'a> Checker<'a> {
         Some(Exemption { kind, span: e.span })
     }
 
+    /// Checks a clause that depends on values; `None` for clauses that are members.
     fn config_clause(&mut self, scope: &mut Scope, clause: &'a ast::ConfigClause) -> Option<ConfigClause> {
         Some(match &clause.kind {
             ConfigClauseKind::Connect { a, b, turn } => {
@@ -272,6 +279,7 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// Checks clauses in an inner scope.
     fn config_clauses(&mut self, scope: &mut Scope, clauses: &'a [ast::ConfigClause]) -> Vec<ConfigClause> {
         let mark = scope.open();
         let out = clauses.iter().filter_map(|c| self.config_clause(scope, c)).collect();
@@ -279,12 +287,13 @@ impl<'a> Checker<'a> {
         out
     }
 
+    /// Checks the path of a port in a `connect` clause.
     fn port_path(&mut self, scope: &mut Scope, path: &'a ast::Path) -> Expr {
         let port = self.path(scope, path, Some(&Type::Port));
         self.coerce(port, &Type::Port, Role::Place("`connect`"))
     }
 
-    /// `body.side[i]` as an expression; every prefix has its own span.
+    /// Returns `body.side[i]` as an expression; every prefix has its own span.
     pub(super) fn path(&mut self, scope: &mut Scope, path: &'a ast::Path, want: Option<&Type>) -> Expr {
         let last = path.steps.len();
         let root_want = if last == 0 { want } else { None };
@@ -292,7 +301,7 @@ impl<'a> Checker<'a> {
         for (i, step) in path.steps.iter().enumerate() {
             object = match step {
                 ast::PathStep::Field(name) => {
-                    // `m.left.port`, `m.side[i]`: what is wanted of the whole is wanted of the name.
+                    // In `m.left.port` and `m.side[i]` the expected type of the whole is that of the name.
                     let rest = &path.steps[i + 1..];
                     let ends = rest.iter().all(|s| matches!(s, ast::PathStep::Index { .. }));
                     let span = path.root.span.to(name.span);
@@ -308,6 +317,7 @@ impl<'a> Checker<'a> {
         object
     }
 
+    /// Checks one step `.name` of a path.
     fn path_field(
         &mut self,
         span: crate::source::Span,
@@ -316,7 +326,7 @@ impl<'a> Checker<'a> {
         want: Option<&Type>,
         next: Option<&ast::PathStep>,
     ) -> Expr {
-        // The step `.joint` or `.port` behind a name of both name spaces chooses one.
+        // The step `.joint` or `.port` behind a name that is both a joint and a port chooses one.
         let is_module = self.instance_family(&object.ty) == Some(Family::Module);
         let chosen = match next {
             Some(ast::PathStep::Field(n)) if is_module && n.text == "joint" => {
@@ -331,7 +341,7 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, name, chosen.as_ref().or(want))
     }
 
-    /// A `port` clause of a configuration as a member.
+    /// Returns a `port` clause of a configuration as a member.
     pub(super) fn config_port(&mut self, id: DefId, clause: &'a ConfigClauseKind, array: bool) -> MemberKind {
         let ConfigClauseKind::Port { name, count, value } = clause else {
             unreachable!("only port clauses are ports")

@@ -1,4 +1,4 @@
-//! Types in the user's words.
+//! Types in words and as they are written, for messages.
 
 use super::checker::Checker;
 use super::typed::{DefId, Program};
@@ -6,7 +6,7 @@ use super::types::{Family, Type};
 use crate::source::Symbol;
 use crate::units::{Dimension, display};
 
-/// What a quantity of this dimension is called in a sentence: `an angular speed`.
+/// Returns the phrase for a quantity of a dimension: `an angular speed`.
 pub(super) fn dimension_words(d: Dimension) -> String {
     let words = match d.name() {
         Some("Number") => "a number",
@@ -29,7 +29,7 @@ pub(super) fn dimension_words(d: Dimension) -> String {
     words.to_string()
 }
 
-/// With its usual unit: `an angular speed (rad/s)`.
+/// Returns the phrase with the usual unit: `an angular speed (rad/s)`.
 pub(super) fn dimension_with_unit(d: Dimension) -> String {
     let unit = display::usual_unit(d);
     let words = dimension_words(d);
@@ -37,7 +37,7 @@ pub(super) fn dimension_with_unit(d: Dimension) -> String {
 }
 
 impl Checker<'_> {
-    /// A type in a sentence: `an angle`, `a list of lengths`, ``a `Smores` ``.
+    /// Returns the phrase for a type: `an angle`, `a list of lengths`, ``a `Smores` ``.
     pub(super) fn words(&self, ty: &Type) -> String {
         match ty {
             Type::Quantity(d) => dimension_words(*d),
@@ -56,19 +56,20 @@ impl Checker<'_> {
         }
     }
 
-    /// A type as it is written.
+    /// Returns a type as it is written.
     pub(super) fn name(&self, ty: &Type) -> String {
         type_name(ty, &|id| self.def(id).name)
     }
 }
 
 impl Program {
-    /// A type as it is written.
+    /// Returns a type as it is written.
     pub fn type_name(&self, ty: &Type) -> String {
         type_name(ty, &|id| self.def(id).name)
     }
 }
 
+/// Returns a type as it is written; `def_name` gives the names of declarations.
 fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
     let name = |ty: &Type| type_name(ty, def_name);
     let args = |outer: &str, t: &Type| format!("{outer}<{}>", name(t));
@@ -114,6 +115,7 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
     }
 }
 
+/// Returns the name of the supertype of a family.
 pub(super) fn family_name(family: Family) -> &'static str {
     match family {
         Family::Module => "Module",

@@ -1,4 +1,4 @@
-//! Expressions, whatever they are: what is wanted of them, choices, blocks, functions without a name.
+//! Expressions of all kinds: expected types, choices, blocks and lambdas.
 
 use super::checker::{Checker, Scope};
 use super::describe::{dimension_with_unit, dimension_words};
@@ -10,7 +10,7 @@ use crate::syntax::ast;
 use crate::units::Dimension;
 use std::sync::Arc;
 
-/// What an expression is wanted for, as messages name it.
+/// The context for which a type is expected, as messages name it.
 #[derive(Clone, Copy)]
 pub(super) enum Role {
     Param(Symbol),
@@ -26,21 +26,25 @@ impl std::fmt::Display for Role {
     }
 }
 
+/// Returns an expression of a type.
 pub(super) fn expr_of(span: Span, ty: Type, kind: ExprKind) -> Expr {
     Expr { span, ty, kind }
 }
 
+/// Returns the expression that marks a reported mistake.
 pub(super) fn error_expr(span: Span) -> Expr {
     expr_of(span, Type::Error, ExprKind::Error)
 }
 
 impl<'a> Checker<'a> {
-    /// An expression that must fit a type; reports where it does not.
+    /// Checks an expression that must fit the type `want`; reports a mismatch.
     pub(super) fn expect(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: &Type, role: Role) -> Expr {
         let got = self.expr(scope, e, Some(want));
         self.coerce(got, want, role)
     }
 
+    /// Returns an expression as one of the type `want`: drops radians and wraps where that is needed;
+    /// reports a mismatch.
     pub(super) fn coerce(&mut self, got: Expr, want: &Type, role: Role) -> Expr {
         if !self.fits(&got.ty, want) {
             self.mismatch(&got, want, role);
@@ -55,12 +59,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The text of a span, if it is short enough to be said in a sentence.
+    /// Returns the text of a span, if it is short enough for a sentence.
     pub(super) fn quoted(&self, span: Span) -> Option<&'a str> {
         let text = self.sources.text(span);
         (text.len() <= 40 && !text.contains('\n')).then_some(text)
     }
 
+    /// Reports an expression of an unexpected type.
     fn mismatch(&mut self, got: &Expr, want: &Type, role: Role) {
         let written = self.quoted(got.span).map_or("this".to_string(), |t| format!("`{t}`"));
         let whole = alternatives(want).contains(&&Type::Int);
@@ -94,6 +99,7 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
+    /// Returns a hint on how to mend a mismatch, if one is likely to help.
     pub(super) fn type_hint(&self, got: &Expr, want: &Type) -> Option<String> {
         let written = self.quoted(got.span).unwrap_or("it");
         match (&got.ty, want) {
@@ -117,6 +123,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks an expression; `want` is the expected type, which decides words, optional values and lists.
     pub(super) fn expr(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: Option<&Type>) -> Expr {
         use ast::ExprKind as K;
         let span = e.span;
@@ -147,6 +154,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks `x else y`.
     fn otherwise(
         &mut self,
         scope: &mut Scope,
@@ -186,6 +194,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks an `if` expression.
     fn if_expr(
         &mut self,
         scope: &mut Scope,
@@ -226,6 +235,7 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, kind)
     }
 
+    /// Checks a block expression.
     fn block(
         &mut self,
         scope: &mut Scope,
@@ -234,7 +244,7 @@ impl<'a> Checker<'a> {
         value: Option<&'a ast::Expr>,
         want: Option<&Type>,
     ) -> Expr {
-        // A block that is nothing but its value is the value.
+        // A block with no statement is its value.
         if let (Some(value), []) = (value, statements) {
             return self.expr(scope, value, want);
         }
@@ -261,6 +271,7 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, ExprKind::Block { statements, value: value.map(Box::new) })
     }
 
+    /// Checks a lambda.
     fn lambda(
         &mut self,
         scope: &mut Scope,
@@ -305,7 +316,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Fn(Arc::new(ty)), kind)
     }
 
-    /// The family of a type whose values have members.
+    /// Returns the family of an instance type.
     pub(super) fn instance_family(&self, ty: &Type) -> Option<Family> {
         match ty {
             Type::Instance(id) => self.family(*id),
@@ -314,7 +325,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The types that a wanted type stands for: itself, what an optional holds, the types of a choice.
+/// Returns the alternatives of a type: itself, the inner type of an optional one, the types of a choice.
 pub(super) fn alternatives(ty: &Type) -> Vec<&Type> {
     match ty {
         Type::Optional(inner) => alternatives(inner),
@@ -323,6 +334,7 @@ pub(super) fn alternatives(ty: &Type) -> Vec<&Type> {
     }
 }
 
+/// Returns the dimension of an expected type that is one quantity.
 fn inner_quantity(want: &Type) -> Option<Dimension> {
     match alternatives(want).as_slice() {
         [one] => one.dimension(),
@@ -330,11 +342,12 @@ fn inner_quantity(want: &Type) -> Option<Dimension> {
     }
 }
 
+/// Returns the function type among the alternatives of an expected type.
 fn fn_of(want: &Type) -> &Type {
     alternatives(want).into_iter().find(|t| matches!(t, Type::Fn(_))).unwrap_or(want)
 }
 
-/// Whether a type mentions type parameters that are not bound yet.
+/// Returns whether a type mentions unbound type parameters.
 pub(super) fn has_params(ty: &Type) -> bool {
     match ty {
         Type::Param(_) | Type::QuantityParam { .. } => true,
@@ -350,7 +363,7 @@ pub(super) fn has_params(ty: &Type) -> bool {
     }
 }
 
-/// A mend for a quantity of the wrong dimension, if one is likely.
+/// Returns a likely correction of a quantity of the wrong dimension.
 fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimension) -> Option<String> {
     let written = written?;
     let literal = written.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())

@@ -11,7 +11,7 @@ use crate::syntax::ast::{self, PathStep, TrussClauseKind};
 use crate::units::Dimension;
 use std::sync::Arc;
 
-/// What a `cell` states, in the order of [`FactsDef::facts`].
+/// The facts of a `cell`, in the order of [`FactsDef::facts`].
 const CELL_FACTS: [(&str, Dimension); 5] = [
     ("size", Dimension::LENGTH),
     ("shrinks_to", Dimension::LENGTH),
@@ -20,7 +20,7 @@ const CELL_FACTS: [(&str, Dimension); 5] = [
     ("max_speed", Dimension::SPEED),
 ];
 
-/// What a `strut` states; its length is a range.
+/// The facts of a `strut`; its length is a range.
 const STRUT_FACTS: [(&str, Dimension); 5] = [
     ("length", Dimension::LENGTH),
     ("max_speed", Dimension::SPEED),
@@ -30,6 +30,7 @@ const STRUT_FACTS: [(&str, Dimension); 5] = [
 ];
 
 impl<'a> Checker<'a> {
+    /// Checks a `cell` or `strut`.
     pub(super) fn check_facts(&mut self, id: DefId, facts: &'a ast::Facts) -> DefKind {
         let strut = self.family(id) == Some(Family::Strut);
         let known = if strut { STRUT_FACTS } else { CELL_FACTS };
@@ -74,7 +75,7 @@ impl<'a> Checker<'a> {
         DefKind::from_facts(FactsDef { params, members, facts: values, frame: scope.frame() }, strut)
     }
 
-    /// The declaration behind `of`, which must be of a family.
+    /// Returns the declaration behind `of`; reports one that is not of the family.
     fn of(&mut self, file: usize, path: &[ast::Name], family: Family) -> Option<DefId> {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);
@@ -98,6 +99,7 @@ impl<'a> Checker<'a> {
         None
     }
 
+    /// Checks a `lattice`.
     pub(super) fn check_lattice(&mut self, id: DefId, lattice: &'a ast::Lattice) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
@@ -110,6 +112,7 @@ impl<'a> Checker<'a> {
         DefKind::Lattice(LatticeDef { params, members, of, value, frame: scope.frame() })
     }
 
+    /// Checks a `truss`.
     pub(super) fn check_truss(&mut self, id: DefId, truss: &'a ast::Truss) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
@@ -131,6 +134,7 @@ impl<'a> Checker<'a> {
         DefKind::Truss(TrussDef { params, members, of, body, frame })
     }
 
+    /// Checks the clauses of a truss; `top` is true outside of loops and conditions.
     fn truss_clauses(
         &mut self,
         scope: &mut Scope,
@@ -144,6 +148,7 @@ impl<'a> Checker<'a> {
         out
     }
 
+    /// Checks one clause of a truss.
     fn truss_clause(
         &mut self,
         scope: &mut Scope,
@@ -192,6 +197,7 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// Checks a reference to a node; reports an unknown one.
     fn node_ref(&mut self, scope: &mut Scope, id: DefId, path: &'a ast::Path) -> Option<NodeRef> {
         let members = self.members(id);
         let member = members.index.get(&path.root.text).copied();
@@ -234,6 +240,7 @@ impl<'a> Checker<'a> {
 }
 
 impl DefKind {
+    /// Returns the body of a `cell` or `strut`.
     fn from_facts(facts: FactsDef, strut: bool) -> DefKind {
         if strut { DefKind::Strut(facts) } else { DefKind::Cell(facts) }
     }

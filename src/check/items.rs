@@ -1,4 +1,4 @@
-//! Items and statements: signatures, bodies, and the order in which they are worked out.
+//! Items and statements: signatures and bodies, each checked when first needed.
 
 use super::checker::{Bound, Checker, DefItem, ParamInfo, Scope, Signature, TypeParam};
 use super::expr::{Role, error_expr};
@@ -12,15 +12,16 @@ use crate::syntax::ast;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Declarations whose inferred types need each other in a row, at most.
+/// The longest chain of declarations whose inferred types need each other.
 const DECLARATION_CHAIN_MAX: usize = 1_000;
 
-/// Bytes that the deepest expression of one declaration may need, and how much stack is added when
-/// less is left.
+/// The stack that must be left for the deepest expression of one declaration, in bytes.
 const STACK_LEFT_MIN: usize = 1 << 20;
+/// The stack that is added when less is left, in bytes.
 const STACK_PIECE: usize = 8 << 20;
 
 impl<'a> Checker<'a> {
+    /// Returns the signature of a declaration; computes it once.
     pub(super) fn signature(&mut self, id: DefId) -> Rc<Signature> {
         if let Some(signature) = &self.def(id).signature {
             return signature.clone();
@@ -51,6 +52,7 @@ impl<'a> Checker<'a> {
         signature
     }
 
+    /// Returns the signature of an `extern fn`; a method's object is its first parameter.
     fn native_signature(
         &mut self,
         scope: &mut Scope,
@@ -73,6 +75,7 @@ impl<'a> Checker<'a> {
         Signature { params, result: Some(result), type_params: scope.type_params.clone() }
     }
 
+    /// Returns the parameters of a signature; reports names given twice.
     pub(super) fn params(&mut self, scope: &Scope, params: &'a [ast::Param]) -> Vec<ParamInfo> {
         let mut seen: Vec<(Symbol, Span)> = Vec::new();
         params
@@ -94,7 +97,7 @@ impl<'a> Checker<'a> {
             .collect()
     }
 
-    /// The parameters with their defaults; binds each as a local where the body has no members.
+    /// Returns the parameters with their defaults; binds each as a local if the body has no members.
     pub(super) fn typed_params(
         &mut self,
         scope: &mut Scope,
@@ -118,7 +121,7 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// The type of a top-level `let`.
+    /// Returns the type of a top-level `let`; `at` is the place that needs it.
     pub(super) fn inferred_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         if let DefItem::Let(ast::Let { ty: Some(ty), .. }) = self.def(id).item {
             let scope = Scope::new(self.def(id).file, None);
@@ -131,7 +134,7 @@ impl<'a> Checker<'a> {
         self.inferred_by_body(id, at)
     }
 
-    /// The result of a function.
+    /// Returns the result type of a function; `at` is the place that needs it.
     pub(super) fn result_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         match self.signature(id).result.clone() {
             Some(ty) => ty,
@@ -139,6 +142,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns a type inferred from a body; reports a cycle of inferred types.
     fn inferred_by_body(&mut self, id: DefId, at: Option<Span>) -> Type {
         if let Some(ty) = &self.def(id).inferred {
             return ty.clone();
@@ -158,7 +162,7 @@ impl<'a> Checker<'a> {
             } else {
                 self.declaration_cycle(name, span, at);
             }
-            // Said once; whoever else is on the circle stays silent.
+            // Reported once; the other declarations on the cycle stay silent.
             self.def_mut(id).inferred = Some(Type::Error);
             return Type::Error;
         }
@@ -177,7 +181,7 @@ impl<'a> Checker<'a> {
         self.def(id).inferred.clone().unwrap_or(Type::Error)
     }
 
-    /// Works out a declaration, once.
+    /// Checks the body of a declaration, once.
     pub(super) fn check_def(&mut self, id: DefId) {
         if self.def(id).typed.is_some() || self.def(id).busy {
             return;
@@ -192,6 +196,7 @@ impl<'a> Checker<'a> {
         info.busy = false;
     }
 
+    /// Checks the body of a declaration by its kind.
     fn typed_def(&mut self, id: DefId) -> DefKind {
         match self.def(id).item {
             DefItem::Let(x) => self.check_let(id, x),
@@ -210,6 +215,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks a top-level `let`.
     fn check_let(&mut self, id: DefId, x: &'a ast::Let) -> DefKind {
         let mut scope = Scope::new(self.def(id).file, None);
         let written = x.ty.as_ref().map(|_| self.inferred_type(id, None));
@@ -220,12 +226,13 @@ impl<'a> Checker<'a> {
         DefKind::Let(LetDef { ty, value, frame: scope.frame() })
     }
 
-    /// The value of a `let`, of the type written if one is.
+    /// Checks the value of a `let` against its declared type, if it has one.
     pub(super) fn let_value(&mut self, scope: &mut Scope, x: &'a ast::Let) -> Expr {
         let written = x.ty.as_ref().map(|ty| self.type_expr(scope, ty));
         self.value_of_type(scope, x, written)
     }
 
+    /// Checks the value of a `let` of a known or inferred type.
     fn value_of_type(&mut self, scope: &mut Scope, x: &'a ast::Let, written: Option<Type>) -> Expr {
         let value = match written {
             Some(ty) => {
@@ -247,6 +254,7 @@ impl<'a> Checker<'a> {
         value
     }
 
+    /// Checks a `fn`.
     fn check_fn(&mut self, id: DefId, f: &'a ast::Fn) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, None);
@@ -261,6 +269,7 @@ impl<'a> Checker<'a> {
         DefKind::Fn(FnDef { params, result, body, frame: scope.frame() })
     }
 
+    /// Checks an `extern fn`, or a method of `record`.
     fn check_native(&mut self, id: DefId, f: &'a ast::ExternFn, record: Option<DefId>) -> DefKind {
         self.only_in_library(id, "extern fn");
         let signature = self.signature(id);
@@ -280,6 +289,7 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// Checks an `extern type`.
     fn check_record(&mut self, id: DefId, record: &'a ast::ExternType) -> DefKind {
         self.only_in_library(id, "extern type");
         let scope = Scope::new(self.def(id).file, None);
@@ -300,6 +310,7 @@ impl<'a> Checker<'a> {
         DefKind::Record(RecordDef { is, fields, methods })
     }
 
+    /// Reports a declaration that only the standard library may have.
     fn only_in_library(&mut self, id: DefId, what: &str) {
         let info = self.def(id);
         let span = info.span;
@@ -312,11 +323,13 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks statements in the current scope.
     pub(super) fn statements(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
         let mark = scope.open();
         statements.iter().filter_map(|s| self.statement(scope, mark, s)).collect()
     }
 
+    /// Checks a statement; `mark` is that of the block it is in.
     fn statement(&mut self, scope: &mut Scope, mark: (usize, u32), s: &'a ast::Stmt) -> Option<Stmt> {
         use ast::StmtKind as K;
         let kind = match &s.kind {
@@ -363,6 +376,7 @@ impl<'a> Checker<'a> {
         Some(Stmt { span: s.span, kind })
     }
 
+    /// Checks statements in an inner scope.
     fn inner(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
         let mark = scope.open();
         let out = self.statements(scope, statements);
@@ -370,6 +384,7 @@ impl<'a> Checker<'a> {
         out
     }
 
+    /// Checks a `require` clause.
     pub(super) fn require(&mut self, scope: &mut Scope, r: &'a ast::Require) -> super::typed::Require {
         super::typed::Require {
             span: r.span,
@@ -381,7 +396,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The statements and tests of the file that is run.
+    /// Checks the statements and tests of the file that is run.
     pub(super) fn check_root(&mut self, file: usize) -> (Body, Vec<Test>) {
         let mut scope = Scope::new(file, None);
         let mut statements = Vec::new();
@@ -404,7 +419,7 @@ impl<'a> Checker<'a> {
         (Body { statements, frame: scope.frame() }, tests)
     }
 
-    /// Typed members of a body.
+    /// Returns the typed members of a declaration with instances.
     pub(super) fn typed_members(&mut self, id: DefId) -> Vec<super::typed::Member> {
         use super::checker::MemberInfoKind as I;
         use super::typed::MemberKind as M;
@@ -427,6 +442,7 @@ impl<'a> Checker<'a> {
         out
     }
 
+    /// Returns the type parameters of an `extern fn` with their bounds.
     fn type_params(&mut self, f: &'a ast::ExternFn) -> Vec<TypeParam> {
         let bound = |checker: &mut Checker<'a>, name: ast::Name| match name.text.as_str() {
             "Dimension" => Bound::Dimension,

@@ -1,10 +1,11 @@
-//! How names are written: types and configurations in CamelCase, the rest in snake_case.
+//! Lints on the style of names: CamelCase for types and configurations, snake_case for the rest.
 
 use super::checker::{Checker, DefItem};
 use super::typed::DefId;
 use crate::source::{Diagnostic, Span, Symbol, code};
 
 impl Checker<'_> {
+    /// Lints the name of a declaration.
     pub(super) fn lint_def(&mut self, id: DefId) {
         let info = self.def(id);
         let (name, span) = (info.name, info.span);
@@ -16,12 +17,14 @@ impl Checker<'_> {
         }
     }
 
+    /// Lints a name that should be in snake_case; `what` is the plural of its kind.
     pub(super) fn lint_snake(&mut self, name: Symbol, span: Span, what: &str) {
         if name.as_str().len() > 1 && name.as_str().contains(|c: char| c.is_ascii_uppercase()) {
             self.style(span, name, what, &snake(name.as_str()));
         }
     }
 
+    /// Warns of a name in another style, except in the standard library.
     fn style(&mut self, span: Span, name: Symbol, what: &str, mended: &str) {
         if self.sources.file(span.file).library || mended == name.as_str() {
             return;
@@ -33,11 +36,13 @@ impl Checker<'_> {
     }
 }
 
+/// Returns whether a name is in CamelCase.
 fn is_camel(name: &str) -> bool {
     let name = name.trim_start_matches('_');
     name.starts_with(|c: char| c.is_ascii_uppercase()) && !name.contains('_')
 }
 
+/// Returns a name in CamelCase.
 fn camel(name: &str) -> String {
     let mut out = String::new();
     for word in name.split('_').filter(|w| !w.is_empty()) {
@@ -48,7 +53,8 @@ fn camel(name: &str) -> String {
     out
 }
 
-/// `maxSpeed` and `MaxSpeed` to `max_speed`; runs of capitals stay together: `com_WB` to `com_wb`.
+/// Returns a name in snake_case: `maxSpeed` and `MaxSpeed` become `max_speed`; runs of capitals stay
+/// together: `com_WB` becomes `com_wb`.
 fn snake(name: &str) -> String {
     let mut out = String::new();
     let mut last = '_';

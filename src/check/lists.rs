@@ -9,6 +9,7 @@ use crate::syntax::ast;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
+    /// Checks a list, or a vector where one is expected.
     pub(super) fn list(
         &mut self,
         scope: &mut Scope,
@@ -66,6 +67,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::list(common.unwrap_or(Type::Error)), ExprKind::List(out))
     }
 
+    /// Checks a comprehension.
     pub(super) fn comprehension(
         &mut self,
         scope: &mut Scope,
@@ -97,7 +99,7 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, ExprKind::Comprehension { body: Box::new(body), clauses: typed })
     }
 
-    /// What a `for` runs over, and the type of what it binds.
+    /// Checks the iterable of a `for`, and returns it with the type of its elements.
     pub(super) fn iterable(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> (Expr, Type) {
         let got = self.expr(scope, e, None);
         let element = match &got.ty {
@@ -120,6 +122,7 @@ impl<'a> Checker<'a> {
         (got, element)
     }
 
+    /// Checks a range.
     pub(super) fn range(
         &mut self,
         scope: &mut Scope,
@@ -148,6 +151,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Range(Arc::new(element)), kind)
     }
 
+    /// Checks an index expression.
     pub(super) fn index(
         &mut self,
         scope: &mut Scope,
@@ -162,6 +166,7 @@ impl<'a> Checker<'a> {
         self.index_of(span, object, index)
     }
 
+    /// Returns `object[index]` for checked operands.
     pub(super) fn index_of(&mut self, span: Span, object: Expr, index: Expr) -> Expr {
         let element = match &object.ty {
             Type::List(t) => (**t).clone(),
@@ -180,10 +185,12 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// Returns the element type of an expected vector.
 pub(super) fn vec3_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::Vec3(e) = t { Some(&**e) } else { None })
 }
 
+/// Returns the element type of an expected list.
 pub(super) fn list_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::List(e) = t { Some(&**e) } else { None })
 }

@@ -1,4 +1,4 @@
-//! Numbers with their units, texts, and the words of choices.
+//! Literals: numbers with their units, texts, and words of choices.
 
 use super::checker::{Checker, DefItem, Entity, MemberInfoKind, Scope};
 use super::expr::{error_expr, expr_of};
@@ -10,6 +10,7 @@ use crate::units::Dimension;
 use crate::units::table::to_si;
 
 impl<'a> Checker<'a> {
+    /// Checks a number with its unit, and returns it in SI.
     pub(super) fn number(
         &mut self,
         scope: &Scope,
@@ -20,7 +21,7 @@ impl<'a> Checker<'a> {
         let text = digits.as_str();
         let Some(unit) = unit else { return self.plain_number(span, text) };
         let Ok(value) = text.parse::<f64>() else { return self.bad_number(span) };
-        // The first factor can't be misread: nothing but a unit follows a number directly.
+        // The first factor is unambiguous: only a unit may follow a number directly.
         for (name, _) in unit.factors.iter().skip(1) {
             if self.is_variable(scope, name.text) {
                 self.report(
@@ -45,7 +46,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a number of this name may be meant: a local, a parameter or `let` of the body, or a
+    /// Returns whether a name could stand for a number: a local, a parameter or `let` of the body, or a
     /// `let` of the file.
     pub(super) fn is_variable(&mut self, scope: &Scope, name: Symbol) -> bool {
         if let Some(ty) = scope.local_type(name) {
@@ -64,6 +65,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns a number without unit.
     pub(super) fn plain_number(&mut self, span: Span, text: &str) -> Expr {
         if !text.contains(['.', 'e', 'E']) {
             return match text.parse::<i64>() {
@@ -77,6 +79,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Reports a number that is too large.
     pub(super) fn bad_number(&mut self, span: Span) -> Expr {
         self.report(
             Diagnostic::error(code::BAD_NUMBER, "this number is too large")
@@ -85,6 +88,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
+    /// Checks a text with its interpolated expressions.
     pub(super) fn text(&mut self, scope: &mut Scope, span: Span, parts: &'a [ast::TextPart]) -> Expr {
         if let [] | [ast::TextPart::Literal(_)] = parts {
             let text = parts.first().map_or("", |p| match p {
@@ -106,6 +110,7 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// Returns a value times unit factors, each raised to its power.
 pub(super) fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
     factors.iter().fold(value, |value, (factor, power)| {
         let times = power.unsigned_abs();
@@ -113,6 +118,7 @@ pub(super) fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
     })
 }
 
+/// Returns the unit vector of an axis.
 pub(super) fn direction(span: Span, axis: ast::Axis) -> Expr {
     let one = |on: bool| expr_of(span, Type::NUMBER, ExprKind::Number(if on { 1.0 } else { 0.0 }));
     let parts = [ast::Axis::X, ast::Axis::Y, ast::Axis::Z].map(|a| one(a == axis));

@@ -1,4 +1,4 @@
-//! Reads the file to check and everything that it imports, and finds import cycles.
+//! Loading: reads the file to check and everything that it imports, and finds import cycles.
 
 use crate::source::files::join;
 use crate::source::library;
@@ -7,74 +7,88 @@ use crate::source::{Diagnostic, FileId, Files, ReadError, Sources, Span, Symbol,
 use crate::syntax::{self, ast};
 use std::collections::HashMap;
 
-/// A file of the program with what it imports.
+/// A parsed file with its imports.
 pub(super) struct LoadedFile {
+    /// Its tree.
     pub ast: ast::File,
+    /// The names that it imports.
     pub imports: Vec<Import>,
-    /// Whether it is an entry of a session: all entries have one scope.
+    /// True for an entry of a session: all entries have one scope.
     pub entry: bool,
-    /// The name of the last value before that entry, which `_` means there.
+    /// The declaration that `_` stands for in an entry: the value of the last expression before it.
     pub last: Option<Symbol>,
 }
 
 /// A name that a `use` brings into a file.
 #[derive(Clone, Copy)]
 pub(super) struct Import {
+    /// The name in the importing file.
     pub name: Symbol,
+    /// The span of the name in the `use`.
     pub span: Span,
+    /// The imported file or item.
     pub target: ImportTarget,
 }
 
+/// The target of an import.
 #[derive(Clone, Copy)]
 pub(super) enum ImportTarget {
     /// Everything in a file, by `name.item`.
     File(usize),
     /// One item of a file; the span is that of the item's name in the `use`.
     Item { file: usize, item: Symbol, span: Span },
-    /// What is wrong has been reported.
+    /// A failed import that has been reported.
     Error,
 }
 
 /// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read. In a
-/// session the file to run is the newest entry, and no entry changes the places of those before it.
+/// session the file to run is the newest entry, and an entry never changes the indices of those before it.
 #[derive(Default)]
 pub(super) struct Loaded {
+    /// The files.
     pub files: Vec<LoadedFile>,
+    /// The index of the file to run.
     pub root: Option<usize>,
+    /// The index of the prelude.
     pub prelude: Option<usize>,
 }
 
-/// What was entered into a session at one time.
+/// An entry of a session: the text entered at one time.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// As diagnostics show it.
+    /// Its name in diagnostics.
     pub name: String,
+    /// Its text.
     pub text: String,
-    /// The line of a longer input at which it begins; else 1.
+    /// The line of a longer input at which it begins; 1 if there is none.
     pub first_line: usize,
-    /// The name of the value of the expression that ends it.
+    /// The name under which the value of its last expression is declared.
     pub value: Option<Symbol>,
-    /// The name of the value that `_` means in it.
+    /// The name of the declaration that `_` stands for in it.
     pub last: Option<Symbol>,
 }
 
+/// The state of loading.
 pub(super) struct Loader<'a> {
     files: &'a dyn Files,
+    /// The texts read so far.
     pub sources: Sources,
+    /// The diagnostics so far.
     pub diagnostics: Vec<Diagnostic>,
     loaded: Vec<Option<LoadedFile>>,
     by_name: HashMap<String, Option<usize>>,
-    /// Files being read, outermost first: an import of one of them is a cycle.
+    /// The files being read, outermost first. An import of one of them is a cycle.
     open: Vec<Open>,
 }
 
+/// A file being read.
 struct Open {
     name: String,
     /// The import of this file that is being followed.
     via: Option<Span>,
 }
 
-/// A file among those of the project or of the standard library.
+/// The place of a file: a path in the project or in the standard library.
 #[derive(Clone)]
 enum Place {
     Project(String),
@@ -82,7 +96,7 @@ enum Place {
 }
 
 impl Place {
-    /// As diagnostics and plans show it.
+    /// Returns the name of the file in diagnostics and plans.
     fn shown(&self) -> String {
         match self {
             Place::Project(path) => path.clone(),
@@ -113,11 +127,12 @@ pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sou
     loader.finish(root, prelude)
 }
 
-/// Why a file can't be had, in a sentence.
+/// Returns the sentence that a file can't be read, with the reason.
 pub fn why_unreadable(path: &str, error: &ReadError) -> String {
     format!("can't read `{path}`: {}", describe(error))
 }
 
+/// Returns the reason of a failed read in words.
 fn describe(error: &ReadError) -> String {
     match error {
         ReadError::NotFound => "there is no such file".into(),
@@ -144,9 +159,10 @@ impl<'a> Loader<'a> {
         (Loaded { files, root, prelude }, self.sources, self.diagnostics)
     }
 
+    /// Loads an entry of a session, and returns its index.
     fn entry(&mut self, entry: &Entry) -> usize {
         let id = self.sources.add_piece(&entry.name, &entry.text, false, entry.first_line);
-        // Paths in it are relative to the project.
+        // Paths in an entry are relative to the project.
         let place = Place::Project(String::new());
         let index = self.take(&place, id, &entry.text);
         let file = self.loaded[index].as_mut().expect("just closed");
@@ -157,6 +173,7 @@ impl<'a> Loader<'a> {
         index
     }
 
+    /// Loads a file with all that it imports, once, and returns its index. Fails if it can't be read.
     fn load(&mut self, place: Place) -> Result<usize, ReadError> {
         let shown = place.shown();
         if let Some(known) = self.by_name.get(&shown) {
@@ -168,7 +185,7 @@ impl<'a> Loader<'a> {
         Ok(self.take(&place, id, &text))
     }
 
-    /// Takes a text in with all that it imports.
+    /// Parses a text and loads all that it imports; returns its index.
     fn take(&mut self, place: &Place, id: FileId, text: &str) -> usize {
         let parsed = syntax::parse(id, text);
         self.diagnostics.extend(parsed.diagnostics);
@@ -186,6 +203,7 @@ impl<'a> Loader<'a> {
         index
     }
 
+    /// Reads a text; one that is not UTF-8 is reported and empty.
     fn read(&mut self, place: &Place, shown: &str) -> Result<(FileId, String), ReadError> {
         let bytes = match place {
             Place::Library(path) => {
@@ -209,12 +227,13 @@ impl<'a> Loader<'a> {
                         )
                         .hint("save the file as UTF-8"),
                 );
-                // What follows from a text of another encoding is not worth saying.
+                // Errors in a text of another encoding mean nothing.
                 Ok((id, String::new()))
             }
         }
     }
 
+    /// Loads the target of a `use`.
     fn import(&mut self, from: &Place, u: &ast::Use, imports: &mut Vec<Import>) {
         match &u.source {
             ast::UseSource::File { path, span } => self.import_file(from, u, path, *span, imports),
@@ -222,6 +241,7 @@ impl<'a> Loader<'a> {
         }
     }
 
+    /// Loads the target of a `use "path"`; reports a path that leads out of the project.
     fn import_file(&mut self, from: &Place, u: &ast::Use, path: &str, span: Span, imports: &mut Vec<Import>) {
         let place = match from {
             Place::Project(own) => join(own, path).map(Place::Project),
@@ -248,6 +268,7 @@ impl<'a> Loader<'a> {
         }
     }
 
+    /// Loads the target of a `use std.name`.
     fn import_path(&mut self, u: &ast::Use, path: &[ast::Name], imports: &mut Vec<Import>) {
         let span = path[0].span.to(path[path.len() - 1].span);
         let words: Vec<&str> = path.iter().map(|n| n.text.as_str()).collect();
@@ -302,7 +323,8 @@ impl<'a> Loader<'a> {
         unknown_names(u, imports);
     }
 
-    /// The file behind an import; `None` (and a diagnostic) when it can't be had or closes a cycle.
+    /// Returns the index of an imported file; `None` (and a diagnostic) if it can't be read or closes a
+    /// cycle.
     fn open_import(&mut self, place: Place, written: &str, span: Span) -> Option<usize> {
         let shown = place.shown();
         if let Some(open) = self.open.last_mut() {
@@ -331,7 +353,7 @@ impl<'a> Loader<'a> {
         }
     }
 
-    /// Reports a cycle at the import with which its first file enters it.
+    /// Reports an import cycle at the import by which its first file enters it.
     fn cycle(&mut self, start: usize, shown: &str) {
         let mut names: Vec<&str> = self.open[start..].iter().map(|open| open.name.as_str()).collect();
         names.push(shown);
@@ -346,6 +368,7 @@ impl<'a> Loader<'a> {
     }
 }
 
+/// Adds the imported items of a file.
 fn import_names(names: &[ast::UseName], file: usize, imports: &mut Vec<Import>) {
     for n in names {
         let shown = n.rename.unwrap_or(n.name);
@@ -357,7 +380,7 @@ fn import_names(names: &[ast::UseName], file: usize, imports: &mut Vec<Import>) 
     }
 }
 
-/// Makes of an expression that ends an entry the declaration of a value.
+/// Turns the expression that ends an entry into the declaration of a value.
 fn name_value(item: &mut ast::Item, name: Symbol) {
     let ast::ItemKind::Statement(statement) = &item.kind else { return };
     if let Some(value) = value_of(statement) {
@@ -366,7 +389,7 @@ fn name_value(item: &mut ast::Item, name: Symbol) {
     }
 }
 
-/// A statement as the expression that it is, too: an `if` whose branches end with one.
+/// Returns a statement as an expression, also an `if` whose branches end with one.
 fn value_of(statement: &ast::Stmt) -> Option<ast::Expr> {
     let span = statement.span;
     match &statement.kind {
@@ -388,13 +411,14 @@ fn value_of(statement: &ast::Stmt) -> Option<ast::Expr> {
     }
 }
 
+/// Returns statements as a block expression, if the last one has a value.
 fn block_of(span: Span, statements: &[ast::Stmt]) -> Option<ast::Expr> {
     let (last, before) = statements.split_last()?;
     let value = Some(Box::new(value_of(last)?));
     Some(ast::Expr { span, kind: ast::ExprKind::Block { statements: before.to_vec(), value } })
 }
 
-/// The names of an import that failed are known, but nothing is known about them.
+/// Adds the names of a failed import as erroneous entities.
 fn unknown_names(u: &ast::Use, imports: &mut Vec<Import>) {
     let mut push = |name: ast::Name| {
         imports.push(Import { name: name.text, span: name.span, target: ImportTarget::Error });

@@ -1,19 +1,20 @@
-//! What the names at the top of a file mean, for those who look at a checked program.
+//! The entities that the names at the top of a file stand for, for editors and sessions.
 
 use super::checker::{Checker, Entity};
 use super::typed::DefId;
 use crate::source::Symbol;
 
-/// What a name at the top of a file means.
+/// The entity that a name at the top of a file stands for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning {
+    /// A declaration.
     Def(DefId),
-    /// A file with what it declares.
+    /// An imported file, with its public declarations by name.
     File(Vec<(Symbol, DefId)>),
 }
 
 impl Checker<'_> {
-    /// What names at the top of a file mean, by name.
+    /// Returns the names visible at the top of a file with their meanings, by name.
     pub(super) fn meanings(&self, file: usize) -> Vec<(Symbol, Meaning)> {
         let own = self.top(file).iter();
         let inherited = self.loaded.prelude.into_iter().flat_map(|prelude| self.top(prelude).iter());

@@ -1,4 +1,4 @@
-//! The names inside declarations, and what `object.name` means.
+//! The members of declarations, and the meaning of `object.name`.
 
 use super::checker::{
     BehaviorInfo, Checker, DefItem, Entity, JointInfo, MemberInfo, MemberInfoKind, Members, PortInfo, Scope,
@@ -14,7 +14,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl<'a> Members<'a> {
-    /// `false`: the name is taken.
+    /// Adds a member; returns false if the name is taken.
     fn add(&mut self, name: ast::Name, kind: MemberInfoKind<'a>) -> bool {
         let id = MemberId(self.list.len() as u32);
         self.list.push(MemberInfo { name: name.text, span: name.span, doc: None, kind });
@@ -23,7 +23,7 @@ impl<'a> Members<'a> {
         new
     }
 
-    /// What is said of the members from one on, which one clause declares.
+    /// Sets the documentation of the members from an index on, which one clause declares.
     fn document(&mut self, from: usize, doc: Option<&str>) {
         let doc: Option<Arc<str>> = doc.map(Arc::from);
         self.list[from..].iter_mut().for_each(|member| member.doc = doc.clone());
@@ -31,6 +31,7 @@ impl<'a> Members<'a> {
 }
 
 impl<'a> Checker<'a> {
+    /// Returns the members of a declaration; computes them once.
     pub(super) fn members(&mut self, id: DefId) -> Rc<Members<'a>> {
         if let Some(members) = &self.def(id).members {
             return members.clone();
@@ -62,6 +63,7 @@ impl<'a> Checker<'a> {
         members
     }
 
+    /// Adds a member; reports a name declared twice.
     fn add_member(&mut self, members: &mut Members<'a>, name: ast::Name, kind: MemberInfoKind<'a>) {
         if !members.add(name, kind) {
             let first = members.list[members.index[&name.text].0 as usize].span;
@@ -69,6 +71,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Collects the joints, ports and members of a module.
     fn module_members(&mut self, members: &mut Members<'a>, module: &'a ast::Module) {
         for clause in &module.clauses {
             let doc = clause.doc.as_deref().map(Arc::from);
@@ -102,6 +105,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Adds a joint of a module, or the clause by which a joint follows others.
     fn add_joint(
         &mut self,
         members: &mut Members<'a>,
@@ -120,6 +124,7 @@ impl<'a> Checker<'a> {
         members.joint_index.insert(name.text, index);
     }
 
+    /// Adds a port of a module.
     fn add_port(&mut self, members: &mut Members<'a>, port: &'a ast::ModulePort, doc: Option<Arc<str>>) {
         let array = port.index.is_some();
         if let Some(first) = members.port_index.get(&port.name.text).copied() {
@@ -133,6 +138,7 @@ impl<'a> Checker<'a> {
         members.ports.push(PortInfo { name: port.name.text, span: port.name.span, doc, array });
     }
 
+    /// Adds the ports inside conditions and loops.
     fn nested_ports(&mut self, members: &mut Members<'a>, clauses: &'a [ast::ModuleClause]) {
         for clause in clauses {
             match &clause.kind {
@@ -149,6 +155,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Adds an alias of a joint, a port, or both.
     fn add_alias(&mut self, members: &mut Members<'a>, name: ast::Name, target: ast::Name) {
         let joint = members.joint_index.get(&target.text).copied();
         let port = members.port_index.get(&target.text).copied();
@@ -183,6 +190,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Collects the members of a configuration.
     fn config_members(&mut self, id: DefId, members: &mut Members<'a>, config: &'a ast::Config) {
         let mut parts = 0;
         for clause in &config.clauses {
@@ -217,6 +225,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Collects the members of a truss; `nested` is true inside loops and conditions.
     fn truss_members(&mut self, members: &mut Members<'a>, clauses: &'a [ast::TrussClause], nested: bool) {
         for clause in clauses {
             match &clause.kind {
@@ -240,7 +249,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A name that means a member, joint or port of the instance whose body this is.
+    /// Returns the member, joint or port that a bare name stands for in the body of `this`.
     pub(super) fn own_member(
         &mut self,
         this: DefId,
@@ -259,6 +268,7 @@ impl<'a> Checker<'a> {
         Some(self.field_of(span, object, ast::Name { text: name, span }, want))
     }
 
+    /// Checks `object.name`.
     pub(super) fn field(
         &mut self,
         scope: &mut Scope,
@@ -274,6 +284,7 @@ impl<'a> Checker<'a> {
             };
         }
         // `m.left.joint` and `m.left.port` choose between the two name spaces.
+        /// `m.left.joint` and `m.left.port` choose between joint and port.
         let chosen = match field.text.as_str() {
             "joint" => Some(Type::joint(Dimension::ANGLE)),
             "port" => Some(Type::Port),
@@ -292,7 +303,7 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, field, want)
     }
 
-    /// `.joint` or `.port` behind what may be of the one name space or the other already.
+    /// Resolves `.joint` or `.port` behind an expression that is already the one or the other.
     pub(super) fn chosen(&mut self, span: Span, object: Expr, field: ast::Name) -> Expr {
         match (field.text.as_str(), object.kind) {
             ("joint", kind @ ExprKind::Joint { .. }) | ("port", kind @ ExprKind::Port { .. }) => {
@@ -302,6 +313,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns the field of a checked object, by the type of the object.
     pub(super) fn field_of(
         &mut self,
         span: Span,
@@ -313,7 +325,7 @@ impl<'a> Checker<'a> {
             Type::Error => error_expr(span),
             Type::Instance(id) => self.instance_field(span, object, id, field, want),
             Type::Record(id) => self.record_field(span, object, id, field),
-            // A behaviour is planned when something is asked of its plan.
+            // A field of a behaviour is that of its plan.
             Type::Behavior if self.plan_record().is_some() => {
                 let plan = self.planned(object);
                 let record = self.plan_record().expect("just asked");
@@ -356,6 +368,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns a member, joint or port of an instance.
     fn instance_field(
         &mut self,
         span: Span,
@@ -403,6 +416,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns a member of an instance as an expression.
     fn member_expr(&mut self, span: Span, object: Box<Expr>, id: DefId, member: MemberId) -> Expr {
         let members = self.members(id);
         if let MemberInfoKind::Behavior(behavior) = members.list[member.0 as usize].kind {
@@ -414,6 +428,7 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, ExprKind::Member { object, member })
     }
 
+    /// Reports an unknown member.
     fn unknown_member(&mut self, span: Span, id: DefId, field: ast::Name) -> Expr {
         if self.is_unread(field.text) {
             return error_expr(span);
@@ -435,6 +450,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
+    /// Returns a field of a record, inherited ones included; reports an unknown one.
     fn record_field(&mut self, span: Span, object: Expr, id: DefId, field: ast::Name) -> Expr {
         for record in self.record_line(id) {
             let DefItem::Record(ast) = self.def(record).item else { continue };
@@ -456,11 +472,12 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
+    /// Returns the prelude's record `Plan`, if the prelude could be read.
     pub(super) fn plan_record(&self) -> Option<DefId> {
         self.prelude_def("plan").and(self.prelude_def("Plan"))
     }
 
-    /// `plan(behavior)`, as it could have been written.
+    /// Returns the expression `plan(behavior)`.
     pub(super) fn planned(&mut self, behavior: Expr) -> Expr {
         let def = self.prelude_def("plan").expect("the prelude declares what its record comes from");
         let record = self.prelude_def("Plan").expect("the prelude declares what `plan` gives");
@@ -470,6 +487,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Record(record), ExprKind::Call { def, args })
     }
 
+    /// Returns the names of the fields and methods of a record, for suggestions.
     fn record_names(&self, id: DefId) -> Vec<&'static str> {
         let mut names = Vec::new();
         for record in self.record_line(id) {
@@ -481,7 +499,7 @@ impl<'a> Checker<'a> {
         names
     }
 
-    /// The type of a member as seen from outside; `at` is where it is needed.
+    /// Returns the type of a member as seen from outside; `at` is the place that needs it.
     pub(super) fn member_type(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Type {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
@@ -511,11 +529,12 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns whether a declaration is a module or a configuration.
     pub(super) fn is_part_type(&self, id: DefId) -> bool {
         matches!(self.family(id), Some(Family::Module | Family::Config))
     }
 
-    /// The value of a `let` in a body, checked once in a scope of its own.
+    /// Checks the value of a `let` in a body, once, in a scope of its own.
     pub(super) fn member_let(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Expr {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
@@ -536,16 +555,18 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Expressions of members run in frames of their own: remembers the largest.
+    /// Records the size of the frame of a member's expression; the largest counts.
     pub(super) fn note_frame(&mut self, id: DefId, size: usize) {
         let known = self.member_frames.entry(id).or_default();
         *known = size.max(*known);
     }
 
+    /// Returns the largest frame of a declaration's members, in slots.
     pub(super) fn member_frame(&self, id: DefId) -> usize {
         self.member_frames.get(&id).copied().unwrap_or(0)
     }
 
+    /// Reports a declaration that needs itself.
     pub(super) fn declaration_cycle(&mut self, name: Symbol, span: Span, at: Option<Span>) {
         let mut d = Diagnostic::error(code::DECLARATION_CYCLE, format!("`{name}` needs itself"))
             .label(at.unwrap_or(span), "needed here while it is being worked out");
@@ -556,7 +577,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The dimension of a joint's position, told by the name of its kind.
+/// Returns the dimension of a joint's position, from the name of its kind.
 fn joint_dimension(kind: &ast::Expr) -> Dimension {
     match &kind.kind {
         K::Call { callee, .. } => match &callee.kind {
@@ -567,7 +588,7 @@ fn joint_dimension(kind: &ast::Expr) -> Dimension {
     }
 }
 
-/// Whether a wanted type, or one of its alternatives or elements, is of a kind.
+/// Returns whether an expected type, or one of its alternatives or elements, is of a kind.
 fn wants(want: &Type, kind: fn(&Type) -> bool) -> bool {
     match want {
         Type::Optional(t) | Type::List(t) => wants(t, kind),
@@ -576,9 +597,9 @@ fn wants(want: &Type, kind: fn(&Type) -> bool) -> bool {
     }
 }
 
-/// Coordinates that move no link are lengths where the joints are that they are sums of.
+/// Sets the dimension of coordinates that move no link from the joints they combine.
 fn coordinates(members: &mut Members) {
-    // One may follow another, in either order.
+    // One coordinate may follow another, in either order.
     for _ in 0..members.joints.len() {
         let mut changed = false;
         for index in 0..members.joints.len() {
@@ -594,7 +615,7 @@ fn coordinates(members: &mut Members) {
     }
 }
 
-/// The first name in a sum of names times factors.
+/// Returns the first name in a linear combination.
 fn first_name(sum: &ast::Expr) -> Option<Symbol> {
     match &sum.kind {
         K::Name(name) => Some(*name),
@@ -605,7 +626,7 @@ fn first_name(sum: &ast::Expr) -> Option<Symbol> {
     }
 }
 
-/// The joint of this name that is declared with links and follows nothing yet.
+/// Returns the joint of a name that is declared between links and follows nothing yet.
 fn declared_joint<'m, 'a>(members: &'m mut Members<'a>, name: Symbol) -> Option<&'m mut JointInfo<'a>> {
     let open = |j: &&mut JointInfo| matches!(j.clause, ModuleClauseKind::Joint { .. }) && j.follows.is_none();
     members.joints.iter_mut().filter(|j| j.name == name).find(open)

@@ -1,11 +1,11 @@
 //! Tree to typed tree: names, imports, types and units.
 //!
-//! Knows no robots. What depends on values (which port is taken, which joint is out of range) is
-//! found later, when `interpret` elaborates the declarations.
+//! The room knows no robots. What depends on values (an occupied port, a joint out of range) is found
+//! later, when `interpret` elaborates the declarations.
 //!
-//! The way through this room: [`load`] reads files, [`checker`] holds what is known, [`items`]
-//! drives; [`members`], [`module`], [`config`] and [`families`] are the declarations, [`expr`],
-//! [`literals`], [`names`], [`lists`], [`call`] and [`operators`] the expressions, [`type_expr`] the types as written.
+//! Reading order: [`load`] reads files, [`checker`] holds the state, [`items`] drives; [`members`],
+//! [`module`], [`config`] and [`families`] check declarations, [`expr`], [`literals`], [`names`],
+//! [`lists`], [`call`] and [`operators`] expressions, [`type_expr`] types as written.
 
 mod call;
 mod checker;
@@ -38,36 +38,40 @@ pub use meaning::Meaning;
 pub use typed::Program;
 pub use types::Type;
 
-/// What checking a file and everything it imports ends with.
+/// The result of checking a file with all that it imports.
 #[derive(Clone, Debug)]
 pub struct Checked {
+    /// All texts that were read, by file.
     pub sources: Sources,
+    /// The typed program; mistakes are error nodes in it.
     pub program: Program,
+    /// The diagnostics, in the order in which they were found.
     pub diagnostics: Vec<Diagnostic>,
-    /// Where declarations are named, in no order.
+    /// The spans at which declarations are named, in no order.
     pub uses: Vec<(Span, DefId)>,
     /// The texts that are entries of a session, in order.
     pub entries: Vec<FileId>,
-    /// What the names at the top of the file that is run mean, those of the prelude included; by name.
+    /// The names visible at the top of the file that is run with their meanings, the prelude's included, by
+    /// name.
     pub names: Vec<(Symbol, Meaning)>,
 }
 
 impl Checked {
+    /// Returns whether any diagnostic is an error.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(|d| d.is_error())
     }
 }
 
-/// Checks the file `root` with all that it imports. The program holds what could be understood;
-/// where something could not, there is an error node and a diagnostic.
+/// Checks the file `root` with all that it imports, both read from `files`. Never fails: the program holds
+/// what could be understood, and error nodes and diagnostics for the rest.
 pub fn check(files: &dyn Files, root: &str) -> Checked {
     check_loaded(load::load(files, root))
 }
 
-/// Checks the entries of a session with all that they import. All entries have one scope, in which a
-/// later declaration takes the place of an earlier one of its name, for the earlier entries too. The
-/// statements are those of the newest entry. No entry changes the identity of what those before it
-/// declare.
+/// Checks the entries of a session with all that they import. All entries have one scope, in which a later
+/// declaration replaces an earlier one of its name, for the earlier entries too. The statements are those
+/// of the newest entry. An entry never changes the identities of the declarations before it.
 pub fn check_session(files: &dyn Files, entries: &[Entry]) -> Checked {
     check_loaded(load::load_session(files, entries))
 }
@@ -78,7 +82,7 @@ fn check_loaded((loaded, sources, diagnostics): (load::Loaded, Sources, Vec<Diag
     for index in 0..checker.defs.len() {
         checker.check_def(typed::DefId(index as u32));
     }
-    // What earlier entries of a session name in their statements; what was wrong with those was said.
+    // The names used in statements of earlier entries; their mistakes have been reported.
     for file in (0..loaded.files.len()).filter(|file| loaded.files[*file].entry && loaded.root != Some(*file))
     {
         let known = checker.diagnostics.len();

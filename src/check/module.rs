@@ -14,6 +14,7 @@ use crate::units::Dimension;
 use std::collections::HashMap;
 
 impl<'a> Checker<'a> {
+    /// Checks a `connector`.
     pub(super) fn check_connector(&mut self, id: DefId, connector: &'a ast::Connector) -> DefKind {
         let mut scope = Scope::new(self.def(id).file, None);
         let mut def = ConnectorDef {
@@ -56,6 +57,7 @@ impl<'a> Checker<'a> {
         DefKind::Connector(def)
     }
 
+    /// Checks a value of `holds`: a force or a torque.
     fn holds(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> Option<Expr> {
         let got = self.expr(scope, e, None);
         match &got.ty {
@@ -68,7 +70,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The arguments of a hinge, in the order of the prelude's `revolute`.
+    /// Returns the arguments of a hinge, in the order of the prelude's `revolute`.
     fn args_like_revolute(
         &mut self,
         scope: &mut Scope,
@@ -80,6 +82,7 @@ impl<'a> Checker<'a> {
         self.arguments_of(scope, span, Symbol::new("hinge"), &signature, args)
     }
 
+    /// Returns a connector by its path; reports an unknown one.
     fn connector_named(&mut self, scope: &Scope, path: &[ast::Name]) -> Option<DefId> {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);
@@ -105,6 +108,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks a `module`.
     pub(super) fn check_module(&mut self, id: DefId, module: &'a ast::Module) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
@@ -147,6 +151,7 @@ impl<'a> Checker<'a> {
         DefKind::Module(def)
     }
 
+    /// Reports links of the same name.
     fn duplicate_links(&mut self, module: &'a ast::Module) {
         let mut seen: HashMap<Symbol, Span> = HashMap::new();
         for clause in &module.clauses {
@@ -160,6 +165,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks the kind of a joint.
     fn joint_kind(
         &mut self,
         scope: &mut Scope,
@@ -182,13 +188,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `joint b = -a`
+    /// Returns the linear combination of a clause `joint b = -a`.
     fn followed(&mut self, scope: &mut Scope, id: DefId, clause: &'a ModuleClauseKind) -> Linear {
         let ModuleClauseKind::Mimic { value, .. } = clause else { return Linear::new() };
         self.linear(scope, id, value).unwrap_or_default()
     }
 
-    /// The index of a link; 0 (and a diagnostic) when there is no such link.
+    /// Returns the index of a link; 0 (and a diagnostic) if there is no such link.
     fn link(&mut self, links: &[Symbol], name: &ast::Name) -> usize {
         if let Some(index) = links.iter().position(|l| *l == name.text) {
             return index;
@@ -206,12 +212,14 @@ impl<'a> Checker<'a> {
         0
     }
 
+    /// Checks a placement.
     fn placement(&mut self, scope: &mut Scope, p: &'a ast::Placement) -> Placement {
         let position = self.expect(scope, &p.position, &Type::vec3(Dimension::LENGTH), Role::Place("`at`"));
         let turned = p.turned.iter().filter_map(|args| self.turned(scope, p.span, args)).collect();
         Placement { position, turned, span: p.span }
     }
 
+    /// Checks one turn of a placement.
     fn turned(&mut self, scope: &mut Scope, span: Span, args: &'a [ast::Arg]) -> Option<(Expr, Expr)> {
         let [axis, angle] = args else {
             self.report(
@@ -235,6 +243,7 @@ impl<'a> Checker<'a> {
         Some((axis, angle))
     }
 
+    /// Checks a clause of a module.
     fn module_clause(
         &mut self,
         scope: &mut Scope,
@@ -282,7 +291,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The clauses that may stand in `if` and `for`.
+    /// Checks a clause that may be inside `if` and `for`.
     fn nested_clause(
         &mut self,
         scope: &mut Scope,
@@ -328,6 +337,7 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// Checks clauses in an inner scope.
     fn nested_clauses(
         &mut self,
         scope: &mut Scope,
@@ -341,6 +351,7 @@ impl<'a> Checker<'a> {
         out
     }
 
+    /// Checks a `port` clause.
     fn port_clause(
         &mut self,
         scope: &mut Scope,
@@ -372,6 +383,7 @@ impl<'a> Checker<'a> {
         })))
     }
 
+    /// Checks a `motor` clause.
     fn motor(
         &mut self,
         scope: &mut Scope,
@@ -412,7 +424,7 @@ impl<'a> Checker<'a> {
         Some(motor)
     }
 
-    /// `tilt + 2 * pan`: joints with their factors. Reports what is no such sum.
+    /// Returns a linear combination of joints, `tilt + 2 * pan`; reports other expressions.
     fn linear(&mut self, scope: &mut Scope, id: DefId, e: &'a ast::Expr) -> Option<Linear> {
         let one = |value: f64| expr_of(e.span, Type::NUMBER, ExprKind::Number(value));
         match &e.kind {
@@ -467,6 +479,7 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// Returns the product of two factors.
 fn times(factor: Expr, inner: Expr) -> Expr {
     let span = inner.span;
     let kind =
@@ -474,6 +487,7 @@ fn times(factor: Expr, inner: Expr) -> Expr {
     expr_of(span, Type::NUMBER, kind)
 }
 
+/// Returns the names of the links of a module.
 fn link_names(module: &ast::Module) -> Vec<Symbol> {
     let names = module.clauses.iter().filter_map(|c| match &c.kind {
         ModuleClauseKind::Link { name, .. } => Some(name.text),
@@ -482,7 +496,7 @@ fn link_names(module: &ast::Module) -> Vec<Symbol> {
     names.collect()
 }
 
-/// The entries of an index under another name than their own, in order of name.
+/// Returns the aliases in an index, by name: the entries whose key is not their own name.
 fn aliases(index: &HashMap<Symbol, usize>, own: impl Fn(usize) -> Symbol) -> Vec<(Symbol, usize)> {
     let mut out: Vec<(Symbol, usize)> =
         index.iter().map(|(n, i)| (*n, *i)).filter(|(n, i)| own(*i) != *n).collect();

@@ -11,6 +11,7 @@ use crate::units::is_unit;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
+    /// Checks a name used as a value.
     pub(super) fn name_expr(
         &mut self,
         scope: &mut Scope,
@@ -47,13 +48,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// In a session `_` is the last value, where it is not what may be missing.
+    /// Returns the declaration that `_` stands for in a session, unless an optional value is expected.
     pub(super) fn last_value(&self, scope: &Scope, want: Option<&Type>) -> Option<Symbol> {
         let may_miss = matches!(want, Some(Type::Optional(_)));
         self.loaded.files[scope.file].last.filter(|_| !may_miss)
     }
 
-    /// A `_`: the last value of a session, or what is left out where something may be.
+    /// Checks `_`: the last value of a session, or the missing value of an optional type.
     pub(super) fn hole(&mut self, scope: &mut Scope, span: Span, want: Option<&Type>) -> Expr {
         if let Some(name) = self.last_value(scope, want) {
             return self.name_expr(scope, span, name, want);
@@ -73,6 +74,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Reports an unknown name, with suggestions.
     pub(super) fn unknown_name(
         &mut self,
         scope: &Scope,
@@ -80,7 +82,7 @@ impl<'a> Checker<'a> {
         name: Symbol,
         want: Option<&Type>,
     ) -> Expr {
-        // Nobody knows what is wanted here, so it may be a word of a choice.
+        // The expected type is unknown, so the name may be a word of a choice.
         if want.is_some_and(Type::is_error) {
             return error_expr(span);
         }
@@ -117,7 +119,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// The file beside this one that declares a public name and is part of the program.
+    /// Returns the file of the same folder that declares a public name and is part of the program.
     fn declared_elsewhere(&self, file: usize, name: Symbol) -> Option<String> {
         let public = !name.as_str().starts_with('_');
         let own = |other: usize| match self.top(other).get(&name) {
@@ -128,14 +130,14 @@ impl<'a> Checker<'a> {
             let text = self.sources.file(self.loaded.files[file].ast.id);
             (!text.library).then(|| text.name.to_string())
         };
-        // What a file in another folder is called from here is not said.
+        // The path to a file in another folder is not suggested.
         let beside = |path: &String| path.ends_with(".mod") && !path.contains('/');
         let here = path(file).is_some_and(|path| !path.contains('/'));
         let mut others = (0..self.loaded.files.len()).filter(|&other| other != file && public && here);
         others.find_map(|other| own(other).then(|| path(other)).flatten().filter(beside))
     }
 
-    /// A declaration used as a value.
+    /// Returns a declaration used as a value.
     pub(super) fn def_value(&mut self, id: DefId, span: Span) -> Expr {
         match self.def(id).item {
             DefItem::Let(_) => {
@@ -169,7 +171,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A type name where an instance is wanted means its instance with all defaults.
+    /// Returns the instance with all defaults, for a type name where an instance is expected.
     pub(super) fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
         let signature = self.signature(id);
         let missing: Vec<String> = signature
@@ -192,7 +194,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Instance(id), ExprKind::Instance { def: id, args })
     }
 
-    /// Names of members, joints and ports of a declaration, for suggestions.
+    /// Returns the names of members, joints and ports of a declaration, for suggestions.
     pub(super) fn member_names(&mut self, id: DefId) -> Vec<&'static str> {
         let members = self.members(id);
         let list = members.list.iter().map(|m| m.name);
@@ -202,6 +204,7 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// Returns the choice of an expected type.
 pub(super) fn choice_of(want: &Type) -> Option<&super::types::Choice> {
     match want {
         Type::Optional(inner) => choice_of(inner),
@@ -210,10 +213,12 @@ pub(super) fn choice_of(want: &Type) -> Option<&super::types::Choice> {
     }
 }
 
+/// Returns whether a name is a word of the expected choice.
 pub(super) fn is_word(want: &Type, name: Symbol) -> bool {
     choice_of(want).is_some_and(|c| c.words.contains(&name))
 }
 
+/// Returns the choice of one word.
 pub(super) fn word_choice(name: Symbol) -> Arc<super::types::Choice> {
     Arc::new(super::types::Choice { words: vec![name], types: Vec::new() })
 }

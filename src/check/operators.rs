@@ -1,4 +1,4 @@
-//! Operators: which operands they take, and the dimension of what they give.
+//! Operators: the types of their operands, and the type of their result.
 
 use super::checker::{Checker, Scope};
 use super::expr::{Role, error_expr, expr_of};
@@ -10,6 +10,7 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
+    /// Checks a unary operator.
     pub(super) fn unary(
         &mut self,
         scope: &mut Scope,
@@ -47,6 +48,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks a binary operator.
     pub(super) fn binary(
         &mut self,
         scope: &mut Scope,
@@ -59,7 +61,7 @@ impl<'a> Checker<'a> {
         let side = self.wanted_of_operands(op, want);
         let left = self.expr(scope, left, side.as_ref());
         let right_want = match (op, &left.ty) {
-            // `p == auto`, `[] == xs`: the left side tells what the right one may be.
+            // In `p == auto` and `[] == xs` the left side determines the expected type of the right one.
             (BinaryOp::Eq | BinaryOp::Ne, ty) if !ty.is_error() => Some(left.ty.clone()),
             _ => side,
         };
@@ -81,8 +83,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// What the operands are wanted to be, where the operator tells: the sides of `a <-> b` are
-    /// ports, those of `a ++ b` and `a + b` what is wanted of the whole.
+    /// Returns the expected type of the operands, if the operator determines it: ports for `a <-> b`, the
+    /// expected type of the whole for `a ++ b` and `a + b`.
     fn wanted_of_operands(&self, op: BinaryOp, want: Option<&Type>) -> Option<Type> {
         match op {
             BinaryOp::Mated => Some(Type::Port),
@@ -93,6 +95,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns the result type of an operator; `None` if it does not apply.
     fn binary_type(&self, op: BinaryOp, a: &Type, b: &Type) -> Option<Type> {
         use BinaryOp as O;
         match op {
@@ -116,6 +119,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns the result type of a comparison: a Bool, or a condition for signals.
     fn order_type(&self, a: &Type, b: &Type) -> Option<Type> {
         match (a, b) {
             (Type::Signal(s), other) | (other, Type::Signal(s)) => {
@@ -126,6 +130,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns the result type of `a ++ b`.
     fn join_type(&self, a: &Type, b: &Type) -> Option<Type> {
         match (a, b) {
             (Type::Text, Type::Text) => Some(Type::Text),
@@ -139,6 +144,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns the result type of a sum or difference.
     fn sum_type(&self, a: &Type, b: &Type) -> Option<Type> {
         match (a, b) {
             (Type::Int, Type::Int) => Some(Type::Int),
@@ -150,7 +156,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `x^n`: the dimension of the result must be known, so `n` is written out unless `x` is plain.
+    /// Returns the type of `x^n`. The dimension of the result must be known, so `n` must be a literal
+    /// unless `x` is a plain number.
     fn power(&mut self, span: Span, left: Expr, right: Expr) -> Expr {
         let ty = match (&left.ty, &right.ty) {
             (Type::Int, Type::Int) => Some(if is_negative(&right) { Type::NUMBER } else { Type::Int }),
@@ -179,7 +186,7 @@ impl<'a> Checker<'a> {
         )
     }
 
-    /// A plain number that is written out, with the unit of what it stands beside.
+    /// Returns a plain literal with the unit of the other operand.
     fn with_unit(&self, number: &Expr, beside: &Expr) -> Option<String> {
         let (plain, needed) = (number.ty.dimension()?, beside.ty.dimension()?);
         let written = self.quoted(number.span)?;
@@ -187,7 +194,7 @@ impl<'a> Checker<'a> {
         if !literal || plain != Dimension::NUMBER || needed == Dimension::NUMBER {
             return None;
         }
-        // As the other one is written, if it is a number with a unit itself.
+        // In the unit of the other operand, if that is a literal with a unit.
         let other = self.quoted(beside.span).unwrap_or_default();
         let digits = other.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '_'));
         let same = digits.len() < other.len() && crate::units::is_unit(digits);
@@ -195,6 +202,7 @@ impl<'a> Checker<'a> {
         (!unit.is_empty()).then(|| format!("{written}{unit}"))
     }
 
+    /// Reports operands to which an operator does not apply.
     fn bad_operands(&mut self, op: BinaryOp, op_span: Span, left: &Expr, right: &Expr) {
         let (a, b) = (self.words(&left.ty), self.words(&right.ty));
         let sign = op_text(op);
@@ -226,10 +234,12 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// Returns whether values of a type can be compared for equality.
 fn comparable(ty: &Type) -> bool {
     !matches!(ty, Type::Fn(_) | Type::Behavior | Type::Condition | Type::Signal(_) | Type::Nothing)
 }
 
+/// Returns the type of a product.
 fn product_type(a: &Type, b: &Type) -> Option<Type> {
     match (a, b) {
         (Type::Int, Type::Int) => Some(Type::Int),
@@ -240,6 +250,7 @@ fn product_type(a: &Type, b: &Type) -> Option<Type> {
     }
 }
 
+/// Returns the type of a quotient.
 fn quotient_type(a: &Type, b: &Type) -> Option<Type> {
     match (a, b) {
         (Type::Vec3(v), s) => {
@@ -250,6 +261,7 @@ fn quotient_type(a: &Type, b: &Type) -> Option<Type> {
     }
 }
 
+/// Returns the value of an integer literal, negated ones included.
 fn literal(e: &Expr) -> Option<i32> {
     match &e.kind {
         ExprKind::Int(n) => i32::try_from(*n).ok(),
@@ -259,10 +271,12 @@ fn literal(e: &Expr) -> Option<i32> {
     }
 }
 
+/// Returns whether an expression is a negative literal.
 fn is_negative(e: &Expr) -> bool {
     literal(e).is_some_and(|n| n < 0)
 }
 
+/// Returns an operator as it is written.
 fn op_text(op: BinaryOp) -> &'static str {
     match op {
         BinaryOp::Or => "or",

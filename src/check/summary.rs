@@ -1,23 +1,27 @@
-//! Declarations as they are written, without their bodies: for people who look something up.
+//! Declarations as they are written, without their bodies, for documentation, hover and completion.
 
 use super::typed::{Def, DefId, DefKind, Member, MemberKind, Param, Program};
 use super::{Checked, Type};
 use crate::source::Symbol;
 use std::sync::Arc;
 
-/// What stands inside a declaration: how it is written, and what is said of it.
+/// A declaration inside a declaration, with its documentation.
 #[derive(Clone, Debug)]
 pub(crate) struct Inside {
+    /// The group under which it is listed.
     pub group: Group,
+    /// Its name.
     pub name: Symbol,
-    /// `bend: Joint<Angle>`, `walk(steps: Int = 4)`
+    /// Its text without the keyword: `bend: Joint<Angle>`, `walk(steps: Int = 4)`.
     pub head: String,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
 }
 
+/// The groups of what a declaration contains, in the order in which they are listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
-    /// What the signature says, too.
+    /// A parameter; the signature shows it, too.
     Parameter,
     Joint,
     Port,
@@ -29,7 +33,7 @@ pub(crate) enum Group {
 }
 
 impl Group {
-    /// The word of the language, or what a record has instead.
+    /// Returns the keyword of the language, or a plain word where it has none.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Group::Parameter => "parameter",
@@ -44,7 +48,7 @@ impl Group {
     }
 }
 
-/// As it is declared, without a body: `fn ramp(i: Int, n: Int = 4) -> Number`.
+/// Returns a declaration as it is written, without its body: `fn ramp(i: Int, n: Int = 4) -> Number`.
 pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
     let program = &checked.program;
     let def = program.def(id);
@@ -60,7 +64,7 @@ pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
     }
 }
 
-/// What a declaration declares: `module`, `config`, `fn`.
+/// Returns the keyword of a declaration: `module`, `config`, `fn`.
 pub(crate) fn word(kind: &DefKind) -> &'static str {
     match kind {
         DefKind::Let(_) => "let",
@@ -77,25 +81,26 @@ pub(crate) fn word(kind: &DefKind) -> &'static str {
     }
 }
 
+/// Returns the signature of a function.
 fn called(name: Symbol, params: &str, result: &str) -> String {
     let params = if params.is_empty() { "()" } else { params };
     format!("fn {name}{params} -> {result}")
 }
 
-/// `n: Int = 4`
+/// Returns a parameter with its default: `n: Int = 4`.
 fn with_default(checked: &Checked, param: &Param) -> String {
     let default = param.default.as_ref().map(|value| checked.sources.text(value.span));
     let default = default.map(|text| format!(" = {text}")).unwrap_or_default();
     format!("{}{default}", param_text(&checked.program, param))
 }
 
-/// `n: Int`
+/// Returns a parameter without its default: `n: Int`.
 pub(crate) fn param_text(program: &Program, param: &Param) -> String {
     let dots = if param.variadic { "..." } else { "" };
     format!("{}: {}{dots}", param.name, program.type_name(&param.ty))
 }
 
-/// Parameters of what a call of this declaration takes.
+/// Returns the parameters of a declaration that can be called; empty for others.
 pub(crate) fn params_of(program: &Program, id: DefId) -> &[Param] {
     match &program.def(id).kind {
         DefKind::Fn(function) => &function.params,
@@ -109,8 +114,8 @@ pub(crate) fn params_of(program: &Program, id: DefId) -> &[Param] {
     }
 }
 
-/// Parameters, joints, ports, parts, values, behaviours, fields and methods, in the order of the text.
-/// Private names are left out.
+/// Returns the parameters, joints, ports, parts, values, behaviours, fields and methods of a declaration,
+/// in the order of the text. Private names are left out.
 pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
     let program = &checked.program;
     let entry = |group, name: Symbol, head: String, doc: &Option<Arc<str>>| Inside {
@@ -125,7 +130,7 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
         let named = params.iter().map(|p| entry(Group::Parameter, p.name, with_default(checked, p), &None));
         named.collect()
     };
-    // Lets and ports of a body.
+    // The `let`s and ports of a body.
     let of_members = |members: &[Member]| -> Vec<Inside> {
         let named = members.iter().filter_map(|m| match m.kind {
             _ if m.name.as_str().starts_with('_') => None,

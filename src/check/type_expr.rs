@@ -1,4 +1,4 @@
-//! Types as they are written, and when one type may stand for another.
+//! Types as they are written, and the subtype relation.
 
 use super::checker::{Bound, Checker, DefItem, Entity, Scope};
 use super::typed::DefId;
@@ -10,7 +10,7 @@ use crate::syntax::ast::{self, TypeKind};
 use crate::units::{self, Dimension, dimension};
 use std::sync::Arc;
 
-/// Built-in type names without arguments, the named dimensions apart.
+/// The built-in type names without arguments, named dimensions apart.
 const PLAIN: &[(&str, Type)] = &[
     ("Any", Type::Any),
     ("Int", Type::Int),
@@ -34,9 +34,11 @@ const PLAIN: &[(&str, Type)] = &[
     ("Truss", Type::AnyOf(Family::Truss)),
 ];
 
+/// The built-in type names with an argument.
 const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
 
 impl<'a> Checker<'a> {
+    /// Checks a type as written.
     pub(super) fn type_expr(&mut self, scope: &Scope, ty: &ast::TypeExpr) -> Type {
         match &ty.kind {
             TypeKind::Error => Type::Error,
@@ -52,6 +54,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Checks a choice.
     fn choice_type(&mut self, scope: &Scope, alternatives: &[ast::TypeExpr]) -> Type {
         let mut choice = Choice { words: Vec::new(), types: Vec::new() };
         for alternative in alternatives {
@@ -63,7 +66,7 @@ impl<'a> Checker<'a> {
         Type::Choice(Arc::new(choice))
     }
 
-    /// A bare name in a choice that names no type is a word of it.
+    /// Returns a bare name in a choice that names no type: a word of the choice.
     fn choice_word(&self, scope: &Scope, ty: &ast::TypeExpr) -> Option<Symbol> {
         let TypeKind::Named { path, args } = &ty.kind else { return None };
         let [name] = path.as_slice() else { return None };
@@ -75,10 +78,12 @@ impl<'a> Checker<'a> {
         (args.is_empty() && !known).then_some(name.text)
     }
 
+    /// Returns whether a declaration is a type.
     fn is_type(&self, id: DefId) -> bool {
         self.family(id).is_some() || matches!(self.def(id).item, DefItem::Record(_))
     }
 
+    /// Checks a quantity type `Quantity<m/s>`, or one of a dimension parameter.
     fn quantity_type(&mut self, scope: &Scope, unit: &ast::UnitExpr) -> Type {
         if let [(name, power)] = unit.factors.as_slice()
             && let Some(param) = scope.type_params.iter().position(|p| p.name == name.text)
@@ -91,7 +96,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Dimension and factor to SI of a unit as written; reports a name that is no unit.
+    /// Returns the dimension of a unit and its factors to SI; reports an unknown unit.
     pub(super) fn unit(&mut self, unit: &ast::UnitExpr) -> Option<(Dimension, Vec<(f64, i32)>)> {
         let mut dimension = Dimension::NUMBER;
         let mut factors = Vec::new();
@@ -113,6 +118,7 @@ impl<'a> Checker<'a> {
         Some((dimension, factors))
     }
 
+    /// Reports an unknown unit.
     fn unknown_unit(&mut self, name: &ast::Name) {
         let names = units::table::UNITS.iter().map(|u| u.name);
         let mut diagnostic = Diagnostic::error(code::UNKNOWN_UNIT, format!("`{}` is no unit", name.text))
@@ -128,6 +134,7 @@ impl<'a> Checker<'a> {
         );
     }
 
+    /// Checks a type name without arguments.
     fn plain_type(&mut self, scope: &Scope, path: &[ast::Name]) -> Type {
         if let [name] = path {
             if let Some(index) = scope.type_params.iter().position(|p| p.name == name.text) {
@@ -155,6 +162,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Reports a path that is no type.
     fn no_type(&mut self, scope: &Scope, path: &[ast::Name], why: &str) -> Type {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);
@@ -176,7 +184,7 @@ impl<'a> Checker<'a> {
         Type::Error
     }
 
-    /// What a dotted path means at the top of a file; `None`: no such thing (not reported).
+    /// Returns the entity of a dotted path at the top of a file; `None` if there is none (not reported).
     pub(super) fn path_entity(&self, file: usize, path: &[ast::Name]) -> Option<Entity> {
         let mut entity = self.named_entity(file, path[0].text, path[0].span)?;
         for name in &path[1..] {
@@ -196,6 +204,7 @@ impl<'a> Checker<'a> {
         Some(entity)
     }
 
+    /// Checks a type name with arguments.
     fn generic_type(&mut self, scope: &Scope, path: &[ast::Name], args: &[ast::TypeExpr]) -> Type {
         let name = path[path.len() - 1];
         let known = path.len() == 1 && WITH_ARGUMENT.contains(&name.text.as_str());
@@ -228,7 +237,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a value of type `got` may stand where `want` is wanted (perhaps dropping radians).
+    /// Returns whether a value of type `got` may be used where `want` is expected, radians dropped.
     pub(super) fn fits(&self, got: &Type, want: &Type) -> bool {
         match (got, want) {
             (Type::Error, _) | (_, Type::Error) => true,
@@ -259,7 +268,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A record and those that it *is a*, nearest first: `Folding`, `Plan`.
+    /// Returns a record and those it extends, nearest first: `Folding`, `Plan`.
     pub(super) fn record_line(&self, id: DefId) -> Vec<DefId> {
         let mut line = vec![id];
         let mut last = id;
@@ -273,7 +282,7 @@ impl<'a> Checker<'a> {
         line
     }
 
-    /// The type that two values have in common, as in the elements of a list.
+    /// Returns the least common supertype of two values, as for the elements of a list.
     pub(super) fn join(&self, a: &Type, b: &Type) -> Option<Type> {
         if a.is_error() || b.is_error() {
             return Some(if a.is_error() { b.clone() } else { a.clone() });
@@ -303,6 +312,7 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Returns the family of an instance type or supertype.
     fn family_of(&self, ty: &Type) -> Option<Family> {
         match ty {
             Type::Instance(id) => self.family(*id),
@@ -312,7 +322,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// A module is the smallest configuration.
+/// Returns whether instances of a family belong to another: a module is the smallest configuration.
 fn is_a(family: Family, wanted: Family) -> bool {
     family == wanted || (family == Family::Module && wanted == Family::Config)
 }

@@ -1,9 +1,9 @@
-//! The typed tree: what `check` hands to `interpret`. Declarations stand here, what is in them in
-//! `typed_expr`.
+//! The typed tree, the result of `check` and the input of `interpret`. This file holds declarations,
+//! `typed_expr` statements and expressions.
 //!
-//! Names are resolved, arguments are in the order of the parameters, quantities are in SI, type
-//! names that stand for instances are instantiations. An `Error` node marks what has been reported;
-//! the interpreter gives it an unknown value and stays silent about what follows from it.
+//! Names are resolved, arguments are in the order of the parameters, quantities are in SI, and type names
+//! used as instances are instantiations. An `Error` node marks what has been reported: the interpreter
+//! evaluates it to an unknown value and reports nothing that follows from it.
 
 use super::types::Type;
 use crate::source::{FileId, Span, Symbol};
@@ -12,144 +12,195 @@ use std::sync::Arc;
 
 pub use super::typed_expr::*;
 
-/// A declaration of the program, an index into [`Program::defs`].
+/// The identity of a declaration: an index into [`Program::defs`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DefId(pub u32);
 
-/// A variable of the body at hand: a slot of its frame.
+/// A local variable: a slot of the frame of its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Local(pub u32);
 
-/// A member of a declaration with a body, an index into its `members`.
+/// A member of a declaration with instances: an index into its `members`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MemberId(pub u32);
 
+/// A checked program.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
+    /// All declarations, by [`DefId`], those of imported files and the standard library included.
     pub defs: Vec<Def>,
-    /// The statements and tests of the file that is run.
+    /// The statements of the file that is run.
     pub statements: Body,
+    /// The tests of the file that is run.
     pub tests: Vec<Test>,
-    /// Declarations of the project's own files, in order: what `modl check` elaborates.
+    /// The declarations of the project's own files, in order; `modl check` elaborates them.
     pub own: Vec<DefId>,
 }
 
 impl Program {
+    /// Returns a declaration. Panics if the identity is of another program.
     pub fn def(&self, id: DefId) -> &Def {
         &self.defs[id.0 as usize]
     }
 }
 
+/// A declaration.
 #[derive(Clone, Debug)]
 pub struct Def {
+    /// Its name.
     pub name: Symbol,
-    /// Of the name.
+    /// The span of the name.
     pub span: Span,
-    /// Of the whole declaration.
+    /// The span of the whole declaration.
     pub whole: Span,
+    /// The file that it is in.
     pub file: FileId,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// Its typed body.
     pub kind: DefKind,
 }
 
+/// The typed body of a declaration, by its keyword.
 #[derive(Clone, Debug)]
 pub enum DefKind {
+    /// `let`
     Let(LetDef),
+    /// `fn`
     Fn(FnDef),
+    /// `extern fn`
     Native(NativeDef),
+    /// `extern type`
     Record(RecordDef),
+    /// `connector`
     Connector(ConnectorDef),
+    /// `module`
     Module(ModuleDef),
+    /// `cell`
     Cell(FactsDef),
+    /// `strut`
     Strut(FactsDef),
+    /// `config`
     Config(ConfigDef),
+    /// `lattice`
     Lattice(LatticeDef),
+    /// `truss`
     Truss(TrussDef),
-    /// A declaration that could not be understood.
+    /// A declaration that could not be understood, or a vacant one.
     Error,
 }
 
+/// A top-level `let`.
 #[derive(Clone, Debug)]
 pub struct LetDef {
+    /// The declared or inferred type.
     pub ty: Type,
+    /// The value.
     pub value: Expr,
-    /// Slots that evaluating the value needs.
+    /// The number of slots of the frame in which the value is evaluated.
     pub frame: usize,
 }
 
-/// Parameters are the first locals of the body, in order.
+/// A `fn`. Its parameters are the first locals of the body, in order.
 #[derive(Clone, Debug)]
 pub struct FnDef {
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The declared or inferred type of the result.
     pub result: Type,
+    /// The body.
     pub body: Expr,
+    /// The number of slots of its frame.
     pub frame: usize,
 }
 
-/// `extern fn`: Rust supplies the body. A method of an `extern type` takes its object first.
+/// An `extern fn`, whose body is in Rust. A method of an `extern type` takes its object as first parameter.
 #[derive(Clone, Debug)]
 pub struct NativeDef {
-    /// The name under which Rust supplies the body: `move`, or `Plan.at` for a method.
+    /// The key of the Rust body: `move`, or `Plan.at` for a method.
     pub key: Symbol,
+    /// The parameters, those of a method behind its object.
     pub params: Vec<Param>,
+    /// The type of the result.
     pub result: Type,
-    /// Names of the type parameters, for messages.
+    /// The names of the type parameters, for messages.
     pub type_params: Vec<Symbol>,
-    /// Slots that evaluating the defaults needs.
+    /// The number of slots of the frame in which defaults are evaluated.
     pub frame: usize,
 }
 
+/// A parameter.
 #[derive(Clone, Debug)]
 pub struct Param {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// Its type.
     pub ty: Type,
-    /// Evaluated in the frame of the callee, after the parameters before it.
+    /// The default value, evaluated in the frame of the callee after the parameters before it.
     pub default: Option<Expr>,
-    /// Takes all remaining positional arguments as one list.
+    /// True if it takes all remaining positional arguments as one list.
     pub variadic: bool,
 }
 
+/// An `extern type`.
 #[derive(Clone, Debug)]
 pub struct RecordDef {
-    /// A `Folding` is a `Plan`.
+    /// The record that this one extends: a `Folding` is a `Plan`.
     pub is: Option<DefId>,
+    /// Its own fields; inherited ones are in the record it extends.
     pub fields: Vec<RecordField>,
-    /// Natives whose first parameter is the record.
+    /// The natives whose first parameter is the record.
     pub methods: Vec<DefId>,
 }
 
+/// A field of a record.
 #[derive(Clone, Debug)]
 pub struct RecordField {
+    /// Its name.
     pub name: Symbol,
+    /// Its type.
     pub ty: Type,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
 }
 
+/// A `connector`.
 #[derive(Clone, Debug)]
 pub struct ConnectorDef {
+    /// The connectors that mate with it, with the spans of their names.
     pub mates: Vec<(DefId, Span)>,
+    /// The turns at which it mates: a list of angles; `None` if the clause is missing.
     pub turns: Option<Expr>,
-    /// Forces and torques, told apart by their type.
+    /// The greatest forces and torques that it holds; the type of an expression tells which.
     pub holds: Vec<Expr>,
+    /// The tolerances of docking: distance and angle.
     pub capture: Option<(Expr, Option<Expr>)>,
-    /// Arguments of `hinge`, in the order of the parameters of the prelude's `revolute`.
+    /// The span of `hinge`, and its arguments in the order of the parameters of the prelude's `revolute`.
     pub hinge: Option<(Span, Vec<Option<Expr>>)>,
+    /// The number of slots of its frame.
     pub frame: usize,
 }
 
-/// What can be reached by a name inside a body with instances. The expressions of members and of
-/// parameters' defaults each run in a fresh frame of the declaration's `frame` slots, clauses
-/// together in one; `This` is the instance at hand in all of them, and from outside by `object.name`.
+/// A named member of a declaration with instances. The expressions of members and of parameters' defaults
+/// each run in a fresh frame of the declaration's `frame` slots, all clauses together in one frame. `This`
+/// is the current instance in all of them; from outside a member is `object.name`.
 #[derive(Clone, Debug)]
 pub struct Member {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// Its type.
     pub ty: Type,
+    /// Its kind, with the expression that gives its value.
     pub kind: MemberKind,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
 }
 
+/// The kinds of members.
 #[derive(Clone, Debug)]
 pub enum MemberKind {
     /// The parameter at this index.
@@ -166,189 +217,285 @@ pub enum MemberKind {
     Node,
 }
 
+/// A `module`.
 #[derive(Clone, Debug)]
 pub struct ModuleDef {
+    /// The parameters.
     pub params: Vec<Param>,
-    /// Parameters and lets.
+    /// The parameters and `let`s.
     pub members: Vec<Member>,
+    /// `mass`: a mass.
     pub mass: Option<Expr>,
+    /// `touch`: the depth beyond which penetration is a collision, a length.
     pub touch: Option<Expr>,
+    /// `contact`: the gap up to which links touch the ground, a length.
     pub contact: Option<Expr>,
+    /// The links, in order.
     pub links: Vec<LinkDef>,
+    /// The joints, in order.
     pub joints: Vec<JointDef>,
-    /// Names of ports; an array is one entry.
+    /// The names of ports; an array is one entry.
     pub ports: Vec<PortGroup>,
+    /// The motors, in order.
     pub motors: Vec<MotorDef>,
-    /// `let`, `require`, `port`, `touching` and loops over them, in order.
+    /// The clauses `let`, `require`, `port` and `touching`, and conditions and loops over them, in order.
     pub clauses: Vec<ModuleClause>,
-    /// Other names: (name, index in `joints`) and (name, index in `ports`).
+    /// Aliases of joints as (name, index in `joints`), by name.
     pub joint_aliases: Vec<(Symbol, usize)>,
+    /// Aliases of ports as (name, index in `ports`), by name.
     pub port_aliases: Vec<(Symbol, usize)>,
+    /// The number of slots of its frame.
     pub frame: usize,
 }
 
+/// A `link` of a module.
 #[derive(Clone, Debug)]
 pub struct LinkDef {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// The shape that is drawn, and that collides unless `collides` is given.
     pub shape: Expr,
+    /// The shape for collisions, if it is another.
     pub collides: Option<Expr>,
+    /// The pose of the shape in the module's frame.
     pub at: Option<Placement>,
 }
 
+/// A `joint` of a module.
 #[derive(Clone, Debug)]
 pub struct JointDef {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
-    /// Angle for revolute, length for prismatic; a number for fixed.
+    /// The dimension of its position: angle for a revolute joint, length for a prismatic one, number for a
+    /// fixed one.
     pub dimension: Dimension,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// A joint between links, or a coordinate.
     pub kind: JointDefKind,
 }
 
+/// The kinds of joints of a module.
 #[derive(Clone, Debug)]
 pub enum JointDefKind {
+    /// A joint between two links.
     Declared(Box<JointBetween>),
-    /// Moves no link: another coordinate of those that it follows.
+    /// A coordinate that moves no link: a linear combination of other joints (`joint b = -a`).
     Mimic(Linear),
 }
 
 /// A joint between two links.
 #[derive(Clone, Debug)]
 pub struct JointBetween {
-    /// Indices of `links`.
+    /// The parent link, an index into `links`.
     pub parent: usize,
+    /// The child link, an index into `links`.
     pub child: usize,
+    /// The kind of joint: a value of type `JointKind`.
     pub kind: Expr,
+    /// The pose of the joint in the parent's frame.
     pub at: Option<Placement>,
-    /// What a clause of its own says of a joint that follows others.
+    /// The linear combination of joints that it follows, from a clause of its own.
     pub follows: Option<Linear>,
 }
 
-/// A sum of joints, each times a factor.
+/// A linear combination: a sum of joints (indices into `joints`), each times a factor.
 pub type Linear = Vec<(usize, Expr)>;
 
+/// A port of a module, or an array of ports.
 #[derive(Clone, Debug)]
 pub struct PortGroup {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// True for an array.
     pub array: bool,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
 }
 
+/// A `motor` of a module.
 #[derive(Clone, Debug)]
 pub struct MotorDef {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// The joints that it drives (indices into `joints`), each with its transmission factor.
     pub joints: Vec<(usize, Expr)>,
+    /// The greatest speed.
     pub max_speed: Option<Expr>,
+    /// The greatest acceleration.
     pub max_accel: Option<Expr>,
+    /// The greatest torque or force.
     pub max_torque: Option<Expr>,
 }
 
-/// `at [x, y, z] turned(Z, 90deg)`: turns apply in order, each in the frame turned so far.
+/// A pose: `at [x, y, z] turned(Z, 90deg)`. Turns apply in order, each in the frame turned so far.
 #[derive(Clone, Debug)]
 pub struct Placement {
+    /// The position: a vector of lengths.
     pub position: Expr,
-    /// Axis and angle.
+    /// The turns as (axis, angle).
     pub turned: Vec<(Expr, Expr)>,
+    /// The span of the clause.
     pub span: Span,
 }
 
+/// A clause of a module that depends on values.
 #[derive(Clone, Debug)]
 pub enum ModuleClause {
+    /// A port, or one element of a port array.
     Port(Box<PortClause>),
+    /// Two links (indices into `links`) that may touch, and the span of the clause.
     Touching(usize, usize, Span),
-    Let { local: Local, value: Expr },
+    Let {
+        local: Local,
+        value: Expr,
+    },
     Require(Require),
-    If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
-    For { binder: Local, iterable: Expr, body: Vec<ModuleClause> },
+    If {
+        condition: Expr,
+        then: Vec<ModuleClause>,
+        otherwise: Vec<ModuleClause>,
+    },
+    For {
+        binder: Local,
+        iterable: Expr,
+        body: Vec<ModuleClause>,
+    },
 }
 
 /// A port, or one element of a port array.
 #[derive(Clone, Debug)]
 pub struct PortClause {
-    /// Index in [`ModuleDef::ports`].
+    /// The index of its name in [`ModuleDef::ports`].
     pub group: usize,
+    /// Its index in an array.
     pub index: Option<Expr>,
+    /// The connector at the port.
     pub connector: DefId,
+    /// The link that carries it, an index into `links`.
     pub link: usize,
+    /// The pose of the port in the link's frame.
     pub at: Option<Placement>,
+    /// The direction of its outward normal.
     pub facing: Expr,
+    /// The direction from which turns are counted.
     pub up: Option<Expr>,
+    /// The span of the clause.
     pub span: Span,
 }
 
+/// A `require` clause.
 #[derive(Clone, Debug)]
 pub struct Require {
+    /// The span of the clause.
     pub span: Span,
+    /// The condition that must hold.
     pub condition: Expr,
+    /// The message if it does not.
     pub message: Option<Expr>,
 }
 
-/// The body of a `cell` or a `strut`: the facts that its family asks for, in this order.
-/// cell: size, shrinks_to, mass, max_force, max_speed.
-/// strut: length (a range), max_speed, max_force, mass, clearance.
+/// The body of a `cell` or a `strut`.
 #[derive(Clone, Debug)]
 pub struct FactsDef {
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The parameters and `let`s.
     pub members: Vec<Member>,
+    /// The facts of the family, in this order, `None` where one is missing. cell: size, shrinks_to,
+    /// mass, max_force, max_speed. strut: length (a range), max_speed, max_force, mass, clearance.
     pub facts: Vec<Option<Expr>>,
+    /// The number of slots of its frame.
     pub frame: usize,
 }
 
+/// A `config`.
 #[derive(Clone, Debug)]
 pub struct ConfigDef {
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The span of the word `closed`, if connections may close loops.
     pub closed: Option<Span>,
+    /// The parameters, `let`s, parts, ports and behaviours by name.
     pub members: Vec<Member>,
+    /// The parts, in order.
     pub parts: Vec<PartDef>,
+    /// The behaviours, in order.
     pub behaviors: Vec<BehaviorDef>,
-    /// In order.
+    /// The other clauses, in order.
     pub clauses: Vec<ConfigClause>,
-    /// An instance of a module or configuration, or one of its parts.
+    /// The base: an instance of a module or configuration, or one of its parts.
     pub base: Option<Expr>,
-    /// Slots of the body outside behaviours (loop variables, nested lets); parameters are members.
+    /// The number of slots of the body outside of behaviours: loop variables and nested `let`s. Parameters
+    /// are members.
     pub frame: usize,
 }
 
+/// A `part` of a configuration.
 #[derive(Clone, Debug)]
 pub struct PartDef {
+    /// The member that it is.
     pub member: MemberId,
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// The module or configuration of which it is an instance.
     pub of: DefId,
+    /// The number of parts, for a list of parts.
     pub count: Option<PartCount>,
-    /// In the order of the parameters of `of`.
+    /// The arguments, in the order of the parameters of `of`.
     pub args: Vec<Option<Expr>>,
-    /// Of the type and its arguments.
+    /// The span of the type and its arguments.
     pub ty_span: Span,
 }
 
+/// The length of a list of parts.
 #[derive(Clone, Debug)]
 pub enum PartCount {
+    /// `part m[n]: ...`
     Number(Expr),
+    /// `part m[i in range]: ...`
     Each { binder: Local, range: Expr },
 }
 
-/// Parameters are the first locals of the body.
+/// A `behavior` of a configuration. Its parameters are the first locals of the body.
 #[derive(Clone, Debug)]
 pub struct BehaviorDef {
+    /// Its name.
     pub name: Symbol,
+    /// The span of the name.
     pub span: Span,
+    /// The text of its doc comment.
     pub doc: Option<Arc<str>>,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The exemptions from verification.
     pub allows: Vec<Exemption>,
+    /// The body.
     pub body: Expr,
+    /// The number of slots of its frame.
     pub frame: usize,
 }
 
+/// An `allow` clause of a behaviour: a check of the judge that may fail.
 #[derive(Clone, Debug)]
 pub struct Exemption {
+    /// The check, with what it is restricted to.
     pub kind: ExemptionKind,
+    /// The span of the clause.
     pub span: Span,
 }
 
+/// The kinds of exemptions.
 #[derive(Clone, Debug)]
 pub enum ExemptionKind {
     Unstable,
@@ -359,6 +506,7 @@ pub enum ExemptionKind {
     Overload(Option<Expr>),
 }
 
+/// A clause of a configuration that depends on values.
 #[derive(Clone, Debug)]
 pub enum ConfigClause {
     Connect { a: Expr, b: Expr, turn: Option<Expr>, span: Span },
@@ -369,32 +517,46 @@ pub enum ConfigClause {
     For { binder: Local, iterable: Expr, body: Vec<ConfigClause> },
 }
 
+/// A `lattice`.
 #[derive(Clone, Debug)]
 pub struct LatticeDef {
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The parameters and `let`s.
     pub members: Vec<Member>,
+    /// The cell that it is made of.
     pub of: DefId,
-    /// Of type `Cells`.
+    /// The cells: an expression of type `Cells`.
     pub value: Expr,
+    /// The number of slots of its frame.
     pub frame: usize,
 }
 
+/// A `truss`.
 #[derive(Clone, Debug)]
 pub struct TrussDef {
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The parameters, `let`s and nodes.
     pub members: Vec<Member>,
+    /// The strut that it is made of.
     pub of: DefId,
+    /// Its nodes and struts.
     pub body: TrussBody,
+    /// The number of slots of its frame.
     pub frame: usize,
 }
 
+/// The nodes and struts of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussBody {
-    /// Of the prelude's record `Frame`: nodes and struts.
+    /// A value of the prelude's record `Frame`.
     Value(Box<Expr>),
+    /// Clauses that name nodes and struts.
     Clauses(Vec<TrussClause>),
 }
 
+/// A clause of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussClause {
     /// `name` is the member's; `index` its place in an array of nodes.
@@ -427,9 +589,13 @@ pub enum TrussClause {
     },
 }
 
+/// A reference to a node: a member, with its index in an array of nodes.
 #[derive(Clone, Debug)]
 pub struct NodeRef {
+    /// The member.
     pub member: MemberId,
+    /// The index in an array.
     pub index: Option<Expr>,
+    /// The span of the reference.
     pub span: Span,
 }

@@ -7,26 +7,36 @@ use std::sync::Arc;
 
 pub use crate::syntax::ast::{BinaryOp, UnaryOp};
 
-/// Statements with the frame that they run in.
+/// Statements with the frame in which they run.
 #[derive(Clone, Debug, Default)]
 pub struct Body {
+    /// The statements, in order.
     pub statements: Vec<Stmt>,
+    /// The number of slots of the frame.
     pub frame: usize,
 }
 
+/// A `test` of the file that is run.
 #[derive(Clone, Debug)]
 pub struct Test {
+    /// Its name.
     pub name: String,
+    /// The span of the name.
     pub span: Span,
+    /// Its statements.
     pub body: Body,
 }
 
+/// A statement.
 #[derive(Clone, Debug)]
 pub struct Stmt {
+    /// The span of the statement.
     pub span: Span,
+    /// Its kind.
     pub kind: StmtKind,
 }
 
+/// The kinds of statements.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
     Let { local: Local, value: Expr },
@@ -36,13 +46,18 @@ pub enum StmtKind {
     For { binder: Local, iterable: Expr, body: Vec<Stmt> },
 }
 
+/// An expression with its type.
 #[derive(Clone, Debug)]
 pub struct Expr {
+    /// The span of the expression.
     pub span: Span,
+    /// Its type, fully resolved; [`Type::Error`] after a mistake.
     pub ty: Type,
+    /// Its kind.
     pub kind: ExprKind,
 }
 
+/// The kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     Error,
@@ -169,6 +184,7 @@ pub enum ExprKind {
     },
 }
 
+/// A clause of a comprehension.
 #[derive(Clone, Debug)]
 pub enum Clause {
     For { binder: Local, iterable: Expr },

@@ -1,12 +1,12 @@
-//! The types of the language.
+//! Types of the language, as the checker and messages use them.
 
 use super::typed::DefId;
 use crate::source::Symbol;
 use crate::units::Dimension;
 use std::sync::Arc;
 
-/// What an expression is. Nothing is typed at run time: only choices and optional values are told
-/// apart there.
+/// The type of an expression. Types are erased at run time: only choices and optional values are told apart
+/// there.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Type {
     /// Something that was wrong and has been reported; it fits everywhere.
@@ -57,6 +57,7 @@ pub enum Type {
     },
 }
 
+/// A family of declarations with instances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     Module,
@@ -67,26 +68,34 @@ pub enum Family {
     Truss,
 }
 
+/// The type of a function value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FnType {
+    /// The types of the parameters, in order.
     pub params: Vec<Type>,
+    /// The type of the result.
     pub result: Type,
 }
 
-/// `exact | enumerate`, `auto | Int`, `Mesh | Cloud`: words, types, or both.
+/// A choice: `exact | enumerate`, `auto | Int`, `Mesh | Cloud`: words, types, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
+    /// The words, in the order as written.
     pub words: Vec<Symbol>,
+    /// The types, in the order as written.
     pub types: Vec<Type>,
 }
 
 impl Type {
+    /// The type `Number`: the quantity without dimension.
     pub const NUMBER: Type = Type::Quantity(Dimension::NUMBER);
 
+    /// Returns the type `List<element>`.
     pub fn list(element: Type) -> Type {
         Type::List(Arc::new(element))
     }
 
+    /// Returns the optional type of `inner`; an optional or erroneous type stays itself.
     pub fn optional(inner: Type) -> Type {
         match inner {
             Type::Optional(_) | Type::Error => inner,
@@ -94,15 +103,17 @@ impl Type {
         }
     }
 
+    /// Returns the type of vectors of three quantities.
     pub fn vec3(dimension: Dimension) -> Type {
         Type::Vec3(Arc::new(Type::Quantity(dimension)))
     }
 
+    /// Returns the type of joints with positions of this dimension.
     pub fn joint(dimension: Dimension) -> Type {
         Type::Joint(Arc::new(Type::Quantity(dimension)))
     }
 
-    /// The dimension of a number: `Int` and quantities.
+    /// Returns the dimension of an `Int` or a quantity; `None` for other types.
     pub fn dimension(&self) -> Option<Dimension> {
         match self {
             Type::Quantity(d) => Some(*d),
@@ -111,6 +122,7 @@ impl Type {
         }
     }
 
+    /// Returns whether the type stands for a reported mistake.
     pub fn is_error(&self) -> bool {
         *self == Type::Error
     }
