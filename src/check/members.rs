@@ -284,7 +284,6 @@ impl<'a> Checker<'a> {
             };
         }
         // `m.left.joint` and `m.left.port` choose between the two name spaces.
-        /// `m.left.joint` and `m.left.port` choose between joint and port.
         let chosen = match field.text.as_str() {
             "joint" => Some(Type::joint(Dimension::ANGLE)),
             "port" => Some(Type::Port),

@@ -1,40 +1,51 @@
-//! The tree of one file. Every node carries its span; comments stand beside the tree, by position.
+//! The syntax tree of one file. Every node carries its span; comments are kept beside the tree, by
+//! position.
 //!
-//! The tree keeps what was written: names are not resolved, units not looked up, numbers not scaled.
-//! Where a piece of text could not be parsed there is an `Error` node, which later rooms pass over
-//! in silence (the parser has already said what is wrong).
+//! The tree holds what was written: names are not resolved, units not looked up, numbers not scaled. A
+//! piece of text that could not be parsed is an `Error` node, about which later rooms report nothing (the
+//! parser has).
 
 use crate::source::{FileId, Span, Symbol};
 
-/// A name where it stands.
+/// A name with its span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Name {
+    /// The name.
     pub text: Symbol,
+    /// Its span.
     pub span: Span,
 }
 
-/// One parsed file.
+/// The tree of one file.
 #[derive(Clone, Debug)]
 pub struct File {
+    /// The identity of the file.
     pub id: FileId,
-    /// Text of the `//!` lines, without the marks.
+    /// The text of the `//!` lines, without the marks.
     pub doc: Option<String>,
+    /// The items, in order.
     pub items: Vec<Item>,
     /// All comments, documentation included, in order of position.
     pub comments: Vec<Comment>,
-    /// Names that pieces would have declared which could not be read: that they are unknown is no news.
+    /// The names that unreadable pieces would have declared; they are not reported as unknown.
     pub unread: Vec<Symbol>,
 }
 
+/// A comment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comment {
+    /// Its span, marks included.
     pub span: Span,
+    /// Its kind.
     pub kind: CommentKind,
 }
 
+/// The kinds of comments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommentKind {
+    /// `//`
     Line,
+    /// `/* */`
     Block,
     /// `///`
     ItemDoc,
@@ -42,14 +53,18 @@ pub enum CommentKind {
     FileDoc,
 }
 
+/// An item with its documentation.
 #[derive(Clone, Debug)]
 pub struct Item {
+    /// Its span.
     pub span: Span,
-    /// Text of the `///` lines before the item, without the marks.
+    /// The text of the `///` lines before the item, without the marks.
     pub doc: Option<String>,
+    /// Its kind.
     pub kind: ItemKind,
 }
 
+/// The kinds of items.
 #[derive(Clone, Debug)]
 pub enum ItemKind {
     Use(Use),
@@ -65,19 +80,24 @@ pub enum ItemKind {
     Lattice(Lattice),
     Truss(Truss),
     Test(Test),
+    /// A statement at the top of the file.
     Statement(Stmt),
+    /// An item that could not be parsed.
     Error,
 }
 
-/// `use std.smores.{Smores, Chain3 as Chain}`, `use "parts/claw.mod".{Claw}`, `use std.gaits`.
+/// An import: `use std.smores.{Smores, Chain3 as Chain}`, `use "parts/claw.mod".{Claw}`, `use std.gaits`.
 #[derive(Clone, Debug)]
 pub struct Use {
+    /// The file, or the path that names it.
     pub source: UseSource,
-    /// `None`: a bare `use std.gaits`, which names the last word of the path: a file, or an item of
-    /// the file that the path before it names. `use "claw.mod"` without names is refused by `check`.
+    /// The imported names. `None`: a bare `use std.gaits`, which imports the last word of the path: a file,
+    /// or an item of the file that the path before it names. `check` refuses `use "claw.mod"` without
+    /// names.
     pub names: Option<Vec<UseName>>,
 }
 
+/// The source of an import.
 #[derive(Clone, Debug)]
 pub enum UseSource {
     /// `std.smores`
@@ -86,77 +106,111 @@ pub enum UseSource {
     File { path: String, span: Span },
 }
 
+/// One imported name.
 #[derive(Clone, Debug)]
 pub struct UseName {
+    /// The name in the imported file.
     pub name: Name,
+    /// The name behind `as`.
     pub rename: Option<Name>,
 }
 
+/// `let name: type = value`
 #[derive(Clone, Debug)]
 pub struct Let {
+    /// Its name.
     pub name: Name,
+    /// The declared type.
     pub ty: Option<TypeExpr>,
+    /// The value.
     pub value: Expr,
 }
 
+/// `fn name(params) -> result = body`
 #[derive(Clone, Debug)]
 pub struct Fn {
+    /// Its name.
     pub name: Name,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The declared type of the result.
     pub result: Option<TypeExpr>,
+    /// The body.
     pub body: Expr,
 }
 
-/// `extern fn clamp<D: Dimension>(x: Quantity<D>, to: Range<Quantity<D>>) -> Quantity<D>`
+/// A native function: `extern fn clamp<D: Dimension>(x: Quantity<D>, to: Range<Quantity<D>>) ->
+/// Quantity<D>`
 #[derive(Clone, Debug)]
 pub struct ExternFn {
+    /// Its name.
     pub name: Name,
-    /// At most one type or dimension parameter is meant, but the tree keeps what was written.
+    /// The type parameters. The checker takes at most one.
     pub type_params: Vec<TypeParam>,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The declared type of the result.
     pub result: Option<TypeExpr>,
 }
 
+/// A type parameter of an `extern fn`.
 #[derive(Clone, Debug)]
 pub struct TypeParam {
+    /// Its name.
     pub name: Name,
+    /// The bound: a supertype, or `Dimension`.
     pub bound: Option<Name>,
 }
 
-/// `extern type Folding is Plan { /// doc
+/// A record: `extern type Folding is Plan { layout: Layout  fn at(t: Time) -> State }`
 ///   layout: Layout
 ///   fn at(t: Time) -> State }`
 #[derive(Clone, Debug)]
 pub struct ExternType {
+    /// Its name.
     pub name: Name,
+    /// The record that it extends.
     pub is: Option<Name>,
+    /// The fields.
     pub fields: Vec<ExternField>,
+    /// The methods with their documentation.
     pub methods: Vec<(Option<String>, ExternFn)>,
 }
 
+/// A field of a record.
 #[derive(Clone, Debug)]
 pub struct ExternField {
+    /// The text of the `///` lines before it.
     pub doc: Option<String>,
+    /// Its name.
     pub name: Name,
+    /// Its type.
     pub ty: TypeExpr,
 }
 
-/// A parameter; in `extern fn` its name may be a reserved word (`for:`) and it may be variadic.
+/// A parameter. In an `extern fn` its name may be a reserved word (`for:`), and it may be variadic.
 #[derive(Clone, Debug)]
 pub struct Param {
+    /// Its name.
     pub name: Name,
+    /// Its type.
     pub ty: TypeExpr,
+    /// The default value.
     pub default: Option<Expr>,
-    /// `b: Behavior...`
+    /// True for `b: Behavior...`, which takes all remaining arguments.
     pub variadic: bool,
 }
 
+/// A type as written.
 #[derive(Clone, Debug)]
 pub struct TypeExpr {
+    /// Its span.
     pub span: Span,
+    /// Its kind.
     pub kind: TypeKind,
 }
 
+/// The kinds of types as written.
 #[derive(Clone, Debug)]
 pub enum TypeKind {
     /// `Length`, `std.smores.Smores`, `List<Length>`, `Vec3<Length>`
@@ -178,25 +232,32 @@ pub enum TypeKind {
     Error,
 }
 
-/// A product of powers: `N*m`, `m/s^2`. Exponents behind `/` are already negative.
+/// A unit: a product of powers such as `N*m` or `m/s^2`. Exponents behind `/` are negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitExpr {
+    /// Its span.
     pub span: Span,
+    /// The units with their exponents, in order.
     pub factors: Vec<(Name, i32)>,
 }
 
 // Connectors, modules, cells and struts.
 
+/// `connector Name { clauses }`
 #[derive(Clone, Debug)]
 pub struct Connector {
+    /// Its name.
     pub name: Name,
+    /// The clauses, in order.
     pub clauses: Vec<ConnectorClause>,
 }
 
+/// A clause of a connector.
 #[derive(Clone, Debug)]
 pub enum ConnectorClause {
     /// `mates Socket`, `mates Plug, Socket` is two clauses' worth of names.
     Mates(Vec<Name>),
+    /// `turns [0deg, 90deg]`
     Turns(Expr),
     /// `holds 88N`, `holds 1.9N*m`
     Holds(Expr),
@@ -214,22 +275,32 @@ pub enum ConnectorClause {
     Error,
 }
 
+/// `module Name(params) { clauses }`
 #[derive(Clone, Debug)]
 pub struct Module {
+    /// Its name.
     pub name: Name,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The clauses, in order.
     pub clauses: Vec<ModuleClause>,
 }
 
+/// A clause of a module with its documentation.
 #[derive(Clone, Debug)]
 pub struct ModuleClause {
+    /// Its span.
     pub span: Span,
+    /// The text of the `///` lines before it.
     pub doc: Option<String>,
+    /// Its kind.
     pub kind: ModuleClauseKind,
 }
 
+/// The kinds of clauses of a module.
 #[derive(Clone, Debug)]
 pub enum ModuleClauseKind {
+    /// `mass 0.4kg`
     Mass(Expr),
     /// `touch 0.2mm`: penetration deeper than this is a collision.
     Touch(Expr),
@@ -285,52 +356,74 @@ pub enum ModuleClauseKind {
     Error,
 }
 
+/// A port of a module, or one element of a port array.
 #[derive(Clone, Debug)]
 pub struct ModulePort {
+    /// Its name.
     pub name: Name,
-    /// Inside a `for`: which element of the port array.
+    /// The index in the port array, inside a `for`.
     pub index: Option<Expr>,
+    /// The path of the connector.
     pub connector: Vec<Name>,
+    /// The link that carries it.
     pub link: Name,
+    /// The pose in the link's frame.
     pub at: Option<Placement>,
+    /// The direction of its outward normal.
     pub facing: Expr,
+    /// The direction from which turns are counted.
     pub up: Option<Expr>,
 }
 
-/// `at [x, y, z] turned(Z, 90deg) turned(X, 10deg)`
+/// A pose: `at [x, y, z] turned(Z, 90deg) turned(X, 10deg)`
 #[derive(Clone, Debug)]
 pub struct Placement {
+    /// Its span.
     pub span: Span,
+    /// The position.
     pub position: Expr,
+    /// The arguments of each `turned`, in order.
     pub turned: Vec<Vec<Arg>>,
 }
 
 /// The body of a `cell` or a `strut`: `size 100mm  shrinks_to 50mm`.
 #[derive(Clone, Debug)]
 pub struct Facts {
+    /// Its name.
     pub name: Name,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The facts as (name, value), in order.
     pub facts: Vec<(Name, Expr)>,
 }
 
 // Configurations.
 
+/// `config Name(params) closed { clauses }`
 #[derive(Clone, Debug)]
 pub struct Config {
+    /// Its name.
     pub name: Name,
+    /// The parameters.
     pub params: Vec<Param>,
-    /// The span of `closed`, where it is written.
+    /// The span of the word `closed`, if it is written.
     pub closed: Option<Span>,
+    /// The clauses, in order.
     pub clauses: Vec<ConfigClause>,
 }
 
+/// A clause of a configuration with its documentation.
 #[derive(Clone, Debug)]
 pub struct ConfigClause {
+    /// Its span.
     pub span: Span,
+    /// The text of the `///` lines before it.
     pub doc: Option<String>,
+    /// Its kind.
     pub kind: ConfigClauseKind,
 }
 
+/// The kinds of clauses of a configuration.
 #[derive(Clone, Debug)]
 pub enum ConfigClauseKind {
     Part(Part),
@@ -366,17 +459,22 @@ pub enum ConfigClauseKind {
     Error,
 }
 
-/// `part leg[i in 0..4]: Leg(left: i < 2)`
+/// A part of a configuration: `part leg[i in 0..4]: Leg(left: i < 2)`
 #[derive(Clone, Debug)]
 pub struct Part {
+    /// Its name.
     pub name: Name,
+    /// The length of a list of parts.
     pub count: Option<PartCount>,
+    /// The path of the type.
     pub ty: Vec<Name>,
-    /// `None`: no brackets were written.
+    /// The arguments; `None` if no parentheses are written.
     pub args: Option<Vec<Arg>>,
+    /// The span of the type and its arguments.
     pub ty_span: Span,
 }
 
+/// The length of a list of parts.
 #[derive(Clone, Debug)]
 pub enum PartCount {
     /// `leg[4]`
@@ -385,37 +483,53 @@ pub enum PartCount {
     Each { binder: Name, range: Expr },
 }
 
+/// `behavior name(params) allows exemptions = body`
 #[derive(Clone, Debug)]
 pub struct Behavior {
+    /// Its name.
     pub name: Name,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The exemptions, in order.
     pub allows: Vec<Exemption>,
+    /// The body.
     pub body: Expr,
 }
 
-/// `unstable`, `slip`, `collision(a, b)`, `overload(j)`
+/// An exemption of a behaviour: `unstable`, `slip`, `collision(a, b)`, `overload(j)`
 #[derive(Clone, Debug)]
 pub struct Exemption {
+    /// Its name.
     pub name: Name,
+    /// Its arguments.
     pub args: Vec<Expr>,
+    /// Its span.
     pub span: Span,
 }
 
+/// `require condition, message`
 #[derive(Clone, Debug)]
 pub struct Require {
+    /// Its span.
     pub span: Span,
+    /// The condition that must hold.
     pub condition: Expr,
+    /// The message if it does not.
     pub message: Option<Expr>,
 }
 
-/// `body.side[i]`, `m[0].left`: a name, then `.name` and `[index]`.
+/// A path `body.side[i]`, `m[0].left`: a name, then steps `.name` and `[index]`.
 #[derive(Clone, Debug)]
 pub struct Path {
+    /// Its span.
     pub span: Span,
+    /// The first name.
     pub root: Name,
+    /// The steps, in order.
     pub steps: Vec<PathStep>,
 }
 
+/// A step of a path.
 #[derive(Clone, Debug)]
 pub enum PathStep {
     Field(Name),
@@ -424,34 +538,49 @@ pub enum PathStep {
 
 // Lattices and trusses.
 
+/// `lattice Name(params) of cell = value`
 #[derive(Clone, Debug)]
 pub struct Lattice {
+    /// Its name.
     pub name: Name,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The path of the cell.
     pub of: Vec<Name>,
+    /// The cells.
     pub value: Expr,
 }
 
+/// `truss Name(params) of strut { clauses }`, or `= value` instead of clauses.
 #[derive(Clone, Debug)]
 pub struct Truss {
+    /// Its name.
     pub name: Name,
+    /// The parameters.
     pub params: Vec<Param>,
+    /// The path of the strut.
     pub of: Vec<Name>,
+    /// The nodes and struts.
     pub body: TrussBody,
 }
 
+/// The nodes and struts of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussBody {
     Value(Expr),
     Clauses(Vec<TrussClause>),
 }
 
+/// A clause of a truss.
 #[derive(Clone, Debug)]
 pub struct TrussClause {
+    /// Its span.
     pub span: Span,
+    /// Its kind.
     pub kind: TrussClauseKind,
 }
 
+/// The kinds of clauses of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussClauseKind {
     /// `node a = [0m, 0m, 0m]`, in a loop `node ring[i] = ...`
@@ -481,20 +610,27 @@ pub enum TrussClauseKind {
 
 // Statements and expressions.
 
+/// `test "name" { statements }`
 #[derive(Clone, Debug)]
 pub struct Test {
-    /// Text without interpolation; the span covers the quotes.
+    /// The name, a text without interpolation.
     pub name: String,
+    /// The span of the name, quotes included.
     pub name_span: Span,
+    /// The statements.
     pub body: Vec<Stmt>,
 }
 
+/// A statement.
 #[derive(Clone, Debug)]
 pub struct Stmt {
+    /// Its span.
     pub span: Span,
+    /// Its kind.
     pub kind: StmtKind,
 }
 
+/// The kinds of statements.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
     Let(Let),
@@ -506,15 +642,19 @@ pub enum StmtKind {
     Error,
 }
 
+/// An expression.
 #[derive(Clone, Debug)]
 pub struct Expr {
+    /// Its span.
     pub span: Span,
+    /// Its kind.
     pub kind: ExprKind,
 }
 
+/// The kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
-    /// `12`, `1_000`, `90deg`: the digits as written (underscores removed) and the unit that sticks.
+    /// `12`, `1_000`, `90deg`: the digits as written without underscores, and the unit attached to them.
     Number {
         digits: Symbol,
         unit: Option<UnitExpr>,
@@ -525,7 +665,7 @@ pub enum ExprKind {
     Name(Symbol),
     /// `X`, `Y`, `Z`; `-X` is a `Unary`.
     Axis(Axis),
-    /// `_`: leave it, in the rows of a gait table.
+    /// `_`: the missing value, as in the rows of a gait table.
     Hole,
     List(Vec<Expr>),
     /// `[e for x in xs if c for y in ys]`
@@ -549,7 +689,7 @@ pub enum ExprKind {
         from: Box<Expr>,
         to: Box<Expr>,
     },
-    /// `x else y`: `y` where `x` is missing. Binds like `or`, and is written behind a whole operand.
+    /// `x else y`: `y` if `x` is missing. It binds like `or`.
     Otherwise {
         value: Box<Expr>,
         otherwise: Box<Expr>,
@@ -585,6 +725,7 @@ pub enum ExprKind {
     Error,
 }
 
+/// A piece of a text.
 #[derive(Clone, Debug)]
 pub enum TextPart {
     /// Escapes already resolved.
@@ -592,18 +733,23 @@ pub enum TextPart {
     Value(Expr),
 }
 
+/// A clause of a comprehension.
 #[derive(Clone, Debug)]
 pub enum ComprehensionClause {
     For { binder: Name, iterable: Expr },
     If(Expr),
 }
 
+/// An argument of a call.
 #[derive(Clone, Debug)]
 pub struct Arg {
+    /// The name in front of it: `name: value`.
     pub name: Option<Name>,
+    /// The value.
     pub value: Expr,
 }
 
+/// An axis of the frame: a unit vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     X,
@@ -611,6 +757,7 @@ pub enum Axis {
     Z,
 }
 
+/// The unary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryOp {
     Neg,
@@ -618,6 +765,7 @@ pub enum UnaryOp {
     Not,
 }
 
+/// The binary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOp {
     Or,

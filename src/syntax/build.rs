@@ -1,4 +1,4 @@
-//! From pest's pairs to the tree: what all parts of the grammar share.
+//! Construction of the tree from pest's pairs: the parts common to all of the grammar.
 
 use super::ast::*;
 use super::parse::{Node, Rule};
@@ -6,32 +6,37 @@ use crate::source::{Code, Diagnostic, FileId, Span, Symbol};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Builds the tree of one file, piece by piece.
+/// The builder of the tree of one file, piece by piece.
 pub(super) struct Builder<'t> {
+    /// The identity of the file.
     pub(super) file: FileId,
     /// The whole text, as written.
     pub(super) text: &'t str,
-    /// The same as the grammar reads it.
+    /// The whole text as the grammar reads it: of the same length, comments and odd characters replaced.
     pub(super) read: &'t str,
+    /// All comments of the file.
     pub(super) comments: &'t [Comment],
-    /// Where the text that the nodes come from begins in the whole text.
+    /// The offset in the whole text of the piece being built.
     pub(super) base: usize,
-    /// No span ends behind this place: what follows was put there to let the piece be parsed.
+    /// The end of all spans: text behind it was added so that the piece can be parsed.
     pub(super) limit: usize,
-    /// A hole here stands for a value that could not be parsed.
+    /// The offset of a hole that stands for a value that could not be parsed.
     pub(super) faulty_value: Option<usize>,
+    /// The diagnostics so far.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// How deep the recursion of the expression builder is.
+    /// The recursion depth of the expression builder.
     pub(super) depth: usize,
+    /// The recursion depth of the type builder.
     pub(super) type_depth: usize,
-    /// The base of the piece in which deep nesting was told last.
-    pub(super) deep_told: Option<usize>,
-    /// Names that unreadable pieces would have declared.
+    /// The offset of the last piece for which deep nesting was reported.
+    pub(super) deep_reported: Option<usize>,
+    /// The names that unreadable pieces would have declared.
     pub(super) unread: Vec<Symbol>,
     symbols: HashMap<&'t str, Symbol, BuildHasherDefault<NameHasher>>,
 }
 
 impl<'t> Builder<'t> {
+    /// Returns a builder at the start of the file.
     pub(super) fn new(file: FileId, text: &'t str, read: &'t str, comments: &'t [Comment]) -> Builder<'t> {
         Builder {
             file,
@@ -44,40 +49,43 @@ impl<'t> Builder<'t> {
             diagnostics: Vec::new(),
             depth: 0,
             type_depth: 0,
-            deep_told: None,
+            deep_reported: None,
             unread: Vec::new(),
             symbols: HashMap::default(),
         }
     }
 
+    /// Returns the span of a node in the file.
     pub(super) fn span(&self, node: &Node) -> Span {
         let span = node.as_span();
         self.at(span.start(), span.end())
     }
 
-    /// A range of the text that the nodes come from, as a span of the file.
+    /// Returns a range of the piece being built as a span of the file.
     pub(super) fn at(&self, start: usize, end: usize) -> Span {
         let (start, end) = (self.base + start, self.base + end);
         whole_characters(self.text, Span::new(self.file, start.min(self.limit), end.min(self.limit)))
     }
 
+    /// Adds an error, and returns it so that hints can be added.
     pub(super) fn error(&mut self, code: Code, message: impl Into<String>, span: Span) -> &mut Diagnostic {
         self.diagnostics.push(Diagnostic::error(code, message).label(span, ""));
         self.diagnostics.last_mut().expect("one was just added")
     }
 
+    /// Returns the text of a span as a symbol.
     pub(super) fn symbol(&mut self, span: Span) -> Symbol {
         let text = &self.text[span.range()];
         *self.symbols.entry(text).or_insert_with(|| Symbol::new(text))
     }
 
-    /// Any word as a name.
+    /// Returns a word as a name.
     pub(super) fn word(&mut self, node: Node) -> Name {
         let span = self.span(&node);
         Name { text: self.symbol(span), span }
     }
 
-    /// The name of something that is declared here: `true`, `X` and their like are taken.
+    /// Returns a declared name; reports the words `true`, `X` and others that cannot be declared.
     pub(super) fn declared(&mut self, node: Node) -> Name {
         let name = self.word(node);
         if let taken @ ("true" | "false" | "X" | "Y" | "Z") = name.text.as_str() {
@@ -91,11 +99,12 @@ impl<'t> Builder<'t> {
         name
     }
 
+    /// Returns the words of a path as names.
     pub(super) fn words(&mut self, node: Node) -> Vec<Name> {
         node.into_inner().map(|word| self.word(word)).collect()
     }
 
-    /// The `///` lines that stand before this place, without the marks.
+    /// Returns the text of the `///` lines before an offset, without the marks.
     pub(super) fn doc(&self, start: u32) -> Option<String> {
         let before = self.comments.partition_point(|comment| comment.span.start < start);
         let mut lines = Vec::new();
@@ -114,7 +123,7 @@ impl<'t> Builder<'t> {
         (!lines.is_empty()).then(|| lines.join("\n"))
     }
 
-    /// The `//!` lines of the file, without the marks.
+    /// Returns the text of the `//!` lines of the file, without the marks.
     pub(super) fn file_doc(&self) -> Option<String> {
         let lines: Vec<&str> = (self.comments.iter())
             .filter(|comment| comment.kind == CommentKind::FileDoc)
@@ -124,7 +133,8 @@ impl<'t> Builder<'t> {
     }
 }
 
-/// FNV-1a: names are short, and nobody gains by making those of his own file collide.
+/// The FNV-1a hash: fast for short names. Collisions made on purpose would slow down only their author's
+/// file.
 struct NameHasher(u64);
 
 impl Default for NameHasher {
@@ -145,8 +155,8 @@ impl Hasher for NameHasher {
     }
 }
 
-/// The span with the characters that it cuts in two; in the text as the grammar reads it they are
-/// several.
+/// Returns a span extended to whole characters. The text that the grammar reads may have several characters
+/// in place of one.
 pub(super) fn whole_characters(text: &str, mut span: Span) -> Span {
     while !text.is_char_boundary(span.start as usize) {
         span.start -= 1;
@@ -157,18 +167,18 @@ pub(super) fn whole_characters(text: &str, mut span: Span) -> Span {
     span
 }
 
-/// The text of a documentation line behind `///` or `//!` and one space.
+/// Returns the text of a documentation line behind `///` or `//!` and one space.
 fn doc_line(comment: &str) -> &str {
     let text = comment[3..].trim_end();
     text.strip_prefix(' ').unwrap_or(text)
 }
 
-/// The next child, where the grammar promises one.
+/// Returns the next child. Panics if there is none, which the grammar excludes.
 pub(super) fn next<'i>(nodes: &mut impl Iterator<Item = Node<'i>>) -> Node<'i> {
     nodes.next().expect("the grammar gives this node another child")
 }
 
-/// The next child if it is of this rule.
+/// Returns the next child if it is of this rule.
 pub(super) fn next_if<'i>(nodes: &mut pest::iterators::Pairs<'i, Rule>, rule: Rule) -> Option<Node<'i>> {
     nodes.peek().is_some_and(|node| node.as_rule() == rule).then(|| next(nodes))
 }

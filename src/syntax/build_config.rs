@@ -1,4 +1,4 @@
-//! Configurations.
+//! The tree of configurations.
 
 use super::ast::*;
 use super::build::{Builder, next, next_if};
@@ -6,6 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::{Span, code};
 
 impl Builder<'_> {
+    /// Builds a `config`.
     pub(super) fn config(&mut self, node: Node) -> Config {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -14,11 +15,13 @@ impl Builder<'_> {
         Config { name, params, closed, clauses: self.config_clauses(next(&mut nodes)) }
     }
 
+    /// Builds the clauses of a configuration.
     pub(super) fn config_clauses(&mut self, body: Node) -> Vec<ConfigClause> {
         let nodes = body.into_inner().filter(|node| node.as_rule() != Rule::EOI);
         nodes.map(|node| self.config_clause(node)).collect()
     }
 
+    /// Builds a clause.
     fn config_clause(&mut self, node: Node) -> ConfigClause {
         let span = self.span(&node);
         let kind = match node.as_rule() {
@@ -40,13 +43,14 @@ impl Builder<'_> {
         ConfigClause { span, doc: self.doc(span.start), kind }
     }
 
-    /// The clauses of a branch or a loop, where what makes up the configuration cannot stand.
+    /// Builds the clauses of a branch or a loop, where parts, ports and behaviours are refused.
     fn inner_clauses(&mut self, body: Node) -> Vec<ConfigClause> {
         let mut clauses = self.config_clauses(body);
         self.refuse_top_clauses(&mut clauses);
         clauses
     }
 
+    /// Replaces clauses that are allowed only at the top of a configuration by errors.
     pub(super) fn refuse_top_clauses(&mut self, clauses: &mut [ConfigClause]) {
         for clause in clauses {
             let (what, hint) = match &clause.kind {
@@ -117,6 +121,7 @@ impl Builder<'_> {
         ConfigClauseKind::Connect { a, b, turn: nodes.next().map(|turn| self.expr(turn)) }
     }
 
+    /// Builds a path.
     pub(super) fn path(&mut self, node: Node) -> Path {
         let span = self.span(&node);
         let mut nodes = node.into_inner();

@@ -1,4 +1,4 @@
-//! Expressions: operands, and the ordering of a flat list of operators by precedence.
+//! The tree of expressions: operands, and a flat list of operators ordered by precedence climbing.
 
 use super::ast::*;
 use super::build::{Builder, next, next_if};
@@ -6,13 +6,16 @@ use super::parse::{HEIGHT_MAX, Node, Rule};
 use crate::source::{Span, code};
 use pest::iterators::Pairs;
 
-/// An expression and the height of its tree.
+/// An expression with the height of its tree.
 pub(super) struct Tall {
+    /// The expression.
     pub(super) expr: Expr,
+    /// The height: 0 for a leaf.
     pub(super) height: usize,
 }
 
 impl Tall {
+    /// Returns an expression of a height.
     pub(super) fn new(span: Span, kind: ExprKind, height: usize) -> Tall {
         Tall { expr: Expr { span, kind }, height }
     }
@@ -22,23 +25,35 @@ impl Tall {
     }
 }
 
-/// How strongly operators bind, loosest first.
+/// The binding powers of operators, loosest first.
 mod power {
+    /// `x => e`
     pub(super) const LAMBDA: u8 = 1;
+    /// `or` and `else`
     pub(super) const OR: u8 = 2;
+    /// `and`
     pub(super) const AND: u8 = 3;
+    /// `not`
     pub(super) const NOT: u8 = 4;
+    /// `==`, `<` and the other comparisons
     pub(super) const COMPARISON: u8 = 5;
+    /// `<->`
     pub(super) const MATED: u8 = 6;
+    /// `..`
     pub(super) const RANGE: u8 = 7;
+    /// `++`
     pub(super) const JOIN: u8 = 8;
+    /// `+` and `-`
     pub(super) const SUM: u8 = 9;
+    /// `*`, `/` and `%`
     pub(super) const PRODUCT: u8 = 10;
+    /// `+` and `-` before an operand
     pub(super) const SIGN: u8 = 11;
+    /// `^`
     pub(super) const POWER: u8 = 12;
 }
 
-/// What an infix operator makes of its operands.
+/// An infix operator.
 #[derive(Clone, Copy, PartialEq)]
 enum Infix {
     Binary(BinaryOp),
@@ -47,10 +62,12 @@ enum Infix {
 }
 
 impl Builder<'_> {
+    /// Builds an expression.
     pub(super) fn expr(&mut self, node: Node) -> Expr {
         self.tall_expr(node).expr
     }
 
+    /// Builds an expression with its height.
     pub(super) fn tall_expr(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         if self.depth >= HEIGHT_MAX {
@@ -60,7 +77,8 @@ impl Builder<'_> {
         self.operators(&mut node.into_inner(), power::LAMBDA)
     }
 
-    /// An operand with its prefixes, and the operators behind it that bind at least as strongly as `min`.
+    /// Builds an operand with its prefixes, and the operators behind it that bind at least as strongly as
+    /// `min`.
     fn operators(&mut self, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         self.depth += 1;
         let mut prefixes = Vec::new();
@@ -80,6 +98,7 @@ impl Builder<'_> {
         whole
     }
 
+    /// Returns a prefix operator; reports `!` and other foreign ones.
     fn prefix(&mut self, node: Node, min: u8) -> (UnaryOp, Span) {
         let span = self.span(&node);
         match node.as_str() {
@@ -98,6 +117,7 @@ impl Builder<'_> {
         (UnaryOp::Not, span)
     }
 
+    /// Builds the infix operators behind a left operand.
     fn infixes(&mut self, mut left: Tall, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         let mut previous = None;
         while let Some(node) = nodes.peek() {
@@ -111,7 +131,7 @@ impl Builder<'_> {
             nodes.next();
             let op_span = self.span(&node);
             let chained = self.check_infix(op, node.as_str(), op_span, previous, &left.expr);
-            // `^` alone groups to the right.
+            // Only `^` is right-associative.
             let right_min = if strength == power::POWER { strength } else { strength + 1 };
             let right = self.right_operand(nodes, right_min, op_span);
             if op == Infix::Binary(BinaryOp::Mated) {
@@ -120,7 +140,7 @@ impl Builder<'_> {
             }
             left = self.joined(op, op_span, left, right);
             if chained {
-                // That its operands do not fit is no second mistake.
+                // A follow-up error about its operands is suppressed.
                 left.expr.kind = ExprKind::Error;
             }
             previous = Some((strength, op_span));
@@ -128,6 +148,7 @@ impl Builder<'_> {
         left
     }
 
+    /// Builds the right operand of an infix operator.
     fn right_operand(&mut self, nodes: &mut Pairs<Rule>, min: u8, op_span: Span) -> Tall {
         if self.depth >= HEIGHT_MAX {
             self.too_deep(op_span, "this expression");
@@ -137,6 +158,7 @@ impl Builder<'_> {
         self.operators(nodes, min)
     }
 
+    /// Returns the node of an operator and its operands.
     fn joined(&mut self, op: Infix, op_span: Span, left: Tall, right: Tall) -> Tall {
         let span = left.expr.span.to(right.expr.span);
         let height = left.height.max(right.height);
@@ -149,8 +171,8 @@ impl Builder<'_> {
         self.grown(span, kind, height)
     }
 
-    /// Mistakes that the grammar lets pass, so that they can be told in words.
-    /// Gives whether two of a kind stand in a row that can't.
+    /// Reports mistakes that the grammar accepts so that they can be explained. Returns true if two
+    /// operators of a kind that does not chain follow each other.
     fn check_infix(
         &mut self,
         op: Infix,
@@ -190,6 +212,7 @@ impl Builder<'_> {
         chained
     }
 
+    /// Reports an operand that is no path where one is needed.
     fn check_path(&mut self, expr: &Expr) {
         let mut at = expr;
         loop {
@@ -204,7 +227,7 @@ impl Builder<'_> {
             .push("a port is written as a path, such as `body.side[0]`".into());
     }
 
-    /// A primary expression and what sticks to its end.
+    /// Builds a primary expression with the calls, indices and fields behind it.
     fn operand(&mut self, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         let node = next(nodes);
         if nodes.peek().is_some_and(|next| next.as_rule() == Rule::arrow) {
@@ -244,10 +267,12 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Field { object: Box::new(object.expr), field }, object.height)
     }
 
+    /// Builds arguments.
     pub(super) fn args(&mut self, node: Node) -> Vec<Arg> {
         self.tall_args(node).0
     }
 
+    /// Builds arguments with their greatest height.
     fn tall_args(&mut self, node: Node) -> (Vec<Arg>, usize) {
         let mut nodes = node.into_inner();
         let mut args = Vec::new();
@@ -264,6 +289,7 @@ impl Builder<'_> {
         (args, height)
     }
 
+    /// Returns the name in front of an argument.
     fn label(&mut self, node: Node) -> Name {
         let start = node.as_span().start();
         let length =
@@ -280,6 +306,7 @@ impl Builder<'_> {
         name
     }
 
+    /// Builds a primary expression.
     fn primary(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         match node.as_rule() {
@@ -303,6 +330,7 @@ impl Builder<'_> {
         }
     }
 
+    /// Returns a name, a constant or an axis.
     fn name_or_constant(&mut self, span: Span) -> ExprKind {
         if self.faulty_value == Some(span.start as usize) {
             return ExprKind::Error;
@@ -318,6 +346,7 @@ impl Builder<'_> {
         }
     }
 
+    /// Builds an expression in parentheses; reports a tuple.
     fn paren(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let mut values = node.into_inner().map(|value| self.tall_expr(value)).collect::<Vec<_>>();
@@ -334,6 +363,7 @@ impl Builder<'_> {
         Tall::error(span)
     }
 
+    /// Builds a lambda.
     fn lambda(&mut self, node: Node, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         let start = self.span(&node);
         if min > power::LAMBDA {
@@ -351,6 +381,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Lambda { params, body: Box::new(body.expr) }, body.height)
     }
 
+    /// Returns the parameters of a lambda.
     fn lambda_params(&mut self, node: Node) -> Vec<Name> {
         if node.as_rule() != Rule::paren {
             return self.lambda_param(node).into_iter().collect();
@@ -379,6 +410,7 @@ impl Builder<'_> {
         }
     }
 
+    /// Reports something else than a name in front of `=>`.
     fn not_a_param(&mut self, span: Span) -> Option<Name> {
         self.error(code::SYNTAX, "what stands before `=>` must be a name", span)
             .hints
@@ -386,6 +418,7 @@ impl Builder<'_> {
         None
     }
 
+    /// Builds a list or a comprehension.
     fn list(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let mut values = Vec::new();
@@ -419,13 +452,15 @@ impl Builder<'_> {
         self.grown(span, kind, height)
     }
 
+    /// Builds `for name in iterable`.
     fn each(&mut self, node: Node) -> (Name, Tall) {
         let mut nodes = node.into_inner();
         let binder = self.declared(next(&mut nodes));
         (binder, self.tall_expr(next(&mut nodes)))
     }
 
-    /// One level above trees of this height; too high a tree is told once and dropped.
+    /// Returns a node above trees of a height; reports a tree that is too high, once, and returns an error
+    /// node.
     pub(super) fn grown(&mut self, span: Span, kind: ExprKind, height: usize) -> Tall {
         if height >= HEIGHT_MAX {
             self.too_deep(span, "this expression");
@@ -434,9 +469,9 @@ impl Builder<'_> {
         Tall::new(span, kind, height + 1)
     }
 
-    /// Told once for each piece of text.
+    /// Reports deep nesting, once for each piece of text.
     pub(super) fn too_deep(&mut self, span: Span, what: &str) {
-        if self.deep_told.replace(self.base) != Some(self.base) {
+        if self.deep_reported.replace(self.base) != Some(self.base) {
             self.error(code::TOO_DEEP, format!("{what} is nested too deeply"), span)
                 .hints
                 .push(format!("give parts of it names with `let`; the limit is {HEIGHT_MAX} levels"));
@@ -444,6 +479,7 @@ impl Builder<'_> {
     }
 }
 
+/// Returns the operator of a text with its binding power.
 fn infix(text: &str) -> (Infix, u8) {
     use BinaryOp::*;
     let (op, strength) = match text {

@@ -1,4 +1,4 @@
-//! Items: imports, functions, tests and what built-ins are declared with.
+//! The tree of items: imports, functions, tests and native declarations.
 
 use super::ast::*;
 use super::build::{Builder, next, next_if};
@@ -6,7 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::Span;
 
 impl Builder<'_> {
-    /// The items of a chunk, added to those before.
+    /// Builds the items of a chunk, and appends them to those before.
     pub(super) fn chunk(&mut self, node: Node, items: &mut Vec<Item>) {
         for node in node.into_inner().filter(|node| node.as_rule() != Rule::EOI) {
             let item = self.item(node, items.last().map(|item| item.span));
@@ -14,6 +14,7 @@ impl Builder<'_> {
         }
     }
 
+    /// Builds an item; `before` is the span of the item before it.
     fn item(&mut self, node: Node, before: Option<Span>) -> Item {
         let mut span = self.span(&node);
         let kind = match node.as_rule() {
@@ -100,7 +101,7 @@ impl Builder<'_> {
         ExternType { name, is, fields, methods }
     }
 
-    /// The parameters, where there are some.
+    /// Builds the parameters, if there are some.
     pub(super) fn params_if(&mut self, nodes: &mut pest::iterators::Pairs<Rule>) -> Vec<Param> {
         next_if(nodes, Rule::params).map(|params| self.plain_params(params)).unwrap_or_default()
     }

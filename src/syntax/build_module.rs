@@ -1,4 +1,4 @@
-//! Connectors, modules, cells and struts.
+//! The tree of connectors, modules, cells and struts.
 
 use super::ast::*;
 use super::build::{Builder, next, next_if};
@@ -6,6 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::code;
 
 impl Builder<'_> {
+    /// Builds a `connector`.
     pub(super) fn connector(&mut self, node: Node) -> Connector {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -33,6 +34,7 @@ impl Builder<'_> {
         }
     }
 
+    /// Builds a `cell` or `strut`.
     pub(super) fn facts(&mut self, node: Node) -> Facts {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -44,6 +46,7 @@ impl Builder<'_> {
         Facts { name, params, facts: nodes.map(|node| fact(node, self)).collect() }
     }
 
+    /// Builds a `module`.
     pub(super) fn module(&mut self, node: Node) -> Module {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -51,6 +54,7 @@ impl Builder<'_> {
         Module { name, params, clauses: self.module_clauses(next(&mut nodes)) }
     }
 
+    /// Builds the clauses of a module.
     pub(super) fn module_clauses(&mut self, body: Node) -> Vec<ModuleClause> {
         let nodes = body.into_inner().filter(|node| node.as_rule() != Rule::EOI);
         nodes.map(|node| self.module_clause(node)).collect()
@@ -73,6 +77,7 @@ impl Builder<'_> {
         ModuleClause { span, doc: self.doc(span.start), kind }
     }
 
+    /// Builds a clause of one or two expressions.
     fn short_clause(&mut self, node: Node) -> ModuleClauseKind {
         let rule = node.as_rule();
         let mut nodes = node.into_inner();
@@ -144,6 +149,7 @@ impl Builder<'_> {
         ModulePort { name, index, connector, link, at, facing, up }
     }
 
+    /// Builds a placement.
     fn placement(&mut self, node: Node) -> Placement {
         let span = self.span(&node);
         let mut nodes = node.into_inner();
@@ -152,7 +158,7 @@ impl Builder<'_> {
         Placement { span, position, turned }
     }
 
-    /// What stands in `[ ]`.
+    /// Builds the expression inside `[ ]`.
     pub(super) fn index_expr(&mut self, node: Node) -> Expr {
         self.expr(next(&mut node.into_inner()))
     }

@@ -1,4 +1,4 @@
-//! Statements, blocks and `if`.
+//! The tree of statements, blocks and `if`.
 
 use super::ast::*;
 use super::build::{Builder, next, next_if, whole_characters};
@@ -6,11 +6,11 @@ use super::build_expr::Tall;
 use super::parse::{Node, Rule};
 use crate::source::Span;
 
-/// A statement and the height of its tree.
+/// A statement with the height of its tree.
 type TallStmt = (Stmt, usize);
 
 impl Builder<'_> {
-    /// The statements of a test, a loop or a branch.
+    /// Builds the statements of a test, a loop or a branch.
     pub(super) fn statements(&mut self, block: Node) -> Vec<Stmt> {
         self.tall_statements(block).0
     }
@@ -26,7 +26,7 @@ impl Builder<'_> {
         (statements, height)
     }
 
-    /// `{ let a = ... newline expr }`: the last expression is the value.
+    /// Builds a block `{ let a = ... newline expr }`, whose value is the last expression.
     pub(super) fn block(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let mut nodes: Vec<Node> = node.into_inner().collect();
@@ -47,7 +47,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Block { statements, value }, height)
     }
 
-    /// What stands behind `=`.
+    /// Builds the expression or block behind `=`.
     pub(super) fn body(&mut self, node: Node) -> Expr {
         self.tall_body(node).expr
     }
@@ -56,6 +56,7 @@ impl Builder<'_> {
         if node.as_rule() == Rule::block { self.block(node) } else { self.tall_expr(node) }
     }
 
+    /// Builds a statement; `before` is the span of the statement before it.
     pub(super) fn statement(&mut self, node: Node, before: Option<Span>) -> TallStmt {
         let span = self.span(&node);
         let (kind, height) = match node.as_rule() {
@@ -90,6 +91,7 @@ impl Builder<'_> {
         (Let { name, ty, value: value.expr }, value.height)
     }
 
+    /// Builds a `let`.
     pub(super) fn let_item(&mut self, node: Node) -> Let {
         self.tall_let(node).0
     }
@@ -102,6 +104,7 @@ impl Builder<'_> {
         (condition.expr, message.map(|message| message.expr), height)
     }
 
+    /// Builds a `require`.
     pub(super) fn require(&mut self, node: Node) -> Require {
         let span = self.span(&node);
         let (condition, message, _) = self.condition(node);
@@ -137,6 +140,7 @@ impl Builder<'_> {
         (kind, height)
     }
 
+    /// Builds an `if` expression.
     pub(super) fn if_expr(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let Some((branches, last)) = self.branches(node) else {
@@ -158,8 +162,8 @@ impl Builder<'_> {
         otherwise.expect("there is a first branch")
     }
 
-    /// The conditions and bodies of `if a { } else if b { } else { }` with the place where each
-    /// begins, and the last body; nothing where there are too many for the tree.
+    /// Returns the conditions and bodies of `if a { } else if b { } else { }`, each with the offset at
+    /// which it begins, and the last body; `None` if there are too many for the tree.
     #[allow(clippy::type_complexity)]
     pub(super) fn branches<'i>(
         &mut self,
@@ -182,8 +186,8 @@ impl Builder<'_> {
         Some((branches, None))
     }
 
-    /// An expression that begins with `+`, `-`, `(` or `[` right below another statement was meant to
-    /// continue it. Returns whether it can stand.
+    /// Reports an expression that begins with `+`, `-`, `(` or `[` right below another statement, which was
+    /// meant to continue it. Returns whether it is accepted.
     fn check_line_start(&mut self, node: &Node, before: Option<Span>, place: LineStart) -> bool {
         let first = node.as_str().as_bytes()[0];
         let Some(before) = before.filter(|_| matches!(first, b'+' | b'-' | b'(' | b'[')) else { return true };
@@ -207,11 +211,11 @@ impl Builder<'_> {
     }
 }
 
-/// Where an expression begins a line.
+/// The position of an expression that begins a line.
 #[derive(Clone, Copy, PartialEq)]
 enum LineStart {
-    /// As a statement, whose value nobody sees.
+    /// A statement, whose value is not used.
     Statement,
-    /// As the value of a block, which may well be `-a` or `[a, b]`.
+    /// The value of a block, which may well be `-a` or `[a, b]`.
     Value,
 }

@@ -1,4 +1,4 @@
-//! Numbers and texts: what stands inside a literal.
+//! Numbers and texts: the contents of literals.
 
 use super::ast::*;
 use super::build::{Builder, next};
@@ -8,7 +8,7 @@ use super::parse::{Node, Rule};
 use crate::source::{Span, Symbol, code};
 
 impl Builder<'_> {
-    /// Splits `1_000.5e-3N*m` into its digits and its unit.
+    /// Builds a number: splits `1_000.5e-3N*m` into its digits and its unit.
     pub(super) fn number(&mut self, span: Span) -> ExprKind {
         let text = &self.read[span.range()];
         let end = digits_end(text.as_bytes());
@@ -25,7 +25,7 @@ impl Builder<'_> {
         ExprKind::Number { digits, unit }
     }
 
-    /// `"..."` with escapes and `{expr}`.
+    /// Builds a text `"..."` with escapes and `{expr}`.
     pub(super) fn text(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let mut parts = Vec::new();
@@ -54,7 +54,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Text(parts), height)
     }
 
-    /// The text of `use "..."` and `test "..."`, whose span covers the quotes.
+    /// Returns the text of `use "..."` and `test "..."`, with its span, quotes included.
     pub(super) fn plain_text(&mut self, node: &Node) -> (String, Span) {
         let span = self.span(node);
         let inside = &node.as_str()[1..node.as_str().len() - 1];
@@ -72,6 +72,7 @@ impl Builder<'_> {
         (text, span)
     }
 
+    /// Returns the character of an escape; reports an unknown one.
     fn escape(&mut self, escape: &str, span: Span) -> Option<char> {
         let known = match &escape[1..] {
             "n" => Some('\n'),
@@ -94,7 +95,7 @@ impl Builder<'_> {
     }
 }
 
-/// The length of the escape with which this text begins.
+/// Returns the length in bytes of the escape with which a text begins.
 fn escape_length(text: &str) -> usize {
     let unicode = text.strip_prefix("\\u{").and_then(|code| {
         let digits = run(code.as_bytes(), 0, |b| b.is_ascii_hexdigit());
@@ -103,7 +104,7 @@ fn escape_length(text: &str) -> usize {
     unicode.unwrap_or_else(|| 1 + text[1..].chars().next().map_or(0, char::len_utf8))
 }
 
-/// Where the digits of a number end and its unit begins.
+/// Returns the offset at which the digits of a number end and its unit begins.
 fn digits_end(text: &[u8]) -> usize {
     let digits = |start: usize| run(text, start, |b| b.is_ascii_digit() || b == b'_');
     let is_digit = |at: usize| text.get(at).is_some_and(u8::is_ascii_digit);
@@ -120,7 +121,7 @@ fn digits_end(text: &[u8]) -> usize {
     end
 }
 
-/// A `"""` text without its quotes, the outer line breaks and the common indentation.
+/// Returns a `"""` text without its quotes, the outer line breaks and the common indentation.
 pub(super) fn raw(quoted: &str) -> String {
     let inside = &quoted[3..quoted.len() - 3];
     let mut lines: Vec<&str> =

@@ -1,4 +1,4 @@
-//! Lattices and trusses.
+//! The tree of lattices and trusses.
 
 use super::ast::*;
 use super::build::{Builder, next, next_if};
@@ -6,6 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::Span;
 
 impl Builder<'_> {
+    /// Builds a `lattice`.
     pub(super) fn lattice(&mut self, node: Node) -> Lattice {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -14,6 +15,7 @@ impl Builder<'_> {
         Lattice { name, params, of, value: self.body(next(&mut nodes)) }
     }
 
+    /// Builds a `truss`.
     pub(super) fn truss(&mut self, node: Node) -> Truss {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -27,6 +29,7 @@ impl Builder<'_> {
         Truss { name, params, of, body }
     }
 
+    /// Builds the clauses of a truss.
     pub(super) fn truss_clauses(&mut self, body: Node) -> Vec<TrussClause> {
         let nodes = body.into_inner().filter(|node| node.as_rule() != Rule::EOI);
         nodes.map(|node| self.truss_clause(node)).collect()

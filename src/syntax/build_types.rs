@@ -1,4 +1,4 @@
-//! Types, parameters and units.
+//! The tree of types, parameters and units.
 
 use super::ast::*;
 use super::build::{Builder, next, next_if};
@@ -6,6 +6,7 @@ use super::parse::{NESTING_MAX, Node, Rule};
 use crate::source::{Span, code};
 
 impl Builder<'_> {
+    /// Builds parameters.
     pub(super) fn params(&mut self, node: Node) -> Vec<Param> {
         node.into_inner().map(|param| self.param(param)).collect()
     }
@@ -19,7 +20,7 @@ impl Builder<'_> {
         Param { name, ty, default, variadic }
     }
 
-    /// What only the declarations of built-ins may use is refused in all others.
+    /// Builds the parameters of a function that is not native; reports variadic ones and reserved names.
     pub(super) fn plain_params(&mut self, node: Node) -> Vec<Param> {
         let variadic = node.clone().into_inner().flat_map(Node::into_inner);
         let variadic: Vec<Span> =
@@ -36,6 +37,7 @@ impl Builder<'_> {
         params
     }
 
+    /// Reports a reserved word as the name of a parameter.
     fn refuse_reserved(&mut self, name: Name) {
         if super::words::is_reserved(name.text.as_str()) {
             self.error(
@@ -46,6 +48,7 @@ impl Builder<'_> {
         }
     }
 
+    /// Builds a type.
     pub(super) fn ty(&mut self, node: Node) -> TypeExpr {
         let span = self.span(&node);
         if self.type_depth >= NESTING_MAX {
@@ -58,6 +61,7 @@ impl Builder<'_> {
         ty
     }
 
+    /// Builds a choice.
     fn choice(&mut self, node: Node, span: Span) -> TypeExpr {
         let mut choices: Vec<TypeExpr> = Vec::new();
         for node in node.into_inner() {
@@ -83,7 +87,7 @@ impl Builder<'_> {
         TypeExpr { span, kind: TypeKind::Choice(choices) }
     }
 
-    /// `T??` is no other type than `T?`, and so a run of marks does not grow a tower.
+    /// Builds an optional type. `T??` is `T?`, so a run of marks does not nest.
     fn optional(&mut self, marked: TypeExpr, mark: &Node) -> TypeExpr {
         let span = marked.span.to(self.span(mark));
         match marked.kind {
@@ -110,6 +114,7 @@ impl Builder<'_> {
         TypeKind::Fn { params, result }
     }
 
+    /// Builds type parameters.
     pub(super) fn type_params(&mut self, node: Node) -> Vec<TypeParam> {
         let param = |node: Node, this: &mut Self| {
             let mut nodes = node.into_inner();
@@ -119,7 +124,7 @@ impl Builder<'_> {
         node.into_inner().map(|node| param(node, self)).collect()
     }
 
-    /// A product of powers, read from its text: `N*m`, `m/s^2`, `1/s`.
+    /// Builds a unit, a product of powers, from its text: `N*m`, `m/s^2`, `1/s`.
     pub(super) fn unit(&mut self, span: Span) -> UnitExpr {
         let text = self.read[span.range()].as_bytes();
         let start = span.start as usize;
@@ -144,6 +149,7 @@ impl Builder<'_> {
         UnitExpr { span, factors }
     }
 
+    /// Returns an exponent; reports one that is out of range.
     fn exponent(&mut self, span: Span) -> i32 {
         match self.read[span.range()].parse() {
             Ok(exponent @ -99..=99) => exponent,
@@ -155,7 +161,7 @@ impl Builder<'_> {
     }
 }
 
-/// The end of the run of bytes from `start` that `fits`.
+/// Returns the end of the run of bytes from `start` that satisfy `fits`.
 pub(super) fn run(text: &[u8], start: usize, fits: impl std::ops::Fn(u8) -> bool) -> usize {
     text[start..].iter().position(|b| !fits(*b)).map_or(text.len(), |length| start + length)
 }

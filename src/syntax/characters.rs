@@ -1,15 +1,15 @@
-//! Characters that have no place in a program: their names, and what was probably meant.
+//! Characters that are not allowed in programs: their names and their probable meaning.
 
 use crate::source::{Diagnostic, Span, code};
 
-/// What to read in the place of a character.
+/// The probable meaning of a character.
 pub(super) struct Meant {
-    /// What the grammar reads instead; nothing where the meaning is lost.
+    /// The character that the grammar reads in its place; `None` if the meaning is unknown.
     pub(super) replacement: Option<char>,
     hint: Option<&'static str>,
 }
 
-/// What a character outside texts and comments was probably meant to be.
+/// Returns the probable meaning of a character outside texts and comments.
 pub(super) fn meant(c: char) -> Meant {
     let (replacement, hint) = match c {
         ';' => (Some('\n'), "a line break or the next keyword ends a statement"),
@@ -39,7 +39,7 @@ pub(super) fn meant(c: char) -> Meant {
     Meant { replacement, hint: Some(hint) }
 }
 
-/// A character that stands outside texts and comments.
+/// Returns the diagnostic for a character that is not allowed outside texts and comments.
 pub(super) fn stray(c: char, span: Span) -> Diagnostic {
     let message = match c {
         ';' => "modl has no semicolons".to_string(),
@@ -53,7 +53,7 @@ pub(super) fn stray(c: char, span: Span) -> Diagnostic {
     }
 }
 
-/// A character that may not even stand in a text or a comment.
+/// Returns the diagnostic for a character that is not allowed in texts and comments either.
 pub(super) fn forbidden(c: char, span: Span) -> Diagnostic {
     let why = if is_bidirectional(c) {
         "it changes the order in which the line is read"
@@ -65,12 +65,13 @@ pub(super) fn forbidden(c: char, span: Span) -> Diagnostic {
         .hint("in a text, write it as an escape: `\\u{...}`")
 }
 
-/// Whether a character may not even stand in texts and comments.
+/// Returns whether a character is not even allowed in texts and comments: control characters, and those
+/// that change the order of reading.
 pub(super) fn is_forbidden_anywhere(c: char) -> bool {
     is_bidirectional(c) || c.is_control() && !matches!(c, '\n' | '\t' | '\r')
 }
 
-/// The character with its code point: `ö` (U+00F6), or its name where it cannot be seen.
+/// Returns a character with its code point, `ö` (U+00F6), or its name if it is invisible.
 fn named(c: char) -> String {
     let point = u32::from(c);
     match invisible_name(c) {
@@ -79,6 +80,7 @@ fn named(c: char) -> String {
     }
 }
 
+/// Returns the name of an invisible character.
 fn invisible_name(c: char) -> Option<&'static str> {
     Some(match c {
         '\0' => "the character NUL",
@@ -96,10 +98,12 @@ fn invisible_name(c: char) -> Option<&'static str> {
     })
 }
 
+/// Returns whether a character changes the direction of reading.
 fn is_bidirectional(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
+/// Returns whether a character is invisible.
 fn is_hidden(c: char) -> bool {
     matches!(c,
         '\u{ad}' | '\u{34f}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}'

@@ -1,9 +1,9 @@
-//! Syntax mistakes in the user's words.
+//! Diagnostics of syntax errors.
 
 use super::parse::NESTING_MAX;
 use crate::source::{Diagnostic, Span, code};
 
-/// `+`, `-`, `(` or `[` at the beginning of a line, where it cannot continue the line before.
+/// Returns the error of a line that begins with `+`, `-`, `(` or `[` and cannot continue the line before.
 pub(super) fn line_break(mark: Span, first: char) -> Diagnostic {
     let what = match first {
         '(' => "arguments in `( )` begin",
@@ -27,13 +27,14 @@ fn sum_break(mark: Span, sign: char) -> Diagnostic {
     .hint(format!("put the `{sign}` at the end of the line before"))
 }
 
+/// Returns the error of deep nesting.
 pub(super) fn too_deep(at: Span, what: &str) -> Diagnostic {
     Diagnostic::error(code::TOO_DEEP, format!("{what} is nested too deeply"))
         .label(at, "")
         .hint(format!("the limit is {NESTING_MAX} levels"))
 }
 
-/// Brackets that nothing closes, outermost first, and what was found instead.
+/// Returns the error of unclosed brackets, given outermost first, and of the token found instead.
 pub(super) fn unclosed(open: &[(char, Span)], found: Option<Span>) -> Diagnostic {
     let (bracket, span) = open[open.len() - 1];
     let mut diagnostic =
@@ -47,6 +48,7 @@ pub(super) fn unclosed(open: &[(char, Span)], found: Option<Span>) -> Diagnostic
     }
 }
 
+/// Returns the closing bracket.
 fn closer(bracket: char) -> char {
     match bracket {
         '(' => ')',
@@ -55,6 +57,7 @@ fn closer(bracket: char) -> char {
     }
 }
 
+/// Returns the error of an unclosed text or comment; `length` is that of its opening quote.
 pub(super) fn unclosed_token(opener: Span, what: &str, length: usize) -> Diagnostic {
     let hint = match (what, length) {
         ("comment", _) => "close it with `*/`",
@@ -64,7 +67,7 @@ pub(super) fn unclosed_token(opener: Span, what: &str, length: usize) -> Diagnos
     Diagnostic::error(code::UNCLOSED, format!("this {what} is never closed")).label(opener, "").hint(hint)
 }
 
-/// A closing bracket that closes nothing of its kind.
+/// Returns the error of a closing bracket without an opening one; `open` is the innermost open bracket.
 pub(super) fn stray_closer(closer: char, at: Span, open: Option<Span>) -> Diagnostic {
     let diagnostic = Diagnostic::error(code::SYNTAX, format!("this `{closer}` closes nothing")).label(at, "");
     match open {

@@ -1,4 +1,4 @@
-//! Why a piece cannot be parsed: the place where the grammar came to a halt, in the user's words.
+//! Explanation of parse errors: the token at which the grammar stopped, in the user's words.
 
 use super::explain;
 use super::lex::{Token, TokenKind};
@@ -9,7 +9,7 @@ use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Code, Diagnostic, FileId, Span, code};
 
-/// What the faulty piece is one of.
+/// The kind of body that a faulty piece is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     Items,
@@ -19,7 +19,7 @@ pub(super) enum Place {
     Truss,
 }
 
-/// What begins an item or a statement of a file.
+/// The words that begin an item or a statement of a file.
 const ITEMS_AND_STATEMENTS: &[&str] = &[
     "use",
     "let",
@@ -40,7 +40,7 @@ const ITEMS_AND_STATEMENTS: &[&str] = &[
 ];
 
 impl Place {
-    /// The words that begin a piece here.
+    /// Returns the words that begin a piece in this kind of body.
     pub(super) fn keywords(self) -> &'static [&'static str] {
         match self {
             Place::Items => ITEMS_AND_STATEMENTS,
@@ -51,7 +51,7 @@ impl Place {
         }
     }
 
-    /// What begins with these words, and where it stands.
+    /// Returns the phrase for such a piece, and for where it belongs.
     fn name(self) -> &'static str {
         match self {
             Place::Items => "an item of a file",
@@ -63,20 +63,20 @@ impl Place {
     }
 }
 
-/// A mistake: the tokens of the piece, and which of them the grammar could not take.
+/// A parse error: the tokens of the piece, and the token that the grammar could not take.
 struct Mistake<'t> {
     text: &'t str,
     base: usize,
     file: FileId,
     tokens: Vec<Token>,
-    /// The number of tokens where the piece ends too early.
+    /// The index of the faulty token; the number of tokens if the piece ends too early.
     found: usize,
     failure: &'t Failure,
     place: Place,
     in_text: bool,
 }
 
-/// The diagnostic for a piece `text` that begins at `base` of the `whole` text.
+/// Returns the diagnostic for a piece `text` that begins at offset `base` of the `whole` text.
 pub(super) fn explain(
     failure: &Failure,
     text: &str,
@@ -89,17 +89,17 @@ pub(super) fn explain(
     let mut in_text = false;
     let mut found = tokens.iter().position(|token| token.end > failure.at).unwrap_or(tokens.len());
     if let Some(inside) = inside_text(&tokens, found, failure.at, text) {
-        // The mistake stands in the `{ }` of a text: what follows is seen token by token.
+        // The mistake is in the `{ }` of a text: its contents are examined token by token.
         tokens.truncate(found);
         tokens.extend(inside);
         in_text = true;
     }
     found = found.min(tokens.len());
-    // A sign that could have begun an operator was looked at, and nothing was tried behind it.
+    // The sign was read as the beginning of an operator, and nothing was tried behind it.
     if failure.wanted.is_empty() && found > 0 && tokens[found - 1].end == failure.at {
         found -= 1;
     }
-    // Behind a reserved word the grammar only asks whether the word goes on: the word is the mistake.
+    // Behind a reserved word the grammar only checks whether the word continues: the word is the mistake.
     if let Some(before) = found.checked_sub(1).map(|before| tokens[before])
         && before.end == failure.at
         && words::is_reserved(&text[before.start..before.end])
@@ -111,6 +111,7 @@ pub(super) fn explain(
     mistake.explain(whole)
 }
 
+/// Returns the tokens in the `{ }` of a text that holds the offset `at`.
 fn inside_text(all: &[Token], found: usize, at: usize, text: &str) -> Option<Vec<Token>> {
     let token = all.get(found)?;
     let is_text = matches!(token.kind, TokenKind::Text { .. }) && token.start < at;
@@ -118,6 +119,7 @@ fn inside_text(all: &[Token], found: usize, at: usize, text: &str) -> Option<Vec
 }
 
 impl Mistake<'_> {
+    /// Returns the most specific explanation that applies.
     fn explain(&self, whole: &str) -> Diagnostic {
         if self.failure.too_deep {
             return explain::too_deep(self.span_of(0), "this");
@@ -137,14 +139,17 @@ impl Mistake<'_> {
             .unwrap_or_else(|| self.missing(whole))
     }
 
+    /// Returns the text of a token; empty if there is none.
     fn token_text(&self, index: usize) -> &str {
         self.tokens.get(index).map_or("", |token| &self.text[token.start..token.end])
     }
 
+    /// Returns the text of the faulty token.
     fn found(&self) -> &str {
         self.token_text(self.found)
     }
 
+    /// Returns the text of the token before the faulty one.
     fn before(&self) -> &str {
         self.found.checked_sub(1).map_or("", |before| self.token_text(before))
     }
@@ -153,7 +158,7 @@ impl Mistake<'_> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
-    /// The span of a token, or the place behind the last one.
+    /// Returns the span of a token, or the empty span behind the last one.
     fn span_of(&self, index: usize) -> Span {
         let (start, end) = match (self.tokens.get(index), self.tokens.last()) {
             (Some(token), _) => (token.start, token.end),
@@ -163,15 +168,17 @@ impl Mistake<'_> {
         Span::new(self.file, self.base + start, self.base + end)
     }
 
+    /// Returns whether the grammar would have accepted this text.
     fn wants(&self, text: &str) -> bool {
         self.failure.wanted.iter().any(|wanted| wanted == text)
     }
 
-    /// Whether any expression would fit at the place.
+    /// Returns whether the grammar would have accepted any expression.
     fn wants_expression(&self) -> bool {
         self.wants("\"") && self.wants("[") && self.wants("not")
     }
 
+    /// Returns whether the faulty token begins a line.
     fn begins_line(&self) -> bool {
         let Some(before) = self.found.checked_sub(1).and_then(|before| self.tokens.get(before)) else {
             return false;
@@ -188,7 +195,7 @@ impl Mistake<'_> {
         Some(Diagnostic::error(code, message).label(self.span_of(index), ""))
     }
 
-    /// Parts of the language that have their place but are not built yet.
+    /// Explains a part of the language that is reserved but not built yet.
     fn later(&self) -> Option<Diagnostic> {
         let (first, second) = (self.token_text(0), self.token_text(1));
         let item = match first {
@@ -209,7 +216,7 @@ impl Mistake<'_> {
         self.error_at(code::LATER, index, format!("`{what}` is not built yet"))
     }
 
-    /// A word that begins nothing here: misspelt, or in another place.
+    /// Explains a first word that begins nothing here: misspelt, or in the wrong body.
     fn first_word(&self) -> Option<Diagnostic> {
         let first = self.token_text(0);
         let is_word = self.kind_of(0) == Some(TokenKind::Word);
@@ -244,7 +251,7 @@ impl Mistake<'_> {
         })
     }
 
-    /// A misspelt keyword behind a whole expression.
+    /// Explains a misspelt keyword behind a complete expression.
     fn inner_word(&self) -> Option<Diagnostic> {
         let found = self.found();
         let is_word = self.kind_of(self.found) == Some(TokenKind::Word);
@@ -278,7 +285,7 @@ impl Mistake<'_> {
         diagnostic.map(|diagnostic| diagnostic.hint(format!("write `{first} a -- b`")))
     }
 
-    /// A reserved word where a name is wanted.
+    /// Explains a reserved word used as a name.
     fn reserved_name(&self) -> Option<Diagnostic> {
         let found = self.found();
         let declares = matches!(
@@ -318,7 +325,7 @@ impl Mistake<'_> {
         })
     }
 
-    /// What other languages write.
+    /// Explains notation of other languages.
     fn foreign_mark(&self) -> Option<Diagnostic> {
         let follows = self.found > 0 && self.span_of(self.found - 1).end == self.span_of(self.found).start;
         let hint = match (self.before(), self.found()) {
@@ -343,7 +350,7 @@ impl Mistake<'_> {
         self.error(format!("`{}` cannot stand here", self.found())).map(|diagnostic| diagnostic.hint(hint))
     }
 
-    /// `for i in range(3):`
+    /// Explains `for i in range(3):`.
     fn loop_with_colon(&self) -> Option<Diagnostic> {
         let words: Vec<&str> = (1..self.found).map(|i| self.token_text(i)).collect();
         let each = match words.as_slice() {
@@ -355,7 +362,7 @@ impl Mistake<'_> {
             .map(|diagnostic| diagnostic.hint(format!("a body stands in braces: `for {each} {{ ... }}`")))
     }
 
-    /// `a if c else b`
+    /// Explains `a if c else b`.
     fn turned_condition(&self) -> Option<Diagnostic> {
         let behind = (1..self.found).rev().find(|&i| self.token_text(i) == "if")?;
         let value = matches!(
@@ -371,7 +378,7 @@ impl Mistake<'_> {
         })
     }
 
-    /// One mark in the place of another.
+    /// Explains one mark in place of another.
     fn wrong_mark(&self) -> Option<Diagnostic> {
         let found = self.found();
         let hint = match found {
@@ -395,12 +402,12 @@ impl Mistake<'_> {
         self.error(format!("`{found}` cannot stand here")).map(|diagnostic| diagnostic.hint(hint))
     }
 
-    /// Whether the place follows a whole operand.
+    /// Returns whether the faulty token follows a complete operand.
     fn wants_operator(&self) -> bool {
         self.wants("*") && self.wants("^") || self.failure.wanted.is_empty()
     }
 
-    /// `{ a: 1 }`, or `{` where an expression is wanted.
+    /// Explains `{ a: 1 }`, or `{` in place of an expression.
     fn brace_literal(&self) -> Option<Diagnostic> {
         let record = self.found() == ":"
             && matches!(
@@ -410,7 +417,7 @@ impl Mistake<'_> {
             && self.found >= 2
             && self.token_text(self.found - 2) == "{";
         let brace = self.found() == "{" && self.wants_expression();
-        // The first entry of what was read as a block.
+        // The first entry of a brace literal that was read as a block.
         let entry = self.found() == ":" && self.found == 1 && self.place == Place::Statements;
         if !record && !brace && !entry {
             return None;
@@ -420,7 +427,7 @@ impl Mistake<'_> {
             .map(|d| d.hint("give named values as arguments: `Name(a: 1, b: 2)`; a list is written `[a, b]`"))
     }
 
-    /// `+`, `-`, `(` or `[` that begins a line but was meant to continue one.
+    /// Explains `+`, `-`, `(` or `[` that begins a line but was meant to continue one.
     fn line_start(&self) -> Option<Diagnostic> {
         let first = self.found().chars().next()?;
         let continues = matches!(self.found(), "+" | "-" | "(" | "[");
@@ -430,7 +437,7 @@ impl Mistake<'_> {
             .then(|| explain::line_break(mark, first))
     }
 
-    /// A parameter without its type.
+    /// Explains a parameter without its type.
     fn missing_type(&self) -> Option<Diagnostic> {
         let declares = matches!(
             self.token_text(0),
@@ -446,7 +453,7 @@ impl Mistake<'_> {
             .map(|diagnostic| diagnostic.hint(format!("write for example `{name}: Length`")))
     }
 
-    /// Two statements on one line.
+    /// Explains two statements on one line.
     fn own_line(&self) -> Option<Diagnostic> {
         let in_block = self.wants("}") && self.wants("let");
         let statements = matches!(self.place, Place::Items | Place::Statements) && !self.in_text || in_block;
@@ -467,7 +474,7 @@ impl Mistake<'_> {
             .map(|d| d.hint("an operator is missing, or a line break: an expression that is a statement begins its own line"))
     }
 
-    /// What is missing before what was found.
+    /// Explains what is missing before the faulty token.
     fn missing(&self, whole: &str) -> Diagnostic {
         let unit = self.kind_of(self.found) == Some(TokenKind::Word)
             && self.found > 0
@@ -477,7 +484,7 @@ impl Mistake<'_> {
             && !self.begins_line();
         let wanted = self.wanted();
         let before = self.found_words(whole);
-        // Where a line or file ends too early, the place is behind what stands there.
+        // If a line or file ends too early, the place is behind its last token.
         let ends = self.found >= self.tokens.len() || self.begins_line() && !wanted.is_empty();
         let span = match self.found.checked_sub(1).filter(|_| ends).and_then(|before| self.tokens.get(before))
         {
@@ -495,7 +502,7 @@ impl Mistake<'_> {
             let unit = foreign::unit(self.found()).unwrap_or(self.found());
             return diagnostic.hint(format!("a unit sticks to its number: `{}{unit}`", self.before()));
         }
-        // Within an expression the form of the whole is no help.
+        // Within an expression the form of the whole item does not help.
         if self.in_text && self.found() == "}" {
             return diagnostic
                 .hint("a text takes values in: `\"{value}\"`; a brace of its own is written `\\{`");
@@ -506,7 +513,7 @@ impl Mistake<'_> {
         }
     }
 
-    /// What was found, in words.
+    /// Returns the phrase for the faulty token.
     fn found_words(&self, whole: &str) -> String {
         let text = self.found();
         let Some(kind) = self.kind_of(self.found) else {
@@ -527,14 +534,15 @@ impl Mistake<'_> {
         }
     }
 
-    /// What would fit, in words, the marks first.
+    /// Returns the phrases for what the grammar would have accepted, marks first.
     fn wanted(&self) -> Vec<String> {
         if self.wants_expression() {
             return vec!["an expression".into()];
         }
         const MARKS: [&str; 16] =
             [")", "]", "}", ",", ":", "=", "--", "->", "{", ">", "in", "of", "on", "facing", "as", "\""];
-        // Behind an operand `>` compares, and behind the first word of an argument a label may end.
+        // Behind an operand `>` is a comparison, and behind the first word of an argument `:` may end a
+        // label.
         let misleading: &[&str] = match (self.wants_operator(), self.wants(",")) {
             (true, true) => &[">", ":", "="],
             (true, false) => &[">"],
@@ -551,13 +559,13 @@ impl Mistake<'_> {
     }
 }
 
-/// The place whose keyword this is.
+/// Returns the kind of body in which this keyword is used.
 fn elsewhere(word: &str) -> Option<Place> {
     let places = [Place::Items, Place::Config, Place::Module, Place::Truss];
     places.into_iter().find(|place| place.keywords().contains(&word))
 }
 
-/// `a`, `b` and `c`
+/// Returns a list of words: `a`, `b` and `c`.
 fn listed(words: &[&str]) -> String {
     let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     joined(&words, "and")

@@ -1,53 +1,66 @@
-//! Tokens, as far as they are needed to find brackets, comments and line beginnings and to say what
-//! stands at a place. The grammar does not use them; it reads the text itself.
+//! A lexer for brackets, comments, line beginnings and error messages. The grammar does not use it; it
+//! reads the text itself.
 
-/// A token without its text: bytes `start..end`. White space yields none.
+/// A token: bytes `start..end` of the text. White space belongs to none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
+    /// Its kind.
     pub kind: TokenKind,
+    /// The offset of its first byte.
     pub start: usize,
+    /// The offset behind its last byte.
     pub end: usize,
 }
 
+/// The kinds of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
+    /// A line end.
     LineBreak,
+    /// `// ...`, without the line end.
     LineComment,
+    /// `/* ... */`
     BlockComment {
-        /// How deep comments nest in it.
+        /// The depth of nested comments in it.
         depth: usize,
     },
+    /// A name or keyword.
     Word,
+    /// A number with a simple unit.
     Number,
-    /// `"..."` or `"""..."""`, with everything in its `{ }`.
+    /// `"..."` or `"""..."""`, with the contents of its `{ }`.
     Text {
-        /// How deep brackets nest in its `{ }`.
+        /// The depth of brackets nested in its `{ }`.
         depth: usize,
     },
     /// `(`, `[` or `{`
     Open,
     /// `)`, `]` or `}`
     Close,
+    /// A sign or mark.
     Operator,
+    /// A `"` text that is not closed on its line.
     UnclosedText,
+    /// A `"""` text that is never closed.
     UnclosedRawText,
+    /// A `/*` comment that is never closed.
     UnclosedComment,
-    /// A character that no token begins with.
+    /// A character with which no token begins.
     Stray,
 }
 
-/// Yields the tokens of a text; every byte that is no white space belongs to one.
+/// An iterator over the tokens of a text; every byte that is not white space belongs to one.
 #[derive(Clone)]
 pub(super) struct Lexer<'t> {
     bytes: &'t [u8],
     text: &'t str,
     at: usize,
-    /// Whether the word `use` or `test` comes just before: its text has no `{expr}`.
+    /// True behind the words `use` and `test`, whose text has no `{expr}`.
     plain_text: bool,
 }
 
 impl<'t> Lexer<'t> {
-    /// Tokens from `start` on, which must not lie within a token.
+    /// Returns the tokens from the offset `start` on, which must not be within a token.
     pub(super) fn new(text: &'t str, start: usize) -> Lexer<'t> {
         Lexer { bytes: text.as_bytes(), text, at: start, plain_text: false }
     }
@@ -104,7 +117,7 @@ impl<'t> Lexer<'t> {
         }
     }
 
-    /// Digits with a fraction, an exponent and a simple unit; a unit such as `m/s` goes on in
+    /// Reads digits with a fraction, an exponent and a simple unit. A unit such as `m/s` continues in
     /// further tokens.
     fn number(&mut self) -> TokenKind {
         self.skip_word();
@@ -206,19 +219,20 @@ impl Lexer<'_> {
     }
 }
 
+/// Returns whether a byte may be part of a name.
 pub(super) fn is_word_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// Where the line that holds this place ends: at its line break, or at the end of the text.
+/// Returns the offset of the line end of the line that holds `start`, or of the end of the text.
 pub(super) fn line_end(bytes: &[u8], start: usize) -> usize {
     bytes[start..].iter().position(|b| *b == b'\n').map_or(bytes.len(), |length| start + length)
 }
 
-/// Where the text that begins at `start` ends, and how deep brackets nest in its `{ }`; no depth
-/// where its line ends first.
+/// Returns the end of the text literal that begins at `start`, and the depth of brackets in its `{ }`; no
+/// depth if its line ends first.
 fn text_end(bytes: &[u8], start: usize, plain: bool) -> (usize, Option<usize>) {
-    // What is open, innermost last: a quote, or a bracket within `{ }`.
+    // The open quotes and brackets, innermost last.
     let mut open = vec![b'"'];
     let mut depth = 0;
     let mut at = start + 1;
@@ -239,7 +253,7 @@ fn text_end(bytes: &[u8], start: usize, plain: bool) -> (usize, Option<usize>) {
             b'{' => open.push(byte),
             b'(' | b'[' if !in_text => open.push(byte),
             b'}' if !in_text => {
-                // The end of the `{ }`, whatever is unclosed in it.
+                // Closes the `{ }`, with whatever is unclosed in it.
                 while open.pop().is_some_and(|b| b != b'{') {}
             }
             b')' | b']' if !in_text && open.last() != Some(&b'{') => {

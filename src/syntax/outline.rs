@@ -1,5 +1,5 @@
-//! What stands where in a text, for a room that lays texts out anew: tokens, and what the grammar
-//! makes of them. Nothing is built, and no diagnostics are made.
+//! The outline of a text for the formatter: tokens with their roles in the grammar. No tree is built and no
+//! diagnostics are made.
 
 use super::lex::{Lexer, Token, TokenKind};
 use super::parse::{Node, Rule, TEXT_MAX, nodes};
@@ -8,51 +8,52 @@ use crate::source::FileId;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-/// What the grammar makes of the token that begins at a place.
+/// The role of a token in the grammar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// A sign or `not` in front of its operand.
+    /// A sign or `not` before its operand.
     Prefix,
-    /// An opening bracket that belongs to what stands before it: a call, an index, parameters.
+    /// An opening bracket attached to what is before it: a call, an index, parameters.
     Tight,
     /// The braces of `use a.{b, c}`.
     Names,
     /// `<` or `>` around the arguments of a type.
     Angle,
-    /// `for` or `if` of a list that is made: it does not go on with what stands before it.
+    /// `for` or `if` of a comprehension, which does not continue the expression before it.
     Each,
-    /// The `:` behind the name of a joint or port, which introduces more than a type.
+    /// The `:` behind the name of a joint or port, which is spaced on both sides.
     Spaced,
 }
 
 /// A run of items that is parsed on its own.
 #[derive(Clone, Debug)]
 pub struct Chunk {
+    /// The bytes of the text.
     pub range: Range<usize>,
-    /// Whether the grammar can read it.
+    /// True if the grammar can parse it.
     pub sound: bool,
 }
 
-/// A text as the grammar sees it.
+/// The outline of a text.
 #[derive(Debug)]
 pub struct Outline {
-    /// In order; comments and line breaks are tokens, and a number is one with its unit.
+    /// The tokens, in order, comments and line breaks included; a number and its unit are one token.
     pub tokens: Vec<Token>,
-    /// Where items, clauses and statements begin.
+    /// The offsets at which items, clauses and statements begin.
     pub begins: HashSet<usize>,
-    /// By the token's first byte. Of what can't be read nothing is known.
+    /// The roles by offset of the token. Tokens in unreadable chunks have none.
     pub roles: HashMap<usize, Role>,
-    /// Without gaps, in order. The first may hold nothing but comments.
+    /// The chunks, in order, without gaps. The first may hold nothing but comments.
     pub chunks: Vec<Chunk>,
 }
 
 impl Outline {
-    /// `None` for a text that is longer than what is parsed at all.
+    /// Returns the outline of a text; `None` if the text is longer than [`TEXT_MAX`].
     pub fn of(text: &str) -> Option<Outline> {
         if text.len() > TEXT_MAX {
             return None;
         }
-        // Places are all that is asked, so any file's name will do.
+        // Only offsets are used, so any file identity will do.
         let scan = scan(FileId(0), text);
         let mut found = Found::default();
         let mut chunks = Vec::new();
@@ -71,16 +72,17 @@ impl Outline {
     }
 }
 
-/// The tree of a text without its places: each node's rule and depth, and the text of leaves.
+/// The tree of a text without positions: the rule and depth of each node, and the text of leaves. Texts of
+/// the same meaning have equal skeletons.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Skeleton(Vec<(Rule, usize, String)>);
 
-/// Texts that mean the same have the same skeleton; `None` where something can't be read.
+/// Returns the skeleton of a text; `None` if a piece of it cannot be parsed.
 pub fn skeleton(text: &str) -> Option<Skeleton> {
     let scan = scan(FileId(0), text);
     let mut out = Skeleton::default();
     for range in scan.ranges() {
-        // Where chunks begin means nothing.
+        // The borders of chunks have no meaning.
         for node in nodes(Rule::chunk, &scan.text[range])?.into_inner() {
             if node.as_rule() != Rule::EOI {
                 out.add(node, 0);
@@ -91,12 +93,13 @@ pub fn skeleton(text: &str) -> Option<Skeleton> {
 }
 
 impl Skeleton {
+    /// Adds a node with its children.
     fn add(&mut self, node: Node, depth: usize) {
         let (rule, text) = (node.as_rule(), node.as_str());
         let inner = node.into_inner();
         let leaf = match (inner.len(), rule) {
             (0, Rule::text_chars | Rule::escape | Rule::raw_text | Rule::plain_text) => text.to_owned(),
-            // White space in a leaf, such as between a label and its colon, means nothing.
+            // White space in a leaf, such as between a label and its colon, has no meaning.
             (0, _) => text.split_whitespace().collect(),
             _ => String::new(),
         };
@@ -111,20 +114,21 @@ impl Skeleton {
 struct Found {
     begins: HashSet<usize>,
     roles: HashMap<usize, Role>,
-    /// Numbers with their units, and units in types: begin and end.
+    /// Numbers with their units, and units in types, from begin to end.
     atoms: HashMap<usize, usize>,
-    /// Ends of the `>` that close the arguments of a type.
+    /// The ends of the `>` that close the arguments of a type.
     angle_ends: HashSet<usize>,
 }
 
 impl Found {
+    /// Records the roles of a node and its children.
     fn visit(&mut self, node: Node, base: usize, parent: Rule) {
         let rule = node.as_rule();
         let span = node.as_span();
         let (start, end) = (base + span.start(), base + span.end());
         let text = node.as_str();
         if begins(rule, parent) {
-            // `extern` itself is no node.
+            // The word `extern` is not part of the node.
             let before = node.get_input()[..span.start()].trim_end();
             let of_extern = matches!(rule, Rule::extern_fn | Rule::extern_type) && before.ends_with("extern");
             self.begins.insert(if of_extern { base + before.len() - "extern".len() } else { start });
@@ -133,7 +137,7 @@ impl Found {
             Rule::prefix => {
                 self.roles.insert(start, Role::Prefix);
             }
-            // The limits of a motor stand behind a sum that they do not call.
+            // The parentheses of a motor are not attached to the sum before them.
             Rule::args if parent == Rule::motor => {}
             Rule::args | Rule::params | Rule::index | Rule::part_count => {
                 self.roles.insert(start, Role::Tight);
@@ -160,7 +164,7 @@ impl Found {
                 self.roles.insert(start, Role::Each);
             }
             Rule::joint | Rule::port => self.colon(&node, base),
-            // What stands in a text is kept as it is.
+            // The contents of a text stay as they are.
             Rule::text => return,
             _ => {}
         }
@@ -169,7 +173,7 @@ impl Found {
         }
     }
 
-    /// The colon behind the name, and behind the index of a port.
+    /// Records the colon behind the name or the index of a port.
     fn colon(&mut self, node: &Node, base: usize) {
         let (start, text) = (node.as_span().start(), node.as_str());
         let name_end =
@@ -187,7 +191,7 @@ impl Found {
     }
 }
 
-/// Whether a node of this rule is an item, clause or statement where it stands.
+/// Returns whether a node of this rule is an item, clause or statement below its parent.
 fn begins(rule: Rule, parent: Rule) -> bool {
     use Rule as R;
     match parent {
@@ -199,7 +203,7 @@ fn begins(rule: Rule, parent: Rule) -> bool {
     }
 }
 
-/// The tokens, those of a number and its unit as one.
+/// Returns the tokens, a number and its unit joined.
 fn joined(lexer: Lexer, text: &str, found: &Found) -> Vec<Token> {
     let mut tokens = Vec::new();
     let mut atom = 0;
@@ -207,7 +211,7 @@ fn joined(lexer: Lexer, text: &str, found: &Found) -> Vec<Token> {
         if token.start < atom {
             continue;
         }
-        // `List<Int>= [1]`: the sign is of two rules.
+        // `List<Int>= [1]`: the two characters belong to two rules.
         if &text[token.start..token.end] == ">=" && found.angle_ends.contains(&(token.start + 1)) {
             tokens.push(Token { end: token.start + 1, ..token });
             tokens.push(Token { start: token.start + 1, ..token });

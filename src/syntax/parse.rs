@@ -1,4 +1,4 @@
-//! The door of the room: text in, tree out. The only user of pest, together with the builders.
+//! The entry of the room: [`parse`]. The only user of pest, together with the builders.
 
 use super::ast;
 use super::build::Builder;
@@ -9,33 +9,34 @@ use pest::Parser as _;
 use pest::error::ErrorVariant;
 use std::sync::{Mutex, PoisonError};
 
-/// How deep brackets, comments and types may nest.
+/// The deepest nesting of brackets, comments and types.
 pub const NESTING_MAX: usize = 200;
-/// How high the tree of one expression may grow: later rooms walk it by recursion.
+/// The greatest height of the tree of one expression; later rooms walk it by recursion.
 pub const HEIGHT_MAX: usize = 500;
-/// How long a text may be, in bytes.
+/// The greatest length of a text, in bytes.
 pub const TEXT_MAX: usize = 8 << 20;
 
 #[derive(pest_derive::Parser)]
 #[grammar = "../grammar/modl.pest"]
 struct Grammar;
 
-/// A piece of text as pest saw it.
+/// A node of pest's parse of a piece of text.
 pub(super) type Node<'i> = pest::iterators::Pair<'i, Rule>;
 
-/// How many mistakes of one file are told.
+/// The most diagnostics of one file.
 pub const DIAGNOSTICS_MAX: usize = 200;
 
-/// What parsing a file yields.
+/// The result of parsing a file.
 #[derive(Clone, Debug)]
 pub struct Parsed {
+    /// The tree.
     pub file: ast::File,
-    /// In order of position.
+    /// The diagnostics, in order of position.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// The tree of a file. Never fails: pieces that cannot be parsed become `Error` nodes, each with a
-/// diagnostic.
+/// Returns the tree of a file. Never fails: pieces that cannot be parsed become `Error` nodes with a
+/// diagnostic each. A text longer than [`TEXT_MAX`] is reported and not parsed.
 pub fn parse(id: FileId, text: &str) -> Parsed {
     if text.len() > TEXT_MAX {
         return too_large(id, text);
@@ -54,6 +55,7 @@ pub fn parse(id: FileId, text: &str) -> Parsed {
     Parsed { file: ast::File { id, doc, items, comments: scan.comments, unread }, diagnostics }
 }
 
+/// Returns the empty tree of a text that is too large.
 fn too_large(id: FileId, text: &str) -> Parsed {
     let message = format!("the text has {} bytes, and {TEXT_MAX} is the limit", text.len());
     let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
@@ -63,12 +65,13 @@ fn too_large(id: FileId, text: &str) -> Parsed {
     Parsed { file, diagnostics: vec![diagnostic] }
 }
 
-/// The root of the parse of a whole text by a rule, if it is sound.
+/// Returns the root of pest's parse of a whole text by a rule; `None` if it cannot be parsed.
 pub(super) fn nodes(rule: Rule, text: &str) -> Option<Node<'_>> {
     Grammar::parse(rule, text).ok()?.next()
 }
 
-/// Whether a text breaks off: its last piece can't be read, but only because it ends where it does.
+/// Returns whether a text is incomplete: its last piece cannot be parsed, and would be by more text behind
+/// it.
 pub fn breaks_off(text: &str) -> bool {
     if text.len() > TEXT_MAX {
         return false;
@@ -78,22 +81,24 @@ pub fn breaks_off(text: &str) -> bool {
     failure(Rule::chunk, last).is_some_and(|failure| failure.at >= last.len())
 }
 
-/// Where parsing came to a halt, and what would have let it go on.
+/// A failed parse: the furthest offset, and what the grammar would have accepted there.
 #[derive(Clone, Debug)]
 pub(super) struct Failure {
+    /// The offset at which parsing stopped.
     pub(super) at: usize,
-    /// Texts of the grammar that would fit there.
+    /// The texts that would fit there.
     pub(super) wanted: Vec<String>,
-    /// Whether a name or number would fit, or a longer one.
+    /// True if a name or number, or a longer one, would fit there.
     pub(super) wants_word: bool,
-    /// Whether the parser ran out of stack.
+    /// True if the parser ran out of stack.
     pub(super) too_deep: bool,
 }
 
-/// pest's switch for detailed errors is one for the whole process.
+/// Guards pest's switch for detailed errors, which is global to the process.
 static DETAIL: Mutex<()> = Mutex::new(());
 
-/// Parses a faulty text once more to learn what was wanted at the furthest place.
+/// Parses a faulty text once more to collect what would fit at the furthest offset; `None` if the text
+/// parses after all.
 pub(super) fn failure(rule: Rule, text: &str) -> Option<Failure> {
     let _guard = DETAIL.lock().unwrap_or_else(PoisonError::into_inner);
     pest::set_error_detail(true);
@@ -104,7 +109,7 @@ pub(super) fn failure(rule: Rule, text: &str) -> Option<Failure> {
     failure.too_deep = matches!(error.variant, ErrorVariant::CustomError { .. });
     if let Some(attempts) = error.parse_attempts() {
         failure.at = attempts.max_position;
-        // pest names the type of these tokens nowhere, but it prints them: a range as `a..z`.
+        // pest has no accessor for the kind of these tokens, but displays a range of characters as `a..z`.
         failure.wanted = attempts.expected_tokens().iter().map(ToString::to_string).collect();
         failure.wants_word = failure.wanted.iter().any(|wanted| wanted == "a..z");
     }

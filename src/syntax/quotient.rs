@@ -1,4 +1,5 @@
-//! `x // 2` of other languages: here a comment begins, and what was meant is lost without a word.
+//! A lint for `x // 2` of other languages: in modl a comment begins there, and the rest of the line is lost
+//! silently.
 
 use super::lex::{Token, TokenKind};
 use super::parse::{Rule, nodes};
@@ -6,19 +7,19 @@ use super::split::tokens;
 use super::words;
 use crate::source::{Diagnostic, Span, code};
 
-/// How long a divisor is that is looked for, in bytes.
+/// The greatest length of a divisor, in bytes.
 const DIVISOR_MAX: usize = 60;
 
-/// A warning where a comment behind an operand of a whole-number expression looks like its divisor:
-/// `n // 2`, or `(n // k)`, whose bracket the comment swallows.
+/// Returns a warning if a comment behind an operand of an integer expression looks like its divisor: `n //
+/// 2`, or `(n // k)`, whose bracket is in the comment.
 ///
-/// `before` is what stands before the comment on its line.
+/// `before` is the token before the comment on its line.
 pub(super) fn meant(source: &str, before: Token, comment: Token, span: Span) -> Option<Diagnostic> {
     let line = source[..before.start].rfind('\n').map_or(0, |at| at + 1);
     let ahead = &source[line..before.end];
     let divisor = source[comment.start + 2..comment.end].trim();
     let operand = match before.kind {
-        // A type is no number.
+        // A type is not a number.
         TokenKind::Word => {
             let word = &source[before.start..before.end];
             !words::is_reserved(word) && !word.starts_with(|c: char| c.is_ascii_uppercase())
@@ -35,12 +36,13 @@ pub(super) fn meant(source: &str, before: Token, comment: Token, span: Span) -> 
     })
 }
 
+/// Returns the hint that proposes `div`.
 fn hint(divisor: &str) -> String {
     let end = divisor.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(divisor.len());
     format!("the whole quotient is `div(a, {})`; `/` divides", &divisor[..end])
 }
 
-/// A whole number, perhaps with more of an expression behind it.
+/// Returns whether a text is an integer, perhaps followed by more of an expression.
 fn is_divisor(text: &str) -> bool {
     let tokens = tokens(text, 0..text.len());
     let begins = tokens
@@ -50,7 +52,7 @@ fn is_divisor(text: &str) -> bool {
     begins && text.len() <= DIVISOR_MAX && nodes(Rule::chunk, text).is_some()
 }
 
-/// Whether a name or number and then the bracket follow that is open on the line before.
+/// Returns whether a text is a name or number followed by the bracket that closes one open in `ahead`.
 fn swallows_a_bracket(ahead: &str, text: &str) -> bool {
     let mut open = 0i32;
     for token in tokens(ahead, 0..ahead.len()) {
@@ -61,6 +63,7 @@ fn swallows_a_bracket(ahead: &str, text: &str) -> bool {
     operand && open > 0 && behind.get(1).is_some_and(|second| second.kind == TokenKind::Close)
 }
 
+/// Returns the change of bracket depth by a token.
 fn depth(kind: TokenKind) -> i32 {
     match kind {
         TokenKind::Open => 1,
@@ -69,6 +72,7 @@ fn depth(kind: TokenKind) -> i32 {
     }
 }
 
+/// Returns whether a number has only digits.
 fn is_plain(number: &str) -> bool {
     number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_')
 }

@@ -1,5 +1,5 @@
-//! Going on after a mistake: faulty runs are cut into pieces, sound pieces are parsed, and each faulty
-//! one becomes an `Error` node with one diagnostic.
+//! Error recovery: faulty runs are split into pieces, sound pieces are parsed, and each faulty one becomes
+//! an `Error` node with one diagnostic.
 
 use super::ast::*;
 use super::build::{Builder, whole_characters};
@@ -11,7 +11,7 @@ use super::split::{bodies, split, tokens};
 use crate::source::Span;
 use std::ops::Range;
 
-/// Words behind which a name is declared.
+/// The words behind which a name is declared.
 const DECLARING: &[&str] = &[
     "behavior",
     "cell",
@@ -31,17 +31,20 @@ const DECLARING: &[&str] = &[
     "truss",
 ];
 
-/// How many levels of bodies are looked into for faulty pieces; each costs a parse of its text.
+/// The deepest level of bodies that are searched for faulty pieces; each level costs a parse of its text.
 const BODIES_MAX: usize = 12;
 
-/// What stands in a body: parsed piece by piece where the whole cannot be parsed.
+/// A clause of a body, which is parsed piece by piece if the whole cannot be parsed.
 trait Clause: Sized {
-    /// The rule for a run of them, as a whole text.
+    /// The rule for a text of several clauses.
     const RULE: Rule;
+    /// The kind of body, for messages.
     const PLACE: Place;
+    /// Builds the clauses of a parsed run.
     fn build(builder: &mut Builder, run: Node) -> Vec<Self>;
+    /// Returns the clause that marks an error.
     fn error(span: Span) -> Self;
-    /// The bodies that stand in it, in order of the text.
+    /// Returns the bodies inside this clause, in order of the text.
     fn bodies(&mut self) -> Vec<&mut Vec<Self>>;
 }
 
@@ -80,20 +83,23 @@ clause!(ConfigClause, ConfigClauseKind, config_clauses, config_clauses, Config, 
 clause!(TrussClause, TrussClauseKind, truss_clauses, truss_clauses, Truss);
 clause!(Stmt, StmtKind, statements, statements, Statements);
 
-/// Parses the chunks of a file.
+/// The parser of the chunks of a file.
 pub(super) struct Parser<'t> {
+    /// The builder of the tree.
     pub(super) builder: Builder<'t>,
+    /// The scan of the text.
     pub(super) scan: &'t Scan<'t>,
-    /// How many bodies deep the recovery is.
+    /// The depth of the body being recovered.
     depth: usize,
 }
 
 impl<'t> Parser<'t> {
+    /// Returns a parser at the top of the file.
     pub(super) fn new(builder: Builder<'t>, scan: &'t Scan<'t>) -> Parser<'t> {
         Parser { builder, scan, depth: 0 }
     }
 
-    /// The items of one chunk, added to those before.
+    /// Parses one chunk, and appends its items to those before.
     pub(super) fn chunk(&mut self, range: Range<usize>, items: &mut Vec<Item>) {
         if self.faults(&range).iter().any(|fault| fault.fatal && self.nests_too_deep(*fault)) {
             items.push(self.error_item(range));
@@ -102,6 +108,7 @@ impl<'t> Parser<'t> {
         }
     }
 
+    /// Parses a faulty chunk piece by piece.
     fn faulty_chunk(&mut self, range: Range<usize>, items: &mut Vec<Item>) {
         let told = self.builder.diagnostics.len();
         for piece in split(&self.scan.text, range.clone(), Place::Items.keywords(), &self.scan.unclosed) {
@@ -111,17 +118,18 @@ impl<'t> Parser<'t> {
             }
         }
         if self.builder.diagnostics.len() == told {
-            // Each piece is sound, but not beside the others.
+            // Each piece is sound, but not next to the others.
             let text = self.scan.text[range.clone()].to_string();
             self.explain(Rule::chunk, &text, &range, Place::Items);
         }
     }
 
-    /// Whether the fault is a bracket: then nothing around it can be parsed.
+    /// Returns whether a fault is deep nesting, so that nothing around it can be parsed.
     fn nests_too_deep(&self, fault: Fault) -> bool {
         matches!(self.scan.text.as_bytes()[fault.at], b'(' | b'[' | b'{' | b'"')
     }
 
+    /// Parses the items of a range; returns false if it cannot be parsed.
     fn sound_items(&mut self, range: Range<usize>, items: &mut Vec<Item>) -> bool {
         if self.faults(&range).iter().any(|fault| fault.fatal) {
             return false;
@@ -134,6 +142,7 @@ impl<'t> Parser<'t> {
         true
     }
 
+    /// Parses a faulty item: its head, and its body piece by piece.
     fn faulty_item(&mut self, range: Range<usize>) -> Item {
         if self.begins_with(&range, &["if", "for"]) {
             let statement: Stmt = self.faulty_clause(range);
@@ -157,18 +166,20 @@ impl<'t> Parser<'t> {
             .unwrap_or_else(|| self.error_item(range))
     }
 
+    /// Returns whether a range begins with one of the words.
     fn begins_with(&self, range: &Range<usize>, words: &[&str]) -> bool {
         let first = tokens(&self.scan.text, range.clone()).first().copied();
         first.is_some_and(|token| words.contains(&&self.scan.text[token.start..token.end]))
     }
 
-    /// Whether the `{ }` is a block behind `=` and not the body of the item.
+    /// Returns whether a `{ }` is a block behind `=` and not the body of the item.
     fn has_value_body(&self, range: &Range<usize>, body: &Range<usize>) -> bool {
         let before = tokens(&self.scan.text, range.start..body.start - 1);
         before.last().is_some_and(|token| matches!(&self.scan.text[token.start..token.end], "=" | "=>"))
             || self.value_start(range).is_some_and(|value| value < body.start)
     }
 
+    /// Returns the single item of a text, if it can be parsed.
     fn parsed_item(&mut self, text: &str, base: usize) -> Option<Item> {
         self.builder.base = base;
         let node = nodes(Rule::chunk, text)?;
@@ -177,6 +188,7 @@ impl<'t> Parser<'t> {
         if items.len() == 1 { items.pop() } else { None }
     }
 
+    /// Parses the body of an item whose head was parsed with an empty body.
     fn fill_item(&mut self, item: &mut Item, body: Range<usize>) {
         match &mut item.kind {
             ItemKind::Module(module) => module.clauses = self.body(body),
@@ -199,6 +211,7 @@ impl<'t> Parser<'t> {
         span.start as usize..(span.end as usize).min(self.scan.text.len())
     }
 
+    /// Explains a faulty item at the innermost faulty piece.
     fn explain_item(&mut self, range: &Range<usize>) {
         if let Some(value) = self.block_value(range) {
             drop(self.body::<Stmt>(value));
@@ -208,7 +221,7 @@ impl<'t> Parser<'t> {
         self.explain(Rule::chunk, &text, range, Place::Items);
     }
 
-    /// The block behind `=` that ends the piece.
+    /// Returns the block behind `=` that ends a piece.
     fn block_value(&self, range: &Range<usize>) -> Option<Range<usize>> {
         let start = self.value_start(range)?;
         let first = *tokens(&self.scan.text, start..range.end).first()?;
@@ -219,7 +232,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The clauses of a body, piece by piece.
+    /// Parses the clauses of a body, piece by piece.
     fn body<C: Clause>(&mut self, range: Range<usize>) -> Vec<C> {
         if self.depth >= BODIES_MAX {
             return self.piece(range);
@@ -231,6 +244,7 @@ impl<'t> Parser<'t> {
         clauses
     }
 
+    /// Parses one piece of a body.
     fn piece<C: Clause>(&mut self, range: Range<usize>) -> Vec<C> {
         if !self.faults(&range).iter().any(|fault| fault.fatal) {
             let text = &self.scan.text[range.clone()];
@@ -241,11 +255,13 @@ impl<'t> Parser<'t> {
         vec![self.faulty_clause(range)]
     }
 
+    /// Returns the clauses of a text, if it can be parsed.
     fn parsed<C: Clause>(&mut self, text: &str, base: usize) -> Option<Vec<C>> {
         self.builder.base = base;
         Some(C::build(&mut self.builder, nodes(C::RULE, text)?))
     }
 
+    /// Parses a faulty clause: its head, and its bodies piece by piece.
     fn faulty_clause<C: Clause>(&mut self, range: Range<usize>) -> C {
         let bodies = bodies(&self.scan.text, range.clone(), &self.scan.unclosed);
         if self.begins_with(&range, &["if", "for"]) && self.depth < BODIES_MAX {
@@ -272,10 +288,10 @@ impl<'t> Parser<'t> {
             })
     }
 
-    /// Puts clauses into the emptied bodies of a clause; does nothing where there is another number.
+    /// Parses clauses into the emptied bodies of a clause; returns false if their number differs.
     fn fill<C: Clause>(&mut self, clause: &mut C, ranges: Vec<Range<usize>>) -> bool {
         let mut bodies = clause.bodies();
-        // Where there is no last `else`, its body stays empty.
+        // Without a last `else` its body stays empty.
         let fits = ranges.len() == bodies.len() || ranges.len() + 1 == bodies.len();
         if fits {
             for (body, range) in bodies.iter_mut().zip(ranges) {
@@ -285,7 +301,7 @@ impl<'t> Parser<'t> {
         fits
     }
 
-    /// The text of a piece with its bodies emptied, and closed where the end is missing.
+    /// Returns the text of a piece with its bodies emptied, closed if the end is missing.
     fn emptied(&self, range: &Range<usize>, bodies: &[Range<usize>]) -> String {
         let mut text = String::new();
         let mut at = range.start;
@@ -301,7 +317,7 @@ impl<'t> Parser<'t> {
         text
     }
 
-    /// The piece with the value behind `=` put aside: what it declares is then known by name.
+    /// Parses a piece with the value behind `=` replaced by a hole, so that its name is declared.
     fn with_faulty_value<T>(
         &mut self,
         range: &Range<usize>,
@@ -317,7 +333,7 @@ impl<'t> Parser<'t> {
         node
     }
 
-    /// What is built has no span that ends behind `limit`.
+    /// Builds with all spans cut at the offset `limit`.
     fn limited<T>(&mut self, limit: usize, build: impl std::ops::FnOnce(&mut Self) -> T) -> T {
         let before = std::mem::replace(&mut self.builder.limit, limit);
         let built = build(self);
@@ -325,7 +341,7 @@ impl<'t> Parser<'t> {
         built
     }
 
-    /// The place behind the first `=` outside all brackets.
+    /// Returns the offset behind the first `=` outside all brackets.
     fn value_start(&self, range: &Range<usize>) -> Option<usize> {
         let mut depth = 0usize;
         for token in tokens(&self.scan.text, range.clone()) {
@@ -339,6 +355,7 @@ impl<'t> Parser<'t> {
         None
     }
 
+    /// Returns the faults of a range that have been reported.
     fn faults(&self, range: &Range<usize>) -> &'t [Fault] {
         let faults = &self.scan.faults;
         let start = faults.partition_point(|fault| fault.at < range.start);
@@ -346,12 +363,13 @@ impl<'t> Parser<'t> {
         &faults[start..end.max(start)]
     }
 
+    /// Returns the span of a range.
     fn span(&self, range: &Range<usize>) -> Span {
         whole_characters(self.builder.text, Span::new(self.builder.file, range.start, range.end))
     }
 
-    /// The names that a piece would have declared: behind the word that begins a line, or all that an
-    /// import names.
+    /// Records the names that a piece would have declared: those behind a declaring word that begins a
+    /// line, or all names of an import.
     fn note_unread(&mut self, range: &Range<usize>) {
         let text = &self.scan.text;
         let words: Vec<Token> =
@@ -369,16 +387,17 @@ impl<'t> Parser<'t> {
         }
     }
 
+    /// Returns the item that marks an error.
     fn error_item(&mut self, range: Range<usize>) -> Item {
         self.note_unread(&range);
         Item { span: self.span(&range), doc: None, kind: ItemKind::Error }
     }
 
-    /// Tells why a piece cannot be parsed, unless that was told already.
+    /// Reports why a piece cannot be parsed, unless a fault in it was reported.
     fn explain(&mut self, rule: Rule, text: &str, range: &Range<usize>, place: Place) {
         let rest = self.scan.text[range.end..].bytes();
         let blank = rest.take_while(|byte| matches!(byte, b' ' | b'\t')).count();
-        // What was replaced by a blank behind the piece belongs to it.
+        // A character replaced by a blank behind the piece belongs to it.
         let told = !self.faults(&(range.start..range.end + blank)).is_empty();
         if told || self.builder.diagnostics.len() >= DIAGNOSTICS_MAX {
             return;

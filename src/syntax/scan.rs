@@ -1,8 +1,8 @@
-//! The first walk over a text: comments, brackets, characters, and where items begin.
+//! The first pass over a text: comments, brackets, characters and the beginnings of items.
 //!
-//! What is found wrong here is told here, and the places are noted, so that the parser keeps silent
-//! about what follows from it. The parser gets a text of the same length in which comments are blanks
-//! and characters that have no place in a program are replaced by what was probably meant.
+//! Mistakes found here are reported here and recorded as faults, so that the parser reports nothing that
+//! follows from them. The parser gets a text of the same length in which comments are blanks and characters
+//! that are not allowed are replaced by their probable meaning.
 
 use super::ast::{Comment, CommentKind};
 use super::characters;
@@ -15,51 +15,58 @@ use crate::source::{Diagnostic, FileId, Span};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// How far back on its line a wrong bracket looks for what it closes, in bytes.
+/// The distance in bytes within which a wrong closing bracket is matched with an open one on its line.
 const LINE_LENGTH: usize = 500;
 
+/// The result of the first pass.
 pub(super) struct Scan<'t> {
-    /// What the grammar reads.
+    /// The text that the grammar reads.
     pub(super) text: Cow<'t, str>,
+    /// All comments, in order.
     pub(super) comments: Vec<Comment>,
-    /// Where the chunks of the file begin: at item keywords outside all brackets.
+    /// The offsets at which chunks begin: at item keywords outside all brackets.
     pub(super) chunks: Vec<usize>,
+    /// The diagnostics, in order of discovery.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// Places of mistakes that were told already, in order.
+    /// The faults that have been reported, by offset.
     pub(super) faults: Vec<Fault>,
-    /// Opening brackets that nothing closes, in order.
+    /// The offsets of opening brackets that are never closed, in order.
     pub(super) unclosed: Vec<usize>,
 }
 
+/// A mistake that has been reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fault {
+    /// Its offset.
     pub(super) at: usize,
-    /// The grammar must not see this place: recursion would be too deep, or the meaning is lost.
+    /// True if the grammar must not read this place: recursion would be too deep, or the meaning is lost.
     pub(super) fatal: bool,
 }
 
 impl Scan<'_> {
-    /// The chunks, without gaps up to the end.
+    /// Returns the ranges of the chunks, without gaps up to the end.
     pub(super) fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let ends = self.chunks.iter().skip(1).copied().chain([self.text.len()]);
         self.chunks.iter().copied().zip(ends).map(|(start, end)| start..end)
     }
 }
 
+/// Scans a text.
 pub(super) fn scan(file: FileId, text: &str) -> Scan<'_> {
     let scan = Scanner::new(file, text, Resync::SureItems).run();
     match scan.unclosed.is_empty() {
         true => scan,
-        // Something is never closed: any item keyword in the first column then begins an item.
+        // A bracket is never closed: any item keyword in the first column then begins an item.
         false => Scanner::new(file, text, Resync::AllItems).run(),
     }
 }
 
-/// Which words in the first column begin an item although brackets are open.
+/// The words in the first column that begin an item although brackets are open.
 #[derive(Clone, Copy, PartialEq)]
 enum Resync {
-    /// Those that can stand in no brackets at all.
+    /// Those that are not possible inside brackets.
     SureItems,
+    /// All item keywords.
     AllItems,
 }
 
@@ -68,20 +75,20 @@ struct Scanner<'t> {
     source: &'t str,
     resync: Resync,
     open: Vec<usize>,
-    /// How many of the open brackets are `(`, `[` and `{`.
+    /// The number of open `(`, `[` and `{`.
     open_of_kind: [usize; 3],
     /// The text for the grammar, once it differs from what was written.
     masked: Option<Vec<u8>>,
     scan: Scan<'t>,
-    /// Whether deep nesting was told for the current chunk.
-    deep_told: bool,
-    /// The previous token, on the same line.
+    /// True once deep nesting was reported for the current chunk.
+    deep_reported: bool,
+    /// The previous token on the same line.
     previous: Option<Token>,
-    /// The previous character that has no place in a program.
+    /// The offset of the previous character that is not allowed.
     stray: Option<usize>,
     /// All such characters of the line.
     strays: Vec<char>,
-    /// Where to go on behind what was meant as a comment.
+    /// The offset at which scanning continues behind what was meant as a comment.
     skip_to: Option<usize>,
 }
 
@@ -103,7 +110,7 @@ impl<'t> Scanner<'t> {
             open_of_kind: [0; 3],
             masked: None,
             scan,
-            deep_told: false,
+            deep_reported: false,
             previous: None,
             stray: None,
             strays: Vec::new(),
@@ -158,17 +165,20 @@ impl<'t> Scanner<'t> {
         Span::new(self.file, start, end)
     }
 
+    /// Reports a fault.
     fn tell(&mut self, diagnostic: Diagnostic, at: usize, fatal: bool) {
         self.scan.faults.push(Fault { at, fatal });
         self.report(diagnostic);
     }
 
+    /// Adds a diagnostic, up to the limit.
     fn report(&mut self, diagnostic: Diagnostic) {
         if self.scan.diagnostics.len() < DIAGNOSTICS_MAX {
             self.scan.diagnostics.push(diagnostic);
         }
     }
 
+    /// Begins a chunk at a word that begins an item.
     fn first_word(&mut self, token: Token, rest: &Lexer) {
         let word = &self.source[token.start..token.end];
         if !words::ITEMS.contains(&word) || !begins_item(self.source, token, rest) {
@@ -183,7 +193,7 @@ impl<'t> Scanner<'t> {
             self.close_all(token.start);
         }
         self.scan.chunks.push(token.start);
-        self.deep_told = false;
+        self.deep_reported = false;
     }
 
     fn line_comment(&mut self, token: Token) {
@@ -217,6 +227,7 @@ impl<'t> Scanner<'t> {
         self.replace(token.start, token.end, ' ');
     }
 
+    /// Checks a text.
     fn text(&mut self, token: Token, depth: usize) {
         self.hidden_characters(token);
         if self.open.len() + depth > NESTING_MAX {
@@ -224,6 +235,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
+    /// Records an opening bracket; reports deep nesting.
     fn open(&mut self, at: usize) {
         self.open.push(at);
         self.open_of_kind[self.kind(at)] += 1;
@@ -232,7 +244,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// Which of the three kinds of brackets stands here; braces are 2.
+    /// Returns the kind of the bracket at an offset: 0 for `( )`, 1 for `[ ]`, 2 for `{ }`.
     fn kind(&self, at: usize) -> usize {
         match self.source.as_bytes()[at] {
             b'(' | b')' => 0,
@@ -241,7 +253,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// The open brackets from this one on, which are open no longer.
+    /// Removes the open brackets from an index on, and returns them.
     fn pop_from(&mut self, index: usize) -> Vec<usize> {
         let popped = self.open.split_off(index);
         for &at in &popped {
@@ -250,14 +262,16 @@ impl<'t> Scanner<'t> {
         popped
     }
 
+    /// Reports deep nesting, once for each chunk.
     fn too_deep(&mut self, at: usize, end: usize) {
         self.scan.faults.push(Fault { at, fatal: true });
-        if !std::mem::replace(&mut self.deep_told, true) {
+        if !std::mem::replace(&mut self.deep_reported, true) {
             let span = self.span(at, end);
             self.report(explain::too_deep(span, "the program"));
         }
     }
 
+    /// Matches a closing bracket with an open one.
     fn close(&mut self, at: usize) {
         let kind = self.kind(at);
         if self.open_of_kind[kind] == 0 {
@@ -269,13 +283,14 @@ impl<'t> Scanner<'t> {
         self.unclosed(&unclosed, at);
     }
 
+    /// Reports a closing bracket without an open one of its kind.
     fn stray_closer(&mut self, at: usize) {
         let span = self.span(at, at + 1);
         let innermost = self.open.last().copied();
         let innermost_span = innermost.map(|open| self.span(open, open + 1));
         let closer = self.source.as_bytes()[at] as char;
         self.tell(explain::stray_closer(closer, span, innermost_span), at, false);
-        // `(a]`: the wrong bracket closes what is open on its line.
+        // `(a]`: the wrong bracket closes the one open on its line.
         match innermost {
             Some(open)
                 if self.kind(open) != 2
@@ -289,13 +304,14 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// At the end of the file, or where an item begins although brackets are open.
+    /// Reports all open brackets at the end of the file, or at an item that begins although brackets are
+    /// open.
     fn close_all(&mut self, at: usize) {
         let open = self.pop_from(0);
         self.unclosed(&open, at);
     }
 
-    /// Brackets that should have been closed before `at`; one diagnostic tells of all.
+    /// Reports brackets that should have been closed before `at`, all in one diagnostic.
     fn unclosed(&mut self, open: &[usize], at: usize) {
         if open.is_empty() {
             return;
@@ -304,7 +320,7 @@ impl<'t> Scanner<'t> {
             .iter()
             .map(|&open| (self.source.as_bytes()[open] as char, self.span(open, open + 1)))
             .collect();
-        if !self.deep_told {
+        if !self.deep_reported {
             self.report(explain::unclosed(&spans, self.found_at(at)));
         }
         for &open in open {
@@ -313,12 +329,13 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// The bracket or word at which it shows that something was not closed.
+    /// Returns the span of the token at which a missing bracket is noticed.
     fn found_at(&self, at: usize) -> Option<Span> {
         let token = Lexer::new(self.source, at).next()?;
         Some(self.span(token.start, token.end))
     }
 
+    /// Reports an unclosed text or comment.
     fn unclosed_token(&mut self, token: Token) {
         if token.kind == TokenKind::UnclosedComment {
             let span = self.span(token.start, token.end);
@@ -337,7 +354,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// Characters in a comment or text that a reader does not see or sees in another order.
+    /// Reports characters in a comment or text that are invisible or change the order of reading.
     fn hidden_characters(&mut self, token: Token) {
         let text = &self.source[token.start..token.end];
         if text.bytes().all(|b| (b' '..0x7f).contains(&b) || matches!(b, b'\n' | b'\t' | b'\r')) {
@@ -350,11 +367,12 @@ impl<'t> Scanner<'t> {
         }
     }
 
+    /// Reports a character that is not allowed, and replaces it by its probable meaning.
     fn stray(&mut self, token: Token) {
         let c = self.source[token.start..].chars().next().expect("a token is not empty");
         let span = self.span(token.start, token.end);
         let meant = characters::meant(c);
-        // What a line repeats is one mistake, and so is a word with several odd letters.
+        // Repetitions on a line are one mistake, and so is a word with several odd letters.
         let in_word = meant.replacement == Some('_')
             && self.stray.is_some_and(|before| is_word(&self.source[before..token.start]));
         let fatal = meant.replacement.is_none();
@@ -366,14 +384,14 @@ impl<'t> Scanner<'t> {
         self.strays.push(c);
         self.replace(token.start, token.end, meant.replacement.unwrap_or(' '));
         if c == '#' {
-            // What follows is words, not code.
+            // The rest of the line is prose, not code.
             let end = self.source[token.start..].find('\n').map_or(self.source.len(), |at| token.start + at);
             self.replace(token.start, end, ' ');
             self.skip_to = Some(end);
         }
     }
 
-    /// Puts `with` and spaces (or a word of `_`) in the place of some bytes.
+    /// Replaces bytes by `with` and blanks (or by `_` within a word).
     fn replace(&mut self, start: usize, end: usize, with: char) {
         let bytes = self.masked.get_or_insert_with(|| self.source.as_bytes().to_vec());
         let fill = if with == '_' { b'_' } else { b' ' };
@@ -386,12 +404,13 @@ impl<'t> Scanner<'t> {
     }
 }
 
+/// Returns whether a text is a name.
 fn is_word(text: &str) -> bool {
     text.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
-/// Whether what follows a keyword shows that it begins an item: a name or a text on its line. Two
-/// words side by side stand in no expression, so an item is never cut in two here.
+/// Returns whether the tokens behind a keyword show that it begins an item: a name or a text on its line.
+/// Two words side by side occur in no expression, so an item is never split here.
 fn begins_item(text: &str, token: Token, rest: &Lexer) -> bool {
     let next = rest.clone().find(|token| token.kind != TokenKind::LineBreak);
     next.is_some_and(|next| match next.kind {

@@ -1,12 +1,12 @@
-//! Cutting a faulty run of items, clauses or statements into pieces that are parsed on their own.
+//! Splitting a faulty run of items, clauses or statements into pieces that are parsed on their own.
 
 use super::lex::{Lexer, Token, TokenKind};
 use super::words;
 use std::ops::Range;
 
-/// The pieces of `range`, in order: each begins where a keyword of this level stands outside all
-/// brackets, or where a line begins that does not continue the line before. Brackets that are never
-/// closed (`unclosed`, in order) are no brackets here, so that what follows them can be found.
+/// Returns the pieces of `range`, in order. A piece begins at a keyword of this level outside all brackets,
+/// or at a line that does not continue the line before. Brackets that are never closed (`unclosed`, in
+/// order) are ignored, so that what follows them can be found.
 pub(super) fn split(
     text: &str,
     range: Range<usize>,
@@ -16,7 +16,7 @@ pub(super) fn split(
     let tokens: Vec<Token> = tokens(text, range.clone());
     let mut starts = Vec::new();
     let mut depth = 0usize;
-    // At which depth a bracket of the piece is never closed.
+    // The depth of the bracket in this piece that is never closed.
     let mut broken: Option<usize> = None;
     for (i, token) in tokens.iter().enumerate() {
         match token.kind {
@@ -38,7 +38,7 @@ pub(super) fn split(
     starts.iter().copied().zip(ends).map(|(start, end)| start..trimmed_end(text, start..end)).collect()
 }
 
-/// The tokens of a range, without comments and line breaks.
+/// Returns the tokens of a range, without comments and line breaks.
 pub(super) fn tokens(text: &str, range: Range<usize>) -> Vec<Token> {
     let text = &text[..range.end];
     let skipped = [TokenKind::LineBreak, TokenKind::LineComment, TokenKind::UnclosedComment];
@@ -47,11 +47,12 @@ pub(super) fn tokens(text: &str, range: Range<usize>) -> Vec<Token> {
         .collect()
 }
 
-/// The end of a piece without the white space and comments behind it.
+/// Returns the end of a piece without the white space and comments at its end.
 fn trimmed_end(text: &str, range: Range<usize>) -> usize {
     tokens(text, range.clone()).last().map_or(range.end, |token| token.end)
 }
 
+/// Returns whether a token begins a piece.
 fn begins_piece(text: &str, tokens: &[Token], i: usize, keywords: &[&str], broken: bool) -> bool {
     let (token, before) = (tokens[i], tokens[i - 1]);
     let word = (token.kind == TokenKind::Word).then(|| &text[token.start..token.end]);
@@ -72,7 +73,7 @@ fn begins_piece(text: &str, tokens: &[Token], i: usize, keywords: &[&str], broke
     begins && !wants_more(text, before)
 }
 
-/// Whether a keyword may stand before this token.
+/// Returns whether a keyword may stand before this token.
 fn leads(text: &str, next: Option<&Token>) -> bool {
     next.is_some_and(|next| match next.kind {
         TokenKind::Word | TokenKind::Number | TokenKind::Text { .. } | TokenKind::Open => true,
@@ -80,8 +81,8 @@ fn leads(text: &str, next: Option<&Token>) -> bool {
     })
 }
 
-/// Whether a keyword in the middle of a line begins a clause: two words side by side, and the word
-/// before does not ask for a name.
+/// Returns whether a keyword in the middle of a line begins a clause: two words side by side, and the word
+/// before does not take a name.
 fn stands_alone(text: &str, tokens: &[Token], i: usize) -> bool {
     let before = tokens[i - 1];
     let followed = tokens.get(i + 1).is_some_and(|next| next.kind == TokenKind::Word);
@@ -90,7 +91,7 @@ fn stands_alone(text: &str, tokens: &[Token], i: usize) -> bool {
         && !(before.kind == TokenKind::Word && words::GOING_ON.contains(&&text[before.start..before.end]))
 }
 
-/// Whether an expression cannot end with this token.
+/// Returns whether an expression cannot end with this token.
 fn wants_more(text: &str, token: Token) -> bool {
     let written = &text[token.start..token.end];
     match token.kind {
@@ -101,8 +102,8 @@ fn wants_more(text: &str, token: Token) -> bool {
     }
 }
 
-/// The `{ }` of a piece that stand outside other brackets, without the braces themselves; the last
-/// one may lack its end.
+/// Returns the insides of the `{ }` of a piece that are outside of other brackets; the last one may lack
+/// its end.
 pub(super) fn bodies(text: &str, range: Range<usize>, unclosed: &[usize]) -> Vec<Range<usize>> {
     let mut bodies = Vec::new();
     let mut open: Vec<usize> = Vec::new();

@@ -1,12 +1,12 @@
-//! The words of the language.
+//! The keywords of the language.
 
-/// Reserved everywhere; every other word is a keyword only where an item or its clause stands.
+/// The words reserved everywhere. Every other keyword is one only at the beginning of an item or clause.
 pub const RESERVED: &[&str] = &[
     "and", "or", "not", "if", "else", "for", "in", "let", "fn", "use", "true", "false", "expect", "require",
     "X", "Y", "Z",
 ];
 
-/// What begins an item that is a declaration.
+/// The words that begin a declaration.
 pub const ITEMS: &[&str] = &[
     "use",
     "let",
@@ -22,33 +22,34 @@ pub const ITEMS: &[&str] = &[
     "test",
 ];
 
-/// What begins a statement, besides an expression.
+/// The words that begin a statement, besides expressions.
 pub const STATEMENTS: &[&str] = &["let", "expect", "require", "if", "for"];
 
-/// What begins a clause of a module.
+/// The words that begin a clause of a module.
 pub const MODULE: &[&str] = &[
     "mass", "touch", "contact", "link", "joint", "port", "motor", "touching", "alias", "let", "require",
     "if", "for",
 ];
 
-/// What begins a clause of a configuration.
+/// The words that begin a clause of a configuration.
 pub const CONFIG: &[&str] =
     &["part", "port", "base", "behavior", "connect", "set", "let", "require", "if", "for"];
 
-/// What begins a clause of a truss.
+/// The words that begin a clause of a truss.
 pub const TRUSS: &[&str] = &["node", "strut", "let", "require", "if", "for"];
 
-/// What a clause goes on with, also on a new line.
+/// The words with which a clause continues, also on a new line.
 pub(super) const GOING_ON: &[&str] = &[
     "and", "or", "else", "in", "at", "turned", "collides", "facing", "up", "on", "of", "as", "is", "turn",
     "allows", "closed",
 ];
 
+/// Returns whether a word is reserved everywhere.
 pub(super) fn is_reserved(word: &str) -> bool {
     RESERVED.contains(&word)
 }
 
-/// How items and clauses are written, by the word that begins them.
+/// The forms of items and clauses, by their first word.
 const FORMS: &[(&str, &str)] = &[
     ("use", "use std.smores.{Smores}"),
     ("let", "let name = value"),
@@ -75,7 +76,7 @@ const FORMS: &[(&str, &str)] = &[
     ("if", "if condition { ... } else { ... }"),
 ];
 
-/// How what begins with this word is written.
+/// Returns the form of the item or clause that begins with this word.
 pub(super) fn form(word: &str) -> Option<&'static str> {
     FORMS.iter().find(|(first, _)| *first == word).map(|(_, form)| *form)
 }
