@@ -1,7 +1,17 @@
-//! The three bodies of plans behind one interface: duration, state at a time, instants.
+//! The bodies of plans, one of three families behind one interface. This is the only file of the room
+//! that tells the families apart; what each of them does is in its folder.
 
-use super::{CellBox, NodePaths, Stages, Tracks};
-use crate::robot::State;
+use super::fault::PlanFault;
+use super::node_paths::{self, NodePaths};
+use super::operation_error::OperationError;
+use super::program::Node;
+use super::stages::{self, CellBox, Stages};
+use super::tracks::{self, Remap, Tracks};
+use crate::robot::{Library, State};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The motion itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,18 +24,44 @@ pub enum Body {
     NodePaths(NodePaths),
 }
 
-/// What a plan's robot is like at an instant.
+/// The configuration of a plan's robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Snapshot {
+    /// Joint positions, bonds and the base of an articulated robot.
     Robot(State),
-    /// In cell sizes.
+    /// The boxes of the cells of a lattice, in cell sizes.
     Cells(Vec<CellBox>),
-    /// World positions, m.
+    /// World positions of the nodes of a truss, m.
     Nodes(Vec<[f64; 3]>),
 }
 
+/// One body followed by another.
+pub(super) struct Appended {
+    pub(super) body: Body,
+    /// How to say of the first robot what was said of the second, where robots have names.
+    pub(super) remap: Option<Remap>,
+}
+
+impl From<Tracks> for Body {
+    fn from(tracks: Tracks) -> Body {
+        Body::Tracks(tracks)
+    }
+}
+
+impl From<Stages> for Body {
+    fn from(stages: Stages) -> Body {
+        Body::Stages(stages)
+    }
+}
+
+impl From<NodePaths> for Body {
+    fn from(paths: NodePaths) -> Body {
+        Body::NodePaths(paths)
+    }
+}
+
 impl Body {
-    /// Seconds.
+    /// Returns the duration in seconds.
     pub fn duration(&self) -> f64 {
         match self {
             Body::Tracks(tracks) => tracks.duration,
@@ -34,7 +70,8 @@ impl Body {
         }
     }
 
-    /// The robot at a time in seconds, held at the ends outside `0..duration`.
+    /// Returns the configuration at a time in seconds; before the start and after the end, that of the
+    /// nearer end.
     pub fn state(&self, t: f64) -> Snapshot {
         match self {
             Body::Tracks(tracks) => Snapshot::Robot(tracks.state(t)),
@@ -43,20 +80,132 @@ impl Body {
         }
     }
 
-    /// Every instant at which the law of motion changes, with 0 and the end, in order.
+    /// Returns every instant in seconds at which the law of motion changes, with 0 and the end, in order.
     pub fn instants(&self) -> Vec<f64> {
         match self {
             Body::Tracks(tracks) => tracks.instants(),
             Body::Stages(stages) => stages.instants(),
-            Body::NodePaths(paths) => paths.keyframes.iter().map(|k| k.time).collect(),
+            Body::NodePaths(paths) => paths.instants(),
         }
     }
 
-    /// The tracks of an articulated robot's plan.
+    /// Returns the tracks, if this is the plan of an articulated robot.
     pub fn tracks(&self) -> Option<&Tracks> {
+        if let Body::Tracks(tracks) = self { Some(tracks) } else { None }
+    }
+
+    /// Returns the node paths, if this is the plan of a truss.
+    pub fn node_paths(&self) -> Option<&NodePaths> {
+        if let Body::NodePaths(paths) = self { Some(paths) } else { None }
+    }
+
+    /// Returns how many units the robot is made of, and what one of them is called.
+    pub fn units(&self) -> (u64, &'static str) {
         match self {
-            Body::Tracks(tracks) => Some(tracks),
-            Body::Stages(_) | Body::NodePaths(_) => None,
+            Body::Tracks(tracks) => (tracks.robot.modules.len() as u64, "module"),
+            Body::Stages(stages) => (stages.count, "cell"),
+            Body::NodePaths(paths) => (paths.struts.len() as u64, "strut"),
+        }
+    }
+
+    /// Returns the motion from its end to its start.
+    pub(super) fn reversed(&self) -> Body {
+        match self {
+            Body::Tracks(tracks) => tracks.reversed().into(),
+            Body::Stages(stages) => stages.reversed().into(),
+            Body::NodePaths(paths) => paths.reversed().into(),
+        }
+    }
+
+    /// Returns the motion between two times in seconds, which lie within it.
+    pub(super) fn sliced(&self, from: f64, to: f64) -> Result<Body, OperationError> {
+        Ok(match self {
+            Body::Tracks(tracks) => tracks.sliced(from, to).into(),
+            Body::Stages(stages) => stages.sliced(from, to)?.into(),
+            Body::NodePaths(paths) => paths.sliced(from, to).into(),
+        })
+    }
+
+    /// Returns this motion and then another, whose causes come behind `causes` others. Each body's
+    /// library stands beside it.
+    pub(super) fn joined(
+        &self,
+        library: &Library,
+        next: &Body,
+        library_of_next: &Library,
+        causes: u32,
+    ) -> Result<Appended, OperationError> {
+        match (self, next) {
+            (Body::Tracks(a), Body::Tracks(b)) => {
+                let remap = tracks::fitted(a, b, causes)?;
+                Ok(Appended { body: remap.tracks(a, b).into(), remap: Some(remap) })
+            }
+            (Body::Stages(a), Body::Stages(b)) => {
+                if library.cells.get(a.cell) != library_of_next.cells.get(b.cell) {
+                    return Err(OperationError::Cells);
+                }
+                Ok(Appended { body: stages::joined(a, b, causes)?.into(), remap: None })
+            }
+            (Body::NodePaths(a), Body::NodePaths(b)) => {
+                Ok(Appended { body: node_paths::joined(a, b, causes)?.into(), remap: None })
+            }
+            _ => Err(OperationError::Families),
+        }
+    }
+
+    /// Returns the program that does what the body says, by the clock.
+    pub(super) fn timeline(&self) -> Result<Arc<Node>, OperationError> {
+        self.tracks().map_or(Err(OperationError::NoJoints), tracks::timeline)
+    }
+
+    /// Checks references and orders; `causes` is the number of causes of the plan.
+    pub(super) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
+        match self {
+            Body::Tracks(tracks) => tracks.validate(causes),
+            Body::Stages(stages) => stages.validate(library, causes),
+            Body::NodePaths(paths) => paths.validate(library, causes),
+        }
+    }
+
+    /// Refuses numbers that are not finite, before the references are checked.
+    pub(super) fn check_numbers(&self) -> Result<(), PlanFault> {
+        self.tracks().map_or(Ok(()), Tracks::check_numbers)
+    }
+
+    /// Checks that numbers mean something, after the references are.
+    pub(super) fn check_ranges(&self) -> Result<(), PlanFault> {
+        match self {
+            Body::Tracks(tracks) => tracks.check_ranges(),
+            // Whole numbers are in their ranges where their references are right.
+            Body::Stages(_) => Ok(()),
+            Body::NodePaths(paths) => paths.check_ranges(),
+        }
+    }
+}
+
+/// A body as it stands in a plan file.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Body", rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum BodyJson<'a> {
+    Tracks(tracks::TracksJson<'a>),
+    Stages(Cow<'a, Stages>),
+    NodePaths(Cow<'a, NodePaths>),
+}
+
+impl<'a> BodyJson<'a> {
+    pub(super) fn of(body: &'a Body) -> BodyJson<'a> {
+        match body {
+            Body::Tracks(tracks) => BodyJson::Tracks(tracks::TracksJson::of(tracks)),
+            Body::Stages(stages) => BodyJson::Stages(Cow::Borrowed(stages)),
+            Body::NodePaths(paths) => BodyJson::NodePaths(Cow::Borrowed(paths)),
+        }
+    }
+
+    pub(super) fn into_body(self, library: &Arc<Library>) -> Body {
+        match self {
+            BodyJson::Tracks(tracks) => tracks.into_tracks(library).into(),
+            BodyJson::Stages(stages) => stages.into_owned().into(),
+            BodyJson::NodePaths(paths) => paths.into_owned().into(),
         }
     }
 }

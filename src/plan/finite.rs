@@ -1,62 +1,75 @@
-//! Looks through a value that is to be written as JSON for what JSON cannot hold: numbers that are
-//! not finite (they would become `null`), and nesting deeper than a reader takes.
+//! A check of values that are to be written as JSON for what JSON cannot hold: numbers that are not
+//! finite (they would become `null`), and nesting deeper than a reader takes.
 
 use serde::ser::{self, Serialize};
 
-/// What cannot be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault(String);
+/// A part of a value that JSON cannot hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unwritable {
+    /// A number that is not finite, with the field that holds it.
+    Number { field: &'static str, value: f64 },
+    /// A field that is nested more deeply than readers take.
+    TooDeep { field: &'static str },
+    /// What a value says of itself that cannot be written.
+    Other(String),
+}
 
 /// Deepest nesting that is written; readers refuse more than 128.
 const DEPTH_MAX: usize = 100;
 
 /// Refuses numbers that are not finite, and nesting deeper than [`DEPTH_MAX`].
-pub fn check(value: &impl Serialize) -> Result<(), Fault> {
+pub(super) fn check(value: &impl Serialize) -> Result<(), Unwritable> {
     value.serialize(&mut Walk { field: "", depth: 0 })
 }
 
 struct Walk {
-    /// The field that is being looked at.
+    /// The field that the walk is in.
     field: &'static str,
     depth: usize,
 }
 
-impl std::fmt::Display for Fault {
+impl std::fmt::Display for Unwritable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
+        match self {
+            Unwritable::Number { field, value } => {
+                write!(f, "`{field}` holds {value}, which no plan file can")
+            }
+            Unwritable::TooDeep { field } => write!(f, "`{field}` is nested too deeply to be written"),
+            Unwritable::Other(message) => f.write_str(message),
+        }
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for Unwritable {}
 
-impl ser::Error for Fault {
-    fn custom<T: std::fmt::Display>(message: T) -> Fault {
-        Fault(message.to_string())
+impl ser::Error for Unwritable {
+    fn custom<T: std::fmt::Display>(message: T) -> Unwritable {
+        Unwritable::Other(message.to_string())
     }
 }
 
 impl Walk {
-    fn enter(&mut self) -> Result<&mut Walk, Fault> {
+    fn enter(&mut self) -> Result<&mut Walk, Unwritable> {
         self.depth += 1;
         if self.depth > DEPTH_MAX {
-            return Err(Fault(format!("`{}` is nested too deeply to be written", self.field)));
+            return Err(Unwritable::TooDeep { field: self.field });
         }
         Ok(self)
     }
 
-    fn leave(&mut self) -> Result<(), Fault> {
+    fn leave(&mut self) -> Result<(), Unwritable> {
         self.depth -= 1;
         Ok(())
     }
 }
 
 macro_rules! fine {
-    ($($name:ident($type:ty)),*) => { $(fn $name(self, _: $type) -> Result<(), Fault> { Ok(()) })* };
+    ($($name:ident($type:ty)),*) => { $(fn $name(self, _: $type) -> Result<(), Unwritable> { Ok(()) })* };
 }
 
 impl<'a> ser::Serializer for &'a mut Walk {
     type Ok = ();
-    type Error = Fault;
+    type Error = Unwritable;
     type SerializeSeq = &'a mut Walk;
     type SerializeTuple = &'a mut Walk;
     type SerializeTupleStruct = &'a mut Walk;
@@ -74,33 +87,29 @@ impl<'a> ser::Serializer for &'a mut Walk {
         serialize_unit_struct(&'static str)
     );
 
-    fn serialize_f32(self, v: f32) -> Result<(), Fault> {
+    fn serialize_f32(self, v: f32) -> Result<(), Unwritable> {
         self.serialize_f64(f64::from(v))
     }
-    fn serialize_f64(self, v: f64) -> Result<(), Fault> {
-        if v.is_finite() {
-            Ok(())
-        } else {
-            Err(Fault(format!("`{}` holds {v}, which no plan file can", self.field)))
-        }
+    fn serialize_f64(self, v: f64) -> Result<(), Unwritable> {
+        if v.is_finite() { Ok(()) } else { Err(Unwritable::Number { field: self.field, value: v }) }
     }
-    fn serialize_none(self) -> Result<(), Fault> {
+    fn serialize_none(self) -> Result<(), Unwritable> {
         Ok(())
     }
-    fn serialize_unit(self) -> Result<(), Fault> {
+    fn serialize_unit(self) -> Result<(), Unwritable> {
         Ok(())
     }
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<(), Fault> {
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<(), Unwritable> {
         value.serialize(self)
     }
-    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Result<(), Fault> {
+    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Result<(), Unwritable> {
         Ok(())
     }
     fn serialize_newtype_struct<T: Serialize + ?Sized>(
         self,
         _: &'static str,
         value: &T,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Unwritable> {
         value.serialize(self)
     }
     fn serialize_newtype_variant<T: Serialize + ?Sized>(
@@ -109,18 +118,18 @@ impl<'a> ser::Serializer for &'a mut Walk {
         _: u32,
         _: &'static str,
         value: &T,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Unwritable> {
         let walk = self.enter()?;
         value.serialize(&mut *walk)?;
         walk.leave()
     }
-    fn serialize_seq(self, _: Option<usize>) -> Result<&'a mut Walk, Fault> {
+    fn serialize_seq(self, _: Option<usize>) -> Result<&'a mut Walk, Unwritable> {
         self.enter()
     }
-    fn serialize_tuple(self, _: usize) -> Result<&'a mut Walk, Fault> {
+    fn serialize_tuple(self, _: usize) -> Result<&'a mut Walk, Unwritable> {
         self.enter()
     }
-    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<&'a mut Walk, Fault> {
+    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<&'a mut Walk, Unwritable> {
         self.enter()
     }
     fn serialize_tuple_variant(
@@ -129,13 +138,13 @@ impl<'a> ser::Serializer for &'a mut Walk {
         _: u32,
         _: &'static str,
         _: usize,
-    ) -> Result<&'a mut Walk, Fault> {
+    ) -> Result<&'a mut Walk, Unwritable> {
         self.enter()
     }
-    fn serialize_map(self, _: Option<usize>) -> Result<&'a mut Walk, Fault> {
+    fn serialize_map(self, _: Option<usize>) -> Result<&'a mut Walk, Unwritable> {
         self.enter()
     }
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<&'a mut Walk, Fault> {
+    fn serialize_struct(self, _: &'static str, _: usize) -> Result<&'a mut Walk, Unwritable> {
         self.enter()
     }
     fn serialize_struct_variant(
@@ -144,7 +153,7 @@ impl<'a> ser::Serializer for &'a mut Walk {
         _: u32,
         _: &'static str,
         _: usize,
-    ) -> Result<&'a mut Walk, Fault> {
+    ) -> Result<&'a mut Walk, Unwritable> {
         // The variant and its fields are two objects in JSON.
         self.enter()
     }
@@ -154,11 +163,11 @@ macro_rules! elements {
     ($($trait:ident::$method:ident),*) => { $(
         impl ser::$trait for &mut Walk {
             type Ok = ();
-            type Error = Fault;
-            fn $method<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+            type Error = Unwritable;
+            fn $method<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Unwritable> {
                 value.serialize(&mut **self)
             }
-            fn end(self) -> Result<(), Fault> {
+            fn end(self) -> Result<(), Unwritable> {
                 self.leave()
             }
         }
@@ -169,12 +178,12 @@ macro_rules! fields {
     ($($trait:ident),*) => { $(
         impl ser::$trait for &mut Walk {
             type Ok = ();
-            type Error = Fault;
-            fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), Fault> {
+            type Error = Unwritable;
+            fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), Unwritable> {
                 self.field = key;
                 value.serialize(&mut **self)
             }
-            fn end(self) -> Result<(), Fault> {
+            fn end(self) -> Result<(), Unwritable> {
                 self.leave()
             }
         }
@@ -187,14 +196,14 @@ fields!(SerializeStruct, SerializeStructVariant);
 
 impl ser::SerializeMap for &mut Walk {
     type Ok = ();
-    type Error = Fault;
-    fn serialize_key<T: Serialize + ?Sized>(&mut self, _: &T) -> Result<(), Fault> {
+    type Error = Unwritable;
+    fn serialize_key<T: Serialize + ?Sized>(&mut self, _: &T) -> Result<(), Unwritable> {
         Ok(())
     }
-    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
+    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Unwritable> {
         value.serialize(&mut **self)
     }
-    fn end(self) -> Result<(), Fault> {
+    fn end(self) -> Result<(), Unwritable> {
         self.leave()
     }
 }

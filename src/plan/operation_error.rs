@@ -1,8 +1,8 @@
-//! Why an operation on plans cannot be done.
+//! Errors of the operations on plans: why plans are not cut, or not put one after the other.
 
 use crate::robot::Mismatch;
 
-/// SI units; modules by path name.
+/// The reason why an operation on plans cannot be done. SI units; modules by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OperationError {
     /// A slice that ends before it begins.
@@ -27,6 +27,10 @@ pub enum OperationError {
     Inexact,
     /// Together they are longer than a plan may be, s.
     TooLong { duration: f64 },
+    /// Between two times, s, a joint moves by a law that no command of a program states.
+    NoCommand { from: f64, to: f64 },
+    /// Only a robot with joints has a program.
+    NoJoints,
 }
 
 impl std::fmt::Display for OperationError {
@@ -60,6 +64,12 @@ impl std::fmt::Display for OperationError {
             OperationError::TooLong { duration } => {
                 write!(f, "together the plans last {duration} s, longer than a plan may be")
             }
+            OperationError::NoCommand { from, to } => {
+                write!(f, "between {from:.3} s and {to:.3} s a joint moves by a law that no command states")
+            }
+            OperationError::NoJoints => write!(f, "only joints have a program"),
         }
     }
 }
+
+impl std::error::Error for OperationError {}

@@ -1,7 +1,8 @@
 //! The program: a series-parallel graph of actions, the paper's (J, X, ξ, T), as a position-servo
 //! robot executes it. In a plan file it is a table of nodes, so that what is shared stays shared.
 
-use super::{CauseId, ExemptionKind};
+use super::cause::CauseId;
+use super::world::ExemptionKind;
 use crate::robot::{JointId, PortRef};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

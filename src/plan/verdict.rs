@@ -1,6 +1,6 @@
 //! What the judge found: every check with its status, worst values, and failures with their causes.
 
-use super::CauseId;
+use super::cause::CauseId;
 use crate::units::display::number;
 use crate::units::{Dimension, quantity};
 use schemars::JsonSchema;

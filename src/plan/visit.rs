@@ -1,6 +1,6 @@
 //! Programs as graphs: every node once, however often it is used.
 
-use super::{Action, Node, Otherwise};
+use super::program::{Action, Node, Otherwise};
 use std::collections::HashMap;
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! The world that a plan assumes, how strictly it is judged, and what it is excused from.
 
-use super::CauseId;
+use super::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +42,14 @@ impl Default for World {
     fn default() -> World {
         World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0 }
     }
+}
+
+/// From when on which world holds; the first begins at 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WorldFrom {
+    pub from: f64,
+    pub world: World,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -1,7 +1,8 @@
 //! The integer grid that every face of every cell lies on, so that nothing is rounded.
 
 use super::fault::LatticeFault;
-use crate::plan::{Ratio, Run, Stages};
+use crate::plan::stages::motion::{Run, Stages};
+use crate::plan::stages::ratio::Ratio;
 
 /// An axis-aligned cell at one end of a stage: the coordinates of its lower and upper faces along x, y
 /// and z, in grid lines.

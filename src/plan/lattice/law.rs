@@ -3,7 +3,8 @@
 
 use super::grid::Cube;
 use super::window::Window;
-use crate::plan::{Ratio, Stage};
+use crate::plan::stages::motion::Stage;
+use crate::plan::stages::ratio::Ratio;
 use num_bigint::BigInt;
 use std::cmp::Ordering;
 

@@ -1,6 +1,6 @@
 //! A lower bound on the duration of any motion between two shapes of a lattice, whatever the path.
 
-use crate::plan::Ratio;
+use crate::plan::stages::ratio::Ratio;
 
 /// Greatest number of contacts for each cell if edges are at least half a cell long: nine on each of six
 /// sides, each contact shared by two cells.

@@ -8,7 +8,7 @@ use super::lanes::Overlap;
 use super::law::{Change, TimeScaling};
 use super::lower_bound::lower_bound;
 use super::{boxes, lanes};
-use crate::plan::Stages;
+use crate::plan::stages::motion::Stages;
 
 /// Returns twice the greatest relative displacement along an axis, in grid lines, of two cells that are in
 /// contact during the whole stage; `lines` is the number of grid lines to a cell. `None` where more pairs

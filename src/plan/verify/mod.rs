@@ -13,16 +13,15 @@ pub mod lattice;
 pub mod truss;
 
 use super::{
-    Body, Check, CheckKind, Failure, Plan, Provenance, Settings, Status, Tracks, Verdict, World, WorldFrom,
-    sound,
+    Body, Check, CheckKind, Failure, Plan, PlanFault, Provenance, Settings, Status, Tracks, Verdict, World,
+    WorldFrom, validation,
 };
 use crate::robot::{Assembly, State};
 
 /// Judges a plan under its stated worlds and settings. What it says of itself is recomputed.
 pub fn verify(plan: &Plan) -> Verdict {
-    let faults = sound::faults(plan);
-    if !faults.is_empty() {
-        return unsound(faults);
+    if let Err(fault) = validation::check(plan) {
+        return malformed(&fault);
     }
     match &plan.body {
         Body::Tracks(tracks) => articulated::judge(plan, tracks),
@@ -57,10 +56,10 @@ pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &S
 }
 
 /// A plan that means nothing is judged no further.
-fn unsound(faults: Vec<String>) -> Verdict {
+fn malformed(fault: &PlanFault) -> Verdict {
     Verdict {
         checks: vec![Check { kind: CheckKind::Form, status: Status::Failed }],
-        failures: faults.into_iter().map(Failure::form).collect(),
+        failures: vec![Failure::form(fault.to_string())],
         ..Verdict::default()
     }
 }

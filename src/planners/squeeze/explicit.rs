@@ -4,7 +4,7 @@ use super::Refusal;
 use super::domain::{Domain, Spot};
 use super::way::{Builder, Terms, Way};
 use crate::plan::lattice::{Cube, greatest_relative_displacement};
-use crate::plan::stretches::{Stretch, stretches};
+use crate::plan::{ArithmeticRun, arithmetic_runs};
 
 /// Configurations of listed cells, one after another.
 pub struct Listed {
@@ -78,9 +78,9 @@ fn runs(before: &[Spot], after: &[Spot]) -> Vec<Domain> {
         };
         Some((between(before)?, between(after)?))
     };
-    let domain = |s: Stretch| {
+    let domain = |s: ArithmeticRun| {
         let counters = [(s.times as u64, s.length as i64), (s.length as u64, 1)];
         Domain::new(s.first as u64, &counters)
     };
-    stretches(before.len(), step).into_iter().filter_map(domain).collect()
+    arithmetic_runs(before.len(), step).into_iter().filter_map(domain).collect()
 }

@@ -8,7 +8,7 @@ use super::torque::Gauge;
 use super::walk::{Course, Sample, walk};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::footprint::hull;
-use crate::plan::{Body, Ground, Plan, sound};
+use crate::plan::{Body, Ground, Plan, validation};
 
 /// Moments of one history; of a longer walk every second, fourth, ... is kept.
 pub const MOMENTS_MAX: usize = 4096;
@@ -79,7 +79,7 @@ pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
 /// Walks a sound plan of an articulated robot.
 fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&Sample)) {
     let Body::Tracks(tracks) = &plan.body else { return };
-    if !sound::faults(plan).is_empty() {
+    if validation::check(plan).is_err() {
         return;
     }
     let course = Course {

@@ -7,7 +7,7 @@ use super::history::base_at;
 use super::search::{Search, mated};
 use crate::geometry::distance::signed_distance;
 use crate::geometry::{Pose, Vec3, contact_point};
-use crate::plan::{Body as Form, Plan, Tracks, sound};
+use crate::plan::{Body as Form, Plan, Tracks, validation};
 use crate::robot::Kinematics;
 
 /// Pairs of modules that are looked at for one curve of clearances, if that leaves it enough points.
@@ -21,7 +21,7 @@ const POINTS_MIN: usize = 20;
 /// modules, but at least 20; none where no two such links are.
 pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let Form::Tracks(tracks) = &plan.body else { return vec![] };
-    if until <= 0.0 || !sound::faults(plan).is_empty() {
+    if until <= 0.0 || validation::check(plan).is_err() {
         return vec![];
     }
     let modules = tracks.robot.modules.len();
@@ -44,7 +44,7 @@ fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
 /// world, m. `None` where they do not meet.
 pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Option<Vec3> {
     let Form::Tracks(tracks) = &plan.body else { return None };
-    if !sound::faults(plan).is_empty() {
+    if validation::check(plan).is_err() {
         return None;
     }
     let bodies = bodies(tracks).ok()?;

@@ -3,7 +3,7 @@
 
 /// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stretch {
+pub struct ArithmeticRun {
     pub first: usize,
     pub times: usize,
     pub length: usize,
@@ -11,7 +11,10 @@ pub struct Stretch {
 
 /// Splits 0..count into stretches. `step` says what changes from one number to another; `None` where no
 /// stretch may hold both.
-pub fn stretches<T: PartialEq>(count: usize, step: impl Fn(usize, usize) -> Option<T>) -> Vec<Stretch> {
+pub fn arithmetic_runs<T: PartialEq>(
+    count: usize,
+    step: impl Fn(usize, usize) -> Option<T>,
+) -> Vec<ArithmeticRun> {
     // Of each line: the first number, and how many there are, one step apart.
     let mut lines: Vec<(usize, usize)> = Vec::new();
     let mut at = 0;
@@ -45,7 +48,7 @@ pub fn stretches<T: PartialEq>(count: usize, step: impl Fn(usize, usize) -> Opti
                 end += 1;
             }
         }
-        found.push(Stretch { first, times: end - at, length });
+        found.push(ArithmeticRun { first, times: end - at, length });
         at = end;
     }
     found

@@ -2,12 +2,15 @@
 //! exactly, up to a translation. Cells are alike, so those of the second take the numbers of the cells
 //! in whose places they begin.
 
-use super::lattice::{Cube, Grid};
-use super::stretches::{Stretch, stretches};
-use super::{CauseId, Counter, Model, OperationError, Ratio, Run, Stage, Stages};
+use super::arithmetic_runs::{ArithmeticRun, arithmetic_runs};
+use super::motion::{Counter, Model, Run, Stage, Stages};
+use super::ratio::Ratio;
+use crate::plan::cause::CauseId;
+use crate::plan::operation_error::OperationError;
+use crate::plan::lattice::grid::{Cube, Grid};
 
 /// The stages of the first plan, then those of the second, whose causes come behind `causes` others.
-pub fn join_stages(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
+pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
     if a.count != b.count {
         return Err(OperationError::CellCounts { first: a.count, second: b.count });
     }
@@ -81,13 +84,13 @@ fn matched(first: &[Cube], second: &[Cube]) -> Option<(Vec<u32>, [i64; 3])> {
 fn gathered(cubes: &[Cube], grid: Grid) -> Option<Vec<Run>> {
     let sizes = |i: usize| [0, 1, 2].map(|axis| cubes[i].size(axis));
     let apart = |i: usize, j: usize| [0, 1, 2].map(|axis| cubes[j].middle(axis) - cubes[i].middle(axis));
-    let found = stretches(cubes.len(), |i, j| (sizes(i) == sizes(j)).then(|| apart(i, j)));
+    let found = arithmetic_runs(cubes.len(), |i, j| (sizes(i) == sizes(j)).then(|| apart(i, j)));
     let lines = i128::from(grid.lines);
     let three = |values: [i64; 3], over: i128| {
         let [x, y, z] = values.map(|value| Ratio::new(value.into(), over));
         Some([x?, y?, z?])
     };
-    let run = |s: Stretch| {
+    let run = |s: ArithmeticRun| {
         let counter = |count: usize, stride: usize| {
             let step = three(apart(s.first, s.first + stride), 2 * lines)?;
             Some(Counter { count: count as u64, stride: stride as i64, step })

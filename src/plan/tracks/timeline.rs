@@ -1,13 +1,19 @@
 //! The program that does what tracks say, told by the clock: for plans that were reversed or cut, and
 //! for planned ones.
 
-use super::{Action, CauseId, Command, DockKind, Node, Otherwise, Profile, Segment, Target, Track, Tracks};
+use super::motion::{DockKind, Segment, Track, Tracks};
+use crate::plan::cause::CauseId;
+use crate::plan::operation_error::OperationError;
+use crate::plan::program::{Action, Command, Node, Otherwise, Profile, Target};
 use crate::robot::JointId;
 use std::sync::Arc;
 
-/// A series for every joint and one for docking, in parallel; each action lasts exactly as long as
-/// its segment, gaps are waits. A reason where a piece is no motion that a program can command.
-pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, String> {
+/// Returns the program that does what the tracks say: a series for every joint and one for docking, in
+/// parallel. Each action lasts exactly as long as its segment; gaps are waits.
+///
+/// # Errors
+/// [`OperationError::NoCommand`] where a segment is a motion that no command states.
+pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, OperationError> {
     let mut branches = Vec::with_capacity(tracks.tracks.len() + 1);
     for track in &tracks.tracks {
         branches.push(joint(track)?);
@@ -20,7 +26,7 @@ pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, String> {
     Ok(Arc::new(Node::Parallel(branches)))
 }
 
-fn joint(track: &Track) -> Result<Arc<Node>, String> {
+fn joint(track: &Track) -> Result<Arc<Node>, OperationError> {
     let mut now = 0.0;
     let mut series = Vec::with_capacity(track.segments.len());
     for segment in &track.segments {
@@ -33,7 +39,7 @@ fn joint(track: &Track) -> Result<Arc<Node>, String> {
     Ok(Arc::new(Node::Series(series)))
 }
 
-fn command(joint: JointId, segment: &Segment) -> Result<Command, String> {
+fn command(joint: JointId, segment: &Segment) -> Result<Command, OperationError> {
     let duration = segment.end - segment.start;
     let moved = |profile| Command::Move {
         joint,
@@ -51,10 +57,7 @@ fn command(joint: JointId, segment: &Segment) -> Result<Command, String> {
                 vec![keyframe(segment.start, segment.control[0]), keyframe(segment.end, segment.last())];
             Ok(Command::Follow { joint, keyframes })
         }
-        _ => Err(format!(
-            "between {:.3} s and {:.3} s a joint moves by a law that no command states",
-            segment.start, segment.end
-        )),
+        _ => Err(OperationError::NoCommand { from: segment.start, to: segment.end }),
     }
 }
 

@@ -1,7 +1,8 @@
 //! The body of plans of articulated robots: piecewise polynomial joint positions, docking and
 //! undocking.
 
-use super::{CauseId, polynomial};
+use crate::plan::cause::CauseId;
+use crate::plan::polynomial;
 use crate::robot::{Assembly, JointId, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

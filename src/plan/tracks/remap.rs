@@ -1,16 +1,16 @@
-//! Programs and motions of one robot carried over to another that matches it.
+//! Programs and motions of one robot, said of another that matches it.
 
-use super::visit::{Graph, with_children};
-use super::{
-    Action, CauseId, Command, Condition, Dock, Exemption, ExemptionKind, Node, Otherwise, Segment, Signal,
-    Target, Track, Tracks,
-};
+use super::motion::{Dock, Segment, Track, Tracks};
+use crate::plan::cause::CauseId;
+use crate::plan::program::{Action, Command, Condition, Node, Otherwise, Signal, Target};
+use crate::plan::visit::{Graph, with_children};
+use crate::plan::world::{Exemption, ExemptionKind};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, Kinematics, Matching, PortRef, State};
 use std::sync::Arc;
 
 /// How to say of robot A, with the bonds that B needs beside its own, what was said of robot B.
 #[derive(Clone, Debug)]
-pub struct Carrier {
+pub struct Remap {
     /// Robot A with the bonds of B.
     robot: Assembly,
     /// State at the start, those bonds open.
@@ -24,9 +24,9 @@ pub struct Carrier {
     causes: u32,
 }
 
-impl Carrier {
+impl Remap {
     /// `found` is where the robot of `b`, at its start, is found in that of `a`, at its end.
-    pub fn new(a: &Tracks, b: &Tracks, found: &Matching, causes: u32) -> Carrier {
+    pub fn new(a: &Tracks, b: &Tracks, found: &Matching, causes: u32) -> Remap {
         let (mut robot, mut start) = (a.robot.clone(), a.start.clone());
         let mut hinges = Vec::new();
         let mut bonds = Vec::new();
@@ -55,7 +55,7 @@ impl Carrier {
             }
         };
         let joints = b.robot.joints().map(|owner| JointId(image(owner) as u32)).collect();
-        Carrier { robot, start, found: found.clone(), bonds, joints, causes }
+        Remap { robot, start, found: found.clone(), bonds, joints, causes }
     }
 
     /// What has another name in A: modules, and joints of modules that lie turned round (name in B, name
@@ -79,7 +79,7 @@ impl Carrier {
     }
 
     /// Motion `a`, then motion `b`.
-    pub fn tracks(self, a: &Tracks, b: &Tracks) -> Tracks {
+    pub fn tracks(&self, a: &Tracks, b: &Tracks) -> Tracks {
         let end = a.end();
         let mut tracks: Vec<Track> = a.tracks.clone();
         for track in &b.tracks {
@@ -103,8 +103,8 @@ impl Carrier {
             duration: a.duration + b.duration,
             start_causes: a.start_causes.clone(),
             bond_causes: a.bond_causes.clone(),
-            robot: self.robot,
-            start: self.start,
+            robot: self.robot.clone(),
+            start: self.start.clone(),
         }
     }
 

@@ -5,7 +5,8 @@
 //! by runs of cells whose places are affine in the run's indices, with rational numbers: a million
 //! cells take a few lines, and nothing is rounded.
 
-use super::{CauseId, Ratio};
+use super::ratio::Ratio;
+use crate::plan::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

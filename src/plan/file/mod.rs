@@ -1,8 +1,15 @@
 //! Plans as text and back: JSON that stands alone and loses nothing. Writing, reading and writing
 //! again gives the same bytes.
 
-use super::form::{FORMAT, Header, PlanForm, VERSION};
-use super::{Plan, finite, validate};
+mod json;
+mod layout;
+mod program;
+
+use self::json::{FORMAT, Header, PlanJson, VERSION};
+use self::layout::laid_out;
+use super::finite;
+use super::motion_plan::Plan;
+use super::validation::validate;
 use sha2::{Digest, Sha256};
 
 /// Longest text that is read, bytes.
@@ -43,9 +50,9 @@ impl From<serde_json::Error> for FileError {
 
 /// A plan as text. Refused are numbers that are not finite.
 pub fn write(plan: &Plan) -> Result<String, FileError> {
-    let form = PlanForm::of(plan);
-    finite::check(&form).map_err(|fault| FileError::whole(fault.to_string()))?;
-    Ok(laid_out(&serde_json::to_string(&form)?))
+    let json = PlanJson::of(plan);
+    finite::check(&json).map_err(|fault| FileError::whole(fault.to_string()))?;
+    Ok(laid_out(&serde_json::to_string(&json)?))
 }
 
 /// A plan from text, its indices and orders checked. What it says of its own verdict is not believed:
@@ -69,9 +76,9 @@ pub fn read(text: &str) -> Result<Plan, FileError> {
         let message = format!("the file's version is {version}; this tool reads version {VERSION}{hint}");
         return Err(FileError::whole(message));
     }
-    let form: PlanForm = serde_json::from_str(text)?;
-    let plan = form.plan().map_err(FileError::whole)?;
-    validate::validate(&plan).map_err(FileError::whole)?;
+    let json: PlanJson = serde_json::from_str(text)?;
+    let plan = json.into_plan().map_err(|fault| FileError::whole(fault.to_string()))?;
+    validate(&plan).map_err(|fault| FileError::whole(fault.to_string()))?;
     Ok(plan)
 }
 
@@ -82,63 +89,9 @@ pub fn digest(text: &str) -> String {
 
 /// The JSON Schema of plan files.
 pub fn schema() -> serde_json::Value {
-    let mut schema = schemars::schema_for!(PlanForm<'static>).to_value();
+    let mut schema = schemars::schema_for!(PlanJson<'static>).to_value();
     if let Some(object) = schema.as_object_mut() {
         object.insert("title".into(), format!("modl plan, version {VERSION}").into());
     }
     schema
-}
-
-/// Containers deeper than this stay on one line: a segment of a track is one.
-const LINES_DEPTH: usize = 5;
-
-/// Compact JSON with a line for each item of the outer containers, so that a person finds their way
-/// and two plans can be compared; inner containers stay on the line where they stand.
-fn laid_out(compact: &str) -> String {
-    let mut text = String::with_capacity(compact.len() + compact.len() / 4);
-    let (mut depth, mut quoted, mut escaped) = (0, false, false);
-    let mut letters = compact.chars().peekable();
-    while let Some(letter) = letters.next() {
-        if quoted {
-            text.push(letter);
-            quoted = escaped || letter != '"';
-            escaped = !escaped && letter == '\\';
-            continue;
-        }
-        match letter {
-            '[' | '{' => {
-                depth += 1;
-                text.push(letter);
-                let empty = letters.peek().is_some_and(|next| matches!(next, ']' | '}'));
-                if depth <= LINES_DEPTH && !empty {
-                    new_line(&mut text, depth);
-                }
-            }
-            ']' | '}' => {
-                depth -= 1;
-                let empty = text.ends_with(['[', '{']);
-                if depth < LINES_DEPTH && !empty {
-                    new_line(&mut text, depth);
-                }
-                text.push(letter);
-            }
-            ',' if depth <= LINES_DEPTH => {
-                text.push(',');
-                new_line(&mut text, depth);
-            }
-            ',' => text.push_str(", "),
-            ':' => text.push_str(": "),
-            _ => {
-                quoted = letter == '"';
-                text.push(letter);
-            }
-        }
-    }
-    text.push('\n');
-    text
-}
-
-fn new_line(text: &mut String, depth: usize) {
-    text.push('\n');
-    text.extend(std::iter::repeat_n(' ', depth));
 }

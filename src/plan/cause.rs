@@ -1,0 +1,27 @@
+//! Causes: what in the source commands a piece of motion or sets a piece of the start pose.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The index of a cause in the list `causes` of its plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct CauseId(pub u32);
+
+/// What in the source commands a piece of motion, or sets a piece of the start pose.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cause {
+    /// Relative to the project root; `std/smores.mod` in the standard library.
+    pub file: String,
+    /// From 1.
+    pub line: usize,
+    /// From 1, in characters.
+    pub column: usize,
+    /// The text of the line, without the blanks around it.
+    pub text: String,
+    /// Which instance, such as `i = 3` or `leg[2].m[0].tilt`; empty where there is only one.
+    pub instance: String,
+    /// The call in the user's own file that led here, where `file` is the library's.
+    pub caller: Option<Box<Cause>>,
+}

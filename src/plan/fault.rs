@@ -1,0 +1,352 @@
+//! Faults in the form of a plan: why a plan cannot be read, or cannot be judged at all.
+//!
+//! A fault is no verdict on the motion. It says that an index points at nothing, that times are out of
+//! order, or that a number has no meaning, so that whoever comes after may index without asking.
+//! Times are in s, positions in rad or m.
+
+use super::finite::{self, Unwritable};
+use super::time::DURATION_MAX;
+use crate::geometry::Unsound;
+use serde::Serialize;
+use std::fmt;
+
+/// The first fault that was found in the form of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlanFault {
+    /// An index into a list of things of one sort that is too large for the list.
+    Index { what: &'static str, index: usize, count: usize },
+    /// A duration that is negative, not finite, or longer than [`DURATION_MAX`].
+    Duration { duration: f64 },
+    /// Times that must ascend and do not.
+    TimeOrder { what: &'static str },
+    /// A number that no file can hold, in a part of the plan.
+    Unwritable { part: &'static str, value: Unwritable },
+    /// The first world does not hold from 0 on.
+    FirstWorld,
+    /// An exemption that ends before it begins.
+    ExemptionOrder,
+    /// Gravity that points upwards.
+    Gravity,
+    /// A negative coefficient of friction in a world.
+    Friction,
+    /// A world that holds a base where the robot has none.
+    NoBaseToHold,
+    /// A sampling interval of the judge that is not positive.
+    SampleInterval { interval: f64 },
+    /// A negative time for which support may be missing.
+    UnstableFor,
+    /// A judge that may take no sample.
+    NoSamples,
+    /// A node of a program whose child does not stand before it in the table.
+    ProgramChild { node: usize, child: usize },
+    /// A root that is no node of the program's table.
+    ProgramRoot { node: usize },
+    /// A fault inside a module type.
+    InModule { module: String, fault: Box<PlanFault> },
+    /// A fault inside the track of a joint.
+    InTrack { joint: u32, fault: Box<PlanFault> },
+    /// A fault inside a stage of a lattice's plan.
+    InStage { stage: String, fault: Box<PlanFault> },
+    /// A fault in the bonds that hold after a docking or an undocking.
+    After { time: f64, fault: Box<PlanFault> },
+    /// A fault of a module type or a connector.
+    Library(LibraryFault),
+    /// A fault of the plan of an articulated robot.
+    Tracks(TracksFault),
+    /// A fault of the plan of a lattice.
+    Stages(StagesFault),
+    /// A fault of the plan of a truss.
+    NodePaths(NodePathsFault),
+}
+
+/// A fault of a module type or a connector.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LibraryFault {
+    /// A connector without an allowed turn.
+    NoTurn { connector: String },
+    /// A joint whose axis has no direction.
+    NoAxis { module: String, joint: String },
+    /// A link that two joints of its module carry.
+    SharedLink { module: String },
+    /// A link that no joint of its module carries.
+    LooseLink { module: String },
+    /// Joints of a module that form a loop.
+    CyclicJoints { module: String },
+    /// A negative tolerance of a module.
+    NegativeTolerance,
+    /// A module without mass.
+    NoMass,
+    /// A joint whose axis is no unit vector.
+    AxisNorm { joint: String },
+    /// A pose whose rotation is no unit quaternion: that of the named link, joint, port or base.
+    Pose { of: String },
+    /// A joint whose range ends before it begins.
+    JointRange { joint: String },
+    /// A limit of a joint or a motor that is not positive.
+    Limit,
+    /// A link of negative mass.
+    LinkMass { link: String },
+    /// A link with a negative coefficient of friction.
+    LinkFriction { link: String },
+    /// A link without a shape.
+    NoShape { link: String },
+    /// A shape of a link that is no solid.
+    Shape { link: String, fault: Unsound },
+}
+
+/// A fault of the plan of an articulated robot.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TracksFault {
+    /// Two modules of one name.
+    SharedName { name: String },
+    /// A start pose without one position for each joint.
+    StartJoints { joints: usize },
+    /// A start pose without one flag for each bond.
+    StartBonds { bonds: usize },
+    /// Tracks that are not in ascending order of joint.
+    TrackOrder,
+    /// A segment whose degree is too low or too high.
+    ControlPoints { time: f64, count: usize },
+    /// A segment that begins before the one before ends, ends before it begins, or ends after the plan.
+    SegmentOrder { start: f64, end: f64 },
+    /// A segment that begins elsewhere than where the joint is.
+    Jump { time: f64 },
+    /// A docking or undocking out of order, or after the end.
+    EventOrder { time: f64 },
+    /// A bond that is docked while it holds, or undocked while it does not.
+    BondUnchanged { time: f64, bond: usize, holds: bool },
+    /// A joint that is moved beyond this, rad or m.
+    FarJoint { limit: f64 },
+    /// A track of a joint that takes no commands.
+    NoCommands { joint: String },
+    /// A port with two bonds at once.
+    PortTaken { port: String },
+    /// A bond between ports whose connectors do not mate.
+    NoMate { a: String, b: String },
+}
+
+/// A fault of the plan of a lattice.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StagesFault {
+    /// More cells than a lattice may have.
+    CellCount { most: u64 },
+    /// A unit of time that is not positive.
+    TimeUnit,
+    /// Limits of cells that are out of range.
+    CellLimits,
+    /// A greatest contact force that is not positive.
+    ContactForce,
+    /// A start that leaves out cells.
+    Start,
+    /// A stage whose squared duration is negative.
+    StageDuration { stage: String },
+    /// A ramp whose part of the time has too large a denominator.
+    RampTooFine,
+    /// A ramp that takes none of the time, or too much of it.
+    RampPart,
+    /// A run of no cells, or of more than there are.
+    RunSize,
+    /// A run that names cells which there are not: the lowest and the highest that it names.
+    RunCells { low: i128, high: i128, count: u64 },
+    /// A pair of numbers that is no rational number with a positive denominator.
+    Ratio { numerator: i64, denominator: i64 },
+}
+
+/// A fault of the plan of a truss.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NodePathsFault {
+    /// A first keyframe elsewhere than at 0.
+    FirstKeyframe,
+    /// A keyframe without one position for each node.
+    KeyframeNodes { time: f64, nodes: usize },
+    /// A roll about two nodes that are one.
+    RollEdge { time: f64 },
+    /// A roll about two nodes that are at one place.
+    RollLength { time: f64 },
+    /// A strut between a node and itself.
+    StrutEnds,
+    /// An obstacle that is no solid.
+    Obstacle(Unsound),
+    /// A field of heights that is no ground, in words.
+    Terrain(&'static str),
+}
+
+/// Returns `Ok` where a condition holds, and the fault otherwise.
+pub(super) fn need<F: Into<PlanFault>>(holds: bool, fault: impl FnOnce() -> F) -> Result<(), PlanFault> {
+    if holds { Ok(()) } else { Err(fault().into()) }
+}
+
+/// Returns `Ok` where an index is below the count of things of a sort.
+pub(super) fn need_index(index: usize, count: usize, what: &'static str) -> Result<(), PlanFault> {
+    need(index < count, || PlanFault::Index { what, index, count })
+}
+
+/// Returns `Ok` where every time is later than the one before.
+pub(super) fn need_ascending(times: &[f64], what: &'static str) -> Result<(), PlanFault> {
+    need(times.windows(2).all(|w| w[0] < w[1]), || PlanFault::TimeOrder { what })
+}
+
+/// Returns `Ok` where every number of a part of a plan is finite.
+pub(super) fn need_finite(part: &'static str, value: &impl Serialize) -> Result<(), PlanFault> {
+    finite::check(value).map_err(|value| PlanFault::Unwritable { part, value })
+}
+
+impl From<LibraryFault> for PlanFault {
+    fn from(fault: LibraryFault) -> PlanFault {
+        PlanFault::Library(fault)
+    }
+}
+
+impl From<TracksFault> for PlanFault {
+    fn from(fault: TracksFault) -> PlanFault {
+        PlanFault::Tracks(fault)
+    }
+}
+
+impl From<StagesFault> for PlanFault {
+    fn from(fault: StagesFault) -> PlanFault {
+        PlanFault::Stages(fault)
+    }
+}
+
+impl From<NodePathsFault> for PlanFault {
+    fn from(fault: NodePathsFault) -> PlanFault {
+        PlanFault::NodePaths(fault)
+    }
+}
+
+impl fmt::Display for PlanFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PlanFault::Index { what, index, count } => {
+                write!(f, "there is no {what} {index}: there are {count}")
+            }
+            PlanFault::Duration { duration } => {
+                write!(f, "the duration of {duration} s is outside 0..{DURATION_MAX}")
+            }
+            PlanFault::TimeOrder { what } => write!(f, "{what} are not in order of time"),
+            PlanFault::Unwritable { part, value } => write!(f, "{part}: {value}"),
+            PlanFault::FirstWorld => write!(f, "the first world must hold from 0 on"),
+            PlanFault::ExemptionOrder => write!(f, "an exemption ends before it begins"),
+            PlanFault::Gravity => write!(f, "gravity points upwards"),
+            PlanFault::Friction => write!(f, "friction is negative"),
+            PlanFault::NoBaseToHold => write!(f, "only a robot of modules has a base to hold"),
+            PlanFault::SampleInterval { interval } => write!(f, "a sample every {interval} s is none"),
+            PlanFault::UnstableFor => write!(f, "`unstable_for` is negative"),
+            PlanFault::NoSamples => write!(f, "no samples are allowed"),
+            PlanFault::ProgramChild { node, child } => write!(
+                f,
+                "node {node} of the program has node {child} as a child, which does not stand before it"
+            ),
+            PlanFault::ProgramRoot { node } => write!(f, "the program has no node {node} to begin with"),
+            PlanFault::InModule { module, fault } => write!(f, "in module `{module}`: {fault}"),
+            PlanFault::InTrack { joint, fault } => write!(f, "in the track of joint {joint}: {fault}"),
+            PlanFault::InStage { stage, fault } => write!(f, "in stage `{stage}`: {fault}"),
+            PlanFault::After { time, fault } => write!(f, "at {time} s {fault}"),
+            PlanFault::Library(fault) => fault.fmt(f),
+            PlanFault::Tracks(fault) => fault.fmt(f),
+            PlanFault::Stages(fault) => fault.fmt(f),
+            PlanFault::NodePaths(fault) => fault.fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for LibraryFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LibraryFault::NoTurn { connector } => write!(f, "connector `{connector}` has no turn"),
+            LibraryFault::NoAxis { module, joint } => write!(f, "joint `{module}.{joint}` has no axis"),
+            LibraryFault::SharedLink { module } => {
+                write!(f, "two joints carry one link of module `{module}`")
+            }
+            LibraryFault::LooseLink { module } => write!(f, "no joint carries a link of module `{module}`"),
+            LibraryFault::CyclicJoints { module } => {
+                write!(f, "the joints of module `{module}` form a circle")
+            }
+            LibraryFault::NegativeTolerance => write!(f, "a tolerance is negative"),
+            LibraryFault::NoMass => write!(f, "it has no mass"),
+            LibraryFault::AxisNorm { joint } => write!(f, "the axis of `{joint}` is no unit vector"),
+            LibraryFault::Pose { of } => write!(f, "the pose of `{of}` is no rigid displacement"),
+            LibraryFault::JointRange { joint } => write!(f, "the range of `{joint}` ends before it begins"),
+            LibraryFault::Limit => write!(f, "a limit is not positive"),
+            LibraryFault::LinkMass { link } => write!(f, "the mass of `{link}` is negative"),
+            LibraryFault::LinkFriction { link } => write!(f, "the friction of `{link}` is negative"),
+            LibraryFault::NoShape { link } => write!(f, "`{link}` has no shape"),
+            LibraryFault::Shape { link, fault } => write!(f, "a shape of `{link}`: {fault}"),
+        }
+    }
+}
+
+impl fmt::Display for TracksFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TracksFault::SharedName { name } => write!(f, "two modules have the name `{name}`"),
+            TracksFault::StartJoints { joints } => {
+                write!(f, "the start pose must have {joints} joint positions")
+            }
+            TracksFault::StartBonds { bonds } => write!(f, "the start pose must have {bonds} bonds"),
+            TracksFault::TrackOrder => write!(f, "tracks are not in order of joint"),
+            TracksFault::ControlPoints { time, count } => {
+                write!(f, "at {time} s a segment has {count} control points")
+            }
+            TracksFault::SegmentOrder { start, end } => {
+                write!(f, "the segment of {start}..{end} s is out of order or beyond the end")
+            }
+            TracksFault::Jump { time } => write!(f, "the joint jumps at {time} s"),
+            TracksFault::EventOrder { time } => write!(f, "docking at {time} s is out of order"),
+            TracksFault::BondUnchanged { time, bond, holds } => {
+                write!(
+                    f,
+                    "at {time} s bond {bond} {}",
+                    if *holds { "holds already" } else { "does not hold" }
+                )
+            }
+            TracksFault::FarJoint { limit } => write!(f, "a joint is moved beyond {limit} rad or m"),
+            TracksFault::NoCommands { joint } => write!(f, "{joint} takes no commands"),
+            TracksFault::PortTaken { port } => write!(f, "{port} is taken twice"),
+            TracksFault::NoMate { a, b } => write!(f, "{a} does not mate with {b}"),
+        }
+    }
+}
+
+impl fmt::Display for StagesFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StagesFault::CellCount { most } => write!(f, "more than {most} cells"),
+            StagesFault::TimeUnit => write!(f, "the unit of time must be positive"),
+            StagesFault::CellLimits => write!(f, "the limits of the cells are out of range"),
+            StagesFault::ContactForce => write!(f, "the greatest contact force must be positive"),
+            StagesFault::Start => write!(f, "the start does not say where every cell is"),
+            StagesFault::StageDuration { stage } => write!(f, "stage `{stage}` lasts no real time"),
+            StagesFault::RampTooFine => write!(f, "a ramp is too fine a part of the time"),
+            StagesFault::RampPart => write!(f, "a ramp takes none of the time, or too much"),
+            StagesFault::RunSize => write!(f, "a run of no cells, or of too many"),
+            StagesFault::RunCells { low, high, count } => {
+                write!(f, "a run holds the cells {low} to {high}: there are {count}")
+            }
+            StagesFault::Ratio { numerator, denominator } => {
+                write!(f, "{numerator} / {denominator} is no rational number with a positive denominator")
+            }
+        }
+    }
+}
+
+impl fmt::Display for NodePathsFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NodePathsFault::FirstKeyframe => write!(f, "the first keyframe must be at 0"),
+            NodePathsFault::KeyframeNodes { time, nodes } => {
+                write!(f, "the keyframe at {time} s has not {nodes} nodes")
+            }
+            NodePathsFault::RollEdge { time } => write!(f, "the roll to {time} s is about no edge"),
+            NodePathsFault::RollLength { time } => {
+                write!(f, "the roll to {time} s is about an edge without length")
+            }
+            NodePathsFault::StrutEnds => write!(f, "a strut begins and ends at one node"),
+            NodePathsFault::Obstacle(fault) => write!(f, "an obstacle: {fault}"),
+            NodePathsFault::Terrain(fault) => f.write_str(fault),
+        }
+    }
+}
+
+impl std::error::Error for PlanFault {}

@@ -1,0 +1,150 @@
+//! Programs as they stand in a plan file: a table of nodes whose children come before them, so that
+//! what is shared stays shared and nothing nests deeply.
+
+use crate::plan::cause::CauseId;
+use crate::plan::fault::PlanFault;
+use crate::plan::program::{Action, Command, Condition, Node, Otherwise, Program};
+use crate::plan::visit::Graph;
+use crate::plan::world::ExemptionKind;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// A series-parallel graph of actions as a table of nodes.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Program", deny_unknown_fields)]
+pub(super) struct ProgramJson<'a> {
+    /// Children stand before the nodes that they are children of.
+    nodes: Vec<NodeJson<'a>>,
+    root: usize,
+}
+
+/// A node; its children by index.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Node", rename_all = "snake_case", deny_unknown_fields)]
+enum NodeJson<'a> {
+    Action(ActionJson<'a>),
+    Series(Vec<usize>),
+    Parallel(Vec<usize>),
+    Repeat { body: usize, times: u64 },
+    Phase { body: usize, shift: f64, cause: CauseId },
+    Approach { body: usize, shift: f64, cause: CauseId },
+    Stretch { body: usize, duration: f64, cause: CauseId },
+    Exempt { body: usize, kind: ExemptionKind, cause: CauseId },
+}
+
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Action", deny_unknown_fields)]
+struct ActionJson<'a> {
+    command: Cow<'a, Command>,
+    /// Ends the action when it holds.
+    until: Option<Cow<'a, Condition>>,
+    /// Seconds.
+    timeout: Option<f64>,
+    otherwise: OtherwiseJson,
+    cause: CauseId,
+}
+
+/// What follows a timeout.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Otherwise", rename_all = "snake_case", deny_unknown_fields)]
+enum OtherwiseJson {
+    Proceed,
+    Abort(String),
+    Node(usize),
+}
+
+impl<'a> ProgramJson<'a> {
+    pub(super) fn of(program: &'a Program) -> ProgramJson<'a> {
+        let graph = Graph::of(&program.root);
+        let nodes = graph.nodes.iter().map(|node| NodeJson::of(node, &graph)).collect::<Vec<_>>();
+        ProgramJson { root: nodes.len() - 1, nodes }
+    }
+
+    pub(super) fn into_program(self) -> Result<Program, PlanFault> {
+        let mut done: Vec<Arc<Node>> = Vec::with_capacity(self.nodes.len());
+        for (index, json) in self.nodes.into_iter().enumerate() {
+            let node = json.into_node(|child: usize| {
+                let before = done.get(child).cloned();
+                before.ok_or(PlanFault::ProgramChild { node: index, child })
+            })?;
+            done.push(Arc::new(node));
+        }
+        let root = done.get(self.root).cloned();
+        let root = root.ok_or(PlanFault::ProgramRoot { node: self.root })?;
+        Ok(Program { root })
+    }
+}
+
+impl<'a> NodeJson<'a> {
+    fn of(node: &'a Node, graph: &Graph) -> NodeJson<'a> {
+        let at = |child: &Arc<Node>| graph.position(child);
+        match node {
+            Node::Action(action) => NodeJson::Action(ActionJson::of(action, graph)),
+            Node::Series(list) => NodeJson::Series(list.iter().map(at).collect()),
+            Node::Parallel(list) => NodeJson::Parallel(list.iter().map(at).collect()),
+            Node::Repeat { body, times } => NodeJson::Repeat { body: at(body), times: *times },
+            Node::Phase { body, shift, cause } => {
+                NodeJson::Phase { body: at(body), shift: *shift, cause: *cause }
+            }
+            Node::Approach { body, shift, cause } => {
+                NodeJson::Approach { body: at(body), shift: *shift, cause: *cause }
+            }
+            Node::Stretch { body, duration, cause } => {
+                NodeJson::Stretch { body: at(body), duration: *duration, cause: *cause }
+            }
+            Node::Exempt { body, kind, cause } => {
+                NodeJson::Exempt { body: at(body), kind: kind.clone(), cause: *cause }
+            }
+        }
+    }
+
+    fn into_node(self, child: impl Fn(usize) -> Result<Arc<Node>, PlanFault>) -> Result<Node, PlanFault> {
+        Ok(match self {
+            NodeJson::Action(action) => Node::Action(action.into_action(child)?),
+            NodeJson::Series(list) => Node::Series(list.into_iter().map(child).collect::<Result<_, _>>()?),
+            NodeJson::Parallel(list) => {
+                Node::Parallel(list.into_iter().map(child).collect::<Result<_, _>>()?)
+            }
+            NodeJson::Repeat { body, times } => Node::Repeat { body: child(body)?, times },
+            NodeJson::Phase { body, shift, cause } => Node::Phase { body: child(body)?, shift, cause },
+            NodeJson::Approach { body, shift, cause } => Node::Approach { body: child(body)?, shift, cause },
+            NodeJson::Stretch { body, duration, cause } => {
+                Node::Stretch { body: child(body)?, duration, cause }
+            }
+            NodeJson::Exempt { body, kind, cause } => Node::Exempt { body: child(body)?, kind, cause },
+        })
+    }
+}
+
+impl<'a> ActionJson<'a> {
+    fn of(action: &'a Action, graph: &Graph) -> ActionJson<'a> {
+        ActionJson {
+            command: Cow::Borrowed(&action.command),
+            until: action.until.as_ref().map(Cow::Borrowed),
+            timeout: action.timeout,
+            otherwise: match &action.otherwise {
+                Otherwise::Proceed => OtherwiseJson::Proceed,
+                Otherwise::Abort(message) => OtherwiseJson::Abort(message.clone()),
+                Otherwise::Node(node) => OtherwiseJson::Node(graph.position(node)),
+            },
+            cause: action.cause,
+        }
+    }
+
+    fn into_action(self, child: impl Fn(usize) -> Result<Arc<Node>, PlanFault>) -> Result<Action, PlanFault> {
+        let otherwise = match self.otherwise {
+            OtherwiseJson::Proceed => Otherwise::Proceed,
+            OtherwiseJson::Abort(message) => Otherwise::Abort(message),
+            OtherwiseJson::Node(node) => Otherwise::Node(child(node)?),
+        };
+        Ok(Action {
+            command: self.command.into_owned(),
+            until: self.until.map(Cow::into_owned),
+            timeout: self.timeout,
+            otherwise,
+            cause: self.cause,
+        })
+    }
+}

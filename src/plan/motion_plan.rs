@@ -1,0 +1,29 @@
+//! A plan as a whole: the motion of a robot with all that it takes to judge it.
+
+use super::body::Body;
+use super::cause::Cause;
+use super::program::Program;
+use super::provenance::Provenance;
+use super::verdict::Verdict;
+use super::world::{Exemption, Settings, WorldFrom};
+use crate::robot::Library;
+use std::sync::Arc;
+
+/// A verified motion of a robot, whatever made it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub provenance: Provenance,
+    /// In order of time; each part of a concatenation keeps the world it was planned for.
+    pub worlds: Vec<WorldFrom>,
+    pub settings: Settings,
+    pub library: Arc<Library>,
+    pub body: Body,
+    /// What a position-servo robot executes; `None` for planned bodies without one.
+    pub program: Option<Program>,
+    /// Whether times depend on what sensors would say: then they hold for the undisturbed run.
+    pub nominal: bool,
+    pub causes: Vec<Cause>,
+    pub exemptions: Vec<Exemption>,
+    /// Of the last verification; recomputed whenever it matters.
+    pub verdict: Option<Verdict>,
+}

@@ -1,0 +1,48 @@
+//! Node paths one after the other.
+
+use super::limits::{Margins, TrussLimits};
+use super::motion::{Keyframe, NodePaths};
+use crate::plan::cause::CauseId;
+use crate::plan::operation_error::OperationError;
+use crate::plan::time::tick_after;
+
+/// The most by which nodes may be apart where two plans meet, m, along each axis: what rounding explains
+/// and no eye sees.
+pub const TOL_JOIN_NODE: f64 = 1e-6;
+
+/// Returns the first paths and then the second, whose causes come behind `causes` others.
+///
+/// # Errors
+/// Where the trusses, their surroundings or the places of their nodes differ.
+pub(in crate::plan) fn joined(
+    a: &NodePaths,
+    b: &NodePaths,
+    causes: u32,
+) -> Result<NodePaths, OperationError> {
+    if a.struts != b.struts || a.node_names.len() != b.node_names.len() {
+        return Err(OperationError::Trusses { node: None });
+    }
+    let at = tick_after(a.duration());
+    let (end, start) = (a.state(at), b.state(0.0));
+    let differ = |p: &[f64; 3], q: &[f64; 3]| p.iter().zip(q).any(|(x, y)| (x - y).abs() > TOL_JOIN_NODE);
+    if let Some(node) = end.iter().zip(&start).position(|(p, q)| differ(p, q)) {
+        return Err(OperationError::Trusses { node: Some(a.node_names[node].clone()) });
+    }
+    if a.surroundings != b.surroundings {
+        return Err(OperationError::Surroundings);
+    }
+    let mut new = a.clone();
+    // Each part keeps its own limits; the whole keeps what both do.
+    if a.limits != b.limits {
+        new.limits = TrussLimits::default();
+    }
+    let margins = |margins: Margins| if a.limits == b.limits { margins } else { Margins::default() };
+    new.keyframes.iter_mut().for_each(|keyframe| keyframe.margins = margins(keyframe.margins));
+    new.keyframes.extend(b.keyframes.iter().skip(1).map(|k| Keyframe {
+        time: k.time + at,
+        cause: CauseId(k.cause.0 + causes),
+        margins: margins(k.margins),
+        ..k.clone()
+    }));
+    Ok(new)
+}

@@ -1,0 +1,96 @@
+//! What a truss keeps beside the limits of its struts, what is around it, and by how much it keeps both.
+
+use crate::geometry::{HeightField, Placed, Vec3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What is around a truss, in the world's frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Surroundings {
+    /// Solids that struts keep their clearance from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacles: Vec<Vec<Placed>>,
+    /// The ground that nodes stand on, where it is not flat at height 0. Nodes are taken to be balls as
+    /// thick as the clearance on each side, struts as half of it: between its nodes a strut may be half a
+    /// clearance below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<HeightField>,
+}
+
+impl Surroundings {
+    pub fn is_none(&self) -> bool {
+        *self == Surroundings::default()
+    }
+
+    /// How far a place is above the ground, m.
+    pub fn above(&self, p: Vec3) -> f64 {
+        self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
+    }
+}
+
+/// Limits of a truss beside those that every strut has.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TrussLimits {
+    /// The least angle between struts that share a node, rad; of 0 there is none.
+    #[serde(default)]
+    pub angle: f64,
+    /// What the singular values of the rigidity matrix (rows of unit vectors) that belong to no rigid motion
+    /// stay above at the keyframes; of 0 there is nothing.
+    #[serde(default)]
+    pub rigidity: f64,
+    /// Struts whose lengths stay, and sums of lengths that do.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sums: Vec<LengthSum>,
+}
+
+/// Struts whose lengths add up to something that stays: one that failed, or those of one tube.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LengthSum {
+    /// Indices of struts.
+    pub struts: Vec<usize>,
+    /// The least and the greatest sum, m.
+    pub range: (f64, f64),
+}
+
+impl TrussLimits {
+    pub fn is_none(&self) -> bool {
+        *self == TrussLimits::default()
+    }
+}
+
+/// By how much a truss is within its limits at a keyframe; negative outside. Nothing of limits that it has not, nor of
+/// distances that are more than twice the clearance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Margins {
+    /// To the nearer end of the range of a strut's lengths, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
+    /// Beyond the clearance between struts that share no node, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// Beyond the clearance from obstacles, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub obstacle: Option<f64>,
+    /// Of the centre of mass inside the hull of the nodes on the ground, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<f64>,
+    /// Beyond the least angle between struts that share a node, rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+    /// Of the least singular value above its limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rigidity: Option<f64>,
+    /// To the nearer end of the range of a sum of lengths, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sum: Option<f64>,
+}
+
+impl Margins {
+    pub fn is_none(&self) -> bool {
+        *self == Margins::default()
+    }
+}

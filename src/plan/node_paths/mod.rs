@@ -1,0 +1,13 @@
+//! The family of trusses: positions of the nodes at keyframes; strut lengths follow.
+
+mod join;
+mod limits;
+mod motion;
+mod reversal;
+mod slice;
+mod validation;
+
+pub use join::TOL_JOIN_NODE;
+pub(super) use join::joined;
+pub use limits::{LengthSum, Margins, Surroundings, TrussLimits};
+pub use motion::{Interpolation, Keyframe, NodePaths};

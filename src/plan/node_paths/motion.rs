@@ -1,0 +1,96 @@
+//! The body of plans of trusses: paths of the nodes; strut lengths follow.
+
+use super::limits::{Margins, Surroundings, TrussLimits};
+use crate::geometry::Vec3;
+use crate::geometry::pose::turned;
+use crate::plan::cause::CauseId;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A truss whose nodes move between keyframes, on straight lines or as one rigid body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NodePaths {
+    /// Index in [`Library::struts`](crate::robot::Library).
+    pub strut: usize,
+    pub node_names: Vec<String>,
+    /// Pairs of nodes.
+    pub struts: Vec<(usize, usize)>,
+    /// In order of time; the first at 0.
+    pub keyframes: Vec<Keyframe>,
+    /// What it keeps beside the limits of its struts.
+    #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
+    pub limits: TrussLimits,
+    #[serde(default, skip_serializing_if = "Surroundings::is_none")]
+    pub surroundings: Surroundings,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Keyframe {
+    /// Seconds.
+    pub time: f64,
+    /// The motion of the nodes from the keyframe before to this one; without meaning at the first.
+    pub interpolation: Interpolation,
+    /// World position of each node, m.
+    pub nodes: Vec<[f64; 3]>,
+    pub cause: CauseId,
+    #[serde(default, skip_serializing_if = "Margins::is_none")]
+    pub margins: Margins,
+}
+
+/// The motion of the nodes between two keyframes, at a constant rate.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Interpolation {
+    /// Every node moves along a straight line at constant speed.
+    Linear,
+    /// The whole truss turns as a rigid body about the line through two nodes that stay, from the
+    /// first to the second by the right-hand rule; radians. No strut changes its length.
+    RigidRoll { edge: (usize, usize), angle: f64 },
+}
+
+impl NodePaths {
+    /// Seconds.
+    pub fn duration(&self) -> f64 {
+        self.keyframes.last().map_or(0.0, |k| k.time)
+    }
+
+    /// Returns the times of the keyframes in seconds, in order.
+    pub fn instants(&self) -> Vec<f64> {
+        self.keyframes.iter().map(|k| k.time).collect()
+    }
+
+    /// World position of each node at a time in seconds, m.
+    pub fn state(&self, t: f64) -> Vec<[f64; 3]> {
+        let after = self.keyframes.partition_point(|k| k.time <= t);
+        let Some(before) = after.checked_sub(1).map(|i| &self.keyframes[i]) else {
+            return self.keyframes.first().map_or_else(Vec::new, |k| k.nodes.clone());
+        };
+        let Some(next) = self.keyframes.get(after) else { return before.nodes.clone() };
+        let part = (t - before.time) / (next.time - before.time);
+        match next.interpolation {
+            Interpolation::Linear => straight(&before.nodes, &next.nodes, part),
+            Interpolation::RigidRoll { edge, angle } => rolled(&before.nodes, edge, angle * part),
+        }
+    }
+
+    /// Length of each strut at a time, m.
+    pub fn lengths(&self, t: f64) -> Vec<f64> {
+        let nodes = self.state(t);
+        let at = |i: usize| Vec3::from(nodes[i]);
+        self.struts.iter().map(|&(a, b)| (at(a) - at(b)).norm()).collect()
+    }
+}
+
+fn straight(from: &[[f64; 3]], to: &[[f64; 3]], part: f64) -> Vec<[f64; 3]> {
+    let along = |(a, b): (&[f64; 3], &[f64; 3])| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * part);
+    from.iter().zip(to).map(along).collect()
+}
+
+/// Nodes turned about the line through two of them.
+fn rolled(nodes: &[[f64; 3]], edge: (usize, usize), angle: f64) -> Vec<[f64; 3]> {
+    let origin = Vec3::from(nodes[edge.0]);
+    let turn = turned(Vec3::from(nodes[edge.1]) - origin, angle);
+    nodes.iter().map(|&p| (origin + turn.rotation * (Vec3::from(p) - origin)).into()).collect()
+}

@@ -1,0 +1,54 @@
+//! The validation of node paths: references, orders and ranges.
+
+use super::motion::{Interpolation, NodePaths};
+use crate::geometry::{HeightField, soundness};
+use crate::plan::fault::{NodePathsFault, PlanFault, need, need_ascending, need_finite, need_index};
+use crate::robot::Library;
+
+impl NodePaths {
+    /// Checks that every index points at something, and that keyframes are in order of time.
+    /// `causes`: the number of causes of the plan.
+    pub(in crate::plan) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
+        need_index(self.strut, library.struts.len(), "strut type")?;
+        let count = self.node_names.len();
+        let node = |i| need_index(i, count, "node");
+        self.struts.iter().try_for_each(|&(a, b)| node(a).and(node(b)))?;
+        let strut = |i: &usize| need_index(*i, self.struts.len(), "strut");
+        self.limits.sums.iter().flat_map(|sum| &sum.struts).try_for_each(strut)?;
+        let times: Vec<f64> = self.keyframes.iter().map(|k| k.time).collect();
+        need(times.first() == Some(&0.0), || NodePathsFault::FirstKeyframe)?;
+        need_ascending(&times, "the keyframes")?;
+        for keyframe in &self.keyframes {
+            let time = keyframe.time;
+            need_index(keyframe.cause.0 as usize, causes, "cause")?;
+            let complete = keyframe.nodes.len() == count;
+            need(complete, || NodePathsFault::KeyframeNodes { time, nodes: count })?;
+            if let Interpolation::RigidRoll { edge: (a, b), .. } = keyframe.interpolation {
+                node(a).and(node(b))?;
+                need(a != b, || NodePathsFault::RollEdge { time })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that numbers are finite, obstacles solids, and that struts and rolls have a length.
+    pub(in crate::plan) fn check_ranges(&self) -> Result<(), PlanFault> {
+        need_finite("the keyframes", &self.keyframes)?;
+        need_finite("the limits", &self.limits)?;
+        need_finite("the surroundings", &self.surroundings)?;
+        for placed in self.surroundings.obstacles.iter().flatten() {
+            soundness::check(&placed.shape).map_err(NodePathsFault::Obstacle)?;
+        }
+        if let Some(fault) = self.surroundings.terrain.as_ref().and_then(HeightField::fault) {
+            return Err(NodePathsFault::Terrain(fault).into());
+        }
+        need(self.struts.iter().all(|(a, b)| a != b), || NodePathsFault::StrutEnds)?;
+        self.keyframes.iter().try_for_each(|keyframe| match keyframe.interpolation {
+            Interpolation::RigidRoll { edge: (a, b), .. } => {
+                let long = keyframe.nodes[a] != keyframe.nodes[b];
+                need(long, || NodePathsFault::RollLength { time: keyframe.time })
+            }
+            Interpolation::Linear => Ok(()),
+        })
+    }
+}

@@ -1,0 +1,53 @@
+//! What made a plan, and what was done to it since.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What made the plan.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// `behavior`, or the planner's name.
+    pub planner: String,
+    /// Name and SHA-256 of every source text, in order of name.
+    pub sources: Vec<(String, String)>,
+    pub seed: Option<u64>,
+    pub budget: Option<u64>,
+    /// What the planner proved of every plan for the same task; nothing of a plan changed since.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Bound>,
+    /// The tool that planned it, with its version: `modl 0.1.0`.
+    pub tool: String,
+    /// What was done to the plan since, in order.
+    pub history: Vec<Change>,
+}
+
+/// A value that no plan for the same task is below.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Bound {
+    /// Of the hinges that fold, J.
+    FoldingEnergy(f64),
+}
+
+/// A change of a whole plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Change {
+    Reversed,
+    /// Only what lay between these times (s) was kept.
+    Sliced {
+        from: f64,
+        to: f64,
+    },
+    /// Another plan was appended at a time (s).
+    Joined {
+        at: f64,
+        /// What of the other plan's modules had another name here: (its name there, its name here).
+        renamed: Vec<(String, String)>,
+        /// How the other plan had been changed before.
+        appended: Vec<Change>,
+    },
+    /// The program was given up, and why.
+    ProgramDropped(String),
+}

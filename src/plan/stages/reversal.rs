@@ -1,0 +1,16 @@
+//! Stages run backwards.
+
+use super::motion::{Stage, Stages};
+
+impl Stages {
+    /// From end to start: each stage ends where it began.
+    pub fn reversed(&self) -> Stages {
+        let stage =
+            |(i, s): (usize, &Stage)| Stage { end: self.before(i), law: s.law.reversed(), ..s.clone() };
+        Stages {
+            start: self.before(self.stages.len()),
+            stages: self.stages.iter().enumerate().rev().map(stage).collect(),
+            ..self.clone()
+        }
+    }
+}

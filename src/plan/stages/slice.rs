@@ -1,0 +1,21 @@
+//! Stages between two times.
+
+use super::motion::Stages;
+use crate::plan::operation_error::OperationError;
+
+/// How far from the border of a stage a cut may be, s: what rounding explains.
+const TOL_STAGE_BORDER: f64 = 1e-9;
+
+impl Stages {
+    /// Between two borders of stages: within a stage the cells move.
+    pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> Result<Stages, OperationError> {
+        let instants = self.instants();
+        let border = |t: f64| {
+            let found = instants.iter().position(|i| (i - t).abs() <= TOL_STAGE_BORDER * (1.0 + t));
+            found.ok_or(OperationError::InsideStage { time: t })
+        };
+        let (first, last) = (border(from)?, border(to)?);
+        let start = self.before(first);
+        Ok(Stages { start, stages: self.stages[first..last].to_vec(), ..self.clone() })
+    }
+}

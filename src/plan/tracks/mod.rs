@@ -1,0 +1,17 @@
+//! The family of articulated robots: joint tracks in Bernstein form, docking and undocking.
+
+mod join;
+mod json;
+mod motion;
+mod remap;
+mod reversal;
+mod slice;
+mod timeline;
+mod validation;
+
+pub use join::TOL_JOIN_JOINT;
+pub(super) use join::fitted;
+pub(super) use json::TracksJson;
+pub use motion::{Dock, DockKind, Segment, Track, Tracks};
+pub use remap::Remap;
+pub use timeline::timeline;

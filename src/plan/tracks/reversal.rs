@@ -1,0 +1,34 @@
+//! Tracks run backwards.
+
+use super::motion::{Dock, DockKind, Segment, Track, Tracks};
+
+impl Segment {
+    fn reversed(&self, duration: f64) -> Segment {
+        let control = self.control.iter().rev().copied().collect();
+        Segment { start: duration - self.end, end: duration - self.start, control, cause: self.cause }
+    }
+}
+
+impl Tracks {
+    /// From end to start: what was docked is undocked. The base stays where it was at the start.
+    pub fn reversed(&self) -> Tracks {
+        let d = self.duration;
+        let track = |t: &Track| Track {
+            joint: t.joint,
+            segments: t.segments.iter().rev().map(|s| s.reversed(d)).collect(),
+        };
+        let dock = |k: &Dock| {
+            let kind = match k.kind {
+                DockKind::Dock => DockKind::Undock,
+                DockKind::Undock => DockKind::Dock,
+            };
+            Dock { time: d - k.time, kind, ..k.clone() }
+        };
+        Tracks {
+            start: self.end(),
+            tracks: self.tracks.iter().map(track).collect(),
+            docks: self.docks.iter().rev().map(dock).collect(),
+            ..self.clone()
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Tracks between two times.
+
+use super::motion::{Track, Tracks};
+
+impl Tracks {
+    /// Between two times. Docks at the first instant have happened, those at the last happen.
+    pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> Tracks {
+        let track = |t: &Track| {
+            let pieces = t.segments.iter().filter_map(|s| s.between(from, to)).map(|mut s| {
+                (s.start, s.end) = (s.start - from, s.end - from);
+                s
+            });
+            Track { joint: t.joint, segments: pieces.collect() }
+        };
+        let docks = self.docks.iter().filter(|d| from < d.time && d.time <= to).cloned().map(|mut d| {
+            d.time -= from;
+            d
+        });
+        Tracks {
+            start: self.state(from),
+            tracks: self.tracks.iter().map(track).filter(|t| !t.segments.is_empty()).collect(),
+            docks: docks.collect(),
+            duration: to - from,
+            ..self.clone()
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! The validation of tracks: references, orders and ranges.
+
+use super::motion::{Dock, DockKind, Track, Tracks};
+use crate::plan::cause::CauseId;
+use crate::plan::fault::{PlanFault, TracksFault, need, need_finite, need_index};
+use crate::plan::polynomial::DEGREE_MAX;
+use crate::plan::validation::library::{ranges, rigid};
+use crate::robot::{Assembly, JointKind, JointOwner, PortRef};
+use std::collections::BTreeSet;
+
+/// The most by which a joint may jump between two segments, rad or m: rounding, where plans were joined.
+const TOL_JUMP: f64 = 1e-9;
+/// The furthest position of a joint, rad or m: what turns more often takes the judge for ever.
+const POSITION_MAX: f64 = 1e6;
+
+impl Tracks {
+    /// Checks that every index points at something, that segments and docks are in order, and that
+    /// joints do not jump. `causes`: the number of causes of the plan.
+    pub(in crate::plan) fn validate(&self, causes: usize) -> Result<(), PlanFault> {
+        robot(&self.robot)?;
+        let (joints, bonds) = (self.robot.joints().count(), self.robot.bonds.len());
+        need(self.start.joints.len() == joints, || TracksFault::StartJoints { joints })?;
+        need(self.start.bonds.len() == bonds, || TracksFault::StartBonds { bonds })?;
+        let ascending = self.tracks.windows(2).all(|w| w[0].joint < w[1].joint);
+        need(ascending, || TracksFault::TrackOrder)?;
+        for track in &self.tracks {
+            let joint = track.joint.0;
+            need_index(joint as usize, joints, "joint")?;
+            self.segments(track, causes)
+                .map_err(|fault| PlanFault::InTrack { joint, fault: Box::new(fault) })?;
+        }
+        self.docks(causes)?;
+        for &(joint, id) in &self.start_causes {
+            need_index(joint.0 as usize, joints, "joint").and(cause(id, causes))?;
+        }
+        let known = |&(bond, id): &(usize, CauseId)| need_index(bond, bonds, "bond").and(cause(id, causes));
+        self.bond_causes.iter().try_for_each(known)
+    }
+
+    fn segments(&self, track: &Track, causes: usize) -> Result<(), PlanFault> {
+        let mut now = 0.0;
+        let mut at = self.start.joints[track.joint.0 as usize];
+        for segment in &track.segments {
+            cause(segment.cause, causes)?;
+            let (start, end, count) = (segment.start, segment.end, segment.control.len());
+            let degree = (2..=DEGREE_MAX + 1).contains(&count);
+            need(degree, || TracksFault::ControlPoints { time: start, count })?;
+            let in_order = now <= start && start < end && end <= self.duration;
+            need(in_order, || TracksFault::SegmentOrder { start, end })?;
+            need((segment.control[0] - at).abs() <= TOL_JUMP, || TracksFault::Jump { time: start })?;
+            (now, at) = (end, segment.last());
+        }
+        Ok(())
+    }
+
+    fn docks(&self, causes: usize) -> Result<(), PlanFault> {
+        let mut now = 0.0;
+        let mut holds = self.start.bonds.clone();
+        for &Dock { time, kind, bond, cause: id } in &self.docks {
+            cause(id, causes)?;
+            need_index(bond, holds.len(), "bond")?;
+            need(now <= time && time <= self.duration, || TracksFault::EventOrder { time })?;
+            let docks = kind == DockKind::Dock;
+            need(holds[bond] != docks, || TracksFault::BondUnchanged { time, bond, holds: docks })?;
+            holds[bond] = docks;
+            now = time;
+        }
+        Ok(())
+    }
+
+    /// Refuses numbers that are not finite.
+    pub(in crate::plan) fn check_numbers(&self) -> Result<(), PlanFault> {
+        need_finite("the start", &self.start)?;
+        need_finite("the tracks", &self.tracks)?;
+        need_finite("the docks", &self.docks)?;
+        need_finite("the robot", &*self.robot.library)
+    }
+
+    /// Checks that joints can be moved, stay within sight, and that ports which are docked mate.
+    pub(in crate::plan) fn check_ranges(&self) -> Result<(), PlanFault> {
+        ranges(&self.robot.library)?;
+        rigid(&self.start.base, "the base")?;
+        let owners: Vec<JointOwner> = self.robot.joints().collect();
+        for track in &self.tracks {
+            let far = track.segments.iter().flat_map(|s| &s.control).any(|q| q.abs() > POSITION_MAX);
+            need(!far, || TracksFault::FarJoint { limit: POSITION_MAX })?;
+            let owner = owners[track.joint.0 as usize];
+            need(takes_commands(&self.robot, owner), || TracksFault::NoCommands {
+                joint: self.robot.joint_name(owner),
+            })?;
+        }
+        ports(&self.robot, &self.start.bonds)?;
+        let mut bonds = self.start.bonds.clone();
+        self.docks.iter().try_for_each(|dock| {
+            bonds[dock.bond] = !bonds[dock.bond];
+            ports(&self.robot, &bonds)
+                .map_err(|fault| PlanFault::After { time: dock.time, fault: Box::new(fault) })
+        })
+    }
+}
+
+fn cause(id: CauseId, causes: usize) -> Result<(), PlanFault> {
+    need_index(id.0 as usize, causes, "cause")
+}
+
+/// Checks the references of an assembly, and that its modules have names of their own.
+fn robot(robot: &Assembly) -> Result<(), PlanFault> {
+    need_index(robot.base, robot.modules.len(), "module")?;
+    let mut names = BTreeSet::new();
+    for module in &robot.modules {
+        need_index(module.kind, robot.library.modules.len(), "module type")?;
+        let new = names.insert(&module.name);
+        need(new, || TracksFault::SharedName { name: module.name.clone() })?;
+    }
+    for bond in &robot.bonds {
+        port(bond.a, robot)?;
+        port(bond.b, robot)?;
+        let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;
+        need_index(bond.turn as usize, robot.library.connectors[connector].turns as usize, "turn")?;
+    }
+    Ok(())
+}
+
+fn port(port: PortRef, robot: &Assembly) -> Result<(), PlanFault> {
+    need_index(port.module, robot.modules.len(), "module")?;
+    need_index(port.port, robot.module_type(port.module).ports.len(), "port")
+}
+
+/// Returns `true` for a joint that has a motor of its own.
+fn takes_commands(robot: &Assembly, owner: JointOwner) -> bool {
+    match owner {
+        JointOwner::Module { module, joint } => {
+            let joint = &robot.module_type(module).joints[joint];
+            joint.kind != JointKind::Fixed && !joint.passive && joint.mimic.is_none()
+        }
+        JointOwner::Bond(_) => true,
+    }
+}
+
+/// Checks that bonds which hold mate what mates, and take no port twice.
+fn ports(robot: &Assembly, holds: &[bool]) -> Result<(), PlanFault> {
+    let mut taken = BTreeSet::new();
+    let connector = |port: PortRef| robot.module_type(port.module).ports[port.port].connector;
+    for (bond, _) in robot.bonds.iter().zip(holds).filter(|(_, holds)| **holds) {
+        for port in [bond.a, bond.b] {
+            need(taken.insert(port), || TracksFault::PortTaken { port: robot.port_name(port) })?;
+        }
+        let mates = &robot.library.connectors[connector(bond.a)].mates;
+        need(mates.contains(&connector(bond.b)), || TracksFault::NoMate {
+            a: robot.port_name(bond.a),
+            b: robot.port_name(bond.b),
+        })?;
+    }
+    Ok(())
+}

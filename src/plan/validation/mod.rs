@@ -1,0 +1,78 @@
+//! The validation of plans: what lets the judge, and everyone else, index without asking.
+//!
+//! [`validate`] asks what a reader must know: every index points at something, times are in order,
+//! joints do not jump. [`check`] asks in addition that all numbers mean something: then a plan can be
+//! judged. Whether the motion is good is for the judge. What belongs to one family of bodies is asked
+//! in that family's folder, through [`Body`](super::Body).
+
+pub(super) mod library;
+mod program;
+
+use super::fault::{PlanFault, need, need_ascending, need_finite, need_index};
+use super::motion_plan::Plan;
+use super::time::DURATION_MAX;
+use super::visit::Graph;
+use super::world::Ground;
+
+/// Validates the references and the orders of a plan: what reading a file asks of it.
+///
+/// # Errors
+/// The first fault that was found.
+pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
+    library::references(&plan.library)?;
+    let duration = plan.body.duration();
+    let in_range = duration.is_finite() && (0.0..=DURATION_MAX).contains(&duration);
+    need(in_range, || PlanFault::Duration { duration })?;
+    let causes = plan.causes.len();
+    plan.body.validate(&plan.library, causes)?;
+    if let Some(tracks) = plan.body.tracks() {
+        let names = program::Names::of(&tracks.robot, causes);
+        plan.exemptions.iter().try_for_each(|exemption| names.exemption(&exemption.kind))?;
+        if let Some(program) = &plan.program {
+            names.nodes(&Graph::of(&program.root))?;
+        }
+    }
+    for exemption in &plan.exemptions {
+        need_index(exemption.cause.0 as usize, causes, "cause")?;
+        need(exemption.from <= exemption.to, || PlanFault::ExemptionOrder)?;
+    }
+    let starts: Vec<f64> = plan.worlds.iter().map(|w| w.from).collect();
+    need(starts.first() == Some(&0.0), || PlanFault::FirstWorld)?;
+    need_ascending(&starts, "the worlds")
+}
+
+/// Checks that a plan can be judged: [`validate`], and that every number is finite and in its range.
+///
+/// # Errors
+/// The first fault that was found.
+pub fn check(plan: &Plan) -> Result<(), PlanFault> {
+    // Each check may rely on those before it.
+    numbers(plan)?;
+    validate(plan)?;
+    options(plan)?;
+    library::ranges(&plan.library)?;
+    plan.body.check_ranges()
+}
+
+/// Refuses numbers that are not finite.
+fn numbers(plan: &Plan) -> Result<(), PlanFault> {
+    need_finite("the library", &*plan.library)?;
+    need_finite("the settings", &plan.settings)?;
+    need_finite("the worlds", &plan.worlds)?;
+    need_finite("the exemptions", &plan.exemptions)?;
+    plan.body.check_numbers()
+}
+
+/// Checks the settings of the judge, and the worlds.
+fn options(plan: &Plan) -> Result<(), PlanFault> {
+    let settings = &plan.settings;
+    need(settings.sample > 0.0, || PlanFault::SampleInterval { interval: settings.sample })?;
+    need(settings.unstable_for >= 0.0, || PlanFault::UnstableFor)?;
+    need(settings.samples_max >= 1, || PlanFault::NoSamples)?;
+    let has_base = plan.body.tracks().is_some();
+    plan.worlds.iter().try_for_each(|w| {
+        need(has_base || w.world.ground != Ground::Held, || PlanFault::NoBaseToHold)?;
+        need(w.world.gravity >= 0.0, || PlanFault::Gravity)?;
+        need(w.world.friction >= 0.0, || PlanFault::Friction)
+    })
+}

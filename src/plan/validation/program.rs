@@ -1,0 +1,88 @@
+//! The validation of programs and exemptions: joints, ports, modules and causes that they name.
+
+use crate::plan::cause::CauseId;
+use crate::plan::fault::{PlanFault, need_index};
+use crate::plan::program::{Action, Command, Condition, Node, Signal};
+use crate::plan::visit::Graph;
+use crate::plan::world::ExemptionKind;
+use crate::robot::{Assembly, JointId, PortRef};
+
+/// What a program may name: a robot's joints and ports, and the causes of a plan.
+pub(super) struct Names<'a> {
+    robot: &'a Assembly,
+    joints: usize,
+    causes: usize,
+}
+
+impl Names<'_> {
+    pub(super) fn of(robot: &Assembly, causes: usize) -> Names<'_> {
+        Names { robot, joints: robot.joints().count(), causes }
+    }
+
+    /// Checks the modules or the joint of an exemption.
+    pub(super) fn exemption(&self, kind: &ExemptionKind) -> Result<(), PlanFault> {
+        match kind {
+            ExemptionKind::Collision(Some((a, b))) => {
+                let modules = self.robot.modules.len();
+                need_index(*a, modules, "module").and(need_index(*b, modules, "module"))
+            }
+            ExemptionKind::Overload(Some(joint)) => self.joint(JointId(*joint)),
+            ExemptionKind::Unstable
+            | ExemptionKind::Slip
+            | ExemptionKind::Collision(None)
+            | ExemptionKind::Overload(None) => Ok(()),
+        }
+    }
+
+    /// Checks every node of a program.
+    pub(super) fn nodes(&self, graph: &Graph) -> Result<(), PlanFault> {
+        graph.nodes.iter().try_for_each(|node| match &***node {
+            Node::Action(action) => self.action(action),
+            Node::Phase { cause, .. } | Node::Approach { cause, .. } | Node::Stretch { cause, .. } => {
+                self.cause(*cause)
+            }
+            Node::Exempt { kind, cause, .. } => self.cause(*cause).and_then(|()| self.exemption(kind)),
+            Node::Series(_) | Node::Parallel(_) | Node::Repeat { .. } => Ok(()),
+        })
+    }
+
+    fn action(&self, action: &Action) -> Result<(), PlanFault> {
+        self.cause(action.cause)?;
+        match &action.command {
+            Command::Move { joint, .. } | Command::Spin { joint, .. } | Command::Follow { joint, .. } => {
+                self.joint(*joint)?;
+            }
+            Command::Dock { a, b } => self.port(*a).and(self.port(*b))?,
+            Command::Undock { port } => self.port(*port)?,
+            Command::Wait { .. } => {}
+        }
+        action.until.as_ref().map_or(Ok(()), |condition| self.condition(condition))
+    }
+
+    /// Checks a condition, whose nesting is limited by that of the text.
+    fn condition(&self, condition: &Condition) -> Result<(), PlanFault> {
+        match condition {
+            Condition::Compare { signal: Signal::Angle(joint) | Signal::Speed(joint), .. } => {
+                self.joint(*joint)
+            }
+            Condition::Compare { signal: Signal::Elapsed, .. } => Ok(()),
+            Condition::Docked(port) => self.port(*port),
+            Condition::Mated(a, b) => self.port(*a).and(self.port(*b)),
+            Condition::And(a, b) | Condition::Or(a, b) => self.condition(a).and(self.condition(b)),
+            Condition::Not(a) => self.condition(a),
+        }
+    }
+
+    fn joint(&self, joint: JointId) -> Result<(), PlanFault> {
+        need_index(joint.0 as usize, self.joints, "joint")
+    }
+
+    fn port(&self, port: PortRef) -> Result<(), PlanFault> {
+        need_index(port.module, self.robot.modules.len(), "module")?;
+        need_index(port.port, self.robot.module_type(port.module).ports.len(), "port")
+    }
+
+    fn cause(&self, cause: CauseId) -> Result<(), PlanFault> {
+        need_index(cause.0 as usize, self.causes, "cause")
+    }
+}
