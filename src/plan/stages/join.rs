@@ -6,8 +6,8 @@ use super::arithmetic_runs::{ArithmeticRun, arithmetic_runs};
 use super::motion::{Counter, Model, Run, Stage, Stages};
 use super::ratio::Ratio;
 use crate::plan::cause::CauseId;
-use crate::plan::operation_error::OperationError;
 use crate::plan::lattice::grid::{Cube, Grid};
+use crate::plan::operation_error::OperationError;
 
 /// The stages of the first plan, then those of the second, whose causes come behind `causes` others.
 pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
