@@ -6,11 +6,12 @@
 //! is, and where no ball is in another.
 
 use modl::planners::random::SplitMix64;
-use modl::planners::tosnake::closing::{self, Manner};
 use modl::planners::tosnake::fabrik::{self, Chain, TOUCHING};
-use modl::planners::tosnake::merging::{self, Attempt, Pair, Side};
+use modl::planners::tosnake::inverse_kinematics::{self, IkMode};
+use modl::planners::tosnake::merging::{self, Attempt, MovingSide, Pair};
+use modl::planners::tosnake::random_configuration::random_configuration;
 use modl::planners::tosnake::state::State;
-use modl::planners::tosnake::{near, opening, tangle};
+use modl::planners::tosnake::{broad_phase, straighten};
 use std::time::Instant;
 
 /// The allocator that the tool has.
@@ -75,28 +76,28 @@ fn main() {
 
 /// A tangle without loops, as straight as it comes.
 fn opened(modules: usize, seed: u64) -> State {
-    let mut state = State::new(tangle::tangled(modules, 1_000, seed));
+    let mut state = State::new(random_configuration(modules, 1_000, seed));
     for bond in state.tree.closing.clone() {
         state.undock(bond);
     }
-    state.regrow();
-    opening::straighten(&mut state, &mut SplitMix64(seed));
+    state.rebuild_tree();
+    straighten::straighten(&mut state, &mut SplitMix64(seed));
     state
 }
 
 fn least_squares(state: &State, pair: &Pair, times: &mut Times) {
-    let closing = closing::Settings::default();
+    let settings = inverse_kinematics::Settings::default();
     let attempt = Attempt {
         pair,
-        manner: Manner::Leap,
+        mode: IkMode::Endpoint,
         detour: false,
-        size: 0.02,
-        side: Side::Both,
-        closing: &closing,
+        spread: 0.02,
+        side: MovingSide::Both,
+        settings: &settings,
     };
     let (scene, mut work) = (state.scene(), 0);
     let start = Instant::now();
-    let closed = attempt.leap(&scene, &state.robot.joints, &mut SplitMix64(1), &mut work).is_some();
+    let closed = attempt.closed_posture(&scene, &state.robot.joints, &mut SplitMix64(1), &mut work).is_some();
     times.count(microseconds(start), closed, closed);
 }
 
@@ -104,16 +105,16 @@ fn walks(state: &State, pair: &Pair, times: &mut Times) {
     let (settings, mut work) = (fabrik::Settings::default(), 0);
     let start = Instant::now();
     let chain = Chain::new(state, pair.a, pair.b);
-    let joints = chain.close(&state.robot.joints, &settings, false, &mut work).0;
+    let joints = chain.solve(&state.robot.joints, &settings, false, &mut work).0;
     let time = microseconds(start);
     let free = joints.as_ref().is_some_and(|joints| {
         let mut poses = Vec::new();
         state.tree.poses(joints, &mut poses);
-        let meeting = [pair.a, pair.b].map(|dock| state.tree.place[dock.shoe()]);
+        let meeting = [pair.a, pair.b].map(|dock| state.tree.index[dock.shoe()]);
         let mut docked = state.docked.clone();
         docked.push((meeting[0].min(meeting[1]), meeting[0].max(meeting[1])));
         docked.sort_unstable();
-        near::least(&state.tree, &docked, &poses, TOUCHING) >= TOUCHING
+        broad_phase::least_distance(&state.tree, &docked, &poses, TOUCHING) >= TOUCHING
     });
     times.count(time, joints.is_some(), free);
 }

@@ -6,12 +6,12 @@ use super::host::{Limits, Mode, Options, TestResult};
 use super::planning::Planned;
 use super::stage::Stage;
 use super::stop::{Eval, Stop};
-use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, Program};
 use crate::elaborate::connector::ConnectorDesign;
 use crate::interrupt;
+use crate::planners::tosnake::SearchCache;
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
@@ -33,7 +33,7 @@ pub struct Interpreter<'a> {
     /// The last plans; see [`super::planning`].
     pub plans: Vec<Rc<Planned>>,
     /// Ways to the snake that were found.
-    pub unwindings: Unwindings,
+    pub search_cache: SearchCache,
     /// Exemptions of the user's own files that were judged, and whether any plan needed them.
     pub exemptions: BTreeMap<Span, bool>,
     pub reports: Vec<Diagnostic>,
@@ -97,7 +97,7 @@ impl<'a> Interpreter<'a> {
             stage,
             causes: Causes::default(),
             plans: Vec::new(),
-            unwindings: Unwindings::default(),
+            search_cache: SearchCache::default(),
             exemptions: BTreeMap::new(),
             reports: Vec::new(),
             errors: 0,

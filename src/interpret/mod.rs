@@ -10,7 +10,6 @@ pub mod host;
 
 pub mod stage;
 pub mod stop;
-pub mod unwindings;
 pub mod value;
 
 pub mod eval;

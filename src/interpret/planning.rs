@@ -12,11 +12,11 @@ use crate::geometry::Vec3;
 use crate::natives::folding::Folded;
 use crate::natives::refold::Refolded;
 use crate::natives::squeeze::Squeezed;
-use crate::natives::tosnake::Unwound;
 use crate::natives::truss::Trussed;
 use crate::plan::{
     Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
 };
+use crate::planners::tosnake;
 use crate::robot::{JointId, Library, State};
 use crate::source::{Span, code};
 use std::cell::{OnceCell, RefCell};
@@ -42,7 +42,7 @@ pub struct Planned {
     /// What `refold` says of it.
     pub refolded: Option<Refolded>,
     /// What `tosnake` and `reconfigure` say of it.
-    pub unwound: Option<Unwound>,
+    pub unwound: Option<tosnake::Report>,
     /// What `morph` or `locomote` says of it.
     pub trussed: Option<Trussed>,
     /// Verdicts so far.
@@ -104,12 +104,18 @@ impl Planned {
         Planned { refolded: Some(refolded), ..self }
     }
 
-    pub fn with_unwound(self, unwound: Unwound) -> Planned {
+    pub fn with_unwound(self, unwound: tosnake::Report) -> Planned {
         Planned { unwound: Some(unwound), ..self }
     }
 
     pub fn with_trussed(self, trussed: Trussed) -> Planned {
         Planned { trussed: Some(trussed), ..self }
+    }
+
+    /// Keeps the verdict that a planner got on this plan, under the plan's own settings and worlds.
+    pub fn remember_verdict(&self, verdict: Verdict) {
+        let (settings, worlds) = (self.plan.settings, self.plan.worlds.clone());
+        self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
     }
 
     pub fn actions(&self) -> usize {

@@ -11,12 +11,12 @@ use super::interpreter::{Interpreter, Lazy};
 use super::planning::Planned;
 use super::stage::{Stage, Standing};
 use super::stop::Eval;
-use super::unwindings::Unwindings;
 use super::value::Value;
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Stmt, StmtKind, Test};
 use crate::elaborate::connector::ConnectorDesign;
 use crate::interrupt::{self, CancelState};
+use crate::planners::tosnake::SearchCache;
 use crate::source::{Diagnostic, FileId, Files, Span, code};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -116,7 +116,7 @@ struct Memory {
     designs: Vec<Vec<Rc<Design>>>,
     connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
     plans: Vec<Rc<Planned>>,
-    unwindings: Unwindings,
+    search_cache: SearchCache,
     causes: Causes,
     exemptions: BTreeMap<Span, bool>,
 }
@@ -199,7 +199,7 @@ impl<'a> Interpreter<'a> {
         let count = self.program.defs.len();
         (self.globals, self.designs, self.connectors) = (memory.globals, memory.designs, memory.connectors);
         (self.plans, self.causes, self.exemptions) = (memory.plans, memory.causes, memory.exemptions);
-        self.unwindings = memory.unwindings;
+        self.search_cache = memory.search_cache;
         self.globals.resize(count, Lazy::Waiting);
         self.designs.resize(count, Vec::new());
         self.connectors.resize(count, None);
@@ -219,7 +219,7 @@ impl<'a> Interpreter<'a> {
             designs: self.designs,
             connectors: self.connectors,
             plans: self.plans,
-            unwindings: self.unwindings,
+            search_cache: self.search_cache,
             causes: self.causes,
             exemptions: self.exemptions,
         }

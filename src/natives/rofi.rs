@@ -8,9 +8,9 @@ use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, Fla
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
-use crate::planners::tosnake::assembly::{of_world, to_world};
-use crate::planners::tosnake::sound::mend;
-use crate::planners::tosnake::tangle::tangled;
+use crate::planners::tosnake::conversion::{from_world, to_world};
+use crate::planners::tosnake::random_configuration::random_configuration;
+use crate::planners::tosnake::validation::repair;
 use crate::robot::rofi::{self, Dock, Edge, Module, World};
 use crate::robot::rofi_json;
 use crate::robot::{JointOwner, Residual};
@@ -61,7 +61,7 @@ fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     let name = format!("tangle({modules}, {actions}, seed: {seed})");
     crate::interrupt::start_task(format!("tangling {modules} modules"));
-    let world = to_world(&tangled(modules, actions, seed as u64));
+    let world = to_world(&random_configuration(modules, actions, seed as u64));
     made(interpreter, call, kinds, &name, &name, world)
 }
 
@@ -121,7 +121,7 @@ fn made(
 /// Of connections that contradict each other the first counts: those that would put modules into each
 /// other are therefore moved behind the others.
 fn contradictions_last(world: &mut World) {
-    let Ok(open) = mend(&mut of_world(world)) else { return };
+    let Ok(open) = repair(&mut from_world(world)) else { return };
     let edges = std::mem::take(&mut world.edges).into_iter().enumerate();
     let (last, first): (Vec<_>, Vec<_>) = edges.partition(|(index, _)| open.contains(index));
     world.edges = first.into_iter().chain(last).map(|(_, edge)| edge).collect();

@@ -1,54 +1,43 @@
 //! `tosnake` and `reconfigure`: the planners of RoFI modules, as they are called.
 
 use super::{Native, on_run};
-use crate::behavior::{self, Problem};
 use crate::elaborate::robot_of::Robot;
 use crate::interpret::call::Call;
+use crate::interpret::causes::PlanCauses;
 use crate::interpret::design::Design;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::planning::Planned;
 use crate::interpret::record::Record;
+use crate::interpret::stage::Stage;
 use crate::interpret::stop::{Eval, Stop, fault};
-use crate::interpret::unwindings::Sought;
 use crate::interpret::value::Value;
 use crate::interpret::verdicts::failure_line;
 use crate::interrupt;
-use crate::plan::{self, CauseId, Ground, World};
-use crate::planners::tosnake::assembly::{JOINTS, NoRofi, port_name, translated};
-use crate::planners::tosnake::scales::weighed;
-use crate::planners::tosnake::sweep::LOAD_SPARE;
+use crate::plan::{Ground, Plan, World};
+use crate::planners::tosnake::conversion::{JOINTS, port_name};
+use crate::planners::tosnake::motion_check::LOAD_SPARE;
 use crate::planners::tosnake::{
-    self, Collisions, Dock, Doing, Found, Heavy, Progress, Refusal, Settings, Step, Unsound, Weight,
+    self, Collisions, Dock, InvalidStart, NotRofi, Operation, Overload, Refusal, Report, SearchStatus,
+    Settings,
 };
+use crate::planners::{Progress, Solution, reconfigure};
 use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-pub const TABLE: &[Native] = &[on_run("tosnake", 6, unwind), on_run("reconfigure", 7, reconfigure)];
-
-/// What the planner says of its plan.
-#[derive(Clone, Copy, Default)]
-pub struct Unwound {
-    pub docks: usize,
-    pub undocks: usize,
-    /// Of all joints together, rad.
-    pub joint_travel: f64,
-    /// Pairs of ends that were tried.
-    pub tried: u64,
-    /// Poses of the robot that were worked out.
-    pub work: u64,
-}
+pub const TABLE: &[Native] =
+    &[on_run("tosnake", 6, native_tosnake), on_run("reconfigure", 7, native_reconfigure)];
 
 /// The fields of an `Unwinding` beside those of a plan.
 pub const UNWINDING: &[&str] = &["docks", "undocks", "joint_travel", "tried", "work"];
 
-pub fn unwinding_field(unwound: &Unwound, field: &str) -> Value {
+pub fn unwinding_field(report: &Report, field: &str) -> Value {
     match field {
-        "docks" => Value::count(unwound.docks),
-        "undocks" => Value::count(unwound.undocks),
-        "joint_travel" => Value::Quantity(unwound.joint_travel, Dimension::ANGLE),
-        "tried" => Value::count(unwound.tried as usize),
-        "work" => Value::count(unwound.work as usize),
+        "docks" => Value::count(report.docks),
+        "undocks" => Value::count(report.undocks),
+        "joint_travel" => Value::Quantity(report.joint_travel, Dimension::ANGLE),
+        "tried" => Value::count(report.tried as usize),
+        "work" => Value::count(report.work as usize),
         _ => Value::Unknown,
     }
 }
@@ -92,109 +81,151 @@ impl Options {
         }
         Ok(Options { world, seed, budget, timeout, collisions })
     }
+
+    fn settings(&self, interpreter: &Interpreter) -> Settings {
+        let Options { seed, budget, collisions, .. } = *self;
+        let threads = interpreter.options.threads.max(1);
+        Settings { seed, budget, collisions, threads, ..Settings::default() }
+    }
 }
 
-fn unwind(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+/// Shows progress to the user, and ends a search at the timeout or when the user cancels the run.
+struct Observer {
+    stage: Stage,
+    timeout: Option<f64>,
+    goes_on: Box<dyn Fn() -> bool>,
+}
+
+impl Observer {
+    fn new(interpreter: &Interpreter, options: &Options) -> Observer {
+        Observer { stage: interpreter.stage.clone(), timeout: options.timeout, goes_on: Box::new(|| true) }
+    }
+}
+
+impl Progress for Observer {
+    fn task_started(&mut self, task: &dyn Fn() -> String) {
+        let (stage, timeout, begun) = (self.stage.clone(), self.timeout, self.stage.elapsed());
+        self.goes_on = Box::new(move || {
+            !stage.cancelled() && timeout.is_none_or(|most| stage.elapsed() - begun <= most)
+        });
+        interrupt::start_task(task());
+    }
+
+    fn report(&mut self, how_far: &dyn Fn() -> String) {
+        interrupt::progress_checkpoint(how_far);
+    }
+
+    fn milestone(&mut self, reached: &dyn Fn() -> String) {
+        interrupt::report_progress(reached());
+    }
+
+    fn should_continue(&mut self) -> bool {
+        (self.goes_on)()
+    }
+}
+
+/// A robot among the arguments.
+struct Subject {
+    index: usize,
+    design: Rc<Design>,
+    robot: Rc<Robot>,
+}
+
+impl Subject {
+    /// `None` where the robot is not sound.
+    fn of(interpreter: &mut Interpreter, call: &Call, index: usize) -> Eval<Option<Subject>> {
+        let design = call.instance(index)?.design.clone();
+        let robot = interpreter.robot_at(&design, call.at(index))?;
+        Ok(robot.map(|robot| Subject { index, design, robot }))
+    }
+
+    fn configuration(&self) -> reconfigure::Configuration<'_> {
+        reconfigure::Configuration { robot: &self.robot.assembly, state: &self.robot.start }
+    }
+}
+
+fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let options = Options::of(call, 1)?;
-    let Some(wild) = Wild::of(interpreter, call, 0, &options)? else { return Ok(Value::Unknown) };
-    let unwinding = wild.unwound(interpreter, call, &options)?;
-    judged(interpreter, call, unwinding.planned, &options)
-}
-
-fn reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let options = Options::of(call, 2)?;
-    let (from, to) = (call.instance(0)?.design.clone(), call.instance(1)?.design.clone());
-    let (a, b) = (from.module_count(), to.module_count());
-    if a != b {
-        let message = format!("a robot of {a} modules can't become one of {b}");
-        return Err(Diagnostic::error(code::NO_WAY, message)
-            .label(call.at(1), format!("{b} modules"))
-            .label(call.at(0), format!("{a} modules"))
-            .hint("modules are neither added nor taken away")
-            .into());
-    }
-    let Some(first) = Wild::of(interpreter, call, 0, &options)? else { return Ok(Value::Unknown) };
-    let Some(second) = Wild::of(interpreter, call, 1, &options)? else { return Ok(Value::Unknown) };
-    let there = first.unwound(interpreter, call, &options)?;
-    if let Some(weight) = &first.weight {
-        return reconfigure_held(interpreter, call, (&there, weight), second, &options);
-    }
-    let back = second.unwound(interpreter, call, &options)?;
-    let planned = there_and_back(call, &there, &back)?;
+    let Some(subject) = Subject::of(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let causes = interpreter.planner_causes(call.span);
+    let settings = options.settings(interpreter);
+    let mut observer = Observer::new(interpreter, &options);
+    let Robot { assembly, start, .. } = &*subject.robot;
+    let problem = tosnake::Problem { robot: assembly, start, world: options.world };
+    let solution =
+        tosnake::plan_with_cache(&problem, &settings, &mut interpreter.search_cache, &mut observer);
+    let Solution { body, program, report } =
+        solution.map_err(|refusal| refused(interpreter, call, &subject, &causes, &refusal))?;
+    let library = assembly.library.clone();
+    let planner = options.collisions.planner();
+    let mut plan = Plan { program, ..interpreter.bare_plan(planner, body, library, options.world, &causes) };
+    plan.provenance.seed = Some(options.seed);
+    plan.provenance.budget = Some(options.budget);
+    let Subject { design, robot, .. } = subject;
+    let planned = Planned::new(design, Some(robot), plan, causes.ids, report.actions).with_unwound(report);
     judged(interpreter, call, planned, &options)
 }
 
-/// The one plan, and then the other backwards.
-fn there_and_back(call: &Call, there: &Unwinding, back: &Unwinding) -> Eval<Planned> {
-    let second = plan::reversed(&back.planned.plan);
-    let mut plan = plan::joined(&there.planned.plan, &second).map_err(|unfit| {
-        let message = format!("both unwind to a snake, but not to the same one: {unfit}");
-        fault(code::NOT_COVERED, call.span, message, "some modules lie in it the other way round")
+fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let options = Options::of(call, 2)?;
+    let (from, to) = (call.instance(0)?.design.clone(), call.instance(1)?.design.clone());
+    if from.module_count() != to.module_count() {
+        return Err(module_counts_differ(call, from.module_count(), to.module_count()));
+    }
+    let Some(from) = Subject::of(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let Some(to) = Subject::of(interpreter, call, 1)? else { return Ok(Value::Unknown) };
+    let causes = interpreter.planner_causes(call.span);
+    let judge = interpreter.judge_settings();
+    let settings = reconfigure::Settings { search: options.settings(interpreter), judge };
+    let mut observer = Observer::new(interpreter, &options);
+    let problem =
+        reconfigure::Problem { from: from.configuration(), to: to.configuration(), world: options.world };
+    let solution =
+        reconfigure::plan_with_cache(&problem, &settings, &mut interpreter.search_cache, &mut observer);
+    let Solution { body, program, report } = solution.map_err(|refusal| match refusal {
+        reconfigure::Refusal::From(refusal) => refused(interpreter, call, &from, &causes, &refusal),
+        reconfigure::Refusal::To(refusal) => refused(interpreter, call, &to, &causes, &refusal),
+        other => no_reconfiguration(call, &other),
     })?;
-    plan.provenance.planner = "reconfigure".into();
-    let (there, back) = (&there.planned, &back.planned);
-    let both = [there, back].map(|planned| planned.unwound.unwrap_or_default());
-    let unwound = Unwound {
-        docks: both[0].docks + both[1].undocks,
-        undocks: both[0].undocks + both[1].docks,
-        joint_travel: both[0].joint_travel + both[1].joint_travel,
-        tried: both[0].tried + both[1].tried,
-        work: both[0].work + both[1].work,
-    };
-    let causes = there.causes.iter().chain(&back.causes).copied().collect();
-    let actions = there.actions + back.actions;
-    Ok(Planned::new(there.robot.clone(), there.body.clone(), plan, causes, actions).with_unwound(unwound))
+    let library = from.robot.assembly.library.clone();
+    let bare = interpreter.bare_plan("reconfigure", body, library, options.world, &causes);
+    let mut plan = Plan { program, ..bare };
+    plan.provenance.seed = Some(options.seed);
+    plan.provenance.budget = Some(options.budget);
+    plan.provenance.history = report.history;
+    // Either half has a cause of its own; both are this call.
+    plan.causes.extend_from_within(..);
+    let ids = causes.ids.repeat(2);
+    let planned = Planned::new(from.design, Some(from.robot), plan, ids, report.both.actions);
+    if let Some(verdict) = report.verdict {
+        planned.remember_verdict(verdict);
+    }
+    judged(interpreter, call, planned.with_unwound(report.both), &options)
 }
 
-/// Both halves under weight: one module is held all the time, so the second robot has to be held by a
-/// shoe that comes to the same place of the snake. Which one does is only known when it is unwound.
-fn reconfigure_held(
-    interpreter: &mut Interpreter,
-    call: &Call,
-    (there, weight): (&Unwinding, &Weight),
-    second: Wild,
-    options: &Options,
-) -> Eval<Value> {
-    let place = there.found.robot.beyond(weight.held);
-    let own = second.weight.clone().expect("both are weighed");
-    let (shoes, modules) = (own.shoes.len(), own.limits.len());
-    let (mut work, mut unwound, mut nearest) = (there.found.progress.work, 0, None);
-    // Held by each shoe, and with loops opened in each place: first far from where it is held.
-    for (held, root) in (0..modules).flat_map(|turn| (0..shoes).map(move |held| (held, held / 2 + turn))) {
-        let weight = Weight { held, root: root % modules, down: weight.down, ..own.clone() };
-        let wild = Wild { weight: Some(weight), ..second.clone() };
-        match wild.search(interpreter, options)? {
-            Err(Refusal::Stopped(progress)) => {
-                return Err(refused(call, second.index, &second.robot, &Refusal::Stopped(progress)));
-            }
-            Err(refusal) => nearest = Some(refusal),
-            Ok(found) => {
-                (work, unwound) = (work + found.progress.work, unwound + 1);
-                if found.robot.beyond(held) == place {
-                    let back = wild.assembled(interpreter, call, found, options)?;
-                    let planned = there_and_back(call, there, &back)?;
-                    let settings = interpreter.judge_settings();
-                    if interpreter.judge(&planned, settings, None).ok() {
-                        return judged(interpreter, call, planned, options);
-                    }
-                }
-            }
+fn module_counts_differ(call: &Call, from: usize, to: usize) -> Stop {
+    let message = reconfigure::Refusal::ModuleCount { from, to }.to_string();
+    Diagnostic::error(code::NO_WAY, message)
+        .label(call.at(1), format!("{to} modules"))
+        .label(call.at(0), format!("{from} modules"))
+        .hint("modules are neither added nor taken away")
+        .into()
+}
+
+/// A refusal of a reconfiguration both halves of which can be planned.
+fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
+    let message = refusal.to_string();
+    match refusal {
+        reconfigure::Refusal::DifferentSnakes(_) => {
+            fault(code::NOT_COVERED, call.span, message, "some modules lie in it the other way round")
         }
-        if work > options.budget {
-            break;
-        }
-    }
-    match nearest.filter(|_| unwound == 0) {
-        Some(refusal) => Err(refused(call, second.index, &second.robot, &refusal)),
-        None => {
-            let message = format!(
-                "no way under gravity: of {unwound} ways in which the second robot unwinds, none is held where the \
-                 first one's snake is"
-            );
-            Err(Diagnostic::error(code::NO_WAY, message)
-                .label(call.at(1), "one module is held all the time")
-                .hint("another `seed`, or another `base` of the first robot, may do")
-                .into())
+        reconfigure::Refusal::NotHeldAlike { .. } => Diagnostic::error(code::NO_WAY, message)
+            .label(call.at(1), "one module is held all the time")
+            .hint("another `seed`, or another `base` of the first robot, may do")
+            .into(),
+        reconfigure::Refusal::ModuleCount { from, to } => module_counts_differ(call, *from, *to),
+        reconfigure::Refusal::From(_) | reconfigure::Refusal::To(_) => {
+            unreachable!("these are told of the robots")
         }
     }
 }
@@ -222,190 +253,80 @@ fn judged(interpreter: &mut Interpreter, call: &Call, planned: Planned, options:
     Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))))
 }
 
-/// A robot that is to be unwound, as the planner sees it.
-#[derive(Clone)]
-struct Wild {
-    /// Its place among the arguments.
-    index: usize,
-    design: Rc<Design>,
-    robot: Rc<Robot>,
-    start: tosnake::Robot,
-    /// Under gravity.
-    weight: Option<Weight>,
-}
-
-/// A way to the snake, not yet judged.
-struct Unwinding {
-    planned: Planned,
-    found: Rc<Found>,
-}
-
-impl Wild {
-    /// `None` where the robot is not sound.
-    fn of(interpreter: &mut Interpreter, call: &Call, index: usize, options: &Options) -> Eval<Option<Wild>> {
-        let design = call.instance(index)?.design.clone();
-        let Some(robot) = interpreter.robot_at(&design, call.at(index))? else { return Ok(None) };
-        let no_rofi = |no: NoRofi| not_rofi(call, index, &robot, &no);
-        let start = translated(&robot.assembly, &robot.start).map_err(no_rofi)?.robot;
-        let gravity = options.world.gravity;
-        let weighed = || weighed(&robot.assembly, &robot.start.base, gravity).map_err(no_rofi);
-        let weight = if gravity > 0.0 { Some(weighed()?) } else { None };
-        Ok(Some(Wild { index, design, robot, start, weight }))
-    }
-
-    fn unwound(&self, interpreter: &mut Interpreter, call: &Call, options: &Options) -> Eval<Unwinding> {
-        let no_way = |refusal| refused(call, self.index, &self.robot, &refusal);
-        let found = self.search(interpreter, options)?.map_err(no_way)?;
-        self.assembled(interpreter, call, found, options)
-    }
-
-    /// Looks for a way, unless one was found before.
-    fn search(&self, interpreter: &mut Interpreter, options: &Options) -> Eval<Result<Rc<Found>, Refusal>> {
-        let Options { seed, budget, collisions, .. } = *options;
-        let (robot, weight) = (self.start.clone(), self.weight.clone());
-        let sought = Sought { robot, seed, budget, collisions, weight };
-        if let Some(found) = interpreter.unwindings.get(&sought) {
-            return Ok(Ok(found));
-        }
-        let stage = &interpreter.stage;
-        let goes_on = stage.until(options.timeout);
-        interrupt::start_task(format!("unwinding {}", self.design.name));
-        let mut told = None;
-        let mut watch = |progress: &Progress| {
-            let Progress { needed, made, tried, .. } = progress;
-            let words = || format!("{made} of {needed} connections made, {tried} pairs of ends tried");
-            if told.replace(*made) == Some(*made) {
-                interrupt::progress_checkpoint(words)
-            } else {
-                interrupt::report_progress(words())
-            }
-            goes_on()
-        };
-        let threads = interpreter.options.threads.max(1);
-        let settings = Settings { seed, budget, collisions, threads, ..Settings::default() };
-        let found = tosnake::unwind_under(&self.start, self.weight.as_ref(), &settings, &mut watch);
-        if matches!(found, Err(Refusal::Stopped(_))) && stage.cancelled() {
-            return Err(Stop::Halt);
-        }
-        Ok(found.map(|found| {
-            let found = Rc::new(found);
-            interpreter.unwindings.keep(sought, found.clone());
-            found
-        }))
-    }
-
-    /// The way as a plan.
-    fn assembled(
-        &self,
-        interpreter: &mut Interpreter,
-        call: &Call,
-        found: Rc<Found>,
-        options: &Options,
-    ) -> Eval<Unwinding> {
-        let robot = &self.robot;
-        let translated = translated(&robot.assembly, &robot.start).expect("it was translated before");
-        let program = translated.program(&found.steps, &found.robot.bonds, CauseId(0));
-        let causes = interpreter.planner_causes(call.span);
-        let problem = Problem {
-            robot: robot.assembly.as_ref().clone(),
-            start: robot.start.clone(),
-            program,
-            start_causes: Vec::new(),
-            bond_causes: (0..robot.assembly.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),
-            settings: behavior::Settings::default(),
-        };
-        let scheduled = behavior::schedule(problem)
-            .map_err(|refusal| interpreter.refused(&refusal, &causes.ids, call.span))?;
-        let told = told(&self.start, &found);
-        let (mut planned, _) =
-            interpreter.assemble_plan(self.design.clone(), robot.clone(), scheduled, &causes, options.world);
-        planned.plan.provenance.planner = match options.collisions {
-            Collisions::Motion => "tosnake",
-            Collisions::None => "tosnake, collisions: none",
-            Collisions::Detection => "tosnake, collisions: detection",
-            Collisions::Avoidance => "tosnake, collisions: avoidance",
-        }
-        .into();
-        planned.plan.provenance.seed = Some(options.seed);
-        planned.plan.provenance.budget = Some(options.budget);
-        Ok(Unwinding { planned: planned.with_unwound(told), found })
-    }
-}
-
-fn told(start: &tosnake::Robot, found: &Found) -> Unwound {
-    let mut told = Unwound { tried: found.progress.tried, work: found.progress.work, ..Unwound::default() };
-    let mut joints = start.joints.clone();
-    for step in &found.steps {
-        match step {
-            Step::Dock(_) => told.docks += 1,
-            Step::Undock(_) => told.undocks += 1,
-            Step::Turn(turns) => {
-                for &(module, joint, to) in turns {
-                    told.joint_travel += (to - joints[module][joint]).abs();
-                    joints[module][joint] = to;
-                }
-            }
-        }
-    }
-    told
-}
-
-fn not_rofi(call: &Call, index: usize, robot: &Robot, no: &NoRofi) -> Stop {
+fn not_rofi(at: Span, robot: &Robot, no: &NotRofi) -> Stop {
     let name = |module: usize| &robot.assembly.modules[module].name;
     let (message, label) = match no {
-        NoRofi::Kind(module) => {
+        NotRofi::Kind(module) => {
             (format!("{} is no RoFI module", name(*module)), "only robots of `std.rofi.Rofi` are unwound")
         }
-        NoRofi::Pitch(module) => {
+        NotRofi::Pitch(module) => {
             let message = format!("{} has another pitch than {}", name(*module), name(0));
             (message, "modules of one size are wanted")
         }
     };
-    fault(code::NOT_COVERED, call.at(index), message, label)
+    fault(code::NOT_COVERED, at, message, label)
 }
 
-fn refused(call: &Call, index: usize, robot: &Robot, refusal: &Refusal) -> Stop {
-    let name = |module: usize| robot.assembly.modules[module].name.clone();
-    let at = call.at(index);
+/// A refusal of the planner at the robot that it refuses.
+fn refused(
+    interpreter: &Interpreter,
+    call: &Call,
+    subject: &Subject,
+    causes: &PlanCauses,
+    refusal: &Refusal,
+) -> Stop {
+    let (robot, at) = (&subject.robot, call.at(subject.index));
+    let ended = |what: &str, status: &SearchStatus, hint: &str| fell_short(at, what, status, hint);
     match refusal {
-        Refusal::Unsound(Unsound::Loose(module)) => {
-            let message = format!("the robot is in pieces: {} hangs on nothing", name(*module));
-            fault(code::NO_WAY, at, message, "not in one piece")
-        }
-        Refusal::Unsound(Unsound::Overlap(a, b, _)) => {
-            let message = format!("{} and {} are in each other before anything moves", name(*a), name(*b));
-            fault(code::NO_WAY, at, message, "starts with a collision")
-        }
-        Refusal::Open { bond, missing } => {
+        Refusal::Stopped(_) if interpreter.stage.cancelled() => Stop::Halt,
+        Refusal::NotRofi(no) => not_rofi(at, robot, no),
+        Refusal::InvalidStart(invalid) => invalid_start(at, robot, invalid),
+        Refusal::OpenLoop { bond, residual } => {
             let bond = robot.assembly.bonds[*bond];
             let [a, b] = [bond.a, bond.b].map(|port| robot.assembly.port_name(port));
             let message =
-                format!("{a} and {b} are connected and do not meet: {missing:.3} of a pitch is missing");
+                format!("{a} and {b} are connected and do not meet: {residual:.3} of a pitch is missing");
             fault(code::NO_WAY, at, message, "a loop that is open")
         }
-        Refusal::Budget(progress) => {
+        Refusal::GravityUnsupported => fault(code::BAD_VALUE, at, refusal.to_string(), "no gravity"),
+        Refusal::BudgetSpent(status) => {
             let hint = "a greater `budget` or another `seed` may find one";
-            fell_short(at, "no way to the snake within the budget", progress, hint)
+            ended("no way to the snake within the budget", status, hint)
         }
-        Refusal::Stopped(progress) => {
+        Refusal::Stopped(status) => {
             let hint = "a greater `timeout` or another `seed` may find one";
-            fell_short(at, "no way to the snake within the timeout", progress, hint)
+            ended("no way to the snake within the timeout", status, hint)
         }
-        Refusal::Exhausted(progress) => {
+        Refusal::Exhausted(status) => {
             let hint = "the default, `collisions: motion`, does not give up so";
-            fell_short(at, "no order of pairs of tentacles leads to the snake", progress, hint)
+            ended("no order of pairs of tentacles leads to the snake", status, hint)
         }
-        Refusal::Heavy(heavy) => too_heavy(at, robot, heavy),
-        Refusal::NoTips(progress) => {
+        Refusal::NoFreeTips(status) => {
             let hint = "a tip is a free dock -Z; connections that take one can be left out";
-            fell_short(at, "no two tentacles have a free tip", progress, hint)
+            ended("no two tentacles have a free tip", status, hint)
+        }
+        Refusal::Overload(overload) => overloaded(at, robot, overload),
+        Refusal::Schedule(refusal) => interpreter.refused(refusal, &causes.ids, call.span),
+    }
+}
+
+fn invalid_start(at: Span, robot: &Robot, invalid: &InvalidStart) -> Stop {
+    let name = |module: usize| &robot.assembly.modules[module].name;
+    match invalid {
+        InvalidStart::Disconnected(module) => {
+            let message = format!("the robot is in pieces: {} hangs on nothing", name(*module));
+            fault(code::NO_WAY, at, message, "not in one piece")
+        }
+        InvalidStart::Overlap { modules: [a, b], .. } => {
+            let message = format!("{} and {} are in each other before anything moves", name(*a), name(*b));
+            fault(code::NO_WAY, at, message, "starts with a collision")
         }
     }
 }
 
 /// Which joint would have to hold what, when doing what.
-fn too_heavy(at: Span, robot: &Robot, heavy: &Heavy) -> Stop {
-    let Heavy { load, doing, progress } = heavy;
+fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
+    let Overload { load, operation, status } = overload;
     let assembly = &robot.assembly;
     let kind = assembly.module_type(load.module);
     let joint = kind.joints.iter().find(|joint| joint.name == JOINTS[load.joint]);
@@ -414,12 +335,12 @@ fn too_heavy(at: Span, robot: &Robot, heavy: &Heavy) -> Stop {
     let dock =
         |dock: &Dock| format!("{}.{}", assembly.modules[dock.module].name, port_name(dock.module, dock.dock));
     let (name, short) = (&assembly.modules[load.module].name, JOINTS[load.joint]);
-    let when = match doing {
-        Doing::Standing => "before anything moves".to_string(),
-        Doing::Opening => "once its loops are opened".to_string(),
-        Doing::Joining(a, b) => format!("when {} and {} are brought together", dock(a), dock(b)),
-        Doing::Straightening => "when the snake is straightened".to_string(),
-        Doing::Ending => "in the straight snake".to_string(),
+    let when = match operation {
+        Operation::Standing => "before anything moves".to_string(),
+        Operation::OpeningLoops => "once its loops are opened".to_string(),
+        Operation::Joining(a, b) => format!("when {} and {} are brought together", dock(a), dock(b)),
+        Operation::Straightening => "when the snake is straightened".to_string(),
+        Operation::HoldingSnake => "in the straight snake".to_string(),
     };
     let (would, limit) = (words(load.ratio * limit), words(limit));
     let spare = match load.ratio > 1.0 {
@@ -428,10 +349,10 @@ fn too_heavy(at: Span, robot: &Robot, heavy: &Heavy) -> Stop {
     };
     let message =
         format!("too heavy: {when} {name}.{short} would have to hold {would}; it holds {limit}{spare}");
-    let Progress { needed, made, tried, .. } = progress;
+    let SearchStatus { needed, made, tried, .. } = status;
     let held = &assembly.modules[assembly.base].name;
-    let label = match doing {
-        Doing::Standing | Doing::Opening => format!("held by {held}"),
+    let label = match operation {
+        Operation::Standing | Operation::OpeningLoops => format!("held by {held}"),
         _ => format!(
             "held by {held}; {made} of {needed} connections were made, {tried} pairs of ends tried, and nothing was less heavy"
         ),
@@ -443,8 +364,8 @@ fn too_heavy(at: Span, robot: &Robot, heavy: &Heavy) -> Stop {
 }
 
 /// How far a search came that did not come to its end.
-fn fell_short(at: Span, what: &str, progress: &Progress, hint: &str) -> Stop {
-    let Progress { needed, made, tried, work, longest, chains, .. } = progress;
+fn fell_short(at: Span, what: &str, status: &SearchStatus, hint: &str) -> Stop {
+    let SearchStatus { needed, made, tried, work, longest, chains, .. } = status;
     let message =
         format!("{what}: {made} of {needed} connections were made, and {tried} pairs of ends tried");
     let modules = if *longest == 1 { "module" } else { "modules" };

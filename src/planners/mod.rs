@@ -9,6 +9,7 @@
 pub mod random;
 
 pub mod fold;
+pub mod reconfigure;
 pub mod refold;
 pub mod squeeze;
 pub mod tosnake;
@@ -36,10 +37,20 @@ pub struct Solution<R> {
 /// the best solution so far, or its refusal for an exhausted limit if there is none. To unwind without
 /// any result is another matter, [`interrupt::checkpoint`].
 pub trait Progress {
+    /// Receives the start of a part of the work, such as `unwinding Chair`, before its reports. An observer
+    /// with a time limit counts from here. By default it is ignored.
+    fn task_started(&mut self, _task: &dyn Fn() -> String) {}
+
     /// Receives how far the search is. `how_far` builds one short line of text, such as
     /// `12 of 40 places reached`; an observer that shows nothing does not call it. Called at least
     /// every few milliseconds, so it must be cheap.
     fn report(&mut self, how_far: &dyn Fn() -> String);
+
+    /// Receives an event that happens seldom, such as one goal of many that is reached: an observer that
+    /// shows reports only on request shows this one unasked. By default it is a report like any other.
+    fn milestone(&mut self, reached: &dyn Fn() -> String) {
+        self.report(reached);
+    }
 
     /// Returns false if the search has to end with the best solution so far. Asked between two steps
     /// of the search.

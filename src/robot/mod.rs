@@ -5,6 +5,7 @@ pub mod assembly;
 pub mod library;
 pub mod mass;
 pub mod rofi;
+pub mod rofi_assembly;
 pub mod rofi_json;
 
 pub mod inverse_kinematics;

@@ -5,68 +5,95 @@
 //! `+X`, `-X` and `-Z` of a side's shoe, orientations `N`, `E`, `S`, `W`: quarter turns.
 
 use std::collections::HashMap;
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
-/// A configuration. Modules are in order of their ids.
+/// A configuration of universal modules, as a file states it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct World {
+    /// The modules in order of their ids.
     pub modules: Vec<Module>,
+    /// The connections in the order of the file, each once.
     pub edges: Vec<Edge>,
 }
 
+/// A universal module and its joint positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Module {
+    /// The id in the file; ids may have gaps.
     pub id: u64,
-    /// alpha, beta and gamma, degrees.
+    /// Positions of alpha, beta and gamma in degrees, as files have them.
     pub joints: [f64; 3],
+    /// The line of the file, from 1; 0 if there is none.
     pub line: usize,
 }
 
 /// Two docks that hold each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
+    /// The one dock.
     pub a: Dock,
+    /// The other dock.
     pub b: Dock,
-    /// In quarter turns.
+    /// Turn about the common normal in quarter turns: 0 is N, 1 E, 2 S, 3 W.
     pub turn: u32,
+    /// The line of the file, from 1; 0 if there is none.
     pub line: usize,
 }
 
-/// A dock of a module, by the module's place in the list.
+/// A dock of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dock {
+    /// Index of the module in [`World::modules`].
     pub module: usize,
+    /// The shoe that carries the dock.
     pub side: Side,
+    /// The dock's face of that shoe.
     pub face: Face,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
+    /// Shoe A, the body of the module.
     A,
+    /// Shoe B.
     B,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
+    /// +X.
     PlusX,
+    /// -X.
     MinusX,
+    /// -Z, at the end of the shoe.
     MinusZ,
 }
 
-/// What a file says wrongly, and where: line and column count from 1.
+/// An error in a file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub struct FileError {
+    /// The line, from 1.
     pub line: usize,
+    /// The column in characters, from 1.
     pub column: usize,
+    /// A message in words.
     pub what: String,
 }
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}, column {}: {}", self.line, self.column, self.what)
+    }
+}
+
+impl std::error::Error for FileError {}
 
 const SIDES: [(&str, Side); 2] = [("A", Side::A), ("B", Side::B)];
 const FACES: [(&str, Face); 3] = [("+X", Face::PlusX), ("-X", Face::MinusX), ("-Z", Face::MinusZ)];
 const TURNS: [&str; 4] = ["N", "E", "S", "W"];
 
 impl Dock {
-    /// As the library's module names it: `a_plus_x`.
+    /// Returns the name of the dock's port in the library's module, such as `a_plus_x`.
     pub fn port(&self) -> &'static str {
         match (self.side, self.face) {
             (Side::A, Face::PlusX) => "a_plus_x",
@@ -78,15 +105,18 @@ impl Dock {
         }
     }
 
-    /// The dock of a port of the library's module.
+    /// Returns the dock of a port of the library's module; `None` for any other name.
     pub fn of_port(module: usize, port: &str) -> Option<Dock> {
         let all = SIDES.iter().flat_map(|(_, side)| FACES.iter().map(move |(_, face)| (*side, *face)));
         all.map(|(side, face)| Dock { module, side, face }).find(|dock| dock.port() == port)
     }
 }
 
-/// Reads the one configuration of a file.
-pub fn read(text: &str) -> Result<World, Fault> {
+/// Reads the one configuration of a text.
+///
+/// # Errors
+/// [`FileError`] at the first word that does not follow the format, and for a sequence of configurations.
+pub fn read(text: &str) -> Result<World, FileError> {
     let mut reader = Reader::default();
     for (index, line) in text.lines().enumerate() {
         let words = Words::new(index + 1, line);
@@ -108,7 +138,7 @@ pub fn read(text: &str) -> Result<World, Fault> {
     reader.finish()
 }
 
-/// The file of a configuration, which reads back to the same.
+/// Returns the text of a configuration, which reads back to the same.
 pub fn write(world: &World) -> String {
     let mut text = String::from("C\n");
     for Module { id, joints: [alpha, beta, gamma], .. } in &world.modules {
@@ -128,20 +158,20 @@ fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: T) -> &'static str 
     names.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| name)
 }
 
-/// What was read so far, in any format.
+/// The part of a configuration that was read so far, in any format.
 #[derive(Default)]
 pub(super) struct Reader {
     begun: bool,
     modules: Vec<Module>,
-    /// Place in `modules` of each id.
-    places: HashMap<u64, usize>,
+    /// The index in `modules` of each id.
+    indices: HashMap<u64, usize>,
     edges: Vec<Edge>,
     /// The edge at each dock.
     taken: HashMap<Dock, usize>,
 }
 
 impl Reader {
-    fn module(&mut self, words: &Words) -> Result<(), Fault> {
+    fn module(&mut self, words: &Words) -> Result<(), FileError> {
         let id = words.id(1)?;
         let mut joints = [0.0; 3];
         for (k, joint) in joints.iter_mut().enumerate() {
@@ -150,21 +180,24 @@ impl Reader {
         self.add_module(Module { id, joints, line: words.line }).map_err(|what| words.fault(1, what))
     }
 
-    /// Takes in a module; what is wrong with it, in words.
+    /// Adds a module.
+    ///
+    /// # Errors
+    /// A message in words, for a second module of one id.
     pub(super) fn add_module(&mut self, module: Module) -> Result<(), String> {
-        if self.places.insert(module.id, self.modules.len()).is_some() {
+        if self.indices.insert(module.id, self.modules.len()).is_some() {
             return Err(format!("a second module {}", module.id));
         }
         self.modules.push(module);
         Ok(())
     }
 
-    /// The place of a module in the list.
-    pub(super) fn place(&self, id: u64) -> Option<usize> {
-        self.places.get(&id).copied()
+    /// Returns the index of the module of an id.
+    pub(super) fn index(&self, id: u64) -> Option<usize> {
+        self.indices.get(&id).copied()
     }
 
-    fn edge(&mut self, words: &Words) -> Result<(), Fault> {
+    fn edge(&mut self, words: &Words) -> Result<(), FileError> {
         let a = self.dock(words, (1, 2, 3))?;
         let turn = words.one_of(4, &TURNS, "an orientation")?;
         let b = self.dock(words, (7, 6, 5))?;
@@ -172,7 +205,10 @@ impl Reader {
         self.add_edge(edge).map_err(|(end, what)| words.fault([1, 7][end], what))
     }
 
-    /// Takes in a connection; which end of it is wrong, and what is, in words.
+    /// Adds a connection. The same connection a second time is ignored.
+    ///
+    /// # Errors
+    /// The end that is wrong, 0 or 1, and a message in words.
     pub(super) fn add_edge(&mut self, edge: Edge) -> Result<(), (usize, String)> {
         let Edge { a, b, .. } = edge;
         for (end, dock) in [a, b].into_iter().enumerate() {
@@ -193,9 +229,9 @@ impl Reader {
         Ok(())
     }
 
-    fn dock(&self, words: &Words, (id, side, face): (usize, usize, usize)) -> Result<Dock, Fault> {
+    fn dock(&self, words: &Words, (id, side, face): (usize, usize, usize)) -> Result<Dock, FileError> {
         let number = words.id(id)?;
-        let Some(&module) = self.places.get(&number) else {
+        let Some(&module) = self.indices.get(&number) else {
             return Err(words.fault(id, format!("no module {number} stands above")));
         };
         let side = SIDES[words.one_of(side, &SIDES.map(|(name, _)| name), "a side")?].1;
@@ -203,15 +239,19 @@ impl Reader {
         Ok(Dock { module, side, face })
     }
 
-    pub(super) fn finish(self) -> Result<World, Fault> {
+    /// Returns the configuration, with modules in order of their ids.
+    ///
+    /// # Errors
+    /// [`FileError`] if there is no module.
+    pub(super) fn finish(self) -> Result<World, FileError> {
         if self.modules.is_empty() {
-            return Err(Fault { line: 1, column: 1, what: "there are no modules in it".into() });
+            return Err(FileError { line: 1, column: 1, what: "there are no modules in it".into() });
         }
         let mut order: Vec<usize> = (0..self.modules.len()).collect();
         order.sort_by_key(|&m| self.modules[m].id);
-        let mut place = vec![0; order.len()];
-        order.iter().enumerate().for_each(|(to, &from)| place[from] = to);
-        let moved = |dock: Dock| Dock { module: place[dock.module], ..dock };
+        let mut index = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(to, &from)| index[from] = to);
+        let moved = |dock: Dock| Dock { module: index[dock.module], ..dock };
         let edges = self.edges.into_iter().map(|e| Edge { a: moved(e.a), b: moved(e.b), ..e });
         let modules = order.iter().map(|&m| self.modules[m].clone()).collect();
         Ok(World { modules, edges: edges.collect() })
@@ -233,30 +273,30 @@ impl<'t> Words<'t> {
         Words { line, length: text.chars().count(), words }
     }
 
-    fn fault(&self, index: usize, what: impl Into<String>) -> Fault {
+    fn fault(&self, index: usize, what: impl Into<String>) -> FileError {
         let column = self.words.get(index).map_or(self.length + 1, |(column, _)| *column);
-        Fault { line: self.line, column, what: what.into() }
+        FileError { line: self.line, column, what: what.into() }
     }
 
-    fn word(&self, index: usize, what: &str) -> Result<&'t str, Fault> {
+    fn word(&self, index: usize, what: &str) -> Result<&'t str, FileError> {
         let word = self.words.get(index).map(|(_, word)| *word);
         word.ok_or_else(|| self.fault(index, format!("{what} is missing")))
     }
 
-    fn id(&self, index: usize) -> Result<u64, Fault> {
+    fn id(&self, index: usize) -> Result<u64, FileError> {
         let word = self.word(index, "the id of a module")?;
         word.parse().map_err(|_| self.fault(index, format!("`{word}` is no id of a module")))
     }
 
     /// An angle in degrees.
-    fn number(&self, index: usize) -> Result<f64, Fault> {
+    fn number(&self, index: usize) -> Result<f64, FileError> {
         let word = self.word(index, "a joint's position")?;
         let number = word.parse().ok().filter(|x: &f64| x.is_finite());
         number.ok_or_else(|| self.fault(index, format!("`{word}` is no number of degrees")))
     }
 
-    /// One of some words, or its number.
-    fn one_of(&self, index: usize, names: &[&str], what: &str) -> Result<usize, Fault> {
+    /// The index of a word among some names, stated as a name or as the index itself.
+    fn one_of(&self, index: usize, names: &[&str], what: &str) -> Result<usize, FileError> {
         let word = self.word(index, what)?;
         let by_number = word.parse().ok().filter(|n: &usize| *n < names.len());
         names

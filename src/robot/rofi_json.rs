@@ -4,11 +4,11 @@
 //! and -X have each other's names there: what is `A+X` here is `-X` of shoe A in the text format. Docks
 //! -Z, orientations and angles are the same.
 
-use super::rofi::{Dock, Edge, Face, Fault, Module, Reader, Side, World};
+use super::rofi::{Dock, Edge, Face, FileError, Module, Reader, Side, World};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
-/// As many as a universal module has, in the order of their numbers in the format.
+/// The docks of a universal module, in the order of their numbers in the format.
 const CONNECTORS: [(&str, Side, Face); 6] = [
     ("A-X", Side::A, Face::PlusX),
     ("A+X", Side::A, Face::MinusX),
@@ -73,7 +73,7 @@ struct Written {
     space: Vec<SpaceJoint>,
 }
 
-/// What holds the first module where it is.
+/// The joint between the first module and space.
 #[derive(Serialize)]
 struct SpaceJoint {
     point: [f64; 3],
@@ -96,35 +96,37 @@ struct Component {
     component: u32,
 }
 
-/// Reads the one configuration of a file: an object, or a list of one. Where it stands in space is not
-/// read.
-pub fn read(text: &str) -> Result<World, Fault> {
-    let place = Places { text };
+/// Reads the one configuration of a text: an object, or a list of one. Its pose in space is not read.
+///
+/// # Errors
+/// [`FileError`] at the first piece that does not follow the format.
+pub fn read(text: &str) -> Result<World, FileError> {
+    let locator = Locator { text };
     let one: Vec<&RawValue> =
-        if text.trim_start().starts_with('[') { place.parsed(text)? } else { vec![place.parsed(text)?] };
+        if text.trim_start().starts_with('[') { locator.parsed(text)? } else { vec![locator.parsed(text)?] };
     let [raw] = one[..] else {
         let what = format!("{} configurations: the file is a sequence, not one robot", one.len());
-        return Err(place.at(text, what));
+        return Err(locator.at(text, what));
     };
-    let configuration: Configuration = place.parsed(raw.get())?;
+    let configuration: Configuration = locator.parsed(raw.get())?;
     let mut reader = Reader::default();
     for raw in configuration.modules {
-        let module: Universal = place.parsed(raw.get())?;
+        let module: Universal = locator.parsed(raw.get())?;
         if module.kind != "universal" {
             let what = format!("a module of type `{}`: only `universal` is known", module.kind);
-            return Err(place.at(raw.get(), what));
+            return Err(locator.at(raw.get(), what));
         }
         let joints = [module.alpha, module.beta, module.gamma];
-        let line = place.position(raw.get()).0;
+        let line = locator.position(raw.get()).0;
         reader
             .add_module(Module { id: module.id, joints, line })
-            .map_err(|what| place.at(raw.get(), what))?;
+            .map_err(|what| locator.at(raw.get(), what))?;
     }
     for raw in configuration.joints {
-        let connection: Connection = place.parsed(raw.get())?;
-        let edge = edge(&reader, &connection, place.position(raw.get()).0)
+        let connection: Connection = locator.parsed(raw.get())?;
+        let edge = edge(&reader, &connection, locator.position(raw.get()).0)
             .and_then(|edge| reader.add_edge(edge).map_err(|(_, what)| what));
-        edge.map_err(|what| place.at(raw.get(), what))?;
+        edge.map_err(|what| locator.at(raw.get(), what))?;
     }
     reader.finish()
 }
@@ -136,7 +138,7 @@ fn edge(reader: &Reader, connection: &Connection, line: usize) -> Result<Edge, S
         .position(|name| name == orientation || name[..1] == **orientation)
         .ok_or_else(|| format!("`{orientation}` is no orientation: {} are", ORIENTATIONS.join(", ")))?;
     let dock = |end: &End| {
-        let module = reader.place(end.id).ok_or_else(|| format!("there is no module {}", end.id))?;
+        let module = reader.index(end.id).ok_or_else(|| format!("there is no module {}", end.id))?;
         let known = match &end.connector {
             Connector::Name(name) => CONNECTORS.iter().find(|(known, ..)| known == name),
             Connector::Number(number) => CONNECTORS.get(*number),
@@ -148,7 +150,7 @@ fn edge(reader: &Reader, connection: &Connection, line: usize) -> Result<Edge, S
     Ok(Edge { a: dock(&connection.from)?, b: dock(&connection.to)?, turn: turn as u32, line })
 }
 
-/// The file of a configuration, which reads back to the same. The first module's shoe A is held at the
+/// Returns the text of a configuration, which reads back to the same. Shoe A of the first module is fixed at the
 /// origin.
 pub fn write(world: &World) -> String {
     let module = |m: &Module| {
@@ -180,30 +182,30 @@ pub fn write(world: &World) -> String {
     text
 }
 
-/// Where pieces of a text stand in it.
+/// A text, to find the positions of its pieces.
 #[derive(Clone, Copy)]
-struct Places<'t> {
+struct Locator<'t> {
     text: &'t str,
 }
 
-impl<'t> Places<'t> {
-    fn parsed<T: Deserialize<'t>>(&self, piece: &'t str) -> Result<T, Fault> {
+impl<'t> Locator<'t> {
+    fn parsed<T: Deserialize<'t>>(&self, piece: &'t str) -> Result<T, FileError> {
         serde_json::from_str(piece).map_err(|error| {
             let (line, column) = self.position(piece);
             let within = error.line().max(1);
             let column = if within == 1 { column + error.column().max(1) - 1 } else { error.column().max(1) };
             let what = error.to_string();
             let what = what.rsplit_once(" at line ").map_or(what.as_str(), |(what, _)| what).to_owned();
-            Fault { line: line + within - 1, column, what }
+            FileError { line: line + within - 1, column, what }
         })
     }
 
-    fn at(&self, piece: &str, what: impl Into<String>) -> Fault {
+    fn at(&self, piece: &str, what: impl Into<String>) -> FileError {
         let (line, column) = self.position(piece);
-        Fault { line, column, what: what.into() }
+        FileError { line, column, what: what.into() }
     }
 
-    /// Line and column, from 1, of the beginning of a piece of the text.
+    /// The line and column, from 1, of the beginning of a piece of the text.
     fn position(&self, piece: &str) -> (usize, usize) {
         let before = &self.text[..piece.as_ptr() as usize - self.text.as_ptr() as usize];
         let line = before.matches('\n').count() + 1;

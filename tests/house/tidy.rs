@@ -24,7 +24,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("robot", &["interrupt", "units", "geometry", "optimize"]),
     ("plan", &["interrupt", "units", "geometry", "optimize", "robot"]),
     ("behavior", &["interrupt", "units", "geometry", "robot", "plan"]),
-    ("planners", &["interrupt", "units", "geometry", "optimize", "robot", "plan"]),
+    ("planners", &["interrupt", "units", "geometry", "optimize", "robot", "plan", "behavior"]),
     ("view", &["units", "geometry", "robot", "plan"]),
     (
         "interpret",

@@ -1,13 +1,14 @@
 //! Unwinding: a way around where the straight one is not free.
 
+use modl::planners::NoProgress;
 use modl::planners::random::SplitMix64;
-use modl::planners::tosnake::closing::Loop;
-use modl::planners::tosnake::detour::Detour;
-use modl::planners::tosnake::near;
+use modl::planners::tosnake::broad_phase;
+use modl::planners::tosnake::inverse_kinematics::Loop;
+use modl::planners::tosnake::motion_check::MIN_DISTANCE;
+use modl::planners::tosnake::random_configuration::random_configuration;
 use modl::planners::tosnake::robot::Dock;
+use modl::planners::tosnake::rrt_connect::RrtConnect;
 use modl::planners::tosnake::state::{Joints, State};
-use modl::planners::tosnake::sweep::APART;
-use modl::planners::tosnake::tangle::tangled;
 use modl::planners::tosnake::tree::JointRef;
 use modl::planners::tosnake::{Settings, unwind};
 use std::f64::consts::FRAC_PI_2;
@@ -23,14 +24,14 @@ fn least(state: &State, from: &Joints, to: &Joints) -> f64 {
             (0..3).for_each(|k| q[k] += t * (to[module][k] - q[k]));
         }
         state.tree.poses(&joints, &mut poses);
-        near::least(&state.tree, &state.docked, &poses, 1.1)
+        broad_phase::least_distance(&state.tree, &state.docked, &poses, 1.1)
     };
     (0..=INSTANTS).map(at).fold(f64::INFINITY, f64::min)
 }
 
 /// Two postures of a tentacle of a tangle, both without overlap, with something between them.
 fn hindered(seed: u64) -> Option<(State, Vec<JointRef>, Joints)> {
-    let state = State::new(tangled(10, 60, seed));
+    let state = State::new(random_configuration(10, 60, seed));
     let mut rng = SplitMix64(seed);
     let [a, b] = [0, 1].map(|_| Dock::red(rng.below(state.tree.shoes())));
     let joints: Vec<JointRef> = Loop::new(&state.tree, a, b).joints.iter().map(|(joint, _)| *joint).collect();
@@ -38,8 +39,8 @@ fn hindered(seed: u64) -> Option<(State, Vec<JointRef>, Joints)> {
     joints.iter().for_each(|j| to[j.module][j.joint] = FRAC_PI_2 * rng.next_signed());
     let mut poses = Vec::new();
     state.tree.poses(&to, &mut poses);
-    let stands = near::least(&state.tree, &state.docked, &poses, 1.1) > APART;
-    let blocked = least(&state, &state.robot.joints, &to) < APART;
+    let stands = broad_phase::least_distance(&state.tree, &state.docked, &poses, 1.1) > MIN_DISTANCE;
+    let blocked = least(&state, &state.robot.joints, &to) < MIN_DISTANCE;
     (stands && blocked && joints.len() >= 9).then_some((state, joints, to))
 }
 
@@ -51,8 +52,8 @@ fn a_detour_goes_around_what_is_in_the_way() {
     for (state, joints, to) in &cases {
         let scene = state.scene();
         let from = &state.robot.joints;
-        let detour = Detour { scene: &scene, joints };
-        let way = |seed: u64| detour.way(from, to, &mut SplitMix64(seed), &mut 0);
+        let detour = RrtConnect { scene: &scene, joints };
+        let way = |seed: u64| detour.path(from, to, &mut SplitMix64(seed), &mut 0);
         let Some(stops) = way(1) else { continue };
         found += 1;
         assert!(stops.len() >= 2 && stops.last() == Some(to));
@@ -60,7 +61,7 @@ fn a_detour_goes_around_what_is_in_the_way() {
         let mut before = from;
         for stop in &stops {
             let distance = least(state, before, stop);
-            assert!(distance >= APART, "balls come as near as {distance}");
+            assert!(distance >= MIN_DISTANCE, "balls come as near as {distance}");
             for (module, (a, b)) in before.iter().zip(stop).enumerate() {
                 let turns = |k: usize| joints.iter().any(|j| (j.module, j.joint) == (module, k));
                 assert!((0..3).all(|k| a[k] == b[k] || turns(k)), "only these joints turn");
@@ -75,12 +76,13 @@ fn a_detour_goes_around_what_is_in_the_way() {
 #[test]
 fn a_detour_spares_shaking() {
     for (modules, seed) in [(34, 66), (48, 96)] {
-        let robot = tangled(modules, 1_000, seed);
-        let found = |detours: usize| {
-            unwind(&robot, &Settings { detours, ..Settings::default() }, &mut |_| true).expect("it unwinds")
+        let robot = random_configuration(modules, 1_000, seed);
+        let found = |detour_pairs_max: usize| {
+            unwind(&robot, None, &Settings { detour_pairs_max, ..Settings::default() }, &mut NoProgress)
+                .expect("it unwinds")
         };
-        let (without, with) = (found(0), found(Settings::default().detours));
-        assert!(without.progress.shakes > 0 && with.progress.shakes == 0, "{:?}", with.progress);
-        assert!(with.progress.tried < without.progress.tried);
+        let (without, with) = (found(0), found(Settings::default().detour_pairs_max));
+        assert!(without.status.perturbations > 0 && with.status.perturbations == 0, "{:?}", with.status);
+        assert!(with.status.tried < without.status.tried);
     }
 }

@@ -3,11 +3,11 @@
 
 use modl::geometry::{RigidTransform, Vec3};
 use modl::planners::random::SplitMix64;
-use modl::planners::tosnake::contacts::Contacts;
-use modl::planners::tosnake::near;
+use modl::planners::tosnake::broad_phase;
+use modl::planners::tosnake::motion_check::MIN_DISTANCE;
+use modl::planners::tosnake::neighbour_list::NeighbourList;
+use modl::planners::tosnake::random_configuration::random_configuration;
 use modl::planners::tosnake::state::State;
-use modl::planners::tosnake::sweep::APART;
-use modl::planners::tosnake::tangle::tangled;
 use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -19,7 +19,7 @@ fn all_pairs(poses: &[RigidTransform], reach: f64) -> Vec<(usize, usize)> {
 }
 
 fn touch(state: &State, a: usize, b: usize) -> bool {
-    near::touch_always(&state.tree, a, b, &state.docked)
+    broad_phase::always_touch(&state.tree, a, b, &state.docked)
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn cubes_find_the_pairs_that_are_near() {
             })
             .collect();
         let mut found = Vec::new();
-        near::pairs(&poses, reach, &mut |a, b, squared| {
+        broad_phase::pairs(&poses, reach, &mut |a, b, squared| {
             assert_eq!(squared, (poses[b].translation - poses[a].translation).norm_squared());
             found.push((a, b));
         });
@@ -51,14 +51,14 @@ fn cubes_find_the_pairs_that_are_near() {
 
 #[test]
 fn contacts_are_followed_from_step_to_step() {
-    let state = State::new(tangled(30, 600, 3));
+    let state = State::new(random_configuration(30, 600, 3));
     let scene = state.scene();
     let count = state.tree.shoes();
     // Modules of a third of the robot turn; in a flow all do.
     for turning in [10, 30] {
         let parts = state.tree.parts(|module| module < turning);
         let (meeting, mut rng) = ((0, count - 1), SplitMix64(5));
-        let mut contacts = Contacts::new(&scene, meeting, parts.clone());
+        let mut contacts = NeighbourList::new(&scene, meeting, parts.clone());
         let (mut joints, mut poses) = (state.robot.joints.clone(), Vec::new());
         for step in 0..60 {
             // Few large steps, then many small ones, and another reach at every third.
@@ -83,7 +83,7 @@ fn a_way_is_free_where_nothing_meets_at_any_instant() {
     let mut rng = SplitMix64(11);
     let (mut free, mut hindered, mut poses) = (0, 0, Vec::new());
     for seed in 0..60 {
-        let state = State::new(tangled(12, 120, seed));
+        let state = State::new(random_configuration(12, 120, seed));
         let (scene, from) = (state.scene(), &state.robot.joints);
         let mut to = from.clone();
         // One module turns, or several do.
@@ -108,10 +108,10 @@ fn a_way_is_free_where_nothing_meets_at_any_instant() {
             }
         }
         let says = scene.is_free(from, &to, &mut 0);
-        if least < APART {
+        if least < MIN_DISTANCE {
             assert!(!says, "tangle {seed}: balls come as near as {least}");
             hindered += 1;
-        } else if least > APART + 5e-4 {
+        } else if least > MIN_DISTANCE + 5e-4 {
             assert!(says, "tangle {seed}: nothing is nearer than {least}");
             free += 1;
         }

@@ -9,8 +9,9 @@ use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 use modl::plan::verify::verify;
 use modl::plan::{self, Body, CheckKind, Ground, Plan, Status, World};
+use modl::planners::NoProgress;
 use modl::planners::tosnake::tree::Tree;
-use modl::planners::tosnake::{Bond, Dock, Doing, Refusal, Robot, Settings, Weight, unwind_under};
+use modl::planners::tosnake::{Bond, Dock, GravityModel, Operation, Refusal, Robot, Settings, unwind};
 use modl::source::code;
 
 const G: f64 = 9.80665;
@@ -235,29 +236,32 @@ fn a_snake_that_would_be_too_heavy_is_refused_before_it_is_straightened() {
         Robot { joints: (0..8).map(bent).collect(), bonds: (0..7).map(bond).collect(), holds: vec![true; 7] };
     let straight = Robot { joints: vec![[0.0; 3]; 8], ..robot.clone() };
     // Lying: gravity is across the line of the snake.
-    let mut weight = Weight {
+    let mut gravity = GravityModel {
         held: 0,
         root: 0,
         down: modl::geometry::Vec3::new(0.0, 1.0, 0.0),
         shoes: vec![1.0; 16],
         limits: vec![[1.0; 3]; 8],
     };
-    let greatest = |robot: &Robot, weight: &Weight| {
+    let greatest = |robot: &Robot, gravity: &GravityModel| {
         let tree = Tree::grow(robot, 0).expect("in one piece");
         let mut poses = Vec::new();
         tree.poses(&robot.joints, &mut poses);
-        weight.greatest(&tree, &poses).ratio
+        gravity.greatest(&tree, &poses).ratio
     };
     // Balls at 1 to 15 pitches; and less where they are bent round.
-    assert!((greatest(&straight, &weight) - 120.0).abs() < 1e-9);
-    assert!(greatest(&robot, &weight) < 90.0);
-    weight.limits = vec![[100.0; 3]; 8];
-    let refused = unwind_under(&robot, Some(&weight), &Settings::default(), &mut |_| true);
-    let Err(Refusal::Heavy(heavy)) = refused else { panic!("{refused:?}") };
-    assert_eq!((heavy.doing, heavy.load.module, heavy.load.joint), (Doing::Ending, 0, 0));
-    assert!((heavy.load.ratio - 1.2).abs() < 1e-9);
-    weight.limits = vec![[130.0; 3]; 8];
-    assert!(unwind_under(&robot, Some(&weight), &Settings::default(), &mut |_| true).is_ok());
+    assert!((greatest(&straight, &gravity) - 120.0).abs() < 1e-9);
+    assert!(greatest(&robot, &gravity) < 90.0);
+    gravity.limits = vec![[100.0; 3]; 8];
+    let refused = unwind(&robot, Some(&gravity), &Settings::default(), &mut NoProgress);
+    let Err(Refusal::Overload(overload)) = refused else { panic!("{refused:?}") };
+    assert_eq!(
+        (overload.operation, overload.load.module, overload.load.joint),
+        (Operation::HoldingSnake, 0, 0)
+    );
+    assert!((overload.load.ratio - 1.2).abs() < 1e-9);
+    gravity.limits = vec![[130.0; 3]; 8];
+    assert!(unwind(&robot, Some(&gravity), &Settings::default(), &mut NoProgress).is_ok());
 }
 
 #[test]

@@ -104,6 +104,40 @@ fn shoes_and_docks_are_where_the_projects_own_library_has_them() {
     }
 }
 
+/// The module that Rust callers get is the one that the library declares.
+#[test]
+fn the_module_from_rust_is_the_library_s() {
+    let done = loaded("", "use std.rofi.Snake\nemit(tosnake(Snake(n: 2)), \"p.plan.json\")\n");
+    let text = std::str::from_utf8(&done.host.written["p.plan.json"]).expect("text");
+    let plan = modl::plan::file::read(text).expect("a plan");
+    let world = modl::robot::rofi::read("C\nM 0 0 0 0\nM 1 0 0 0\nE 0 B -Z N -Z A 1\n").expect("a file");
+    let (assembly, start) = modl::robot::rofi_assembly::assembly(&world, 0.1);
+    let modl::plan::Body::Tracks(tracks) = &plan.body else { panic!("a plan of joints") };
+    assert_eq!(assembly.bonds, tracks.robot.bonds);
+    assert_eq!(start, tracks.start);
+    let (ours, theirs) = (&assembly.library.modules[0], &plan.library.modules[0]);
+    assert_eq!(assembly.library.connectors, plan.library.connectors);
+    assert_eq!(
+        (&ours.joints, &ours.touching, ours.touch, ours.contact),
+        (&theirs.joints, &theirs.touching, theirs.touch, theirs.contact)
+    );
+    let near = |a: &Pose, b: &Pose| (a.to_homogeneous() - b.to_homogeneous()).amax() < 1e-15;
+    assert_eq!((ours.links.len(), ours.ports.len()), (theirs.links.len(), theirs.ports.len()));
+    for (a, b) in ours.links.iter().zip(&theirs.links) {
+        assert!(near(&a.pose, &b.pose), "{}", a.name);
+        let inertia = |i: usize| (a.inertia[i] - b.inertia[i]).abs() < 1e-18;
+        assert!((0..6).all(inertia), "{}", a.name);
+        assert_eq!(
+            (&a.name, &a.shape, a.mass, a.com, a.friction),
+            (&b.name, &b.shape, b.mass, b.com, b.friction)
+        );
+    }
+    for (a, b) in ours.ports.iter().zip(&theirs.ports) {
+        assert_eq!((&a.name, a.link, a.connector), (&b.name, b.link, b.connector));
+        assert!(near(&a.pose, &b.pose), "{}", a.name);
+    }
+}
+
 /// Both shoes of every module of a file against shoe A of the first, in pitches.
 fn shoes(file: &str) -> Vec<[Pose; 2]> {
     let world = modl::robot::rofi::read(file).expect("it is a file");

@@ -1,12 +1,12 @@
-//! Attempts at bringing pairs together, several at a time on threads.
+//! Attempts at pairs, several at a time on threads.
 //!
-//! What is found does not depend on how many threads there are. Each attempt throws the rng that it
-//! would throw if those before it had been made one after the other; and they count in their order up to
-//! the first that succeeds. What later ones have done by then is forgotten.
+//! The result does not depend on the number of threads. Each attempt draws the random numbers that it would
+//! draw if those before it had been made one after the other, and the first success in order counts. The
+//! results of later attempts are dropped.
 
 use super::merging::Attempt;
+use super::motion_check::Scene;
 use super::state::{Joints, State};
-use super::sweep::Scene;
 use crate::interrupt::{self, CancelState};
 use crate::planners::random::SplitMix64;
 use std::collections::BTreeMap;
@@ -14,50 +14,54 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::thread;
 
-/// An attempt with the rng that it throws.
-pub struct Job<'a> {
-    pub attempt: Attempt<'a>,
-    pub rng: SplitMix64,
+/// An attempt with its random numbers.
+pub(super) struct Job<'a> {
+    pub(super) attempt: Attempt<'a>,
+    pub(super) rng: SplitMix64,
 }
 
-/// What came of a job.
-pub struct Made {
-    /// Its number.
-    pub job: usize,
-    /// See [`Attempt::way`].
-    pub way: Option<Vec<Joints>>,
-    /// Poses that it took.
-    pub work: u64,
+/// The result of a job.
+pub(super) struct Done {
+    /// The index of the job.
+    pub(super) job: usize,
+    /// See [`Attempt::path`].
+    pub(super) path: Option<Vec<Joints>>,
+    /// Forward kinematics evaluated.
+    pub(super) work: u64,
 }
 
-/// Does jobs, and calls `take` with what came of each, in their order, until it says that it has enough.
-/// With more than one thread nothing may pull at the robot.
-pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMut(Made) -> bool) {
+/// Jobs done before threads start: the first often succeeds.
+const SEQUENTIAL_JOBS: usize = 1;
+
+/// Does jobs and calls `take` with their results, in the order of the jobs, until it returns true. With more
+/// than one thread the robot must float, for loads are noted in the state.
+pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMut(Done) -> bool) {
     let (tree, docked, here) = (&state.tree, &state.docked, &state.robot.joints);
-    let made = |job: usize, scene: &Scene| {
+    let done = |job: usize, scene: &Scene| {
         let Job { attempt, rng } = &jobs[job];
         let mut work = 0;
-        let way = attempt.way(scene, here, &mut rng.clone(), &mut work);
-        Made { job, way, work }
+        let path = attempt.path(scene, here, &mut rng.clone(), &mut work);
+        Done { job, path, work }
     };
-    // What comes first often succeeds: threads would only get in each other's way.
-    let alone = if threads > 1 { ALONE.min(jobs.len()) } else { jobs.len() };
+    // The first jobs, or all of them, on this thread.
+    let sequential = if threads > 1 { SEQUENTIAL_JOBS.min(jobs.len()) } else { jobs.len() };
     let scene = state.scene();
-    if (0..alone).any(|job| take(made(job, &scene))) || alone == jobs.len() {
+    if (0..sequential).any(|job| take(done(job, &scene))) || sequential == jobs.len() {
         return;
     }
+    // The others on threads, each taking the next job that none has begun.
     let cancel_state = interrupt::current().map_or_else(CancelState::default, |user| user.child());
-    let next = AtomicUsize::new(alone);
+    let next = AtomicUsize::new(sequential);
     let (sender, results) = channel();
     thread::scope(|scope| {
-        for _ in 0..threads.min(jobs.len() - alone) {
-            let (sender, next, cancel_state, made) = (sender.clone(), &next, &cancel_state, &made);
+        for _ in 0..threads.min(jobs.len() - sequential) {
+            let (sender, next, cancel_state, done) = (sender.clone(), &next, &cancel_state, &done);
             scope.spawn(move || {
-                let scene = Scene { tree, docked: docked.clone(), burden: None };
+                let scene = Scene { tree, docked: docked.clone(), load_limit: None };
                 let work = || {
                     loop {
                         let job = next.fetch_add(1, Ordering::Relaxed);
-                        if job >= jobs.len() || sender.send(made(job, &scene)).is_err() {
+                        if job >= jobs.len() || sender.send(done(job, &scene)).is_err() {
                             return;
                         }
                     }
@@ -66,15 +70,16 @@ pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMu
             });
         }
         drop(sender);
-        // Whichever way this is left, the threads are to end.
+        // However this scope is left, the threads end.
         let _cancels = CancelOnDrop(&cancel_state);
+        // Results that came early wait for those before them.
         let mut early = BTreeMap::new();
-        let mut awaited = alone;
-        for made in results {
-            early.insert(made.job, made);
-            while let Some(made) = early.remove(&awaited) {
+        let mut awaited = sequential;
+        for done in results {
+            early.insert(done.job, done);
+            while let Some(done) = early.remove(&awaited) {
                 awaited += 1;
-                if take(made) {
+                if take(done) {
                     return;
                 }
             }
@@ -84,10 +89,7 @@ pub fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMu
     });
 }
 
-/// Jobs that are done before threads begin.
-const ALONE: usize = 1;
-
-/// Cancels its token when dropped.
+/// Cancels its state when dropped.
 struct CancelOnDrop<'a>(&'a CancelState);
 
 impl Drop for CancelOnDrop<'_> {

@@ -1,76 +1,81 @@
-//! The paper's inverse kinematics: FABRIK (Aristidou and Lasenby 2011) over the chain of two tentacles
-//! joined at their tips. For comparison; [`closing`](super::closing) is what plans are made with.
+//! The paper's inverse kinematics: FABRIK (Aristidou and Lasenby 2011) over the chain of two tentacles joined
+//! at their tips. For comparison; plans are made with [`inverse_kinematics`](super::inverse_kinematics).
 //!
-//! The chain begins where the one tentacle is mounted, and is to end where the other one is. It is walked
-//! from either end in turns. On every walk the end is put where it belongs, and then piece after piece is
-//! joined on anew: its joints turn so that it comes as near as it can to where it was.
+//! The chain begins at the shoulder of the one tentacle and is to end at that of the other. Backward and
+//! forward passes take turns: a pass puts one end of the chain where it belongs, and then attaches segment
+//! after segment, whose joints turn so that it comes as near as it can to where it was.
 
-use super::piece::Piece;
 use super::robot::{Dock, FACES, GAMMA, RED, across, mate};
+use super::segment::Segment;
 use super::state::{Joints, State};
 use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+/// Settings of FABRIK.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Walks there and back.
+    /// Greatest number of iterations, each a backward and a forward pass. Default 1000, as the paper's program.
     pub iterations_max: usize,
-    /// No entry of the matrices is farther off in the end; the paper's program has 0.02.
-    pub tol: f64,
-    /// After so many walks without a hundredth of progress it is given up; the paper's program goes on.
+    /// Greatest deviation of an entry of the last transform, in pitches or without unit. Default 0.02, as the
+    /// paper's program.
+    pub tol_closed: f64,
+    /// Iterations without a hundredth of progress after which the chain is given up. Default 100; the paper's
+    /// program goes on.
     pub patience: usize,
 }
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { iterations_max: 1000, tol: 0.02, patience: 100 }
+        Settings { iterations_max: 1000, tol_closed: 0.02, patience: 100 }
     }
 }
 
 /// The chain of two tentacles.
 pub struct Chain {
-    pieces: Vec<Piece>,
-    /// Where it begins and where it is to end.
+    segments: Vec<Segment>,
+    /// Pose of the first shoe.
     base: RigidTransform,
+    /// Pose that the last shoe is to have.
     goal: RigidTransform,
-    /// Balls of what does not move while the chain does.
-    standing: Vec<Vec3>,
+    /// Centres of the balls that do not move while the chain does.
+    obstacles: Vec<Vec3>,
 }
 
 impl Chain {
-    /// From the shoulder of dock `a`'s tentacle over both tips to that of `b`'s. Both hang on the same
-    /// module, which does not move.
+    /// Returns the chain from the shoulder of dock `a`'s tentacle over both tips to that of `b`'s. Both
+    /// shoulders are on the module of the common ancestor, which does not move.
     pub fn new(state: &State, a: Dock, b: Dock) -> Chain {
         let tree = &state.tree;
-        let path = tree.path(tree.place[a.shoe()], tree.place[b.shoe()]);
-        let shoe = |place: usize| tree.shoe[place];
-        let top = shoe(path.places[path.top]) / 2;
-        let fixed = |place: &usize| shoe(*place) / 2 == top;
-        let first = path.places.iter().position(fixed).unwrap_or(path.top);
-        let last = path.places.iter().rposition(fixed).unwrap_or(path.top);
-        let backwards = |places: &[usize]| -> Vec<Piece> {
-            let places: Vec<usize> = places.iter().rev().copied().collect();
-            Piece::along(tree, &state.poses, &places)
+        let path = tree.path(tree.index[a.shoe()], tree.index[b.shoe()]);
+        let shoe = |index: usize| tree.shoe[index];
+        let top = shoe(path.indices[path.top]) / 2;
+        let fixed = |index: &usize| shoe(*index) / 2 == top;
+        let first = path.indices.iter().position(fixed).unwrap_or(path.top);
+        let last = path.indices.iter().rposition(fixed).unwrap_or(path.top);
+        let backwards = |indices: &[usize]| -> Vec<Segment> {
+            let indices: Vec<usize> = indices.iter().rev().copied().collect();
+            Segment::along(tree, &state.poses, &indices)
         };
-        let mut pieces = backwards(&path.places[..=first]);
-        pieces.push(Piece::Mate(mate(RED, 0, RED)));
-        pieces.extend(backwards(&path.places[last..]));
-        let shoulders = [first.checked_sub(1), Some(last + 1).filter(|&next| next < path.places.len())];
-        let stands = |place: &usize| {
-            shoulders.iter().flatten().all(|&shoulder| !tree.hangs_on(*place, path.places[shoulder]))
+        let mut segments = backwards(&path.indices[..=first]);
+        segments.push(Segment::Mate(mate(RED, 0, RED)));
+        segments.extend(backwards(&path.indices[last..]));
+        let shoulders = [first.checked_sub(1), Some(last + 1).filter(|&next| next < path.indices.len())];
+        let is_fixed = |index: &usize| {
+            shoulders.iter().flatten().all(|&shoulder| !tree.is_in_subtree(*index, path.indices[shoulder]))
         };
-        let standing = (0..tree.shoes()).filter(stands);
+        let obstacles = (0..tree.shoes()).filter(is_fixed);
         Chain {
-            pieces,
-            base: state.poses[path.places[first]],
-            goal: state.poses[path.places[last]],
-            standing: standing.map(|place| state.poses[place].translation).collect(),
+            segments,
+            base: state.poses[path.indices[first]],
+            goal: state.poses[path.indices[last]],
+            obstacles: obstacles.map(|index| state.poses[index].translation).collect(),
         }
     }
 
-    /// Positions of all joints with the chain closed, and the walks that took; `None` where it does not
-    /// close. With `avoid`, tilts keep out of positions in which a ball would be in one that stands.
-    pub fn close(
+    /// Closes the chain from given joint positions. Returns the positions of all joints, or `None` if it does
+    /// not converge, and the number of iterations. With `avoid`, tilts keep out of positions in which a ball
+    /// would overlap an obstacle. `work` counts forward kinematics.
+    pub fn solve(
         &self,
         from: &Joints,
         settings: &Settings,
@@ -82,12 +87,12 @@ impl Chain {
         let (mut best, mut since) = (f64::INFINITY, 0);
         for iteration in 0..settings.iterations_max {
             crate::interrupt::checkpoint();
-            let missing = self.missing(&frames);
-            if missing < settings.tol {
+            let residual = self.residual(&frames);
+            if residual < settings.tol_closed {
                 return (Some(joints), iteration);
             }
-            if missing < 0.99 * best {
-                (best, since) = (missing, 0);
+            if residual < 0.99 * best {
+                (best, since) = (residual, 0);
             } else {
                 since += 1;
                 if since > settings.patience {
@@ -95,69 +100,70 @@ impl Chain {
                 }
             }
             *work += 2;
-            self.walk_back(&mut joints, &mut frames);
-            self.walk_there(&mut joints, &mut frames, avoid);
+            self.backward_pass(&mut joints, &mut frames);
+            self.forward_pass(&mut joints, &mut frames, avoid);
         }
         (None, settings.iterations_max)
     }
 
-    /// Whether the chain can be as long as the way that it has to go.
-    pub fn reaches(&self) -> bool {
-        (self.goal.translation - self.base.translation).norm() <= self.pieces.len() as f64
+    /// Returns false if the chain, stretched out, is shorter than the distance of its ends.
+    pub fn is_long_enough(&self) -> bool {
+        (self.goal.translation - self.base.translation).norm() <= self.segments.len() as f64
     }
 
-    fn missing(&self, frames: &[RigidTransform]) -> f64 {
+    fn residual(&self, frames: &[RigidTransform]) -> f64 {
         let end = frames[frames.len() - 1];
         let turn = (end.rotation - self.goal.rotation).amax();
         turn.max((end.translation - self.goal.translation).amax())
     }
 
-    /// Of all shoes along the chain.
+    /// The poses of all shoes along the chain.
     fn frames(&self, joints: &Joints) -> Vec<RigidTransform> {
         let mut frames = vec![self.base];
-        for piece in &self.pieces {
-            frames.push(frames[frames.len() - 1].then(&piece.pose(joints)));
+        for segment in &self.segments {
+            frames.push(frames[frames.len() - 1].then(&segment.pose(joints)));
         }
         frames
     }
 
-    fn walk_back(&self, joints: &mut Joints, frames: &mut [RigidTransform]) {
+    fn backward_pass(&self, joints: &mut Joints, frames: &mut [RigidTransform]) {
         let last = frames.len() - 1;
         frames[last] = self.goal;
-        for (index, piece) in self.pieces.iter().enumerate().rev() {
-            if let Piece::Module { module, near, far } = *piece {
-                relink(&mut joints[module], [far, near], &frames[index + 1], &frames[index], &[]);
+        for (index, segment) in self.segments.iter().enumerate().rev() {
+            if let Segment::Module { module, near, far } = *segment {
+                fit_module(&mut joints[module], [far, near], &frames[index + 1], &frames[index], &[]);
             }
-            frames[index] = frames[index + 1].then(&piece.pose(joints).inverse());
+            frames[index] = frames[index + 1].then(&segment.pose(joints).inverse());
         }
     }
 
-    fn walk_there(&self, joints: &mut Joints, frames: &mut [RigidTransform], avoid: bool) {
+    fn forward_pass(&self, joints: &mut Joints, frames: &mut [RigidTransform], avoid: bool) {
         frames[0] = self.base;
-        let standing: &[Vec3] = if avoid { &self.standing } else { &[] };
-        for (index, piece) in self.pieces.iter().enumerate() {
-            if let Piece::Module { module, near, far } = *piece {
-                relink(&mut joints[module], [near, far], &frames[index], &frames[index + 1], standing);
+        let obstacles: &[Vec3] = if avoid { &self.obstacles } else { &[] };
+        for (index, segment) in self.segments.iter().enumerate() {
+            if let Segment::Module { module, near, far } = *segment {
+                fit_module(&mut joints[module], [near, far], &frames[index], &frames[index + 1], obstacles);
             }
-            frames[index + 1] = frames[index].then(&piece.pose(joints));
+            frames[index + 1] = frames[index].then(&segment.pose(joints));
         }
     }
 }
 
-/// Points of a shoe by which two placements of it are compared: its ball and its docks.
+/// Points of a shoe by which two poses of it are compared: its centre and its docks, in pitches.
 const POINTS: [[f64; 3]; FACES + 1] = [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [-0.5, 0.0, 0.0], [0.0, 0.0, -0.5]];
 
 /// Rounds in which the joints of a module turn one after the other.
 const ROUNDS: usize = 2;
 
-/// Turns a module's joints, seen from the shoe at `here`, so that its other shoe comes as near to `there`
-/// as it can. `order` are its tilts, that of `here` first; balls of `standing` are kept out of.
-fn relink(
+/// Turns a module's joints so that, with one shoe at `here`, its other shoe comes as near as it can to `there`
+/// in the least-squares sense (cyclic coordinate descent; each joint in closed form). `near` is the tilt of
+/// the shoe at `here`, which also avoids the obstacles.
+fn fit_module(
     q: &mut [f64; 3],
     [near, far]: [usize; 2],
     here: &RigidTransform,
     there: &RigidTransform,
-    standing: &[Vec3],
+    obstacles: &[Vec3],
 ) {
     // In the frame of the shoe that stays.
     let wanted = here.inverse().then(there);
@@ -170,47 +176,49 @@ fn relink(
                 _ if joint == near => (Vec3::x(), Vec3::zeros()),
                 _ => (-other.rotation.column(0), other.translation),
             };
+            // The angle that minimises the sum of squared distances is that of (along, across).
             let (mut along, mut aside) = (0.0, 0.0);
             for (p, want) in POINTS.iter().zip(&wanted) {
                 let (found, want) = (at(&other, p) - point, want - point);
                 along += (found - axis * axis.dot(&found)).dot(&want);
                 aside += axis.cross(&found).dot(&want);
             }
-            // Where nothing depends on the joint it stays.
-            if libm::hypot(along, aside) > INDIFFERENT {
+            if libm::hypot(along, aside) > TOL_INDIFFERENT {
                 let to = q[joint] + libm::atan2(aside, along);
                 q[joint] = if joint == GAMMA { wrapped(to) } else { to.clamp(-FRAC_PI_2, FRAC_PI_2) };
             }
         }
-        if !standing.is_empty() {
-            q[near] = evaded(q[near], here, standing);
+        if !obstacles.is_empty() {
+            q[near] = nearest_free_tilt(q[near], here, obstacles);
         }
     }
 }
 
-/// Sums of products of lengths, in parts of the squared pitch.
-const INDIFFERENT: f64 = 1e-12;
+/// Sum of products of lengths, in squared pitches, below which nothing depends on a joint, and it stays.
+const TOL_INDIFFERENT: f64 = 1e-12;
 
 fn at(pose: &RigidTransform, point: &[f64; 3]) -> Vec3 {
     pose.rotation * Vec3::from(*point) + pose.translation
 }
 
+/// An angle plus whole turns, in [-π, π).
 fn wrapped(angle: f64) -> f64 {
     angle - TAU * libm::floor((angle + PI) / TAU)
 }
 
-/// The tilt nearest to a wanted one at which the ball that it carries, on a circle of radius 1 about the
-/// shoe at `here`, is in none that stands; the wanted one where there is none.
-fn evaded(wanted: f64, here: &RigidTransform, standing: &[Vec3]) -> f64 {
+/// The tilt (rad) nearest to a wanted one at which the ball that it carries, on a circle of radius 1 about
+/// the shoe at `here`, overlaps no obstacle; the wanted one if there is none.
+fn nearest_free_tilt(wanted: f64, here: &RigidTransform, obstacles: &[Vec3]) -> f64 {
+    // The intervals of tilts that each obstacle forbids.
     let mut forbidden: Vec<(f64, f64)> = Vec::new();
-    for ball in standing {
+    for ball in obstacles {
         let p = here
             .inverse()
             .then(&RigidTransform { translation: *ball, ..RigidTransform::identity() })
             .translation;
         let radius = libm::hypot(p.y, p.z);
-        // The shoe itself is as near as it is.
-        if p.norm() < 1e-6 || radius < 1e-9 {
+        // The shoe itself, and balls on the axis: their distance does not depend on the tilt.
+        if p.norm() < SAME_BALL || radius < ON_AXIS {
             continue;
         }
         // distance² = p² + 1 - 2 · radius · cos(angle between)
@@ -226,16 +234,25 @@ fn evaded(wanted: f64, here: &RigidTransform, standing: &[Vec3]) -> f64 {
         tilt.abs() <= FRAC_PI_2
             && forbidden.iter().all(|(low, high)| {
                 let off = wrapped(tilt - 0.5 * (low + high)).abs();
-                off >= 0.5 * (high - low) - 1e-9
+                off >= 0.5 * (high - low) - TOL_INTERVAL
             })
     };
     if free(wanted) {
         return wanted;
     }
+    // The nearest end of an interval that no other forbids.
     let ends = forbidden.iter().flat_map(|(low, high)| [wrapped(*low), wrapped(*high)]);
     let near = ends.filter(|end| free(*end)).min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs()));
     near.unwrap_or(wanted)
 }
 
-/// Balls nearer than this are in each other; rounded as the paper's program does.
+/// Distance of two centres, in pitches, below which they are one ball's.
+const SAME_BALL: f64 = 1e-6;
+/// Distance from an axis, in pitches, below which a ball is on it.
+const ON_AXIS: f64 = 1e-9;
+/// Angle by which a tilt may be inside a forbidden interval, rad: rounding.
+const TOL_INTERVAL: f64 = 1e-9;
+
+/// Distance of centres, in pitches, below which balls overlap for the paper's program, which rounds squared
+/// distances to three decimals.
 pub const TOUCHING: f64 = 0.99975;

@@ -1,37 +1,41 @@
-//! Two chains become one: their ends meet, and a bond that is none of a snake is let go.
+//! Merging two chains into one: their ends dock, and a bond of the loop that this closes is undocked which
+//! is no snake bond.
 
-use super::closing::{self, Loop, Manner};
-use super::detour::Detour;
-use super::near;
+use super::broad_phase;
+use super::inverse_kinematics::{self, IkMode, Loop, LoopClosure};
+use super::motion_check::Scene;
 use super::robot::{Bond, Dock, FACES, GAMMA, RED};
+use super::rrt_connect::RrtConnect;
 use super::state::{Joints, State};
-use super::sweep::Scene;
 use super::tree::{JointRef, Tree};
 use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Two free red docks of different chains.
+/// Two free docks -Z at the ends of different chains.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
+    /// The dock of the smaller shoe.
     pub a: Dock,
+    /// The dock of the greater shoe.
     pub b: Dock,
-    /// Modules that bend between them.
+    /// Number of modules that bend between them.
     pub length: usize,
-    /// Small is promising.
+    /// Estimated cost, smaller is more promising: the logit of failure for a floating robot, a number of
+    /// modules under gravity.
     pub cost: f64,
 }
 
-/// All pairs of free ends of different chains, the most promising first.
+/// Returns all pairs of free ends of different chains, the most promising first.
 pub fn pairs(state: &State) -> Vec<Pair> {
-    let crowds = crowds(state);
+    let densities = local_density(state);
     let pair = |[a, b]: [Dock; 2]| {
         let (length, moved) = bending(state, a, b);
-        let crowd = [0, 1].map(|k| (crowds[a.shoe()][k] + crowds[b.shoe()][k]) as f64);
+        let density = [0, 1].map(|k| (densities[a.shoe()][k] + densities[b.shoe()][k]) as f64);
         let gap = gap(state, a, b);
-        let cost = if state.weight.is_some() {
-            burden(length, gap)
+        let cost = if state.gravity.is_some() {
+            load_cost(length, gap)
         } else {
-            odds_against(length, gap, crowd, moved as f64)
+            failure_logit(length, gap, density, moved as f64)
         };
         Pair { a, b, length, cost }
     };
@@ -40,7 +44,7 @@ pub fn pairs(state: &State) -> Vec<Pair> {
     pairs
 }
 
-/// All pairs of free ends of different chains, in order.
+/// Returns all pairs of free ends of different chains, in order of their shoes.
 pub fn free_ends(state: &State) -> Vec<[Dock; 2]> {
     let at = state.robot.bond_at();
     let chains = state.chains();
@@ -55,32 +59,32 @@ pub fn free_ends(state: &State) -> Vec<[Dock; 2]> {
     pairs
 }
 
-/// The straight distance of two docks' shoes.
+/// The distance between the centres of two docks' shoes, in pitches.
 fn gap(state: &State, a: Dock, b: Dock) -> f64 {
-    let place = |dock: Dock| state.poses[state.tree.place[dock.shoe()]].translation;
-    (place(a) - place(b)).norm()
+    let centre = |dock: Dock| state.poses[state.tree.index[dock.shoe()]].translation;
+    (centre(a) - centre(b)).norm()
 }
 
-/// How much is around ends, in balls: within so many pitches of them.
-const CROWDS: [f64; 2] = [2.5, 5.0];
+/// The radii within which balls around an end are counted, in pitches.
+const DENSITY_RADII: [f64; 2] = [2.5, 5.0];
 
-/// By shoe: how many balls are near its own, itself among them.
-fn crowds(state: &State) -> Vec<[usize; 2]> {
-    let mut crowds = vec![[1, 1]; state.poses.len()];
-    near::pairs(&state.poses, CROWDS[1], &mut |a, b, squared| {
-        for place in [a, b] {
-            let crowd = &mut crowds[state.tree.shoe[place]];
-            crowd[0] += usize::from(squared < CROWDS[0] * CROWDS[0]);
-            crowd[1] += 1;
+/// By shoe: the number of balls within each of the radii of its own, itself included.
+fn local_density(state: &State) -> Vec<[usize; 2]> {
+    let mut density = vec![[1, 1]; state.poses.len()];
+    broad_phase::pairs(&state.poses, DENSITY_RADII[1], &mut |a, b, squared| {
+        for index in [a, b] {
+            let density = &mut density[state.tree.shoe[index]];
+            density[0] += usize::from(squared < DENSITY_RADII[0] * DENSITY_RADII[0]);
+            density[1] += 1;
         }
     });
-    crowds
+    density
 }
 
-/// The odds against a pair: their logarithm, but for a constant. From 8,000 attempts in four tangles, by logistic
-/// regression: what counts is how crowded it is around the ends, then how far they are from each other,
-/// then how many balls move. Loops of few modules hardly close.
-fn odds_against(length: usize, gap: f64, crowd: [f64; 2], moved: f64) -> f64 {
+/// The logit of the probability that an attempt at a pair fails, but for a constant. The coefficients are
+/// those of a logistic regression over 8,000 attempts in four random configurations: the density around
+/// the ends counts most, then their distance, then the number of balls that move. Short loops hardly close.
+fn failure_logit(length: usize, gap: f64, density: [f64; 2], moved: f64) -> f64 {
     let short = match length {
         0 | 1 => 1000.0,
         2 => 2.0,
@@ -90,11 +94,11 @@ fn odds_against(length: usize, gap: f64, crowd: [f64; 2], moved: f64) -> f64 {
         _ => 0.0,
     };
     let log = libm::log;
-    1.5 * log(crowd[0]) + 0.7 * log(crowd[1]) + 0.9 * log(1.0 + gap) + 0.4 * log(1.0 + moved) + short
+    1.5 * log(density[0]) + 0.7 * log(density[1]) + 0.9 * log(1.0 + gap) + 0.4 * log(1.0 + moved) + short
 }
 
-/// Where something pulls, long loops hang on their joints.
-fn burden(length: usize, gap: f64) -> f64 {
+/// The cost of a pair under gravity, in modules: long loops are heavy arms.
+fn load_cost(length: usize, gap: f64) -> f64 {
     let short = match length {
         0 | 1 => 1000.0,
         2 => 6.0,
@@ -104,10 +108,10 @@ fn burden(length: usize, gap: f64) -> f64 {
     length as f64 + 0.3 * gap + short
 }
 
-/// How many modules bend on the way between two docks, and how many balls they move against the rest.
+/// The number of modules that bend between two docks, and the number of balls that they move.
 fn bending(state: &State, a: Dock, b: Dock) -> (usize, usize) {
     let tree = &state.tree;
-    let (mut p, mut q) = (tree.place[a.shoe()], tree.place[b.shoe()]);
+    let (mut p, mut q) = (tree.index[a.shoe()], tree.index[b.shoe()]);
     let (mut count, mut moved) = (0, [0; 2]);
     while p != q {
         let (lower, moved) = if p > q { (&mut p, &mut moved[0]) } else { (&mut q, &mut moved[1]) };
@@ -121,162 +125,198 @@ fn bending(state: &State, a: Dock, b: Dock) -> (usize, usize) {
     (count, moved[0] + moved[1])
 }
 
-/// One way of bringing two docks together.
+/// One attempt at bringing the docks of a pair together.
 pub struct Attempt<'a> {
+    /// The pair.
     pub pair: &'a Pair,
-    pub manner: Manner,
-    /// Whether a leap takes another way where the straight one is not free.
+    /// The mode of the inverse kinematics.
+    pub mode: IkMode,
+    /// True if RRT-Connect looks for a detour where the straight motion to the endpoint is not free.
     pub detour: bool,
-    /// How far from where it is the loop sets out: 0 to 1.
-    pub size: f64,
-    pub side: Side,
-    pub closing: &'a closing::Settings,
+    /// Spread of the random start (endpoint mode) or initial bias (collision-free mode), as a fraction from
+    /// 0 to 1 of the joints' ranges or of the greatest bias.
+    pub spread: f64,
+    /// The side whose joints move.
+    pub side: MovingSide,
+    /// Settings of the inverse kinematics.
+    pub settings: &'a inverse_kinematics::Settings,
 }
 
-/// Whose joints bend: those on the way from either dock, or from one to where their ways meet.
+/// The joints of a loop that move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum MovingSide {
+    /// All joints between the two docks.
     Both,
+    /// Those between the first dock and the common ancestor.
     First,
+    /// Those between the second dock and the common ancestor.
     Second,
 }
 
 impl Attempt<'_> {
-    /// Positions of the joints one after the other, the last of them with the docks together, and the
-    /// ways between them free.
-    pub fn way(
+    /// Returns a path in joint space whose last posture has the docks together and whose straight segments
+    /// are free, without the first posture `here`. `work` counts forward kinematics.
+    pub fn path(
         &self,
         scene: &Scene,
         here: &Joints,
         rng: &mut SplitMix64,
         work: &mut u64,
     ) -> Option<Vec<Joints>> {
-        if self.manner == Manner::Leap {
-            let there = self.leap(scene, here, rng, work)?;
-            if scene.is_free(here, &there, work) {
-                return Some(vec![there]);
-            }
-            if !self.detour {
-                return None;
-            }
-            let mut own = SplitMix64(rng.next_u64());
-            let joints: Vec<JointRef> =
-                self.bending(scene.tree).joints.iter().map(|(joint, _)| *joint).collect();
-            let detour = Detour { scene, joints: &joints };
-            return detour.way(here, &there, &mut own, work);
+        match self.mode {
+            IkMode::Endpoint => self.path_to_endpoint(scene, here, rng, work),
+            IkMode::CollisionFree => self.path_of_descent(scene, here, rng, work),
         }
-        let lp = self.bending(scene.tree);
-        let mut drift = vec![0.0; 3 * here.len()];
+    }
+
+    /// A straight path to the endpoint, or a detour.
+    fn path_to_endpoint(
+        &self,
+        scene: &Scene,
+        here: &Joints,
+        rng: &mut SplitMix64,
+        work: &mut u64,
+    ) -> Option<Vec<Joints>> {
+        let there = self.closed_posture(scene, here, rng, work)?;
+        if scene.is_free(here, &there, work) {
+            return Some(vec![there]);
+        }
+        if !self.detour {
+            return None;
+        }
+        let mut own = SplitMix64(rng.next_u64());
+        let joints: Vec<JointRef> =
+            self.moving_loop(scene.tree).joints.iter().map(|(joint, _)| *joint).collect();
+        RrtConnect { scene, joints: &joints }.path(here, &there, &mut own, work)
+    }
+
+    /// The postures of a collision-free descent, in as few straight segments as bisection finds.
+    fn path_of_descent(
+        &self,
+        scene: &Scene,
+        here: &Joints,
+        rng: &mut SplitMix64,
+        work: &mut u64,
+    ) -> Option<Vec<Joints>> {
+        let lp = self.moving_loop(scene.tree);
+        let mut initial_bias = vec![0.0; 3 * here.len()];
         for (joint, _) in &lp.joints {
-            drift[3 * joint.module + joint.joint] = DRIFT * self.size * rng.next_signed();
+            initial_bias[3 * joint.module + joint.joint] = INITIAL_BIAS_MAX * self.spread * rng.next_signed();
         }
-        let way = self.closing(scene, &lp).close(here, &drift, work)?;
-        let last = way.last()?.clone();
+        let descent = self.closure(scene, &lp).solve(here, &initial_bias, work)?;
+        let last = descent.last()?.clone();
         if scene.is_free(here, &last, work) {
             return Some(vec![last]);
         }
-        let mut stops = Vec::new();
-        connect(scene, &way, 0, way.len() - 1, work, &mut stops).then_some(stops)
+        let mut path = Vec::new();
+        connect(scene, &descent, 0, descent.len() - 1, work, &mut path).then_some(path)
     }
 
-    /// Where the loop's joints bring the docks together, set out from near given positions; whatever is
-    /// on the way there.
-    pub fn leap(&self, scene: &Scene, from: &Joints, rng: &mut SplitMix64, work: &mut u64) -> Option<Joints> {
-        let lp = self.bending(scene.tree);
+    /// Returns a posture with the docks together and without overlap, found from a random start near given
+    /// positions; the motion there is not checked.
+    pub fn closed_posture(
+        &self,
+        scene: &Scene,
+        from: &Joints,
+        rng: &mut SplitMix64,
+        work: &mut u64,
+    ) -> Option<Joints> {
+        let lp = self.moving_loop(scene.tree);
         let mut start = from.clone();
         for (joint, _) in &lp.joints {
             let q = &mut start[joint.module][joint.joint];
             let range = if joint.joint == GAMMA { PI } else { FRAC_PI_2 };
-            *q = closing::limited(joint.joint, *q + self.size * range * rng.next_signed());
+            *q = inverse_kinematics::clamped(joint.joint, *q + self.spread * range * rng.next_signed());
         }
-        self.closing(scene, &lp).close(&start, &[], work)?.pop()
+        self.closure(scene, &lp).solve(&start, &[], work)?.pop()
     }
 
-    /// How many numbers of the rng the way takes.
-    pub fn throws(&self, tree: &Tree) -> usize {
-        self.bending(tree).joints.len() + usize::from(self.detour)
+    /// Returns the number of random numbers that [`Attempt::path`] draws.
+    pub fn draws(&self, tree: &Tree) -> usize {
+        self.moving_loop(tree).joints.len() + usize::from(self.detour)
     }
 
-    fn bending(&self, tree: &Tree) -> Loop {
+    fn moving_loop(&self, tree: &Tree) -> Loop {
         let mut lp = Loop::new(tree, self.pair.a, self.pair.b);
         match self.side {
-            Side::Both => {}
-            Side::First => lp.joints.retain(|(_, sign)| *sign < 0.0),
-            Side::Second => lp.joints.retain(|(_, sign)| *sign > 0.0),
+            MovingSide::Both => {}
+            MovingSide::First => lp.joints.retain(|(_, sign)| *sign < 0.0),
+            MovingSide::Second => lp.joints.retain(|(_, sign)| *sign > 0.0),
         }
         lp
     }
 
-    fn closing<'a>(&'a self, scene: &'a Scene<'a>, lp: &'a Loop) -> closing::Closing<'a> {
-        closing::Closing { scene, lp, manner: self.manner, settings: self.closing }
+    fn closure<'a>(&'a self, scene: &'a Scene<'a>, lp: &'a Loop) -> LoopClosure<'a> {
+        LoopClosure { scene, lp, mode: self.mode, settings: self.settings }
     }
 }
 
-/// The ends of pairs that were brought together dock, and for each of them another bond is let go:
-/// the best one.
-pub fn make(state: &mut State, pairs: &[Pair]) {
-    let cuts: Vec<usize> = pairs.iter().map(|pair| cuts(state, pair)[0]).collect();
-    for (pair, cut) in pairs.iter().zip(cuts) {
+/// Docks the ends of pairs that were brought together, and undocks for each of them the best of the bonds
+/// that it replaces.
+pub fn merge(state: &mut State, pairs: &[Pair]) {
+    let replaced: Vec<usize> = pairs.iter().map(|pair| replaceable_bonds(state, pair)[0]).collect();
+    for (pair, bond) in pairs.iter().zip(replaced) {
         state.dock(Bond { a: pair.a, b: pair.b, turn: 0 });
-        state.undock(cut);
+        state.undock(bond);
     }
-    state.regrow();
+    state.rebuild_tree();
 }
 
-/// The ends of a pair dock, and the best of those bonds is let go without which the joints hold what
-/// hangs on them. `None` where that is true of none; then the state knows what was too much.
-pub fn made_within_limits(state: &State, pair: &Pair) -> Option<State> {
-    cuts(state, pair).into_iter().find_map(|cut| {
+/// Returns the state after the ends of a pair docked and the best of those bonds was undocked without which
+/// no joint is overloaded. `None` if there is no such bond; then `state` notes the smallest overload.
+pub fn merged_within_limits(state: &State, pair: &Pair) -> Option<State> {
+    replaceable_bonds(state, pair).into_iter().find_map(|bond| {
         let mut after = state.clone();
         after.dock(Bond { a: pair.a, b: pair.b, turn: 0 });
-        after.undock(cut);
-        after.regrow();
+        after.undock(bond);
+        after.rebuild_tree();
         let load = after.load()?;
-        if load.ratio <= after.share {
+        if load.ratio <= after.load_share {
             return Some(after);
         }
-        state.refuse(load);
+        state.note_overload(load);
         None
     })
 }
 
-/// How far a joint drifts in one step of a flow at most, rad.
-const DRIFT: f64 = 0.15;
+/// Greatest initial bias of a joint in one step of a collision-free descent, rad.
+const INITIAL_BIAS_MAX: f64 = 0.15;
 
-/// The states between which the straight way is free, as few as halving finds.
+/// Appends postures of a descent between which straight motions are free, as few as bisection finds;
+/// returns false if two successive postures have none. The whole from first to last was checked before.
 fn connect(
     scene: &Scene,
-    way: &[Joints],
+    descent: &[Joints],
     from: usize,
     to: usize,
     work: &mut u64,
-    stops: &mut Vec<Joints>,
+    path: &mut Vec<Joints>,
 ) -> bool {
-    if (from, to) != (0, way.len() - 1) && scene.is_free(&way[from], &way[to], work) {
-        stops.push(way[to].clone());
+    if (from, to) != (0, descent.len() - 1) && scene.is_free(&descent[from], &descent[to], work) {
+        path.push(descent[to].clone());
         return true;
     }
     if to == from + 1 {
         return false;
     }
     let middle = (from + to) / 2;
-    connect(scene, way, from, middle, work, stops) && connect(scene, way, middle, to, work, stops)
+    connect(scene, descent, from, middle, work, path) && connect(scene, descent, middle, to, work, path)
 }
 
-/// Which bonds of the loop may be let go: those that are none of a snake. What frees a red dock comes
-/// first; there is at least one.
-fn cuts(state: &State, pair: &Pair) -> Vec<usize> {
+/// The bonds between the docks of a pair that are no snake bonds; there is at least one. Those come first
+/// that free a dock -Z.
+fn replaceable_bonds(state: &State, pair: &Pair) -> Vec<usize> {
     let tree = &state.tree;
-    let path = tree.path(tree.place[pair.a.shoe()], tree.place[pair.b.shoe()]);
-    let bonds = path.places.windows(2).filter_map(|step| tree.bond(step[0].max(step[1])));
-    let bad = bonds.filter(|bond| !state.robot.bonds[*bond].is_good());
+    let path = tree.path(tree.index[pair.a.shoe()], tree.index[pair.b.shoe()]);
+    let bonds = path.indices.windows(2).filter_map(|step| tree.bond(step[0].max(step[1])));
+    let others = bonds.filter(|bond| !state.robot.bonds[*bond].is_snake_bond());
     let freed = |bond: &usize| {
         let Bond { a, b, .. } = state.robot.bonds[*bond];
         [a, b].iter().filter(|dock| dock.dock % FACES == RED).count()
     };
-    let mut bad: Vec<usize> = bad.collect();
-    assert!(!bad.is_empty(), "between two chains there is a bond that is none of a snake");
-    bad.sort_by_key(freed);
-    bad.reverse();
-    bad
+    let mut others: Vec<usize> = others.collect();
+    assert!(!others.is_empty(), "between two chains there is a bond that is no snake bond");
+    others.sort_by_key(freed);
+    others.reverse();
+    others
 }

@@ -1,116 +1,129 @@
-//! The paper's own method, to compare with: tentacles that meet by [`fabrik`](super::fabrik), and going
-//! back over pairs of tips. It looks at the ends of moves, not at what is on the way, so its plans are
-//! for the judge to refuse.
+//! The paper's own method, for comparison: tentacles that meet by [`fabrik`](super::fabrik), and backtracking
+//! over pairs of tips. Only ends of moves are checked for collisions, not the motions between them, so its
+//! plans are for the judge to refuse.
 //!
-//! Different from the paper: a pair that lies on one chain is not tried, for nothing is gained by it
-//! and the search would not end; each pair is tried once, not in either order.
+//! Two things differ from the paper: a pair of one chain is not tried, for nothing is gained by it and the
+//! search would not end; and each pair is tried once, not in either order.
 
+use super::broad_phase;
 use super::fabrik::{Chain, TOUCHING};
 use super::merging;
-use super::near;
+use super::refusal::Refusal;
 use super::robot::{Bond, Dock, Robot};
-use super::sound;
+use super::search::StepSequence;
+use super::settings::{Collisions, Settings};
 use super::state::State;
+use super::status::{Reporter, SearchStatus};
 use super::tree::Tree;
-use super::{Collisions, Found, Progress, Refusal, Settings};
+use super::validation;
 use crate::geometry::Vec3;
 
-/// A state, and the pairs of tips that are still to be tried from there.
+/// A node of the depth-first search: a state, and the pairs of tips that are still to be tried from there,
+/// the next one last.
 struct Level {
     state: State,
     pairs: Vec<[Dock; 2]>,
 }
 
-/// `TOSNAKE` of the paper.
-pub fn unwind(
+/// Searches for the steps to the snake: `TOSNAKE` of the paper.
+///
+/// # Errors
+/// [`Refusal`]: the start is invalid, the pairs or the budget are exhausted, or the observer ended the search.
+pub(super) fn unwind(
     robot: &Robot,
     settings: &Settings,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Found, Refusal> {
-    sound::check(robot)?;
+    reporter: &mut Reporter,
+) -> Result<StepSequence, Refusal> {
+    validation::check(robot)?;
+    // Loops are opened.
     let mut state = State::new(robot.clone());
-    root(&mut state);
+    root_in_centre(&mut state);
     for bond in state.tree.closing.clone() {
         state.undock(bond);
     }
-    root(&mut state);
-    let needed = state.bad_bonds();
-    let mut progress = Progress { needed, ..Progress::default() };
-    progress.see(&state);
-    let (mut work, mut best) = (state.work, progress);
+    root_in_centre(&mut state);
+    let needed = state.other_bonds();
+    let mut status = SearchStatus { needed, ..SearchStatus::default() };
+    status.count_chains(&state);
+    let (mut work, mut best) = (state.work, status);
     let mut levels = vec![Level { pairs: pairs(&state), state }];
     let mut without_tips = true;
     while let Some(level) = levels.last_mut() {
-        if level.state.bad_bonds() == 0 {
+        // One chain is a snake but for its joints.
+        if level.state.other_bonds() == 0 {
             let mut state = level.state.clone();
-            state.go(&vec![[0.0; 3]; robot.modules()]);
-            progress.work = work;
-            return Ok(Found { robot: state.robot, steps: state.steps, progress });
+            state.move_to(&vec![[0.0; 3]; robot.modules()]);
+            status.work = work;
+            return Ok(StepSequence { robot: state.robot, steps: state.steps, status });
         }
-        progress.made = needed - level.state.bad_bonds();
-        progress.work = work;
-        if progress.made > best.made {
-            progress.see(&level.state);
-            best = progress;
+        status.made = needed - level.state.other_bonds();
+        status.work = work;
+        if status.made > best.made {
+            status.count_chains(&level.state);
+            best = status;
         }
-        if work > settings.budget || !watch(&progress) {
-            let reached = Progress { tried: progress.tried, work, ..best };
+        if work > settings.budget || !reporter.report(&status) {
+            let reached = SearchStatus { tried: status.tried, work, ..best };
             return Err(if work > settings.budget {
-                Refusal::Budget(reached)
+                Refusal::BudgetSpent(reached)
             } else {
                 Refusal::Stopped(reached)
             });
         }
+        // The next pair; without one the search backtracks.
         let Some(pair) = level.pairs.pop() else {
             levels.pop();
             continue;
         };
         without_tips = false;
-        progress.tried += 1;
+        status.tried += 1;
         if let Some(state) = connected_and_cut(&level.state, pair, settings, &mut work) {
             levels.push(Level { pairs: pairs(&state), state });
         }
     }
-    let reached = Progress { tried: progress.tried, work, ..best };
-    Err(if without_tips { Refusal::NoTips(reached) } else { Refusal::Exhausted(reached) })
+    let reached = SearchStatus { tried: status.tried, work, ..best };
+    Err(if without_tips { Refusal::NoFreeTips(reached) } else { Refusal::Exhausted(reached) })
 }
 
-/// `CONNECTANDCUT` of the paper: the state with the tips of a pair together, and another bond let go.
+/// `CONNECTANDCUT` of the paper: the state with the tips of a pair docked, and the first bond between them
+/// undocked that is no snake bond.
 fn connected_and_cut(state: &State, [a, b]: [Dock; 2], settings: &Settings, work: &mut u64) -> Option<State> {
     let chain = Chain::new(state, a, b);
-    if !chain.reaches() {
+    if !chain.is_long_enough() {
         return None;
     }
     let avoid = settings.collisions == Collisions::Avoidance;
-    let (joints, _) = chain.close(&state.robot.joints, &settings.fabrik, avoid, work);
+    let (joints, _) = chain.solve(&state.robot.joints, &settings.fabrik, avoid, work);
     let joints = joints?;
     let tree = &state.tree;
-    let path = tree.path(tree.place[a.shoe()], tree.place[b.shoe()]);
-    let mut bonds = path.places.windows(2).filter_map(|step| tree.bond(step[0].max(step[1])));
-    let cut = bonds.find(|bond| !state.robot.bonds[*bond].is_good())?;
+    let path = tree.path(tree.index[a.shoe()], tree.index[b.shoe()]);
+    let mut bonds = path.indices.windows(2).filter_map(|step| tree.bond(step[0].max(step[1])));
+    let cut = bonds.find(|bond| !state.robot.bonds[*bond].is_snake_bond())?;
     let mut next = state.clone();
-    next.go(&joints);
+    next.move_to(&joints);
     next.dock(Bond { a, b, turn: 0 });
     next.undock(cut);
-    root(&mut next);
+    root_in_centre(&mut next);
     *work += 1;
     let free = settings.collisions == Collisions::None
-        || near::least(&next.tree, &next.docked, &next.poses, TOUCHING) >= TOUCHING;
+        || broad_phase::least_distance(&next.tree, &next.docked, &next.poses, TOUCHING) >= TOUCHING;
     free.then_some(next)
 }
 
-/// Grows the tree from the module that is nearest to the middle of all.
-fn root(state: &mut State) {
-    let middle = state.poses.iter().fold(Vec3::zeros(), |sum, pose| sum + pose.translation);
-    let middle = middle / state.poses.len() as f64;
-    let off = |module: usize| {
-        let balls = [2 * module, 2 * module + 1].map(|shoe| state.poses[state.tree.place[shoe]].translation);
-        (0.5 * (balls[0] + balls[1]) - middle).norm_squared()
+/// Grows the tree from the module nearest to the centroid of all balls.
+fn root_in_centre(state: &mut State) {
+    let centroid = state.poses.iter().fold(Vec3::zeros(), |sum, pose| sum + pose.translation);
+    let centroid = centroid / state.poses.len() as f64;
+    let squared_distance = |module: usize| {
+        let balls = [2 * module, 2 * module + 1].map(|shoe| state.poses[state.tree.index[shoe]].translation);
+        (0.5 * (balls[0] + balls[1]) - centroid).norm_squared()
     };
-    let nearest = (0..state.robot.modules()).min_by(|&m, &n| off(m).total_cmp(&off(n))).unwrap_or(0);
-    state.tree = Tree::grow(&state.robot, nearest).expect("what is let go closed a loop");
-    state.docked = near::docked(&state.robot, &state.tree);
-    state.place();
+    let nearest = (0..state.robot.modules())
+        .min_by(|&m, &n| squared_distance(m).total_cmp(&squared_distance(n)))
+        .unwrap_or(0);
+    state.tree = Tree::grow(&state.robot, nearest).expect("the bond that was undocked closed a loop");
+    state.docked = broad_phase::docked(&state.robot, &state.tree);
+    state.update_poses();
 }
 
 /// Pairs of free tips of different chains, the first to be tried last.

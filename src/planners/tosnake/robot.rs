@@ -1,86 +1,97 @@
 //! The robot as the planner sees it: modules of two shoes, each shoe a ball of diameter 1 with three
-//! docks, and three joints between them. Lengths are in parts of the pitch.
+//! docks, and three joints between them. Lengths are in pitches, angles in radians.
 
 use crate::geometry::rigid_transform::{rotation_x, rotation_z};
 use crate::geometry::{RigidTransform, Vec3};
 use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
-/// The joints of a module by their places in [`Robot::joints`].
+/// Index in [`Robot::joints`] of the tilt of shoe A against its body, within ±π/2.
 pub const ALPHA: usize = 0;
+/// Index in [`Robot::joints`] of the tilt of shoe B against its body, within ±π/2.
 pub const BETA: usize = 1;
+/// Index in [`Robot::joints`] of the twist of the two bodies against each other, without limits.
 pub const GAMMA: usize = 2;
 
-/// Docks of a module: those of shoe A, then those of shoe B.
+/// Number of docks of a module: those of shoe A, then those of shoe B.
 pub const DOCKS: usize = 6;
-/// +X, -X and -Z of a shoe.
+/// Number of docks of a shoe: +X, -X and -Z.
 pub const FACES: usize = 3;
-/// The dock at the end of a shoe: the paper's red connector.
+/// The dock -Z at the end of a shoe: the paper's red connector.
 pub const RED: usize = 2;
 
-/// A dock of a module: 0 to 5, by shoe and then by face.
+/// A dock of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dock {
+    /// Index of the module.
     pub module: usize,
+    /// 0 to 5: [`FACES`] times 0 for shoe A or 1 for shoe B, plus 0 for +X, 1 for -X, [`RED`] for -Z.
     pub dock: usize,
 }
 
 /// Two docks that hold each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bond {
+    /// The one dock.
     pub a: Dock,
+    /// The other dock.
     pub b: Dock,
-    /// In quarter turns: 0 is N, 1 E, 2 S, 3 W.
+    /// Turn about the common normal in quarter turns: 0 is N, 1 E, 2 S, 3 W.
     pub turn: u32,
 }
 
-/// A configuration. A bond that is let go stays in the list, and does not hold.
+/// A configuration of modules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
-    /// alpha, beta and gamma of each module, rad.
+    /// Positions of alpha, beta and gamma of each module, rad.
     pub joints: Vec<[f64; 3]>,
+    /// All bonds, those included that were let go.
     pub bonds: Vec<Bond>,
+    /// By bond: whether it is closed.
     pub holds: Vec<bool>,
 }
 
 impl Dock {
-    /// The shoe that carries it: twice the module, and one more for shoe B.
+    /// Returns the shoe that carries the dock: twice the module, plus one for shoe B.
     pub fn shoe(self) -> usize {
         2 * self.module + self.dock / FACES
     }
 
+    /// Returns the dock's face on its shoe: 0 for +X, 1 for -X, [`RED`] for -Z.
     pub fn face(self) -> usize {
         self.dock % FACES
     }
 
+    /// Returns true for a dock -Z.
     pub fn is_red(self) -> bool {
         self.face() == RED
     }
 
-    /// The red dock of a shoe.
+    /// Returns the dock -Z of a shoe.
     pub fn red(shoe: usize) -> Dock {
         Dock { module: shoe / 2, dock: shoe % 2 * FACES + RED }
     }
 }
 
 impl Bond {
-    /// Whether it is one of a snake: two red docks in orientation N.
-    pub fn is_good(&self) -> bool {
+    /// Returns true if a snake may have this bond: two docks -Z in orientation N.
+    pub fn is_snake_bond(&self) -> bool {
         self.a.is_red() && self.b.is_red() && self.turn == 0
     }
 }
 
 impl Robot {
+    /// Returns the number of modules.
     pub fn modules(&self) -> usize {
         self.joints.len()
     }
 
-    /// The bonds that hold, with their numbers.
+    /// Returns the closed bonds with their indices.
     pub fn held(&self) -> impl Iterator<Item = (usize, &Bond)> {
         self.bonds.iter().enumerate().filter(|(index, _)| self.holds[*index])
     }
 
-    /// By module and dock: the bond that holds there.
+    /// Returns by module and dock the closed bond there.
     pub fn bond_at(&self) -> Vec<[Option<usize>; DOCKS]> {
         let mut at = vec![[None; DOCKS]; self.modules()];
         for (index, bond) in self.held() {
@@ -90,7 +101,7 @@ impl Robot {
         at
     }
 
-    /// How many balls of a chain are beyond the end of a shoe.
+    /// Returns the number of balls of a chain beyond the dock -Z of a shoe; stops after one round of a ring.
     pub fn beyond(&self, shoe: usize) -> usize {
         let at = self.bond_at();
         let (mut shoe, mut count) = (shoe, 0);
@@ -99,18 +110,18 @@ impl Robot {
             shoe = far.shoe() ^ 1;
             count += 2;
             if count > 2 * self.modules() {
-                break; // a ring
+                break;
             }
         }
         count
     }
 
-    /// The bond of a number is let go.
+    /// Opens the bond of an index.
     pub fn undock(&mut self, bond: usize) {
         self.holds[bond] = false;
     }
 
-    /// A bond begins to hold; gives its number.
+    /// Closes a bond and returns its index: that of the same bond in the list, or a new one.
     pub fn dock(&mut self, bond: Bond) -> usize {
         let same =
             |known: &Bond| *known == bond || (known.a, known.b, known.turn) == (bond.b, bond.a, bond.turn);
@@ -125,8 +136,8 @@ impl Robot {
     }
 }
 
-/// From one shoe of a module to the other. `near` is the tilt at the shoe that it starts from, `far`
-/// that at the other: `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`.
+/// Returns the pose of one shoe of a module in the frame of the other. `near` is the tilt of the shoe whose
+/// frame it is and `far` that of the other (rad): `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`.
 pub fn across(near: f64, far: f64, gamma: f64) -> RigidTransform {
     let half_turn = Matrix3::new(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0);
     let tilt = rotation_x(near);
@@ -136,8 +147,8 @@ pub fn across(near: f64, far: f64, gamma: f64) -> RigidTransform {
     }
 }
 
-/// From the shoe of face `a` to the shoe of face `b` that is docked to it:
-/// `F(a) · Rz(turn) · T(0, 0, -1) · Rx(180°) · F(b)⁻¹`.
+/// Returns the pose of a shoe docked by face `b` in the frame of the shoe that holds it by face `a`:
+/// `F(a) · Rz(turn) · T(0, 0, -1) · Rx(180°) · F(b)⁻¹`, with F the pose of a face.
 pub fn mate(a: usize, turn: u32, b: usize) -> RigidTransform {
     let half_turn = Matrix3::new(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0);
     let quarter = rotation_z(FRAC_PI_2 * f64::from(turn)).map(libm::round);
@@ -148,7 +159,7 @@ pub fn mate(a: usize, turn: u32, b: usize) -> RigidTransform {
     }
 }
 
-/// The frame of a dock's face against its shoe; the outward normal is its -z.
+/// The frame of a dock's face in the frame of its shoe; the outward normal is its -z.
 fn face(face: usize) -> Matrix3<f64> {
     match face {
         0 => Matrix3::new(0.0, 0.0, -1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0),

@@ -1,271 +1,308 @@
-//! The whole way to the snake.
+//! The search for a sequence of steps to the snake.
+//!
+//! Loops are opened. Then, round by round, all tilts are straightened as far as they are free to, and the
+//! most promising pairs of chain ends are tried until one comes together, each by inverse kinematics and
+//! a check of the motion. A round in which none does ends with a perturbation. At last the snake is
+//! straightened, and the steps are shortened.
 
-use super::alongside::Party;
 use super::attempts::{self, Job};
-use super::closing::{Loop, Manner};
-use super::lattice;
-use super::merging::{self, Attempt, Pair, Side};
-use super::opening;
+use super::concurrent_merges::ConcurrentMerges;
+use super::gravity::{GravityModel, JointLoad};
+use super::inverse_kinematics::{IkMode, Loop};
+use super::lattice_closure;
+use super::merging::{self, Attempt, MovingSide, Pair};
 use super::paper;
+use super::refusal::{Operation, Overload, Refusal};
 use super::robot::{ALPHA, BETA, Dock, GAMMA, Robot};
-use super::shortening::shortened;
-use super::sound;
-use super::state::{Joints, State};
-use super::weight::{Load, Weight};
-use super::{Collisions, Doing, Found, Heavy, Progress, Refusal, Settings};
+use super::settings::{Collisions, Settings};
+use super::shortcut::shortened;
+use super::state::{Joints, State, Step};
+use super::status::{Reporter, SearchStatus};
+use super::straighten;
+use super::validation;
+use crate::planners::Progress;
 use crate::planners::random::SplitMix64;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// How pairs of ends are tried: in which manner, from how far a posture of their own, and how many of
-/// them. What is cheap comes first.
-const ATTEMPTS: [(Manner, f64, usize); 5] = [
-    (Manner::Leap, 0.02, 60),
-    (Manner::Leap, 0.3, 60),
-    (Manner::Flow, 0.0, 10),
-    (Manner::Leap, 1.0, 20),
-    (Manner::Flow, 0.5, 10),
+/// The attempts of a round, cheap ones first: mode of the inverse kinematics, spread of its random start
+/// as a fraction of the joints' ranges, and number of pairs that are tried so.
+const ATTEMPTS: [(IkMode, f64, usize); 5] = [
+    (IkMode::Endpoint, 0.02, 60),
+    (IkMode::Endpoint, 0.3, 60),
+    (IkMode::CollisionFree, 0.0, 10),
+    (IkMode::Endpoint, 1.0, 20),
+    (IkMode::CollisionFree, 0.5, 10),
 ];
 
-/// From how far a posture of their own loops set out that may take a detour.
-const DETOUR_SIZE: f64 = 0.3;
+/// Spread of the random start of attempts that may take a detour, as a fraction of the joints' ranges.
+const DETOUR_SPREAD: f64 = 0.3;
 
-/// For smaller robots threads are not worth it.
-const PARALLEL_MIN: usize = 16;
+/// Smaller robots are searched on one thread: starting more costs more than it gains.
+const PARALLEL_MODULES_MIN: usize = 16;
 
-/// Under weight more is tried of each pair, and no more pairs than so many.
-const HEAVY_PAIRS: usize = 20;
+/// Greatest number of pairs tried of each kind under gravity, where each pair is tried in more ways.
+const GRAVITY_PAIRS_MAX: usize = 20;
 
-/// Under weight it matters which tentacle moves: all of them, and each alone, are tried.
-const SIDES: [Side; 3] = [Side::Both, Side::First, Side::Second];
+/// Under gravity it matters which tentacle moves: both of them, and each alone, are tried.
+const GRAVITY_SIDES: [MovingSide; 3] = [MovingSide::Both, MovingSide::First, MovingSide::Second];
 
-/// By how much the order of pairs is shuffled for every round in which none was brought together.
-const NOISE: f64 = 0.4;
+/// Relative noise on the costs of pairs for each round in which none came together.
+const COST_NOISE: f64 = 0.4;
 
-/// Unwinds a configuration whose bonds all meet. `watch` is told how far it has come, and says whether
-/// to go on.
-pub fn unwind(
-    robot: &Robot,
-    settings: &Settings,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Found, Refusal> {
-    unwind_under(robot, None, settings, watch)
+/// Greatest number of searches under gravity, each with the next random numbers, when overload ends them.
+const RESTARTS_MAX: usize = 20;
+
+/// Rounds without a merge after which a search under gravity starts again.
+const STALLED_ROUNDS_MAX: usize = 4;
+
+/// Between merges, joints are straightened only up to this fraction of their torque limits, so that
+/// something is left for the next merge.
+const LOAD_SHARE_BETWEEN_MERGES: f64 = 0.6;
+
+/// Cost of a pair whose joints hold all that they can, in modules of the loop.
+const LOAD_COST: f64 = 8.0;
+
+/// Cost of each failed attempt at a pair, as a logit; see [`merging::pairs`]. Forgotten when another
+/// number of modules bends between the ends.
+const FAILED_ATTEMPT_COST: f64 = 0.7;
+
+/// A sequence of steps to the snake.
+#[derive(Clone, Debug)]
+pub struct StepSequence {
+    /// The configuration in the end: alpha and beta are 0, gamma is a multiple of a whole turn. Its list
+    /// of bonds begins with those of the start, and holds all that the steps dock.
+    pub robot: Robot,
+    /// The steps in order.
+    pub steps: Vec<Step>,
+    /// Figures of the search.
+    pub status: SearchStatus,
 }
 
-/// The same where something pulls, so that joints hold what hangs on them all the way.
-pub fn unwind_under(
+/// Searches for the steps from a configuration to the snake. With a gravity model, no joint exceeds its
+/// torque limit on the way; without one the robot floats.
+///
+/// # Errors
+/// [`Refusal`]: the start is invalid, torque limits or the budget do not suffice, or `progress` ended the
+/// search.
+pub fn unwind(
     robot: &Robot,
-    weight: Option<&Weight>,
+    gravity: Option<&GravityModel>,
     settings: &Settings,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Found, Refusal> {
+    progress: &mut dyn Progress,
+) -> Result<StepSequence, Refusal> {
+    let mut reporter = Reporter::new(progress);
     if settings.collisions != Collisions::Motion {
-        return paper::unwind(robot, settings, watch);
+        return paper::unwind(robot, settings, &mut reporter);
     }
-    sound::check(robot)?;
-    let Some(weight) = weight else {
-        let state = opened(robot, None);
-        return Search::new(state, SplitMix64(settings.seed), settings, watch).found(robot);
-    };
-    let weight = Arc::new(weight.clone());
+    validation::check(robot)?;
+    match gravity {
+        None => {
+            let state = loops_opened(robot, None);
+            Search::new(state, SplitMix64(settings.seed), settings, &mut reporter).sequence(robot)
+        }
+        Some(gravity) => unwind_with_restarts(robot, gravity, settings, &mut reporter),
+    }
+}
+
+/// Searches under gravity, again and again with other random numbers where overload ends a search. The
+/// refusal reports the smallest overload of those searches that made the most merges.
+fn unwind_with_restarts(
+    robot: &Robot,
+    gravity: &GravityModel,
+    settings: &Settings,
+    reporter: &mut Reporter,
+) -> Result<StepSequence, Refusal> {
+    let gravity = Arc::new(gravity.clone());
     let mut rng = SplitMix64(settings.seed);
-    let mut spent = Progress::default();
-    let mut nearest: Option<Heavy> = None;
-    for _ in 0..FRESH_STARTS {
-        let mut search = Search::new(opened(robot, Some(&weight)), rng, settings, watch);
-        (search.progress.tried, search.state.work) = (spent.tried, spent.work);
-        let found = search.try_found(robot);
-        (rng, spent) = (search.rng, search.progress);
-        let (heavy, over) = match found {
-            Err(Refusal::Heavy(heavy)) => (heavy, matches!(heavy.doing, Doing::Standing | Doing::Opening)),
+    let mut spent = SearchStatus::default();
+    let mut nearest: Option<Overload> = None;
+    for _ in 0..RESTARTS_MAX {
+        // Budget and figures are those of all searches together.
+        let mut search = Search::new(loops_opened(robot, Some(&gravity)), rng, settings, reporter);
+        (search.status.tried, search.state.work) = (spent.tried, spent.work);
+        let found = search.sequence(robot);
+        (rng, spent) = (search.rng, search.status);
+        let (overload, is_last) = match found {
+            Err(Refusal::Overload(overload)) => {
+                // Another search would begin with the same overload.
+                (overload, matches!(overload.operation, Operation::Standing | Operation::OpeningLoops))
+            }
             // The budget is spent because everything was too heavy.
-            Err(Refusal::Budget(progress)) if search.heavy.is_some() || nearest.is_some() => {
-                let own = search.heavy.map(|(load, doing)| Heavy { load, doing, progress });
+            Err(Refusal::BudgetSpent(status)) if search.overload.is_some() || nearest.is_some() => {
+                let own = search.overload.map(|(load, operation)| Overload { load, operation, status });
                 (own.or(nearest).expect("one of them is"), true)
             }
             other => return other,
         };
-        let rank = |h: &Heavy| (h.progress.made, -h.load.ratio);
-        if nearest.is_none_or(|known| rank(&heavy) > rank(&known)) {
-            nearest = Some(heavy);
+        let rank = |o: &Overload| (o.status.made, -o.load.ratio);
+        if nearest.is_none_or(|known| rank(&overload) > rank(&known)) {
+            nearest = Some(overload);
         }
-        if over {
+        if is_last {
             break;
         }
     }
-    let mut heavy = nearest.expect("every start ended so");
-    (heavy.progress.tried, heavy.progress.work) = (spent.tried, spent.work);
-    Err(Refusal::Heavy(heavy))
+    let mut overload = nearest.expect("every search ended so");
+    (overload.status.tried, overload.status.work) = (spent.tried, spent.work);
+    Err(Refusal::Overload(overload))
 }
 
-/// The robot with all loops open.
-fn opened(robot: &Robot, weight: Option<&Arc<Weight>>) -> State {
-    let mut state = State::with_weight(robot.clone(), weight.cloned());
+/// Returns the robot with all bonds undocked that close loops.
+fn loops_opened(robot: &Robot, gravity: Option<&Arc<GravityModel>>) -> State {
+    let mut state = State::with_gravity(robot.clone(), gravity.cloned());
     for bond in state.tree.closing.clone() {
         state.undock(bond);
     }
-    state.regrow();
+    state.rebuild_tree();
     state
 }
 
-/// How often a search under weight begins again where what it came to is too heavy.
-const FRESH_STARTS: usize = 20;
-
-/// Rounds in which a search under weight gets no farther before it begins again.
-const IDLE_MAX: usize = 4;
-
-/// Between merges joints turn straight as long as no load is greater than this part of its limit, so
-/// that something is left for what has to be held next.
-const EASY: f64 = 0.6;
-
-/// By so much, in modules on the way, a pair is less promising whose joints hold all that they can.
-const HEAVY_COST: f64 = 8.0;
-
-/// By so much, in modules on the way, a pair is less promising for every time that it was tried in vain, with as
-/// many modules on the way as now.
-const VAIN_COST: f64 = 0.7;
-
-struct Search<'a> {
+/// One search, from opened loops to the snake.
+struct Search<'s, 'p> {
     state: State,
     rng: SplitMix64,
-    settings: &'a Settings,
-    watch: &'a mut dyn FnMut(&Progress) -> bool,
-    progress: Progress,
-    /// Of all that was too heavy what was least so.
-    heavy: Option<(Load, Doing)>,
-    /// How often pairs were tried in vain, with the modules that bent between them then.
-    vain: BTreeMap<[Dock; 2], (usize, u32)>,
+    settings: &'s Settings,
+    reporter: &'s mut Reporter<'p>,
+    status: SearchStatus,
+    /// The smallest overload so far, and what the robot was to do.
+    overload: Option<(JointLoad, Operation)>,
+    /// By pair: the number of modules that bent between the ends at the last failed attempt, and how many
+    /// attempts failed with that number.
+    failed_attempts: BTreeMap<[Dock; 2], (usize, u32)>,
 }
 
-impl<'a> Search<'a> {
+impl<'s, 'p> Search<'s, 'p> {
     fn new(
         state: State,
         rng: SplitMix64,
-        settings: &'a Settings,
-        watch: &'a mut dyn FnMut(&Progress) -> bool,
-    ) -> Search<'a> {
-        let mut progress = Progress { needed: state.bad_bonds(), ..Progress::default() };
-        progress.see(&state);
-        Search { state, rng, settings, watch, progress, heavy: None, vain: BTreeMap::new() }
+        settings: &'s Settings,
+        reporter: &'s mut Reporter<'p>,
+    ) -> Search<'s, 'p> {
+        let mut status = SearchStatus { needed: state.other_bonds(), ..SearchStatus::default() };
+        status.count_chains(&state);
+        Search { state, rng, settings, reporter, status, overload: None, failed_attempts: BTreeMap::new() }
     }
 
-    fn found(mut self, robot: &Robot) -> Result<Found, Refusal> {
-        self.try_found(robot)
-    }
-
-    fn try_found(&mut self, robot: &Robot) -> Result<Found, Refusal> {
-        self.snake()?;
+    /// Searches, and shortens what was found. `robot` is the start.
+    fn sequence(&mut self, robot: &Robot) -> Result<StepSequence, Refusal> {
+        self.reach_snake()?;
         self.report()?;
         let end = self.state.robot.clone();
         let held = |bond| robot.holds.get(bond).copied().unwrap_or(false);
         let holds = (0..end.bonds.len()).map(held).collect();
         let start = Robot { joints: robot.joints.clone(), bonds: end.bonds.clone(), holds };
-        let weight = self.state.weight.clone();
-        let steps = shortened(start, weight, &self.state.steps, &mut self.state.work);
-        self.progress.work = self.state.work;
-        Ok(Found { robot: end, steps, progress: self.progress })
+        let gravity = self.state.gravity.clone();
+        let steps = shortened(start, gravity, &self.state.steps, &mut self.state.work);
+        self.status.work = self.state.work;
+        Ok(StepSequence { robot: end, steps, status: self.status })
     }
 
-    fn snake(&mut self) -> Result<(), Refusal> {
-        self.stands()?;
+    /// Merges chains until there is one, and straightens it.
+    fn reach_snake(&mut self) -> Result<(), Refusal> {
+        self.check_start_load()?;
         let mut tilted = self.straighten();
-        let mut idle = 0;
-        while self.state.bad_bonds() > 0 {
+        let mut stalled_rounds = 0;
+        while self.state.other_bonds() > 0 {
             self.report()?;
-            if self.merge(idle)? {
-                idle = 0;
+            if self.merge(stalled_rounds)? {
+                stalled_rounds = 0;
             } else {
-                idle += 1;
-                self.tire(idle)?;
-                self.shake();
+                stalled_rounds += 1;
+                self.check_for_stall(stalled_rounds)?;
+                self.perturb();
             }
             tilted = self.straighten();
         }
-        self.ends_light()?;
-        (self.heavy, idle) = (None, 0);
+        self.check_final_load()?;
+        (self.overload, stalled_rounds) = (None, 0);
         while tilted > 0 {
             self.report()?;
-            idle += 1;
-            self.tire(idle)?;
-            self.shake();
+            stalled_rounds += 1;
+            self.check_for_stall(stalled_rounds)?;
+            self.perturb();
             tilted = self.straighten();
         }
-        self.untwist();
+        self.zero_twist();
         Ok(())
     }
 
-    /// Whether joints hold what hangs on them before anything moves.
-    fn stands(&self) -> Result<(), Refusal> {
+    /// Refuses if a joint is overloaded before anything moves.
+    fn check_start_load(&self) -> Result<(), Refusal> {
         match self.state.load() {
             Some(load) if load.ratio > 1.0 => {
                 let whole = self.state.steps.is_empty();
-                Err(self.heavy(load, if whole { Doing::Standing } else { Doing::Opening }))
+                Err(self.overloaded(load, if whole { Operation::Standing } else { Operation::OpeningLoops }))
             }
             _ => Ok(()),
         }
     }
 
-    /// Whether they will hold the straight snake.
-    fn ends_light(&self) -> Result<(), Refusal> {
+    /// Refuses if a joint would be overloaded in the straight snake.
+    fn check_final_load(&self) -> Result<(), Refusal> {
         let mut end = self.state.clone();
         end.robot.joints.iter_mut().for_each(|q| (q[ALPHA], q[BETA]) = (0.0, 0.0));
-        end.place();
+        end.update_poses();
         match end.load() {
-            Some(load) if load.ratio > 1.0 => Err(self.heavy(load, Doing::Ending)),
+            Some(load) if load.ratio > 1.0 => Err(self.overloaded(load, Operation::HoldingSnake)),
             _ => Ok(()),
         }
     }
 
-    /// After many rounds without progress, because something was too heavy, it is given up.
-    fn tire(&mut self, idle: usize) -> Result<(), Refusal> {
-        match self.heavy {
-            Some((load, doing)) if idle > IDLE_MAX => Err(self.heavy(load, doing)),
+    /// Gives up after many rounds without progress if something was overloaded.
+    fn check_for_stall(&mut self, stalled_rounds: usize) -> Result<(), Refusal> {
+        match self.overload {
+            Some((load, operation)) if stalled_rounds > STALLED_ROUNDS_MAX => {
+                Err(self.overloaded(load, operation))
+            }
             _ => Ok(()),
         }
     }
 
-    fn heavy(&self, load: Load, doing: Doing) -> Refusal {
-        Refusal::Heavy(Heavy { load, doing, progress: self.progress })
+    fn overloaded(&self, load: JointLoad, operation: Operation) -> Refusal {
+        Refusal::Overload(Overload { load, operation, status: self.status })
     }
 
-    /// Tilts turn to zero; gives how many are left.
+    /// Turns tilts (alpha and beta) to zero; returns how many are left.
     fn straighten(&mut self) -> usize {
-        let last = self.state.bad_bonds() == 0;
+        let last = self.state.other_bonds() == 0;
         let now = self.state.load().map_or(0.0, |load| load.ratio);
-        self.state.share = if last { 1.0 } else { f64::max(EASY, now) };
-        let tilted = opening::straighten(&mut self.state, &mut self.rng);
-        self.state.share = 1.0;
+        self.state.load_share = if last { 1.0 } else { f64::max(LOAD_SHARE_BETWEEN_MERGES, now) };
+        let tilted = straighten::straighten(&mut self.state, &mut self.rng);
+        self.state.load_share = 1.0;
         if last {
-            blame(&mut self.heavy, &self.state, Doing::Straightening);
+            record_overload(&mut self.overload, &self.state, Operation::Straightening);
         }
-        self.state.refused.take();
+        self.state.least_overload.take();
         tilted
     }
 
-    /// Brings the ends of two chains together, whichever first. `idle` rounds before found none.
-    fn merge(&mut self, idle: usize) -> Result<bool, Refusal> {
-        let pairs = self.pairs(idle);
+    /// Brings the ends of two chains together, of the first pair with which that succeeds; returns false
+    /// if it does with none. `stalled_rounds` is the number of such rounds before.
+    fn merge(&mut self, stalled_rounds: usize) -> Result<bool, Refusal> {
+        let pairs = self.pairs(stalled_rounds);
         let (jobs, rng) = self.jobs(&pairs);
-        let Search { state, settings, watch, progress, heavy, vain, .. } = self;
+        let Search { state, settings, reporter, status, overload, failed_attempts, .. } = self;
         let (mut work, mut won, mut refusal) = (0, None, None);
-        let alone = state.weight.is_some() || state.robot.modules() < PARALLEL_MIN;
+        // Loads are recorded in the state, which threads can't share.
+        let alone = state.gravity.is_some() || state.robot.modules() < PARALLEL_MODULES_MIN;
         let threads = if alone { 1 } else { settings.threads };
-        attempts::in_order(state, &jobs, threads, &mut |made| {
-            progress.tried += 1;
-            work += made.work;
-            let pair = jobs[made.job].attempt.pair;
-            if let Some(way) = made.way
-                && (state.weight.is_none() || merged_within_limits(state, pair, &way).is_some())
+        attempts::in_order(state, &jobs, threads, &mut |done| {
+            status.tried += 1;
+            work += done.work;
+            let pair = jobs[done.job].attempt.pair;
+            if let Some(path) = done.path
+                && (state.gravity.is_none() || merged_within_limits(state, pair, &path).is_some())
             {
-                won = Some((made.job, way));
+                won = Some((done.job, path));
                 return true;
             }
-            blame(heavy, state, Doing::Joining(pair.a, pair.b));
-            let known = vain.entry([pair.a, pair.b]).or_default();
+            record_overload(overload, state, Operation::Joining(pair.a, pair.b));
+            let known = failed_attempts.entry([pair.a, pair.b]).or_default();
             *known = (pair.length, if known.0 == pair.length { known.1 + 1 } else { 1 });
-            progress.work = state.work + work;
-            refusal = told(progress, settings, watch).err();
+            status.work = state.work + work;
+            refusal = report(status, settings, reporter).err();
             refusal.is_some()
         });
         let (pair, next) = match &won {
@@ -276,155 +313,159 @@ impl<'a> Search<'a> {
         self.rng = next.unwrap_or(rng);
         match (refusal, pair, won) {
             (Some(refusal), ..) => Err(refusal),
-            (None, Some(pair), Some((_, way))) => Ok(self.take(&pair, way, &pairs)),
-            _ => self.merge_on_lattice(idle, &pairs),
+            (None, Some(pair), Some((_, path))) => Ok(self.apply(&pair, path, &pairs)),
+            _ => self.merge_on_lattice(stalled_rounds, &pairs),
         }
     }
 
-    /// All attempts in their order, each with its rng; and the rng after them.
-    fn jobs<'p>(&self, pairs: &'p [Pair]) -> (Vec<Job<'p>>, SplitMix64)
+    /// Returns all attempts of a round in their order, each with its random numbers, and the generator
+    /// after them all.
+    fn jobs<'j>(&self, pairs: &'j [Pair]) -> (Vec<Job<'j>>, SplitMix64)
     where
-        'a: 'p,
+        's: 'j,
     {
-        let (sides, most) =
-            if self.state.weight.is_some() { (&SIDES[..], HEAVY_PAIRS) } else { (&SIDES[..1], usize::MAX) };
+        let (sides, pairs_max) = if self.state.gravity.is_some() {
+            (&GRAVITY_SIDES[..], GRAVITY_PAIRS_MAX)
+        } else {
+            (&GRAVITY_SIDES[..1], usize::MAX)
+        };
         let mut rng = self.rng.clone();
         let mut jobs = Vec::new();
-        let straight = ATTEMPTS.map(|(manner, size, many)| (manner, false, size, many));
-        let around = (Manner::Leap, true, DETOUR_SIZE, self.settings.detours);
-        for (manner, detour, size, many) in straight.into_iter().chain([around]) {
-            for pair in pairs.iter().take(many.min(most)) {
+        let direct = ATTEMPTS.map(|(mode, spread, many)| (mode, false, spread, many));
+        let detours = (IkMode::Endpoint, true, DETOUR_SPREAD, self.settings.detour_pairs_max);
+        for (mode, detour, spread, many) in direct.into_iter().chain([detours]) {
+            for pair in pairs.iter().take(many.min(pairs_max)) {
                 for &side in sides {
-                    let attempt =
-                        Attempt { pair, manner, detour, size, side, closing: &self.settings.closing };
-                    let throws = attempt.throws(&self.state.tree);
+                    let settings = &self.settings.inverse_kinematics;
+                    let attempt = Attempt { pair, mode, detour, spread, side, settings };
+                    let draws = attempt.draws(&self.state.tree);
                     jobs.push(Job { attempt, rng: rng.clone() });
-                    rng.skip(throws);
+                    rng.skip(draws);
                 }
             }
         }
         (jobs, rng)
     }
 
-    /// Where descent brought nothing together, short loops close on the lattice of quarter turns.
-    fn merge_on_lattice(&mut self, idle: usize, pairs: &[Pair]) -> Result<bool, Refusal> {
-        if idle == 0 {
+    /// Closes short loops on the lattice of quarter turns, where inverse kinematics closed none in two
+    /// rounds.
+    fn merge_on_lattice(&mut self, stalled_rounds: usize, pairs: &[Pair]) -> Result<bool, Refusal> {
+        if stalled_rounds == 0 {
             return Ok(false);
         }
-        for pair in pairs.iter().filter(|pair| pair.length <= lattice::LENGTH_MAX) {
-            self.progress.tried += 1;
+        for pair in pairs.iter().filter(|pair| pair.length <= lattice_closure::LENGTH_MAX) {
+            self.status.tried += 1;
             let mut work = 0;
-            let there = lattice::leap(&self.state, pair, &mut work);
+            let closed = lattice_closure::closed_posture(&self.state, pair, &mut work);
             self.state.work += work;
-            if there.is_some_and(|there| self.take(pair, vec![there], pairs)) {
+            if closed.is_some_and(|closed| self.apply(pair, vec![closed], pairs)) {
                 return Ok(true);
             }
-            blame(&mut self.heavy, &self.state, Doing::Joining(pair.a, pair.b));
+            record_overload(&mut self.overload, &self.state, Operation::Joining(pair.a, pair.b));
             self.report()?;
         }
         Ok(false)
     }
 
-    /// Goes a way that brings a pair together, and others with it where one turn does that. Says no
-    /// where joints would not hold what hangs on them afterwards.
-    fn take(&mut self, pair: &Pair, mut way: Vec<Joints>, pairs: &[Pair]) -> bool {
-        if self.state.weight.is_some() {
-            let Some(after) = merged_within_limits(&self.state, pair, &way) else { return false };
+    /// Moves along a path that brings a pair together, and merges it, with other pairs where the path is
+    /// one step. Returns false if joints would be overloaded afterwards.
+    fn apply(&mut self, pair: &Pair, mut path: Vec<Joints>, pairs: &[Pair]) -> bool {
+        if self.state.gravity.is_some() {
+            let Some(after) = merged_within_limits(&self.state, pair, &path) else { return false };
             self.state = after;
-            self.progress.made += 1;
-            self.progress.see(&self.state);
+            self.status.made += 1;
+            self.status.count_chains(&self.state);
             return true;
         }
         let mut together = vec![*pair];
-        if let [joints] = &mut way[..] {
+        if let [joints] = &mut path[..] {
             let mut work = 0;
-            let Settings { at_once, closing, .. } = self.settings;
-            let party = Party { pairs: together, joints: std::mem::take(joints) };
-            let counts = (&mut self.progress.tried, &mut work);
-            let party = party.grown(&self.state, pairs, *at_once, closing, &mut self.rng, counts);
+            let merges = ConcurrentMerges { pairs: together, joints: std::mem::take(joints) };
+            let counts = (&mut self.status.tried, &mut work);
+            let merges = merges.extended(&self.state, pairs, self.settings, &mut self.rng, counts);
             self.state.work += work;
-            (together, *joints) = (party.pairs, party.joints);
+            (together, *joints) = (merges.pairs, merges.joints);
         }
-        way.iter().for_each(|joints| self.state.go(joints));
-        merging::make(&mut self.state, &together);
-        self.progress.made += together.len();
-        self.progress.see(&self.state);
+        path.iter().for_each(|joints| self.state.move_to(joints));
+        merging::merge(&mut self.state, &together);
+        self.status.made += together.len();
+        self.status.count_chains(&self.state);
         true
     }
 
-    fn pairs(&mut self, idle: usize) -> Vec<Pair> {
+    /// Returns all pairs of ends, the most promising first. To the cost of [`merging::pairs`] come the load
+    /// of the loop's joints, failed attempts, and noise that grows with the number of stalled rounds.
+    fn pairs(&mut self, stalled_rounds: usize) -> Vec<Pair> {
         let mut pairs = merging::pairs(&self.state);
-        if let Some(weight) = &self.state.weight {
-            let loads = weight.loads(&self.state.tree, &self.state.poses);
+        if let Some(gravity) = &self.state.gravity {
+            let loads = gravity.loads(&self.state.tree, &self.state.poses);
             for pair in &mut pairs {
                 let lp = Loop::new(&self.state.tree, pair.a, pair.b);
-                let bends = |load: &&Load| {
+                let bends = |load: &&JointLoad| {
                     lp.joints.iter().any(|(j, _)| (j.module, j.joint) == (load.module, load.joint))
                 };
                 let most = loads.iter().filter(bends).fold(0.0, |most: f64, load| most.max(load.ratio));
-                pair.cost += HEAVY_COST * most;
+                pair.cost += LOAD_COST * most;
             }
         }
         for pair in &mut pairs {
-            if self.state.weight.is_none() {
-                let vain = self.vain.get(&[pair.a, pair.b]).filter(|(length, _)| *length == pair.length);
-                pair.cost += VAIN_COST * vain.map_or(0.0, |(_, times)| f64::from(*times));
+            if self.state.gravity.is_none() {
+                let failed = self.failed_attempts.get(&[pair.a, pair.b]);
+                let failed = failed.filter(|(length, _)| *length == pair.length);
+                pair.cost += FAILED_ATTEMPT_COST * failed.map_or(0.0, |(_, times)| f64::from(*times));
             }
-            pair.cost *= 1.0 + 0.5 * NOISE * idle as f64 * (1.0 + self.rng.next_signed());
+            pair.cost *= 1.0 + 0.5 * COST_NOISE * stalled_rounds as f64 * (1.0 + self.rng.next_signed());
         }
         pairs.sort_by(|p, q| p.cost.total_cmp(&q.cost).then((p.a, p.b).cmp(&(q.a, q.b))));
         pairs
     }
 
-    fn shake(&mut self) {
-        self.progress.shakes += 1;
-        let Settings { shake_turns, shake_slack, .. } = *self.settings;
+    /// Turns single joints at random, so that the robot spreads.
+    fn perturb(&mut self) {
+        self.status.perturbations += 1;
+        let Settings { perturbation_turns, perturbation_slack, .. } = *self.settings;
         let now = self.state.load().map_or(0.0, |load| load.ratio);
-        self.state.share = f64::max(EASY, now);
-        opening::shake(&mut self.state, &mut self.rng, shake_turns, shake_slack);
-        self.state.share = 1.0;
-        self.state.refused.take();
+        self.state.load_share = f64::max(LOAD_SHARE_BETWEEN_MERGES, now);
+        straighten::perturb(&mut self.state, &mut self.rng, perturbation_turns, perturbation_slack);
+        self.state.load_share = 1.0;
+        self.state.least_overload.take();
     }
 
-    /// A straight snake turns its modules about its own line, which moves no ball.
-    fn untwist(&mut self) {
+    /// Turns gamma of every module of the straight snake to the nearest whole turn, which moves no ball.
+    fn zero_twist(&mut self) {
         let mut joints = self.state.robot.joints.clone();
         joints.iter_mut().for_each(|q| q[GAMMA] = TAU * libm::round(q[GAMMA] / TAU));
-        self.state.go(&joints);
+        self.state.move_to(&joints);
     }
 
     fn report(&mut self) -> Result<(), Refusal> {
-        self.progress.work = self.state.work;
-        told(&self.progress, self.settings, self.watch)
+        self.status.work = self.state.work;
+        report(&self.status, self.settings, self.reporter)
     }
 }
 
-/// Whether to go on, after whoever watches was told.
-fn told(
-    progress: &Progress,
-    settings: &Settings,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<(), Refusal> {
-    if progress.work > settings.budget {
-        return Err(Refusal::Budget(*progress));
+/// Reports the status; refuses if the budget is spent or the observer ends the search.
+fn report(status: &SearchStatus, settings: &Settings, reporter: &mut Reporter) -> Result<(), Refusal> {
+    if status.work > settings.budget {
+        return Err(Refusal::BudgetSpent(*status));
     }
-    if watch(progress) { Ok(()) } else { Err(Refusal::Stopped(*progress)) }
+    if reporter.report(status) { Ok(()) } else { Err(Refusal::Stopped(*status)) }
 }
 
-/// What was too heavy just now, if anything was, was so in doing this.
-fn blame(heavy: &mut Option<(Load, Doing)>, state: &State, doing: Doing) {
-    let Some(load) = state.refused.take() else { return };
-    if heavy.is_none_or(|(known, _)| load.ratio < known.ratio) {
-        *heavy = Some((load, doing));
+/// Moves the overload that the state noted last, if there is one and it is the smallest so far, to
+/// `overload`, with what the robot was to do.
+fn record_overload(overload: &mut Option<(JointLoad, Operation)>, state: &State, operation: Operation) {
+    let Some(load) = state.least_overload.take() else { return };
+    if overload.is_none_or(|(known, _)| load.ratio < known.ratio) {
+        *overload = Some((load, operation));
     }
 }
 
-/// The robot after a way and the merge that it is for; `None` where joints would not hold what hangs on
-/// them then.
-fn merged_within_limits(state: &State, pair: &Pair, way: &[Joints]) -> Option<State> {
+/// Returns the robot after a path and the merge that it is for; `None` if a joint would be overloaded.
+fn merged_within_limits(state: &State, pair: &Pair, path: &[Joints]) -> Option<State> {
     let mut there = state.clone();
-    way.iter().for_each(|joints| there.go(joints));
-    let after = merging::made_within_limits(&there, pair);
-    state.refused.set(there.refused.get());
+    path.iter().for_each(|joints| there.move_to(joints));
+    let after = merging::merged_within_limits(&there, pair);
+    state.least_overload.set(there.least_overload.get());
     after
 }

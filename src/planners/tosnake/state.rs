@@ -1,11 +1,11 @@
-//! The robot on its way: where it is, what it did so far, and what that took.
+//! The state of the robot during the search: its configuration, its poses, and the steps so far.
 
-use super::near;
+use super::broad_phase;
+use super::gravity::{GravityModel, JointLoad};
+use super::motion_check::{self, LoadLimit, Scene};
 use super::robot::{Bond, Robot};
-use super::sweep::{self, Burden, Scene};
 use super::tree::Tree;
-use super::weight::{Load, Weight};
-use crate::geometry::RigidTransform;
+use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -15,36 +15,42 @@ pub type Joints = Vec<[f64; 3]>;
 /// One step of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// Joints turn at once, each at a steady rate: (module, joint, to), rad.
+    /// Joints turn at once, each at a constant rate, so that joint space is crossed in a straight line:
+    /// (module, joint, final position in rad).
     Turn(Vec<(usize, usize, f64)>),
-    /// A bond begins to hold, by its number.
+    /// The bond of this index docks.
     Dock(usize),
-    /// A bond is let go.
+    /// The bond of this index undocks.
     Undock(usize),
 }
 
+/// A robot on its way to the snake.
 #[derive(Clone, Debug)]
 pub struct State {
+    /// The configuration.
     pub robot: Robot,
+    /// The kinematic tree over the closed bonds.
     pub tree: Tree,
+    /// Poses of the shoes by index of the tree, in pitches, in the frame of its root.
     pub poses: Vec<RigidTransform>,
-    /// Pairs of places that are docked.
+    /// Pairs of indices of the tree that are docked to each other, the smaller first, in order.
     pub docked: Vec<(usize, usize)>,
+    /// The steps so far.
     pub steps: Vec<Step>,
-    /// Poses of the whole robot that were worked out.
+    /// Forward kinematics of the whole robot evaluated so far.
     pub work: u64,
-    /// Where something pulls.
-    pub weight: Option<Arc<Weight>>,
-    /// What joints may have to hold, in parts of their limits.
-    pub share: f64,
-    /// See [`Burden::refused`].
-    pub refused: Cell<Option<Load>>,
+    /// The gravity model; `None` if the robot floats.
+    pub gravity: Option<Arc<GravityModel>>,
+    /// Greatest load of a joint that motions may cause, as a fraction of its torque limit.
+    pub load_share: f64,
+    /// See [`LoadLimit::least_overload`].
+    pub least_overload: Cell<Option<JointLoad>>,
 }
 
 impl State {
-    /// The modules must hang together.
+    /// Returns the state of a floating robot, which must be connected, with the tree rooted in its middle.
     pub fn new(robot: Robot) -> State {
-        let tree = Tree::grow(&robot, 0).expect("a robot that was checked hangs together");
+        let tree = Tree::grow(&robot, 0).expect("a robot that was validated is connected");
         let mut state = State {
             robot,
             tree,
@@ -52,58 +58,64 @@ impl State {
             docked: Vec::new(),
             steps: Vec::new(),
             work: 0,
-            weight: None,
-            share: 1.0,
-            refused: Cell::new(None),
+            gravity: None,
+            load_share: 1.0,
+            least_overload: Cell::new(None),
         };
-        state.regrow();
+        state.rebuild_tree();
         state
     }
 
-    /// With the weight of the robot, where something pulls. The tree is grown from the weight's root, the
-    /// module that is held or another: what is let go first leaves short arms there.
-    pub fn with_weight(robot: Robot, weight: Option<Arc<Weight>>) -> State {
+    /// Returns the state of a robot, which must be connected. With a gravity model, the tree is rooted at the
+    /// module that the model names, near which loops stay closed.
+    pub fn with_gravity(robot: Robot, gravity: Option<Arc<GravityModel>>) -> State {
         let mut state = State::new(robot);
-        if let Some(weight) = &weight {
-            state.tree = Tree::grow(&state.robot, weight.root).expect("it hangs together");
-            state.docked = near::docked(&state.robot, &state.tree);
-            state.place();
+        if let Some(gravity) = &gravity {
+            state.tree = Tree::grow(&state.robot, gravity.root).expect("it is connected");
+            state.docked = broad_phase::docked(&state.robot, &state.tree);
+            state.update_poses();
         }
-        state.weight = weight;
+        state.gravity = gravity;
         state
     }
 
-    /// The load that is greatest by its limit; none where nothing pulls.
-    pub fn load(&self) -> Option<Load> {
-        self.weight.as_ref().map(|weight| weight.greatest(&self.tree, &self.poses))
+    /// Returns the greatest load of a joint by its limit; `None` if the robot floats.
+    pub fn load(&self) -> Option<JointLoad> {
+        self.gravity.as_ref().map(|gravity| gravity.greatest(&self.tree, &self.poses))
     }
 
-    /// After bonds changed. The root is in the middle of the tree, so that little moves far.
-    pub fn regrow(&mut self) {
+    /// Rebuilds the tree after bonds changed, rooted in the middle of its longest path, so that little moves
+    /// far.
+    pub fn rebuild_tree(&mut self) {
         let middle = middle(&self.tree, &self.robot);
-        self.tree = Tree::grow(&self.robot, middle).expect("what is let go closed a loop");
-        self.docked = near::docked(&self.robot, &self.tree);
-        self.place();
+        self.tree = Tree::grow(&self.robot, middle).expect("the bond that was undocked closed a loop");
+        self.docked = broad_phase::docked(&self.robot, &self.tree);
+        self.update_poses();
     }
 
-    pub fn place(&mut self) {
+    /// Recomputes all poses (forward kinematics).
+    pub fn update_poses(&mut self) {
         self.work += 1;
         self.tree.poses(&self.robot.joints, &mut self.poses);
     }
 
+    /// Returns the robot as collision and load checks see it.
     pub fn scene(&self) -> Scene<'_> {
-        let burden =
-            self.weight.as_deref().map(|weight| Burden { weight, share: self.share, refused: &self.refused });
-        Scene { tree: &self.tree, docked: self.docked.clone(), burden }
+        let load_limit = self.gravity.as_deref().map(|gravity| LoadLimit {
+            gravity,
+            share: self.load_share,
+            least_overload: &self.least_overload,
+        });
+        Scene { tree: &self.tree, docked: self.docked.clone(), load_limit }
     }
 
-    /// Remembers a load that was too great.
-    pub fn refuse(&self, load: Load) {
-        sweep::lessened(&self.refused, load);
+    /// Notes an overload, if it is the smallest since the last one was taken.
+    pub fn note_overload(&self, load: JointLoad) {
+        motion_check::note_overload(&self.least_overload, load);
     }
 
-    /// All joints go where they are to be, at once.
-    pub fn go(&mut self, to: &[[f64; 3]]) {
+    /// Moves all joints at once to new positions.
+    pub fn move_to(&mut self, to: &[[f64; 3]]) {
         let mut turns = Vec::new();
         for (module, (from, to)) in self.robot.joints.iter().zip(to).enumerate() {
             turns.extend((0..3).filter(|&k| from[k] != to[k]).map(|k| (module, k, to[k])));
@@ -112,32 +124,35 @@ impl State {
             self.steps.push(Step::Turn(turns));
         }
         self.robot.joints = to.to_vec();
-        self.place();
+        self.update_poses();
     }
 
-    /// One joint turns.
+    /// Moves one joint to a new position (rad).
     pub fn turn(&mut self, module: usize, joint: usize, to: f64) {
         self.steps.push(Step::Turn(vec![(module, joint, to)]));
         self.robot.joints[module][joint] = to;
-        self.place();
+        self.update_poses();
     }
 
+    /// Undocks the bond of an index; the tree is to be rebuilt afterwards.
     pub fn undock(&mut self, bond: usize) {
         self.robot.undock(bond);
         self.steps.push(Step::Undock(bond));
     }
 
+    /// Docks a bond; the tree is to be rebuilt afterwards.
     pub fn dock(&mut self, bond: Bond) {
         let index = self.robot.dock(bond);
         self.steps.push(Step::Dock(index));
     }
 
-    /// How far the balls are spread: the sum of squared distances from their middle.
+    /// Returns the spread of the robot; see [`spread`].
     pub fn spread(&self) -> f64 {
         spread(&self.poses)
     }
 
-    /// Modules of each chain of good bonds, by a number of its own.
+    /// Returns by module a number of its chain: modules joined by snake bonds have equal numbers
+    /// (disjoint-set forest).
     pub fn chains(&self) -> Vec<usize> {
         let mut chain: Vec<usize> = (0..self.robot.modules()).collect();
         fn root(chain: &mut [usize], mut m: usize) -> usize {
@@ -147,43 +162,45 @@ impl State {
             }
             m
         }
-        for (_, bond) in self.robot.held().filter(|(_, bond)| bond.is_good()) {
+        for (_, bond) in self.robot.held().filter(|(_, bond)| bond.is_snake_bond()) {
             let (a, b) = (root(&mut chain, bond.a.module), root(&mut chain, bond.b.module));
             chain[a.max(b)] = a.min(b);
         }
         (0..chain.len()).map(|m| root(&mut chain, m)).collect()
     }
 
-    /// How many bonds that hold are none of a snake.
-    pub fn bad_bonds(&self) -> usize {
-        self.robot.held().filter(|(_, bond)| !bond.is_good()).count()
+    /// Returns the number of closed bonds that are no snake bonds; each merge replaces one.
+    pub fn other_bonds(&self) -> usize {
+        self.robot.held().filter(|(_, bond)| !bond.is_snake_bond()).count()
     }
 }
 
+/// Returns the spread of balls: the sum of their squared distances from their centroid, in pitches².
 pub fn spread(poses: &[RigidTransform]) -> f64 {
     let count = poses.len() as f64;
-    let sum = poses.iter().fold(crate::geometry::Vec3::zeros(), |sum, pose| sum + pose.translation);
+    let sum = poses.iter().fold(Vec3::zeros(), |sum, pose| sum + pose.translation);
     let squares: f64 = poses.iter().map(|pose| pose.translation.norm_squared()).sum();
     squares - sum.norm_squared() / count
 }
 
-/// The module in the middle of the longest way through the tree.
+/// The module in the middle of the longest path of the tree, found by two sweeps: the shoe farthest from
+/// any is one end, and the shoe farthest from that is the other.
 fn middle(tree: &Tree, robot: &Robot) -> usize {
     let Some(tree) = Tree::grow(robot, tree.shoe[0] / 2) else { return 0 };
     let depths = |tree: &Tree| {
         let mut depth = vec![0usize; tree.shoes()];
-        for place in 1..depth.len() {
-            depth[place] = depth[tree.parent[place]] + 1;
+        for index in 1..depth.len() {
+            depth[index] = depth[tree.parent[index]] + 1;
         }
         depth
     };
-    let deepest = |depth: &[usize]| (0..depth.len()).rev().max_by_key(|&p| depth[p]).unwrap_or(0);
+    let deepest = |depth: &[usize]| (0..depth.len()).rev().max_by_key(|&i| depth[i]).unwrap_or(0);
     let far = tree.shoe[deepest(&depths(&tree))] / 2;
     let Some(tree) = Tree::grow(robot, far) else { return 0 };
     let depth = depths(&tree);
-    let mut place = deepest(&depth);
-    for _ in 0..depth[place] / 2 {
-        place = tree.parent[place];
+    let mut index = deepest(&depth);
+    for _ in 0..depth[index] / 2 {
+        index = tree.parent[index];
     }
-    tree.shoe[place] / 2
+    tree.shoe[index] / 2
 }

@@ -1,69 +1,75 @@
-//! The tree of shoes over the bonds that hold, and where everything is.
+//! The kinematic tree: shoes as bodies, joined by the joints of modules and by a spanning tree of the
+//! closed bonds; forward kinematics, and the axes from which columns of the Jacobian are made.
 //!
-//! Shoes are numbered in the order of a walk down the tree, so that all that hangs on a shoe is one
-//! stretch of numbers: what a joint moves is a stretch, or all the rest.
+//! Bodies are indexed in depth-first order, so that every subtree is a contiguous range of indices: a
+//! joint moves one range against all the rest.
 
 use super::robot::{ALPHA, BETA, DOCKS, GAMMA, Robot, across, mate};
 use crate::geometry::{RigidTransform, Vec3};
 
+/// A kinematic tree over the shoes of a robot.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    /// The shoe of each place in the walk.
+    /// The shoe of each index.
     pub shoe: Vec<usize>,
-    /// The place of each shoe.
-    pub place: Vec<usize>,
-    /// The place of the parent; 0 for the first.
+    /// The index of each shoe.
+    pub index: Vec<usize>,
+    /// The index of each body's parent; 0 for the root.
     pub parent: Vec<usize>,
-    /// One past the last place of what hangs on a shoe.
+    /// One past the last index of each body's subtree.
     pub end: Vec<usize>,
     link: Vec<Link>,
-    /// Bonds that hold and are not of the tree.
+    /// Closed bonds that are not of the tree: each closes a kinematic loop.
     pub closing: Vec<usize>,
 }
 
-/// How a shoe hangs on its parent.
+/// The connection of a shoe to its parent.
 #[derive(Clone, Copy, Debug)]
 enum Link {
+    /// None: it is the root.
     Root,
-    /// As the other shoe of the module.
+    /// Both are shoes of one module.
     Module,
-    /// By a bond.
+    /// Both are docked to each other.
     Mate {
         bond: usize,
+        /// The pose of the shoe in the frame of its parent.
         pose: RigidTransform,
     },
 }
 
-/// A joint that the tree's motion knows: of the module whose shoe is at `place`, against its other shoe.
+/// A joint of a module, as the tree has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointRef {
-    /// The place of the shoe that hangs on the other.
-    pub place: usize,
+    /// The index of that shoe of the module whose parent is the other.
+    pub child: usize,
+    /// The module.
     pub module: usize,
     /// [`ALPHA`], [`BETA`] or [`GAMMA`].
     pub joint: usize,
 }
 
 impl Tree {
-    /// The tree from a root module; `None` where the modules do not hang together.
+    /// Grows the tree from shoe A of a root module; returns `None` if the robot is not connected.
     pub fn grow(robot: &Robot, root: usize) -> Option<Tree> {
         let at = robot.bond_at();
-        // Breadth first decides which bonds are of the tree, so that branches are short.
+        // Breadth-first search chooses the bonds of the tree, so that branches are short.
         let in_tree = spanning(robot, &at, root)?;
         let shoes = 2 * robot.modules();
         let mut tree = Tree {
             shoe: Vec::with_capacity(shoes),
-            place: vec![0; shoes],
+            index: vec![0; shoes],
             parent: Vec::with_capacity(shoes),
             end: vec![0; shoes],
             link: Vec::with_capacity(shoes),
             closing: robot.held().map(|(bond, _)| bond).filter(|bond| !in_tree[*bond]).collect(),
         };
+        // Depth-first search gives the order.
         let mut open = vec![(2 * root, 0, Link::Root)];
         while let Some((shoe, parent, link)) = open.pop() {
-            let place = tree.shoe.len();
+            let index = tree.shoe.len();
             tree.shoe.push(shoe);
-            tree.place[shoe] = place;
+            tree.index[shoe] = index;
             tree.parent.push(parent);
             tree.link.push(link);
             let side = shoe % 2 * (DOCKS / 2);
@@ -76,105 +82,112 @@ impl Tree {
                 let here = (ends.a.module, ends.a.dock) == (shoe / 2, dock);
                 let (near, far) = if here { (ends.a, ends.b) } else { (ends.b, ends.a) };
                 let pose = mate(near.face(), ends.turn, far.face());
-                open.push((far.shoe(), place, Link::Mate { bond, pose }));
+                open.push((far.shoe(), index, Link::Mate { bond, pose }));
             }
             if !matches!(link, Link::Module) {
-                open.push((shoe ^ 1, place, Link::Module));
+                open.push((shoe ^ 1, index, Link::Module));
             }
         }
-        for place in (0..shoes).rev() {
-            tree.end[place] = tree.end[place].max(place + 1);
-            let parent = tree.parent[place];
-            tree.end[parent] = tree.end[parent].max(tree.end[place]);
+        // Subtrees end where their last child's does.
+        for index in (0..shoes).rev() {
+            tree.end[index] = tree.end[index].max(index + 1);
+            let parent = tree.parent[index];
+            tree.end[parent] = tree.end[parent].max(tree.end[index]);
         }
         Some(tree)
     }
 
+    /// Returns the number of shoes.
     pub fn shoes(&self) -> usize {
         self.shoe.len()
     }
 
-    /// Poses of all shoes by place, the first at the identity.
+    /// Computes the poses of all shoes by index in the frame of the root (forward kinematics).
     pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<RigidTransform>) {
         poses.clear();
-        for place in 0..self.shoes() {
-            poses.push(self.pose(place, joints, poses));
+        for index in 0..self.shoes() {
+            poses.push(self.pose(index, joints, poses));
         }
     }
 
-    /// Of some shoes, in order of place; the others are where they were.
+    /// Recomputes the poses of some shoes, given in order of index; the others stay.
     pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
-        for &place in moved {
-            poses[place] = self.pose(place, joints, poses);
+        for &index in moved {
+            poses[index] = self.pose(index, joints, poses);
         }
     }
 
-    fn pose(&self, place: usize, joints: &[[f64; 3]], poses: &[RigidTransform]) -> RigidTransform {
-        match &self.link[place] {
+    fn pose(&self, index: usize, joints: &[[f64; 3]], poses: &[RigidTransform]) -> RigidTransform {
+        match &self.link[index] {
             Link::Root => RigidTransform::identity(),
-            Link::Mate { pose, .. } => poses[self.parent[place]].then(pose),
+            Link::Mate { pose, .. } => poses[self.parent[index]].then(pose),
             Link::Module => {
-                let shoe = self.shoe[place];
+                let shoe = self.shoe[index];
                 let [near, far] = if shoe % 2 == 1 { [ALPHA, BETA] } else { [BETA, ALPHA] };
                 let q = &joints[shoe / 2];
-                poses[self.parent[place]].then(&across(q[near], q[far], q[GAMMA]))
+                poses[self.parent[index]].then(&across(q[near], q[far], q[GAMMA]))
             }
         }
     }
 
-    /// The places that modules carry whose joints turn, in order; the others stay where the root is.
+    /// Returns in order the indices of the shoes that move against the root when the modules move for which
+    /// `turns` is true.
     pub fn carried(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut carried = vec![false; self.shoes()];
-        for place in 1..self.shoes() {
-            let own = matches!(self.link[place], Link::Module) && turns(self.shoe[place] / 2);
-            carried[place] = own || carried[self.parent[place]];
+        for index in 1..self.shoes() {
+            let own = matches!(self.link[index], Link::Module) && turns(self.shoe[index] / 2);
+            carried[index] = own || carried[self.parent[index]];
         }
-        (0..self.shoes()).filter(|&place| carried[place]).collect()
+        (0..self.shoes()).filter(|&index| carried[index]).collect()
     }
 
-    /// By place: balls of one number do not move against each other when modules turn.
+    /// Returns by index the rigid part that a shoe belongs to when the modules move for which `turns` is
+    /// true: shoes of equal numbers do not move against each other.
     pub fn parts(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut part = vec![0; self.shoes()];
-        for place in 1..part.len() {
-            let own = matches!(self.link[place], Link::Module) && turns(self.shoe[place] / 2);
-            part[place] = if own { place } else { part[self.parent[place]] };
+        for index in 1..part.len() {
+            let own = matches!(self.link[index], Link::Module) && turns(self.shoe[index] / 2);
+            part[index] = if own { index } else { part[self.parent[index]] };
         }
         part
     }
 
-    /// The bond by which a shoe hangs on its parent.
-    pub fn bond(&self, place: usize) -> Option<usize> {
-        match self.link[place] {
+    /// Returns the bond by which a shoe is docked to its parent.
+    pub fn bond(&self, index: usize) -> Option<usize> {
+        match self.link[index] {
             Link::Mate { bond, .. } => Some(bond),
             Link::Root | Link::Module => None,
         }
     }
 
-    /// How far two docked shoes are from where the bond wants them: entries of the matrices, at most.
-    pub fn missing(&self, robot: &Robot, bond: usize, poses: &[RigidTransform]) -> f64 {
+    /// Returns the closure residual of a bond: the greatest deviation of an entry of its second shoe's pose
+    /// from where the first wants it, in pitches for positions and without unit for rotations.
+    pub fn residual(&self, robot: &Robot, bond: usize, poses: &[RigidTransform]) -> f64 {
         let ends = robot.bonds[bond];
-        let wanted = poses[self.place[ends.a.shoe()]].then(&mate(ends.a.face(), ends.turn, ends.b.face()));
-        let found = &poses[self.place[ends.b.shoe()]];
+        let wanted = poses[self.index[ends.a.shoe()]].then(&mate(ends.a.face(), ends.turn, ends.b.face()));
+        let found = &poses[self.index[ends.b.shoe()]];
         let turn = (wanted.rotation - found.rotation).amax();
         turn.max((wanted.translation - found.translation).amax())
     }
 
-    /// The joints between a shoe and its parent: three where the two are one module's.
-    pub fn joints_at(&self, place: usize) -> impl Iterator<Item = JointRef> {
-        let module = self.shoe[place] / 2;
-        let count = if matches!(self.link[place], Link::Module) { 3 } else { 0 };
-        (0..count).map(move |joint| JointRef { place, module, joint })
+    /// Returns the joints between a shoe and its parent: three if both are of one module, else none.
+    pub fn joints_at(&self, index: usize) -> impl Iterator<Item = JointRef> {
+        let module = self.shoe[index] / 2;
+        let count = if matches!(self.link[index], Link::Module) { 3 } else { 0 };
+        (0..count).map(move |joint| JointRef { child: index, module, joint })
     }
 
-    /// All joints of the robot.
+    /// Returns all joints of the robot.
     pub fn all_joints(&self) -> Vec<JointRef> {
-        (0..self.shoes()).flat_map(|place| self.joints_at(place)).collect()
+        (0..self.shoes()).flat_map(|index| self.joints_at(index)).collect()
     }
 
-    /// The axis about which a joint turns what hangs on its shoe, and a point on it.
+    /// Returns the unit axis about which a joint turns the subtree of its shoe, and a point on it, in the
+    /// frame of the root. The joint's column of the Jacobian of a point p of the subtree is
+    /// `axis × (p - point)`, and of its angular velocity `axis`.
     pub fn axis(&self, joint: JointRef, poses: &[RigidTransform]) -> (Vec3, Vec3) {
-        let (child, parent) = (&poses[joint.place], &poses[self.parent[joint.place]]);
-        let child_is_b = self.shoe[joint.place] % 2 == 1;
+        let (child, parent) = (&poses[joint.child], &poses[self.parent[joint.child]]);
+        let child_is_b = self.shoe[joint.child] % 2 == 1;
         let near = if child_is_b { ALPHA } else { BETA };
         if joint.joint == GAMMA {
             (child.translation - parent.translation, parent.translation)
@@ -185,12 +198,12 @@ impl Tree {
         }
     }
 
-    /// Whether the shoe at a place hangs on the one at another (or is it).
-    pub fn hangs_on(&self, place: usize, on: usize) -> bool {
-        (on..self.end[on]).contains(&place)
+    /// Returns true if the shoe at `index` is in the subtree of the one at `root`.
+    pub fn is_in_subtree(&self, index: usize, root: usize) -> bool {
+        (root..self.end[root]).contains(&index)
     }
 
-    /// The places from one to another along the tree, both included.
+    /// Returns the path from one shoe to another along the tree.
     pub fn path(&self, from: usize, to: usize) -> Path {
         let mut up = vec![from];
         let mut down = vec![to];
@@ -207,18 +220,20 @@ impl Tree {
         down.pop();
         let top = up.len() - 1;
         up.extend(down.into_iter().rev());
-        Path { places: up, top }
+        Path { indices: up, top }
     }
 }
 
-/// A way through the tree: up to the place `places[top]`, then down.
+/// A path through the tree: up to a common ancestor, then down.
 #[derive(Clone, Debug)]
 pub struct Path {
-    pub places: Vec<usize>,
+    /// The indices of the shoes on the path, both ends included.
+    pub indices: Vec<usize>,
+    /// The position in [`Path::indices`] of the common ancestor.
     pub top: usize,
 }
 
-/// Which bonds a breadth-first walk from a module takes.
+/// By bond: true if a breadth-first search from a module takes it; `None` if it does not reach all.
 fn spanning(robot: &Robot, at: &[[Option<usize>; DOCKS]], root: usize) -> Option<Vec<bool>> {
     let mut taken = vec![false; robot.bonds.len()];
     let mut reached = vec![false; robot.modules()];

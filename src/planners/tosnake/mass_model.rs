@@ -1,26 +1,32 @@
-//! What an assembly of RoFI modules weighs, and what its joints can hold.
+//! The gravity model of an assembly: weights of its shoes and torque limits of its joints.
 
-use super::assembly::{JOINTS, NoRofi, port_name};
+use super::conversion::{JOINTS, port_name};
+use super::gravity::GravityModel;
+use super::refusal::NotRofi;
 use super::robot::DOCKS;
-use super::weight::Weight;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{Assembly, ModuleType};
 use nalgebra::Matrix3;
 
-/// Of a robot that is held by the body of its base module, which stands at `X_WB`. `gravity` in m/s².
-/// Links are weighed at the centres of the balls; in the library's module they are there.
+/// Returns the gravity model of a robot that is held by the body of its base module, whose pose in the world is
+/// `X_WB`. `gravity` is in m/s², downwards. Every link counts as a point mass at the centre of its ball, which
+/// is exact for the library's module.
+///
+/// # Errors
+/// [`NotRofi`]: a module has other joints or ports.
 #[allow(non_snake_case)]
-pub fn weighed(assembly: &Assembly, X_WB: &Pose, gravity: f64) -> Result<Weight, NoRofi> {
+pub(super) fn gravity_model(assembly: &Assembly, X_WB: &Pose, gravity: f64) -> Result<GravityModel, NotRofi> {
     let mut shoes = Vec::with_capacity(2 * assembly.modules.len());
     let mut limits = Vec::with_capacity(assembly.modules.len());
+    // Weights by shoe (N), and torque limits by joint (N times the pitch).
     for module in 0..assembly.modules.len() {
         let kind = assembly.module_type(module);
-        let beyond = beyond_gamma(kind).ok_or(NoRofi::Kind(module))?;
+        let beyond = beyond_gamma(kind).ok_or(NotRofi::Kind(module))?;
         let weight = |far: bool| -> f64 {
             let own = kind.links.iter().zip(&beyond).filter(|(_, beyond)| **beyond == far);
             own.map(|(link, _)| link.mass * gravity).sum()
         };
-        let b_is_beyond = beyond[link_of(kind, module, DOCKS - 1).ok_or(NoRofi::Kind(module))?];
+        let b_is_beyond = beyond[link_of(kind, module, DOCKS - 1).ok_or(NotRofi::Kind(module))?];
         shoes.extend([weight(!b_is_beyond), weight(b_is_beyond)]);
         let pitch = 2.0 * kind.ports[0].pose.translation.vector.norm();
         limits.push(JOINTS.map(|name| {
@@ -28,22 +34,24 @@ pub fn weighed(assembly: &Assembly, X_WB: &Pose, gravity: f64) -> Result<Weight,
             joint.and_then(|joint| joint.limits.effort).unwrap_or(f64::INFINITY) / pitch
         }));
     }
+    // The shoe that the base's body carries is held.
     let base = assembly.base;
     let kind = assembly.module_type(base);
     let holds_body = |side: &usize| link_of(kind, base, side * DOCKS / 2) == Some(0);
-    let side = (0..2).find(holds_body).ok_or(NoRofi::Kind(base))?;
+    let side = (0..2).find(holds_body).ok_or(NotRofi::Kind(base))?;
+    // The frame of that shoe in the body's, from the positions of its docks.
     let at = |face: usize| {
         let name = port_name(base, side * DOCKS / 2 + face);
         kind.ports.iter().find(|port| port.name == name).map(|port| port.pose.translation.vector)
     };
     let (Some(plus_x), Some(minus_x), Some(minus_z)) = (at(0), at(1), at(2)) else {
-        return Err(NoRofi::Kind(base));
+        return Err(NotRofi::Kind(base));
     };
     let x: Vec3 = (plus_x - minus_x).normalize();
     let z: Vec3 = ((plus_x + minus_x) / 2.0 - minus_z).normalize();
     let shoe = Matrix3::from_columns(&[x, z.cross(&x), z]);
     let down = shoe.transpose() * (X_WB.rotation.inverse() * -Vec3::z());
-    Ok(Weight { held: 2 * base + side, root: base, down, shoes, limits })
+    Ok(GravityModel { held: 2 * base + side, root: base, down, shoes, limits })
 }
 
 /// The link that carries a dock.
@@ -51,12 +59,12 @@ fn link_of(kind: &ModuleType, module: usize, dock: usize) -> Option<usize> {
     kind.ports.iter().find(|port| port.name == port_name(module, dock)).map(|port| port.link)
 }
 
-/// By link: whether it is beyond the joint gamma, as seen from the body.
+/// By link: true if it is beyond the joint gamma, seen from the body.
 fn beyond_gamma(kind: &ModuleType) -> Option<Vec<bool>> {
     let gamma = kind.joints.iter().position(|joint| joint.name == JOINTS[2])?;
     let mut beyond = vec![false; kind.links.len()];
     beyond[kind.joints[gamma].child] = true;
-    // Joints are few: as often as there are links, whoever hangs on a link beyond is beyond.
+    // Transitive closure over the joints, in as many passes as there are links.
     for _ in 0..kind.links.len() {
         for joint in &kind.joints {
             beyond[joint.child] |= beyond[joint.parent];

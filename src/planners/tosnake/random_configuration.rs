@@ -1,93 +1,98 @@
-//! Tangles to unwind: a straight snake that does random things, all of which it can do.
+//! Random configurations ("tangles"): a straight snake after random actions, all of which it can do.
 
-use super::near;
+use super::broad_phase;
+use super::joint_sweep;
+use super::motion_check::MIN_DISTANCE;
 use super::robot::{Bond, DOCKS, Dock, FACES, GAMMA, Robot, mate};
-use super::sweep::APART;
 use super::tree::{JointRef, Tree};
-use super::turn;
 use crate::geometry::{RigidTransform, Vec3};
 use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Of so many actions one docks, and one lets go; the others turn a joint.
-const DOCKING_OF: usize = 10;
+/// One action in this many docks, and one undocks; the others turn a joint.
+const DOCKING_PERIOD: usize = 10;
 
-/// Attempts for each action, at most: in a tangle that can do little the rest is left.
+/// Greatest number of attempts for each action: a configuration that can do little is left as it is.
 const ATTEMPTS_MAX: usize = 100;
 
-/// Docks that are nearer than this meet: on a lattice of quarter turns the next are half a pitch away.
-const TOL_MEET: f64 = 1e-6;
+/// Deviation of entries of two transforms that count as equal, in pitches or without unit, and tolerance of
+/// joint ranges, rad. On the lattice of quarter turns different ones deviate by half.
+const TOL_EQUAL: f64 = 1e-6;
 
-/// A snake of `modules` after so many random actions: quarter turns of joints, each free on the way,
-/// docking where docks meet, and letting go where the robot stays in one piece. The same seed gives the
-/// same tangle.
-pub fn tangled(modules: usize, actions: usize, seed: u64) -> Robot {
+/// Returns a snake of `modules` modules after `actions` random actions: quarter turns of joints that are free
+/// on the way, docking where docks meet, and undocking where the robot stays connected. All bonds in its list
+/// are closed. The same seed gives the same configuration.
+pub fn random_configuration(modules: usize, actions: usize, seed: u64) -> Robot {
     let bond = |m: usize| Bond { a: Dock::red(2 * m + 1), b: Dock::red(2 * (m + 1)), turn: 0 };
     let bonds: Vec<Bond> = (0..modules.saturating_sub(1)).map(bond).collect();
     let holds = vec![true; bonds.len()];
-    let mut tangle = Tangle::new(Robot { joints: vec![[0.0; 3]; modules], bonds, holds });
+    let mut walk = RandomWalk::new(Robot { joints: vec![[0.0; 3]; modules], bonds, holds });
     let mut rng = SplitMix64(seed);
     let (mut done, mut tried) = (0, 0);
     while done < actions && tried < actions.saturating_mul(ATTEMPTS_MAX) {
         tried += 1;
         crate::interrupt::progress_checkpoint(|| format!("{done} of {actions} actions"));
-        let did = match rng.below(DOCKING_OF) {
-            0 => tangle.dock(&mut rng),
-            1 => tangle.undock(&mut rng),
-            _ => tangle.turn(&mut rng),
+        let did = match rng.below(DOCKING_PERIOD) {
+            0 => walk.dock(&mut rng),
+            1 => walk.undock(&mut rng),
+            _ => walk.turn(&mut rng),
         };
         done += usize::from(did);
     }
-    let Robot { joints, bonds, holds } = tangle.robot;
+    let Robot { joints, bonds, holds } = walk.robot;
     let held: Vec<Bond> = bonds.into_iter().zip(holds).filter(|(_, held)| *held).map(|(b, _)| b).collect();
     Robot { joints, holds: vec![true; held.len()], bonds: held }
 }
 
-struct Tangle {
+/// A configuration to which random actions are done. Each action returns false if it could not be done.
+struct RandomWalk {
     robot: Robot,
     tree: Tree,
     joints: Vec<JointRef>,
     poses: Vec<RigidTransform>,
 }
 
-impl Tangle {
-    fn new(robot: Robot) -> Tangle {
-        let tree = Tree::grow(&robot, robot.modules() / 2).expect("a snake hangs together");
+impl RandomWalk {
+    fn new(robot: Robot) -> RandomWalk {
+        let tree = Tree::grow(&robot, robot.modules() / 2).expect("a snake is connected");
         let mut poses = Vec::new();
         tree.poses(&robot.joints, &mut poses);
-        Tangle { joints: tree.all_joints(), robot, tree, poses }
+        RandomWalk { joints: tree.all_joints(), robot, tree, poses }
     }
 
+    /// Turns a joint by a quarter turn.
     fn turn(&mut self, rng: &mut SplitMix64) -> bool {
         let joint = self.joints[rng.below(self.joints.len())];
         let turn = if rng.below(2) == 0 { FRAC_PI_2 } else { -FRAC_PI_2 };
         let mut to = self.robot.joints[joint.module][joint.joint] + turn;
         if joint.joint == GAMMA {
-            to = if to > PI + TOL_MEET {
+            to = if to > PI + TOL_EQUAL {
                 to - TAU
-            } else if to < -PI + TOL_MEET {
+            } else if to < -PI + TOL_EQUAL {
                 to + TAU
             } else {
                 to
             };
-        } else if to.abs() > FRAC_PI_2 + TOL_MEET {
+        } else if to.abs() > FRAC_PI_2 + TOL_EQUAL {
             return false;
         }
-        if self.is_in_loop(joint.place) || turn::free(&self.tree, joint, &self.poses, turn, APART) != turn {
+        if self.is_in_loop(joint.child)
+            || joint_sweep::free_angle(&self.tree, joint, &self.poses, turn, MIN_DISTANCE) != turn
+        {
             return false;
         }
-        // Quarters do not add up rounding.
+        // Rounded, so that many quarter turns do not sum up rounding errors.
         self.robot.joints[joint.module][joint.joint] = FRAC_PI_2 * libm::round(to / FRAC_PI_2);
         self.tree.poses(&self.robot.joints, &mut self.poses);
         true
     }
 
-    /// Whether a bond that closes a loop joins what hangs on a place to the rest.
-    fn is_in_loop(&self, place: usize) -> bool {
+    /// Returns true if a bond that closes a loop joins the subtree of an index to the rest.
+    fn is_in_loop(&self, index: usize) -> bool {
         self.tree.closing.iter().any(|&bond| {
             let ends = self.robot.bonds[bond];
-            let hangs = |dock: Dock| self.tree.hangs_on(self.tree.place[dock.shoe()], place);
-            hangs(ends.a) != hangs(ends.b)
+            let inside = |dock: Dock| self.tree.is_in_subtree(self.tree.index[dock.shoe()], index);
+            inside(ends.a) != inside(ends.b)
         })
     }
 
@@ -98,7 +103,7 @@ impl Tangle {
         }
         let bond = meeting[rng.below(meeting.len())];
         self.robot.dock(bond);
-        self.regrow();
+        self.rebuild_tree();
         true
     }
 
@@ -109,23 +114,23 @@ impl Tangle {
         }
         let bond = held[rng.below(held.len())];
         self.robot.holds[bond] = false;
-        let whole = Tree::grow(&self.robot, 0).is_some();
-        self.robot.holds[bond] = !whole;
-        if whole {
-            self.regrow();
+        let connected = Tree::grow(&self.robot, 0).is_some();
+        self.robot.holds[bond] = !connected;
+        if connected {
+            self.rebuild_tree();
         }
-        whole
+        connected
     }
 
-    fn regrow(&mut self) {
-        *self = Tangle::new(self.robot.clone());
+    fn rebuild_tree(&mut self) {
+        *self = RandomWalk::new(self.robot.clone());
     }
 
-    /// Bonds that can be made: free docks that meet, with their turn.
+    /// The bonds that can be made between free docks that meet.
     fn meeting(&self) -> Vec<Bond> {
         let at = self.robot.bond_at();
         let mut bonds = Vec::new();
-        near::pairs(&self.poses, 1.0 + TOL_MEET, &mut |p, q, _| {
+        broad_phase::pairs(&self.poses, 1.0 + TOL_EQUAL, &mut |p, q, _| {
             let (a, b) = (self.tree.shoe[p], self.tree.shoe[q]);
             if a / 2 == b / 2 {
                 return;
@@ -145,13 +150,14 @@ impl Tangle {
         bonds
     }
 
+    /// Returns true if the shoe of index `q` is where a bond to that of `p` would have it.
     fn meets(&self, p: usize, q: usize, mated: &RigidTransform) -> bool {
         let wanted = self.poses[p].then(mated);
         let found = &self.poses[q];
         let apart: Vec3 = wanted.translation - found.translation;
-        apart.amax() < TOL_MEET && (wanted.rotation - found.rotation).amax() < TOL_MEET
+        apart.amax() < TOL_EQUAL && (wanted.rotation - found.rotation).amax() < TOL_EQUAL
     }
 }
 
-/// Docks of a module, as the robot counts them.
+/// Docks of a module are those of its two shoes.
 const _: () = assert!(DOCKS == 2 * FACES);

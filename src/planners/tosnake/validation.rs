@@ -1,46 +1,44 @@
-//! Whether a configuration can be: in one piece, loops closed, no overlap. Files of tangled robots say
-//! of some modules that they hold each other in two ways that contradict each other.
+//! Validation of a start configuration: connected, loops closed, no overlap. Files of tangled robots name
+//! some modules as connected in two ways that contradict each other; [`repair`] opens such bonds.
 
-use super::Refusal;
-use super::near;
+use super::broad_phase;
+use super::motion_check::MIN_DISTANCE;
+use super::refusal::{InvalidStart, Refusal};
 use super::robot::Robot;
-use super::sweep::APART;
 use super::tree::Tree;
 use crate::geometry::RigidTransform;
 
-/// Docks of a loop that are farther from meeting than this hold nothing, whatever is said of them; the
-/// limit of RoFI's own tools.
-pub const OPEN_MAX: f64 = 1e-3;
+/// Greatest closure residual of a bond that holds: in pitches for positions, without unit for rotations.
+/// The limit of RoFI's own tools.
+pub const TOL_CLOSURE: f64 = 1e-3;
 
-/// What keeps a configuration from being.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Unsound {
-    /// This module hangs on nothing.
-    Loose(usize),
-    /// These modules are in each other, with the distance of the balls in parts of the pitch.
-    Overlap(usize, usize, f64),
-}
-
-/// Whether all bonds meet, and no two modules are in each other.
-pub fn check(robot: &Robot) -> Result<(), Refusal> {
-    let tree = Tree::grow(robot, 0).ok_or_else(|| Refusal::Unsound(Unsound::Loose(loose(robot))))?;
+/// Checks that all bonds meet, and that no two modules overlap.
+///
+/// # Errors
+/// [`Refusal::InvalidStart`] or [`Refusal::OpenLoop`].
+pub(super) fn check(robot: &Robot) -> Result<(), Refusal> {
+    let tree = Tree::grow(robot, 0)
+        .ok_or_else(|| Refusal::InvalidStart(InvalidStart::Disconnected(loose(robot))))?;
     let mut poses = Vec::new();
     tree.poses(&robot.joints, &mut poses);
     for &bond in &tree.closing {
-        let missing = tree.missing(robot, bond, &poses);
-        if missing > OPEN_MAX {
-            return Err(Refusal::Open { bond, missing });
+        let residual = tree.residual(robot, bond, &poses);
+        if residual > TOL_CLOSURE {
+            return Err(Refusal::OpenLoop { bond, residual });
         }
     }
     match overlap(robot, &tree, &poses) {
-        Some(overlap) => Err(Refusal::Unsound(overlap)),
+        Some(overlap) => Err(Refusal::InvalidStart(overlap)),
         None => Ok(()),
     }
 }
 
-/// Lets go the bonds that can't hold; gives their numbers. Of two bonds that contradict each other the
+/// Opens the bonds that do not meet, and returns their indices. Of two bonds that contradict each other the
 /// first counts, unless only the other leaves no overlap.
-pub fn mend(robot: &mut Robot) -> Result<Vec<usize>, Unsound> {
+///
+/// # Errors
+/// [`InvalidStart`]: the robot is not connected, or modules overlap whichever bonds are opened.
+pub fn repair(robot: &mut Robot) -> Result<Vec<usize>, InvalidStart> {
     let first = Choice::without(robot, &[])?;
     // Bonds for which the open ones could stand in.
     let twins: Vec<usize> = first.open.iter().filter_map(|&bond| twin(robot, bond)).collect();
@@ -60,7 +58,7 @@ pub fn mend(robot: &mut Robot) -> Result<Vec<usize>, Unsound> {
     }
 }
 
-/// Contradictions of which all combinations are tried.
+/// Greatest number of contradictions of which all combinations are tried: 1,024 forward kinematics.
 const TWINS_MAX: usize = 10;
 
 /// Another bond between the same two modules.
@@ -72,41 +70,43 @@ fn twin(robot: &Robot, bond: usize) -> Option<usize> {
     robot.held().map(|(other, _)| other).find(|&other| other != bond && modules(other) == modules(bond))
 }
 
-/// What follows if some bonds do not count.
+/// The configuration without some bonds.
 #[derive(Clone)]
 struct Choice {
-    /// Those, and the others that do not meet then.
+    /// Those bonds, and the others that do not meet then.
     open: Vec<usize>,
-    overlap: Option<Unsound>,
+    overlap: Option<InvalidStart>,
 }
 
 impl Choice {
-    fn without(robot: &Robot, avoided: &[usize]) -> Result<Choice, Unsound> {
+    fn without(robot: &Robot, avoided: &[usize]) -> Result<Choice, InvalidStart> {
         let mut tried = robot.clone();
         avoided.iter().for_each(|&bond| tried.undock(bond));
-        let tree = Tree::grow(&tried, 0).ok_or_else(|| Unsound::Loose(loose(&tried)))?;
+        let tree = Tree::grow(&tried, 0).ok_or_else(|| InvalidStart::Disconnected(loose(&tried)))?;
         let mut poses = Vec::new();
         tree.poses(&tried.joints, &mut poses);
         let mut open = avoided.to_vec();
-        open.extend(tree.closing.iter().filter(|&&bond| tree.missing(&tried, bond, &poses) > OPEN_MAX));
+        open.extend(tree.closing.iter().filter(|&&bond| tree.residual(&tried, bond, &poses) > TOL_CLOSURE));
         open.sort_unstable();
         Ok(Choice { open, overlap: overlap(&tried, &tree, &poses) })
     }
 }
 
-fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<Unsound> {
-    let docked = near::docked(robot, tree);
+/// The first overlap of two modules that is found.
+fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<InvalidStart> {
+    let docked = broad_phase::docked(robot, tree);
     let mut found = None;
-    near::pairs(poses, APART, &mut |a, b, squared| {
-        if found.is_none() && !near::touch_always(tree, a, b, &docked) {
+    broad_phase::pairs(poses, MIN_DISTANCE, &mut |a, b, squared| {
+        if found.is_none() && !broad_phase::always_touch(tree, a, b, &docked) {
             let (a, b) = (tree.shoe[a] / 2, tree.shoe[b] / 2);
-            found = Some(Unsound::Overlap(a.min(b), a.max(b), libm::sqrt(squared)));
+            found =
+                Some(InvalidStart::Overlap { modules: [a.min(b), a.max(b)], distance: libm::sqrt(squared) });
         }
     });
     found
 }
 
-/// A module that does not hang together with the first.
+/// A module that is not connected to the first.
 fn loose(robot: &Robot) -> usize {
     let mut reached = vec![false; robot.modules()];
     let mut open = vec![0];

@@ -1,27 +1,30 @@
-//! Symmetric positive definite systems of equations, by Cholesky's decomposition.
+//! Symmetric positive definite systems of linear equations, by Cholesky decomposition.
 
-/// The lower half of a symmetric matrix.
-pub struct Square {
+/// A symmetric positive definite matrix, of which the lower half is kept, row by row.
+pub(super) struct NormalMatrix {
     size: usize,
     cells: Vec<f64>,
 }
 
-impl Square {
-    pub fn zeros(size: usize) -> Square {
-        Square { size, cells: vec![0.0; size * size] }
+impl NormalMatrix {
+    /// Returns the zero matrix of a size.
+    pub(super) fn zeros(size: usize) -> NormalMatrix {
+        NormalMatrix { size, cells: vec![0.0; size * size] }
     }
 
-    /// Adds to a cell with `row >= column`.
-    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+    /// Adds to an entry with `row >= column`.
+    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
         self.cells[row * self.size + column] += value;
     }
 
-    pub fn trace(&self) -> f64 {
+    /// Returns the trace.
+    pub(super) fn trace(&self) -> f64 {
         (0..self.size).map(|i| self.cells[i * self.size + i]).sum()
     }
 
-    /// Replaces the right side by the solution. A pivot that rounding has made too small is enlarged.
-    pub fn solve(mut self, right: &mut [f64]) {
+    /// Replaces the right side by the solution. A pivot that rounding made smaller than [`PIVOT_MIN`] is raised
+    /// to it.
+    pub(super) fn solve(mut self, right: &mut [f64]) {
         let n = self.size;
         for i in 0..n {
             for j in 0..=i {
@@ -50,4 +53,5 @@ impl Square {
     }
 }
 
+/// Smallest pivot. The matrices here have diagonals of about 1, and are damped by more than this.
 const PIVOT_MIN: f64 = 1e-12;

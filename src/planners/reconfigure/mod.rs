@@ -1,0 +1,287 @@
+//! `reconfigure`: from one configuration of RoFI modules to another of as many, by way of the snake. Both
+//! are unwound by [`tosnake`], and the second plan is run backwards.
+//!
+//! With gravity one module is held fast all the time. Then the second robot has to be held by a shoe that
+//! ends at the same place of the snake as the shoe by which the first is held.
+
+use crate::plan::{
+    self, Cause, Change, OperationError, Plan, Provenance, Verdict, World, WorldFrom, joined, reversed,
+};
+use crate::planners::tosnake::gravity::GravityModel;
+use crate::planners::tosnake::search::StepSequence;
+use crate::planners::tosnake::{self, SearchCache};
+use crate::planners::{Progress, Solution};
+use crate::robot::{Assembly, State};
+use std::error::Error;
+use std::fmt;
+
+/// A robot in a state.
+#[derive(Clone, Copy, Debug)]
+pub struct Configuration<'a> {
+    /// An assembly of RoFI modules of one pitch.
+    pub robot: &'a Assembly,
+    /// Joint positions (rad), closed bonds, pose of the base in the world frame.
+    pub state: &'a State,
+}
+
+impl<'a> Configuration<'a> {
+    fn unwinding(&self, world: World) -> tosnake::Problem<'a> {
+        tosnake::Problem { robot: self.robot, start: self.state, world }
+    }
+}
+
+/// The start and the goal of a reconfiguration.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// The start.
+    pub from: Configuration<'a>,
+    /// The goal, of as many modules as the start. Its modules have no identity: any of the start's may
+    /// come to the place of any of the goal's.
+    pub to: Configuration<'a>,
+    /// The world; see [`tosnake::Problem::world`].
+    pub world: World,
+}
+
+/// Settings of both searches and of the judge.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Settings {
+    /// Settings of either search.
+    pub search: tosnake::Settings,
+    /// Settings of the judge, which chooses among the shoes that may hold the goal under gravity.
+    pub judge: plan::Settings,
+}
+
+/// Figures of a reconfiguration.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Figures of both halves together.
+    pub both: tosnake::Report,
+    /// Changes of the whole plan in order, for its provenance: names of modules of the goal that the start
+    /// has otherwise, and a program that was dropped.
+    pub history: Vec<Change>,
+    /// With gravity, the judge's verdict on the plan; `None` without gravity, where any goal will do and
+    /// the plan is not judged here.
+    pub verdict: Option<Verdict>,
+}
+
+/// Why there is no plan.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// The start and the goal have different numbers of modules.
+    ModuleCount {
+        /// Modules of the start.
+        from: usize,
+        /// Modules of the goal.
+        to: usize,
+    },
+    /// The start can't be unwound.
+    From(tosnake::Refusal),
+    /// The goal can't be unwound.
+    To(tosnake::Refusal),
+    /// Both unwind to a snake, but not to the same one.
+    DifferentSnakes(OperationError),
+    /// With gravity: of so many ways to unwind the goal, none is held at the place of the start's snake
+    /// and passes the judge.
+    NotHeldAlike {
+        /// Ways to unwind the goal that were found.
+        unwound: usize,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::ModuleCount { from, to } => {
+                write!(f, "a robot of {from} modules can't become one of {to}")
+            }
+            Refusal::From(refusal) => write!(f, "the start can't be unwound: {refusal}"),
+            Refusal::To(refusal) => write!(f, "the goal can't be unwound: {refusal}"),
+            Refusal::DifferentSnakes(error) => {
+                write!(f, "both unwind to a snake, but not to the same one: {error}")
+            }
+            Refusal::NotHeldAlike { unwound } => write!(
+                f,
+                "no way under gravity: of {unwound} ways in which the second robot unwinds, none is held where the \
+                 first one's snake is"
+            ),
+        }
+    }
+}
+
+impl Error for Refusal {}
+
+/// Plans the motion from one configuration of RoFI modules to another.
+///
+/// In the solution, cause 0 is that of the first half and cause 1 that of the second. The goal is reached
+/// with the start's modules in its places.
+///
+/// # Errors
+/// [`Refusal`]: either configuration can't be unwound, or the two halves do not fit.
+///
+/// # Examples
+/// ```
+/// use modl::plan::World;
+/// use modl::planners::{NoProgress, reconfigure};
+/// use modl::robot::{rofi, rofi_assembly};
+///
+/// let read = |file| rofi_assembly::assembly(&rofi::read(file).expect("it is a configuration"), 0.1);
+/// let (cross, cross_state) = read("C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nE 0 A +X N -Z A 1\nE 0 A -X N -Z A 2\n");
+/// let (hook, hook_state) = read("C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nE 0 B -Z N -Z A 1\nE 1 B +X N -Z A 2\n");
+///
+/// let problem = reconfigure::Problem {
+///     from: reconfigure::Configuration { robot: &cross, state: &cross_state },
+///     to: reconfigure::Configuration { robot: &hook, state: &hook_state },
+///     world: World::FREE,
+/// };
+/// let solution = reconfigure::plan(&problem, &reconfigure::Settings::default(), &mut NoProgress)?;
+/// // Two merges to the snake, and one merge backwards to the hook.
+/// assert_eq!((solution.report.both.docks, solution.report.both.undocks), (3, 3));
+/// # Ok::<(), reconfigure::Refusal>(())
+/// ```
+pub fn plan(
+    problem: &Problem,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
+}
+
+/// Plans as [`plan()`] does, and takes the steps of either half from a cache if they were found before.
+///
+/// # Errors
+/// As [`plan()`].
+pub fn plan_with_cache(
+    problem: &Problem,
+    settings: &Settings,
+    cache: &mut SearchCache,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    let (from, to) = (problem.from.robot.modules.len(), problem.to.robot.modules.len());
+    if from != to {
+        return Err(Refusal::ModuleCount { from, to });
+    }
+    let (first, second) = (problem.from.unwinding(problem.world), problem.to.unwinding(problem.world));
+    let first = tosnake::Task::new(&first, &settings.search).map_err(Refusal::From)?;
+    let second = tosnake::Task::new(&second, &settings.search).map_err(Refusal::To)?;
+    let mut search = Search { problem, settings, cache, progress };
+    // The first half.
+    let found = search.unwind(&first).map_err(Refusal::From)?;
+    let there = search.half(&first, &found).map_err(Refusal::From)?;
+    // The second half, backwards.
+    if let Some(gravity) = &first.gravity {
+        return search.held((&there, &found, gravity), second);
+    }
+    let found = search.unwind(&second).map_err(Refusal::To)?;
+    let back = search.half(&second, &found).map_err(Refusal::To)?;
+    Ok(solution(whole(&there, &back)?, &there, &back, None))
+}
+
+/// What both halves share.
+struct Search<'s> {
+    problem: &'s Problem<'s>,
+    settings: &'s Settings,
+    cache: &'s mut SearchCache,
+    progress: &'s mut dyn Progress,
+}
+
+/// One half: the plan to the snake, with its figures.
+struct Half {
+    plan: Plan,
+    report: tosnake::Report,
+}
+
+impl Search<'_> {
+    fn unwind(&mut self, task: &tosnake::Task) -> Result<std::rc::Rc<StepSequence>, tosnake::Refusal> {
+        task.search(&self.settings.search, self.cache, self.progress)
+    }
+
+    /// The plan of a step sequence, with one cause that stands for the call.
+    fn half(&self, task: &tosnake::Task, found: &StepSequence) -> Result<Half, tosnake::Refusal> {
+        let Solution { body, program, report } = task.solution(found)?;
+        let robot = body.tracks().expect("RoFI modules move by joints").robot.library.clone();
+        let cause = Cause {
+            file: String::new(),
+            line: 0,
+            column: 0,
+            text: String::new(),
+            instance: String::new(),
+            caller: None,
+        };
+        let plan = Plan {
+            provenance: Provenance::default(),
+            worlds: vec![WorldFrom { from: 0.0, world: self.problem.world }],
+            settings: self.settings.judge,
+            library: robot,
+            body,
+            program,
+            nominal: false,
+            causes: vec![cause],
+            exemptions: Vec::new(),
+            verdict: None,
+        };
+        Ok(Half { plan, report })
+    }
+
+    /// Both halves with gravity. The goal is unwound held by each of its shoes in turn, with loops opened
+    /// near each of its modules, until one is held where the first half's snake is: the place of a shoe in
+    /// the snake is known only once the goal is unwound.
+    fn held(
+        &mut self,
+        (there, first, gravity): (&Half, &StepSequence, &GravityModel),
+        second: tosnake::Task,
+    ) -> Result<Solution<Report>, Refusal> {
+        let place = first.robot.beyond(gravity.held);
+        let own = second.gravity.clone().expect("both robots have a gravity model");
+        let (shoes, modules) = (own.shoes.len(), own.limits.len());
+        let (mut work, mut unwound, mut last_refusal) = (first.status.work, 0, None);
+        // Loops are opened far from the shoe that is held at first.
+        let choices = (0..modules).flat_map(|turn| (0..shoes).map(move |held| (held, held / 2 + turn)));
+        for (held, root) in choices {
+            let gravity = GravityModel { held, root: root % modules, ..own.clone() };
+            let task = second.with_gravity(gravity);
+            match self.unwind(&task) {
+                Err(refusal @ tosnake::Refusal::Stopped(_)) => return Err(Refusal::To(refusal)),
+                Err(refusal) => last_refusal = Some(refusal),
+                Ok(found) => {
+                    (work, unwound) = (work + found.status.work, unwound + 1);
+                    if found.robot.beyond(held) == place {
+                        let back = self.half(&task, &found).map_err(Refusal::To)?;
+                        let plan = whole(there, &back)?;
+                        let name = &self.problem.from.robot.name;
+                        self.progress.task_started(&|| format!("verifying {name}"));
+                        let verdict = plan::verify::verify(&plan);
+                        if verdict.ok() {
+                            return Ok(solution(plan, there, &back, Some(verdict)));
+                        }
+                    }
+                }
+            }
+            if work > self.settings.search.budget {
+                break;
+            }
+        }
+        Err(match last_refusal.filter(|_| unwound == 0) {
+            Some(refusal) => Refusal::To(refusal),
+            None => Refusal::NotHeldAlike { unwound },
+        })
+    }
+}
+
+/// The first half, and then the second half backwards.
+fn whole(there: &Half, back: &Half) -> Result<Plan, Refusal> {
+    joined(&there.plan, &reversed(&back.plan)).map_err(Refusal::DifferentSnakes)
+}
+
+fn solution(plan: Plan, there: &Half, back: &Half, verdict: Option<Verdict>) -> Solution<Report> {
+    let (there, back) = (&there.report, &back.report);
+    let both = tosnake::Report {
+        docks: there.docks + back.undocks,
+        undocks: there.undocks + back.docks,
+        joint_travel: there.joint_travel + back.joint_travel,
+        tried: there.tried + back.tried,
+        work: there.work + back.work,
+        actions: there.actions + back.actions,
+    };
+    let report = Report { both, history: plan.provenance.history, verdict };
+    Solution { body: plan.body, program: plan.program, report }
+}

@@ -1,0 +1,185 @@
+//! The entry of the planner: from an assembly of RoFI modules to a scheduled motion.
+
+use super::cache::{SearchCache, SearchKey};
+use super::conversion::{Translated, translated};
+use super::gravity::GravityModel;
+use super::mass_model::gravity_model;
+use super::refusal::Refusal;
+use super::robot::Robot;
+use super::search::{self, StepSequence};
+use super::settings::{Collisions, Settings};
+use super::state::Step;
+use crate::behavior;
+use crate::plan::{Body, CauseId, World};
+use crate::planners::{Progress, Solution};
+use crate::robot::{Assembly, State};
+use std::rc::Rc;
+
+/// A robot that is to be unwound.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// An assembly of RoFI modules of one pitch.
+    pub robot: &'a Assembly,
+    /// Its start: joint positions (rad), closed bonds, pose of the base in the world frame.
+    pub start: &'a State,
+    /// The world. With gravity the base module is held fast, and no joint exceeds its torque limit;
+    /// without gravity the robot floats.
+    pub world: World,
+}
+
+/// Figures of a plan to the snake and of the search for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Docking actions.
+    pub docks: usize,
+    /// Undocking actions.
+    pub undocks: usize,
+    /// Joint travel: the sum of the angles by which all joints turn, rad.
+    pub joint_travel: f64,
+    /// Pairs of ends that were tried.
+    pub tried: u64,
+    /// Forward kinematics of the whole robot that were evaluated.
+    pub work: u64,
+    /// Actions of the program.
+    pub actions: u64,
+}
+
+/// Plans the motion from a configuration of RoFI modules to a snake: one straight chain of all modules,
+/// dock -Z on dock -Z.
+///
+/// All causes of the solution are cause 0; its program is a series of steps, in each of which all joints
+/// move at once. The robot never falls apart and its modules never overlap, provided that
+/// [`Settings::collisions`] is [`Collisions::Motion`]; the judge has to confirm it.
+///
+/// # Errors
+/// [`Refusal`]: the assembly is none of RoFI modules, the start is invalid, torque limits or the budget do
+/// not suffice, or `progress` ended the search.
+///
+/// # Examples
+/// ```
+/// use modl::plan::World;
+/// use modl::planners::{NoProgress, tosnake};
+/// use modl::robot::{rofi, rofi_assembly};
+///
+/// // A module with another one on either side of its shoe A.
+/// let file = "C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nE 0 A +X N -Z A 1\nE 0 A -X N -Z A 2\n";
+/// let world = rofi::read(file).expect("the text is a configuration");
+/// let (robot, start) = rofi_assembly::assembly(&world, 0.1);
+///
+/// let problem = tosnake::Problem { robot: &robot, start: &start, world: World::FREE };
+/// let solution = tosnake::plan(&problem, &tosnake::Settings::default(), &mut NoProgress)?;
+/// assert_eq!((solution.report.docks, solution.report.undocks), (2, 2));
+/// assert!(solution.body.duration() > 0.0);
+/// # Ok::<(), tosnake::Refusal>(())
+/// ```
+pub fn plan(
+    problem: &Problem,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
+}
+
+/// Plans as [`plan`] does, and takes the steps from a cache if the same robot was unwound before with the
+/// same seed, budget, collision checks and gravity.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_with_cache(
+    problem: &Problem,
+    settings: &Settings,
+    cache: &mut SearchCache,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    let task = Task::new(problem, settings)?;
+    let found = task.search(settings, cache, progress)?;
+    task.solution(&found)
+}
+
+/// A problem in the planner's own terms.
+#[derive(Clone)]
+pub(crate) struct Task<'a> {
+    problem: Problem<'a>,
+    translated: Rc<Translated<'a>>,
+    /// The gravity model of a robot that is held fast; `None` if it floats.
+    pub(crate) gravity: Option<GravityModel>,
+}
+
+impl<'a> Task<'a> {
+    pub(crate) fn new(problem: &Problem<'a>, settings: &Settings) -> Result<Task<'a>, Refusal> {
+        let Problem { robot, start, world } = *problem;
+        let translated = translated(robot, start).map_err(Refusal::NotRofi)?;
+        let mut gravity = None;
+        if world.gravity > 0.0 {
+            if settings.collisions != Collisions::Motion {
+                return Err(Refusal::GravityUnsupported);
+            }
+            gravity = Some(gravity_model(robot, &start.base, world.gravity).map_err(Refusal::NotRofi)?);
+        }
+        Ok(Task { problem: *problem, translated: Rc::new(translated), gravity })
+    }
+
+    /// Returns the same task with another gravity model.
+    pub(crate) fn with_gravity(&self, gravity: GravityModel) -> Task<'a> {
+        Task { gravity: Some(gravity), ..self.clone() }
+    }
+
+    fn start(&self) -> &Robot {
+        &self.translated.robot
+    }
+
+    /// Searches for the steps to the snake, unless the cache has them.
+    pub(crate) fn search(
+        &self,
+        settings: &Settings,
+        cache: &mut SearchCache,
+        progress: &mut dyn Progress,
+    ) -> Result<Rc<StepSequence>, Refusal> {
+        let (robot, gravity) = (self.start().clone(), self.gravity.clone());
+        let Settings { seed, budget, collisions, .. } = *settings;
+        let key = SearchKey { robot, seed, budget, collisions, gravity };
+        if let Some(found) = cache.get(&key) {
+            return Ok(found);
+        }
+        progress.task_started(&|| format!("unwinding {}", self.problem.robot.name));
+        let found = Rc::new(search::unwind(self.start(), self.gravity.as_ref(), settings, progress)?);
+        cache.insert(key, found.clone());
+        Ok(found)
+    }
+
+    /// Schedules a step sequence as a motion.
+    pub(crate) fn solution(&self, found: &StepSequence) -> Result<Solution<Report>, Refusal> {
+        let Problem { robot, start, .. } = self.problem;
+        let scheduled = behavior::schedule(behavior::Problem {
+            robot: robot.clone(),
+            start: start.clone(),
+            program: self.translated.program(&found.steps, &found.robot.bonds, CauseId(0)),
+            start_causes: Vec::new(),
+            bond_causes: (0..robot.bonds.len()).map(|bond| (bond, CauseId(0))).collect(),
+            settings: behavior::Settings::default(),
+        })
+        .map_err(Refusal::Schedule)?;
+        assert!(scheduled.exemptions.is_empty() && !scheduled.nominal, "steps have neither");
+        let report = Report { actions: scheduled.actions, ..report(self.start(), found) };
+        Ok(Solution { body: Body::Tracks(scheduled.tracks), program: Some(scheduled.program), report })
+    }
+}
+
+/// The figures of a step sequence, without the number of actions.
+fn report(start: &Robot, found: &StepSequence) -> Report {
+    let mut report = Report { tried: found.status.tried, work: found.status.work, ..Report::default() };
+    let mut joints = start.joints.clone();
+    for step in &found.steps {
+        match step {
+            Step::Dock(_) => report.docks += 1,
+            Step::Undock(_) => report.undocks += 1,
+            Step::Turn(turns) => {
+                for &(module, joint, to) in turns {
+                    report.joint_travel += (to - joints[module][joint]).abs();
+                    joints[module][joint] = to;
+                }
+            }
+        }
+    }
+    report
+}

@@ -1,0 +1,74 @@
+//! Static joint torques of a robot of which one shoe is held fast: each joint bears the weight of all that
+//! hangs on it, at rest. Forces in N, torques in N times the pitch.
+
+use super::tree::{JointRef, Tree};
+use crate::geometry::{RigidTransform, Vec3};
+
+/// A gravity model: how the robot is held, its weights, and the torque limits of its joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GravityModel {
+    /// The shoe that is held fast: twice the module, plus one for shoe B.
+    pub held: usize,
+    /// The module near which loops stay closed: they are opened far from it.
+    pub root: usize,
+    /// Unit vector of gravity in the frame of the shoe that is held.
+    pub down: Vec3,
+    /// By shoe: the weight at its centre, N.
+    pub shoes: Vec<f64>,
+    /// By module: torque limits of alpha, beta and gamma in N times the pitch; infinite if none is stated.
+    pub limits: Vec<[f64; 3]>,
+}
+
+/// The load of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLoad {
+    /// The module.
+    pub module: usize,
+    /// [`ALPHA`](super::robot::ALPHA), [`BETA`](super::robot::BETA) or [`GAMMA`](super::robot::GAMMA).
+    pub joint: usize,
+    /// Torque divided by the torque limit; 0 without a limit. Above 1 the joint is overloaded.
+    pub ratio: f64,
+}
+
+impl JointLoad {
+    const NONE: JointLoad = JointLoad { module: 0, joint: 0, ratio: 0.0 };
+
+    /// Returns the greater of two loads; of equal ones `self`.
+    pub fn greater(self, other: JointLoad) -> JointLoad {
+        if other.ratio > self.ratio { other } else { self }
+    }
+}
+
+impl GravityModel {
+    /// Returns the greatest load. Bonds that close loops are taken to carry nothing.
+    pub fn greatest(&self, tree: &Tree, poses: &[RigidTransform]) -> JointLoad {
+        self.loads(tree, poses).into_iter().fold(JointLoad::NONE, JointLoad::greater)
+    }
+
+    /// Returns the loads of all joints: the torque of a joint is `axis · ((m - w · point) × down)`, with the
+    /// weight w and its first moment m of all that the joint carries. Both are differences of prefix sums, for
+    /// subtrees are ranges of indices.
+    pub fn loads(&self, tree: &Tree, poses: &[RigidTransform]) -> Vec<JointLoad> {
+        let held = tree.index[self.held];
+        let down = poses[held].rotation * self.down;
+        let (mut weight, mut moment) = (vec![0.0], vec![Vec3::zeros()]);
+        for (index, pose) in poses.iter().enumerate() {
+            let own = self.shoes[tree.shoe[index]];
+            weight.push(weight[index] + own);
+            moment.push(moment[index] + pose.translation * own);
+        }
+        let load = |joint: JointRef| {
+            let (start, end) = (joint.child, tree.end[joint.child]);
+            let (mut w, mut m) = (weight[end] - weight[start], moment[end] - moment[start]);
+            if tree.is_in_subtree(held, start) {
+                // The subtree is held, and carries the rest.
+                (w, m) = (weight[poses.len()] - w, moment[poses.len()] - m);
+            }
+            let (axis, point) = tree.axis(joint, poses);
+            let torque = axis.dot(&(m - point * w).cross(&down));
+            let ratio = torque.abs() / self.limits[joint.module][joint.joint];
+            JointLoad { module: joint.module, joint: joint.joint, ratio }
+        };
+        tree.all_joints().into_iter().map(load).collect()
+    }
+}

@@ -1,0 +1,94 @@
+//! A neighbour list (Verlet list) for inverse kinematics: pairs of balls that are near each other, followed
+//! from iteration to iteration and found anew only when balls have gone far enough for that to matter.
+
+use super::broad_phase;
+use super::motion_check::Scene;
+use crate::geometry::{RigidTransform, Vec3};
+
+/// Two balls that are near each other.
+pub struct Neighbours {
+    /// Index of the one ball, the smaller.
+    pub a: usize,
+    /// Index of the other.
+    pub b: usize,
+    /// Distance of their centres, in pitches.
+    pub distance: f64,
+    /// Unit vector from a to b.
+    pub normal: Vec3,
+}
+
+/// Displacement of a ball in one iteration, in pitches, beyond which a list with a skin would not last until
+/// the next one.
+const LASTING_STEP_MAX: f64 = 0.2;
+/// Skin of a list that is to last, in pitches: five such steps, of which two balls take two.
+const SKIN: f64 = 1.0;
+
+/// A list of pairs of balls, kept from one call to the next.
+pub struct NeighbourList<'a> {
+    scene: &'a Scene<'a>,
+    /// Two indices whose balls come as near as their docks ask, and are left out.
+    meeting: (usize, usize),
+    /// By index: balls of one number do not move against each other, and are left out.
+    parts: Vec<usize>,
+    list: Vec<(u32, u32)>,
+    /// The distance within which the list held all pairs when it was made.
+    reach: f64,
+    /// Centres of balls when the list was made.
+    listed: Vec<Vec3>,
+    /// Centres of balls at the last call.
+    before: Vec<Vec3>,
+}
+
+impl<'a> NeighbourList<'a> {
+    /// Returns an empty list. `meeting` are the indices of two shoes whose docks are to meet; `parts` are the
+    /// rigid parts, see [`Tree::parts`](super::tree::Tree::parts).
+    pub fn new(scene: &'a Scene<'a>, meeting: (usize, usize), parts: Vec<usize>) -> NeighbourList<'a> {
+        let (list, listed, before) = (Vec::new(), Vec::new(), Vec::new());
+        NeighbourList { scene, meeting, parts, list, reach: 0.0, listed, before }
+    }
+
+    /// Returns all pairs whose centres are nearer than `reach` (pitches).
+    pub fn within(&mut self, reach: f64, poses: &[RigidTransform]) -> Vec<Neighbours> {
+        let displacement = |from: &[Vec3]| {
+            let squared = |(pose, from): (&RigidTransform, &Vec3)| (pose.translation - from).norm_squared();
+            libm::sqrt(poses.iter().zip(from).map(squared).fold(0.0, f64::max))
+        };
+        // Two balls may have come nearer by twice the greatest displacement.
+        if self.listed.is_empty() || self.reach - 2.0 * displacement(&self.listed) < reach {
+            let lasts = !self.before.is_empty() && displacement(&self.before) < LASTING_STEP_MAX;
+            self.reach = reach + if lasts { SKIN } else { 0.0 };
+            self.renew(poses);
+        }
+        self.before.clear();
+        self.before.extend(poses.iter().map(|pose| pose.translation));
+        let mut all = Vec::new();
+        for &(a, b) in &self.list {
+            let (a, b) = (a as usize, b as usize);
+            let apart = poses[b].translation - poses[a].translation;
+            let squared = apart.norm_squared();
+            if squared < reach * reach {
+                let distance = libm::sqrt(squared);
+                // Balls in one place are driven apart along an arbitrary axis.
+                let normal = if distance > COINCIDENT { apart / distance } else { Vec3::x() };
+                all.push(Neighbours { a, b, distance, normal });
+            }
+        }
+        all
+    }
+
+    fn renew(&mut self, poses: &[RigidTransform]) {
+        let NeighbourList { scene, meeting, parts, list, reach, listed, .. } = self;
+        list.clear();
+        broad_phase::pairs(poses, *reach, &mut |a, b, _| {
+            let meet = (a, b) == *meeting || (b, a) == *meeting;
+            if !meet && scene.may_meet(parts, a, b) {
+                list.push((a as u32, b as u32));
+            }
+        });
+        listed.clear();
+        listed.extend(poses.iter().map(|pose| pose.translation));
+    }
+}
+
+/// Distance of two centres, in pitches, below which they have no normal.
+const COINCIDENT: f64 = 1e-6;

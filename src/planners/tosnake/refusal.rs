@@ -1,0 +1,141 @@
+//! The reasons for which there is no plan.
+
+use super::gravity::JointLoad;
+use super::robot::Dock;
+use super::status::SearchStatus;
+use crate::behavior;
+use std::error::Error;
+use std::fmt;
+
+/// Why there is no plan to the snake. Modules and bonds are named by their indices in the assembly.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// The assembly is none of RoFI modules.
+    NotRofi(NotRofi),
+    /// The start is no valid configuration.
+    InvalidStart(InvalidStart),
+    /// The docks of a bond that closes a loop do not meet.
+    OpenLoop {
+        /// The bond.
+        bond: usize,
+        /// Greatest deviation: of positions in pitches, of entries of the rotation matrix without unit.
+        residual: f64,
+    },
+    /// The paper's method, chosen by [`Collisions`](super::Collisions), does not know gravity.
+    GravityUnsupported,
+    /// The budget of forward kinematics is spent.
+    BudgetSpent(SearchStatus),
+    /// The observer ended the search.
+    Stopped(SearchStatus),
+    /// The paper's method tried all pairs in every order that it came to.
+    Exhausted(SearchStatus),
+    /// There are no two free ends of different chains.
+    NoFreeTips(SearchStatus),
+    /// Joints would have to hold more than their torque limits.
+    Overload(Overload),
+    /// The steps can't be scheduled.
+    Schedule(behavior::Refusal),
+}
+
+/// Why an assembly is no robot of RoFI modules.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotRofi {
+    /// This module has other joints or ports.
+    Kind(usize),
+    /// This module has another pitch than the first.
+    Pitch(usize),
+}
+
+/// Why a configuration is no valid start.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InvalidStart {
+    /// This module is not connected to the first.
+    Disconnected(usize),
+    /// Two modules overlap.
+    Overlap {
+        /// The two modules, the smaller index first.
+        modules: [usize; 2],
+        /// Distance of the centres of two of their balls, in pitches; below 1.
+        distance: f64,
+    },
+}
+
+/// The smallest overload of all that was tried and came as far as any.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overload {
+    /// The joint, and its torque by its limit.
+    pub load: JointLoad,
+    /// What the robot was to do.
+    pub operation: Operation,
+    /// How far the search was.
+    pub status: SearchStatus,
+}
+
+/// What a robot that is held by one module was to do when a joint would have been overloaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// Holding the start configuration.
+    Standing,
+    /// Letting go the bonds that close loops.
+    OpeningLoops,
+    /// Bringing these docks together, and letting go the bond that the new one replaces.
+    Joining(Dock, Dock),
+    /// Straightening the snake.
+    Straightening,
+    /// Holding the straight snake.
+    HoldingSnake,
+}
+
+impl fmt::Display for NotRofi {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NotRofi::Kind(module) => write!(f, "module {module} is no RoFI module"),
+            NotRofi::Pitch(module) => write!(f, "module {module} has another pitch than module 0"),
+        }
+    }
+}
+
+impl fmt::Display for InvalidStart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InvalidStart::Disconnected(module) => write!(f, "module {module} is not connected to module 0"),
+            InvalidStart::Overlap { modules: [a, b], distance } => {
+                write!(f, "modules {a} and {b} overlap: their balls are {distance:.4} pitches apart")
+            }
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let reached = |f: &mut fmt::Formatter<'_>, what: &str, status: &SearchStatus| {
+            let SearchStatus { needed, made, tried, .. } = status;
+            write!(f, "{what}: {made} of {needed} connections were made, and {tried} pairs of ends tried")
+        };
+        match self {
+            Refusal::NotRofi(no) => no.fmt(f),
+            Refusal::InvalidStart(invalid) => invalid.fmt(f),
+            Refusal::OpenLoop { bond, residual } => {
+                write!(f, "the docks of bond {bond} do not meet: {residual:.3} of a pitch is missing")
+            }
+            Refusal::GravityUnsupported => write!(f, "the paper's own method does not know gravity"),
+            Refusal::BudgetSpent(status) => reached(f, "no way to the snake within the budget", status),
+            Refusal::Stopped(status) => reached(f, "the search was ended", status),
+            Refusal::Exhausted(status) => {
+                reached(f, "no order of pairs of tentacles leads to the snake", status)
+            }
+            Refusal::NoFreeTips(status) => reached(f, "no two tentacles have a free tip", status),
+            Refusal::Overload(Overload { load, operation, status }) => {
+                let JointLoad { module, joint, ratio } = load;
+                let what = format!(
+                    "joint {joint} of module {module} would have to hold {ratio:.3} of its torque limit \
+                     ({operation:?})"
+                );
+                reached(f, &what, status)
+            }
+            Refusal::Schedule(refusal) => write!(f, "the steps can't be scheduled: {}", refusal.reason),
+        }
+    }
+}
+
+impl Error for Refusal {}

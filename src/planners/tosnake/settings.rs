@@ -1,0 +1,78 @@
+//! Settings of the search, each with its unit, its default and the reason for the default.
+
+use super::fabrik;
+use super::inverse_kinematics;
+
+/// Settings of the whole search. Every value is valid; the defaults are those of the language.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// Seed of all random numbers; the same seed gives the same plan. Default 0.
+    pub seed: u64,
+    /// Greatest number of forward kinematics of the whole robot, a measure of work that does not depend
+    /// on the machine. Default [`BUDGET`].
+    pub budget: u64,
+    /// Fraction of its spread (sum of squared distances from the centroid) by which one perturbation may
+    /// contract the robot. Default 0.02: the robot spreads in the long run, and yet gets past bottlenecks.
+    pub perturbation_slack: f64,
+    /// Random turns that one perturbation tries. Default 100, about one for each joint of 33 modules.
+    pub perturbation_turns: usize,
+    /// Greatest number of pairs of ends that are brought together in one step. Default 8; more are hardly
+    /// ever independent of each other.
+    pub concurrent_merges_max: usize,
+    /// Number of pairs, the most promising first, for which RRT-Connect looks for a detour after all other
+    /// attempts of a round failed. Default 10: detours are expensive.
+    pub detour_pairs_max: usize,
+    /// Settings of the inverse kinematics that closes loops.
+    pub inverse_kinematics: inverse_kinematics::Settings,
+    /// Where collisions are checked; everything but the default is the paper's own method.
+    pub collisions: Collisions,
+    /// Settings of FABRIK, the paper's own inverse kinematics.
+    pub fabrik: fabrik::Settings,
+    /// Threads that may work at once; the plan does not depend on their number. Default 1.
+    pub threads: usize,
+}
+
+/// The default of [`Settings::budget`]: one or two minutes of one processor for a hundred modules.
+pub const BUDGET: u64 = 5_000_000;
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            seed: 0,
+            budget: BUDGET,
+            perturbation_slack: 0.02,
+            perturbation_turns: 100,
+            concurrent_merges_max: 8,
+            detour_pairs_max: 10,
+            inverse_kinematics: inverse_kinematics::Settings::default(),
+            collisions: Collisions::Motion,
+            fabrik: fabrik::Settings::default(),
+            threads: 1,
+        }
+    }
+}
+
+/// Where collisions are checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Collisions {
+    /// At all instants of every motion: this planner's own search.
+    Motion,
+    /// Nowhere: the paper's method.
+    None,
+    /// In the states in which tips meet: the paper's method.
+    Detection,
+    /// In the states in which tips meet, and in the inverse kinematics: the paper's method.
+    Avoidance,
+}
+
+impl Collisions {
+    /// Returns the planner's name as the provenance of a plan states it.
+    pub fn planner(self) -> &'static str {
+        match self {
+            Collisions::Motion => "tosnake",
+            Collisions::None => "tosnake, collisions: none",
+            Collisions::Detection => "tosnake, collisions: detection",
+            Collisions::Avoidance => "tosnake, collisions: avoidance",
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! The state of a search in figures, and how it is reported to an observer.
+
+use super::state::State;
+use crate::planners::Progress;
+
+/// Figures of a search that is under way or has ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SearchStatus {
+    /// Merges of chains that lead to a snake: one less than there are chains once all loops are open.
+    pub needed: usize,
+    /// Merges made.
+    pub made: usize,
+    /// Pairs of ends tried.
+    pub tried: u64,
+    /// Forward kinematics of the whole robot that were evaluated.
+    pub work: u64,
+    /// Rounds in which no pair came together, each of which ended with a perturbation.
+    pub perturbations: u64,
+    /// Modules of the longest chain.
+    pub longest: usize,
+    /// Number of chains.
+    pub chains: usize,
+}
+
+impl SearchStatus {
+    /// Updates the number of chains and the length of the longest.
+    pub(super) fn count_chains(&mut self, state: &State) {
+        let mut chains = state.chains();
+        chains.sort_unstable();
+        let lengths = chains.chunk_by(|a, b| a == b).map(<[usize]>::len);
+        (self.chains, self.longest) = lengths.fold((0, 0), |(n, most), l| (n + 1, most.max(l)));
+    }
+}
+
+/// Reports a search to an observer: a new merge as a milestone, anything else on request.
+pub(super) struct Reporter<'a> {
+    progress: &'a mut dyn Progress,
+    made: Option<usize>,
+}
+
+impl<'a> Reporter<'a> {
+    pub(super) fn new(progress: &'a mut dyn Progress) -> Reporter<'a> {
+        Reporter { progress, made: None }
+    }
+
+    /// Reports the status; returns false if the search is to end.
+    pub(super) fn report(&mut self, status: &SearchStatus) -> bool {
+        let SearchStatus { needed, made, tried, .. } = status;
+        let words = || format!("{made} of {needed} connections made, {tried} pairs of ends tried");
+        if self.made.replace(*made) == Some(*made) {
+            self.progress.report(&words);
+        } else {
+            self.progress.milestone(&words);
+        }
+        self.progress.should_continue()
+    }
+}
