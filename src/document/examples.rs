@@ -1,20 +1,21 @@
-//! Programs in the comments of a program: what stands there between ` ```modl ` and ` ``` `.
+//! Examples in documentation comments: programs between ` ```modl ` and ` ``` `.
 
 use crate::source::FileId;
 use crate::syntax::{self, ast};
 
-/// An example, as a text that stands where it does in its file: blanks take the place of the comment's
-/// marks, so that lines and columns are those of the file.
+/// An example as a text with the same lines and columns as in its file: blanks replace the marks of the
+/// comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Example {
+    /// The text of the program.
     pub text: String,
-    /// The line of its first line, from 1.
+    /// The line at which it begins, from 1.
     pub first_line: usize,
-    /// Whether it is only checked: ` ```modl check `.
+    /// True if it is only checked: ` ```modl check `.
     pub only_checked: bool,
 }
 
-/// The examples of a program, in order.
+/// Returns the examples of a program, in order.
 pub(crate) fn examples(text: &str) -> Vec<Example> {
     let parsed = syntax::parse(FileId(0), text);
     let docs = parsed.file.comments.iter().filter(|c| is_doc(c.kind)).map(|c| c.span.start as usize);
@@ -23,7 +24,7 @@ pub(crate) fn examples(text: &str) -> Vec<Example> {
     let mut before = 0;
     for start in docs {
         let line = text[..start].matches('\n').count() + 1;
-        // A fence does not go on behind something else.
+        // A fence ends at anything between its lines.
         open &= line == before + 1;
         before = line;
         let whole = text.lines().nth(line - 1).unwrap_or("");
@@ -33,7 +34,7 @@ pub(crate) fn examples(text: &str) -> Vec<Example> {
             Some(tag) if !open => {
                 let mut words = tag.split_whitespace();
                 if words.next() != Some("modl") {
-                    // Another language, up to its end.
+                    // Another language is skipped to its end.
                     continue;
                 }
                 let only_checked = words.next() == Some("check");
@@ -51,9 +52,10 @@ pub(crate) fn examples(text: &str) -> Vec<Example> {
     found
 }
 
-/// Bytes of `///` and `//!`.
+/// The length of `///` and `//!` in bytes.
 const MARK: usize = 3;
 
+/// Returns whether a comment is documentation.
 fn is_doc(kind: ast::CommentKind) -> bool {
     matches!(kind, ast::CommentKind::ItemDoc | ast::CommentKind::FileDoc)
 }

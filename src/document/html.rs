@@ -4,17 +4,20 @@ use super::outline::{Entry, Page};
 use crate::check::summary::{Group, Inside};
 use std::fmt::Write as _;
 
+/// The style sheet of the site.
 pub(super) const STYLE: &str = include_str!("site.css");
+/// The script of its search.
 pub(super) const SCRIPT: &str = include_str!("search.js");
 
-/// A piece of documentation as HTML.
+/// A function that returns a piece of documentation as HTML.
 pub(super) type Doc<'d> = &'d mut dyn FnMut(&str) -> String;
 
-/// Text that is no markup.
+/// Returns text escaped for HTML.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// Returns a whole page around its body.
 fn frame(title: &str, pages: &[Page], body: &str) -> String {
     let links: String = pages.iter().map(|page| link(&page.file, &page.title)).collect();
     format!(
@@ -34,7 +37,7 @@ fn link(to: &str, words: &str) -> String {
     format!("<li><a href=\"{to}\">{}</a></li>\n", escaped(words))
 }
 
-/// The page of a file.
+/// Returns the page of a file.
 pub(super) fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
     let mut body = format!("<h1>{}</h1>\n", escaped(&page.title));
     if let Some(text) = &page.doc {
@@ -46,6 +49,7 @@ pub(super) fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
     frame(&page.title, pages, &body)
 }
 
+/// Returns the section of a declaration.
 fn section(entry: &Entry, doc: Doc) -> String {
     let mut out = format!(
         "<section id=\"{name}\">\n<h2><a href=\"#{name}\">{name}</a> <small>{}</small></h2>\n\
@@ -82,6 +86,7 @@ fn section(entry: &Entry, doc: Doc) -> String {
     out + "</section>\n"
 }
 
+/// Returns the list of a group of members.
 fn list(entry: &Entry, group: Group, inside: &[&Inside], doc: Doc) -> String {
     let heading = if group == Group::Let { "value" } else { group.word() };
     let mut out = format!("<h3>{heading}s</h3>\n<dl>\n");
@@ -95,7 +100,7 @@ fn list(entry: &Entry, group: Group, inside: &[&Inside], doc: Doc) -> String {
     out + "</dl>\n"
 }
 
-/// Parameters of a long signature each on a line.
+/// Returns a signature, with each parameter on a line if it is long.
 fn wrapped(signature: &str) -> String {
     const WIDTH: usize = 90;
     if signature.len() <= WIDTH {
@@ -120,7 +125,7 @@ fn wrapped(signature: &str) -> String {
     out
 }
 
-/// What there is, page by page.
+/// Returns the front page: all declarations, page by page.
 pub(super) fn index(pages: &[Page]) -> String {
     let mut body = String::from("<h1>Documentation</h1>\n");
     for page in pages {
@@ -144,7 +149,7 @@ pub(super) fn index(pages: &[Page]) -> String {
     frame("Documentation", pages, &body)
 }
 
-/// All configurations, by order, with what they can do.
+/// Returns the guide: all configurations, by order, with their behaviours.
 pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     let mut body = String::from(
         "<h1>Guide to the robots</h1>\n<p>A configuration of order 1 is made of modules; one of order 2, of \
@@ -154,7 +159,7 @@ pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     let mut configs: Vec<(u32, &Page, &Entry)> =
         all.filter_map(|(page, entry)| Some((entry.order?, page, entry))).collect();
     configs.sort_by_key(|(order, _, _)| *order);
-    // What has no instance by itself: nobody knows its order.
+    // A configuration without a default instance has no known order.
     let sized = |(_, entry): &(&Page, &Entry)| entry.word == "config" && entry.order.is_none();
     let all = pages.iter().flat_map(|page| page.entries.iter().map(move |entry| (page, entry)));
     let open = all.filter(sized).map(|(page, entry)| (None, page, entry));
@@ -190,7 +195,7 @@ pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     frame("Guide to the robots", pages, &body)
 }
 
-/// What can be searched for, as a script: name, words, address.
+/// Returns the search index as a script: name, description, address of each declaration.
 pub(super) fn search_index(pages: &[Page]) -> String {
     let mut rows = Vec::new();
     for page in pages {
@@ -207,6 +212,6 @@ pub(super) fn search_index(pages: &[Page]) -> String {
         }
     }
     let json = serde_json::to_string(&rows).expect("texts are plain data");
-    // So that no text ends the script.
+    // No text in it can end the script element.
     format!("const INDEX = {};\n", json.replace('<', "\\u003c"))
 }

@@ -1,17 +1,17 @@
-//! Documentation as HTML: Markdown, in which the name of a declaration in brackets is a link to it.
+//! Markdown to HTML. The name of a declaration in brackets is a link to it.
 
 use pulldown_cmark::{BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag, html};
 
-/// Where names lead.
+/// The targets of links.
 pub(super) trait Targets {
-    /// The address of a declaration, or of a member behind a dot, as seen from the page at hand.
+    /// Returns the address of a declaration, or of a member behind a dot, relative to the current page.
     fn address(&self, name: &str) -> Option<String>;
 
-    /// Where the file of the project at this path lies in the site, if there is one.
+    /// Returns the address in the site of a file of the project, if there is one.
     fn file(&self, path: &str) -> Option<String>;
 }
 
-/// The HTML of a text, and the links in it that lead nowhere.
+/// Returns the HTML of a Markdown text, and the broken links in it.
 pub(super) fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
     let mut lost = Vec::new();
     let mut lost_names = Vec::new();
@@ -36,7 +36,7 @@ fn bare(reference: &str) -> &str {
     reference.trim_matches('`')
 }
 
-/// Links that are written out: `[text](Name)`, `[text](file.md)`, `[text](https://...)`.
+/// Resolves inline links: `[text](Name)`, `[text](file.md)`, `[text](https://...)`.
 fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> Event<'e> {
     match event {
         Event::Start(Tag::Link { link_type: link_type @ LinkType::Inline, dest_url, title, id }) => {
@@ -47,12 +47,13 @@ fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>)
             let dest_url = found(dest_url, targets, lost);
             Event::Start(Tag::Image { link_type, dest_url, title, id })
         }
-        // Nobody's markup becomes part of the site.
+        // Markup in the documentation is shown as text.
         Event::Html(text) | Event::InlineHtml(text) => Event::Text(text),
         other => other,
     }
 }
 
+/// Returns the address of a link; records a broken one.
 fn found<'e>(to: CowStr<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> CowStr<'e> {
     match destination(&to, targets) {
         Some(address) => CowStr::from(address),
@@ -63,6 +64,7 @@ fn found<'e>(to: CowStr<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> C
     }
 }
 
+/// Returns the address of a link target, if it exists.
 fn destination(to: &str, targets: &dyn Targets) -> Option<String> {
     if to.starts_with("https://") || to.starts_with("http://") || to.starts_with("mailto:") {
         return Some(to.to_owned());

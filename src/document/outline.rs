@@ -1,4 +1,4 @@
-//! A checked program as pages: one for each file, an entry for each of its declarations.
+//! A checked program as pages: one for each file, with an entry for each of its declarations.
 
 use crate::check::Checked;
 use crate::check::summary::{self, Inside};
@@ -6,35 +6,41 @@ use crate::check::typed::{DefId, DefKind};
 use crate::source::FileId;
 use std::sync::Arc;
 
-/// What a page tells of a file.
+/// The page of a file.
 pub(super) struct Page {
-    /// `std.smores`, or the file's path.
+    /// Its title: `std.smores`, or the file's path.
     pub title: String,
     /// The name of its file in the site.
     pub file: String,
+    /// The file's documentation.
     pub doc: Option<String>,
+    /// The entries, in the order of the text.
     pub entries: Vec<Entry>,
 }
 
-/// A declaration.
+/// The entry of a declaration.
 pub(super) struct Entry {
+    /// Its name.
     pub name: String,
-    /// `module`, `config`, `fn`.
+    /// Its keyword: `module`, `config`, `fn`.
     pub word: &'static str,
+    /// Its signature.
     pub signature: String,
+    /// Its documentation.
     pub doc: Option<Arc<str>>,
+    /// Its members.
     pub inside: Vec<Inside>,
-    /// Whether an instance can be had without arguments.
+    /// True if it has an instance without arguments.
     pub has_default: bool,
-    /// What was found out about its instance: order, modules, mass.
+    /// The facts about its default instance: order, modules, mass.
     pub facts: Vec<String>,
-    /// The order of its instance, if it is a configuration's.
+    /// The order of its default instance, for a configuration.
     pub order: Option<u32>,
     /// The name of its picture in the site.
     pub picture: Option<String>,
 }
 
-/// The page of one file of a program; `None` for a file that declares nothing for others.
+/// Returns the page of one file of a program; `None` for a file without public declarations.
 pub(super) fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Option<Page> {
     let source = checked.sources.file(file);
     let stem = source.name.trim_end_matches(".mod");
@@ -53,7 +59,7 @@ pub(super) fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Opti
     (!entries.is_empty()).then_some(Page { title, file, doc, entries })
 }
 
-/// Methods are told with their records.
+/// Returns the methods of all records, which are listed with their records.
 fn methods(checked: &Checked) -> Vec<DefId> {
     let records = checked.program.defs.iter().filter_map(|def| match &def.kind {
         DefKind::Record(record) => Some(&record.methods),
@@ -62,6 +68,7 @@ fn methods(checked: &Checked) -> Vec<DefId> {
     records.flatten().copied().collect()
 }
 
+/// Returns the entry of a declaration.
 fn entry(checked: &Checked, id: DefId) -> Entry {
     let def = checked.program.def(id);
     let params = summary::params_of(&checked.program, id);

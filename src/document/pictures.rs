@@ -1,5 +1,5 @@
-//! What can only be known of an instance: its order, modules and mass, and how it looks. Asked as a person
-//! would, by a program.
+//! Facts that only an instance has (order, modules, mass), and its picture. They are found by running a
+//! small program.
 
 use super::outline::{Entry, Page};
 use crate::check::{self, Entry as Cell};
@@ -7,10 +7,10 @@ use crate::interpret::{self, Host, Mode, Options, WriteError};
 use crate::interrupt::CancelState;
 use crate::source::Files;
 
-/// Width and height of a picture: it stands beside words.
+/// Width and height of a picture in pixels.
 const SIZE: (usize, usize) = (480, 300);
 
-/// What the asking program prints and writes.
+/// The host of that program: collects what it prints and writes.
 struct Answers {
     lines: Vec<String>,
     picture: Option<Vec<u8>>,
@@ -34,7 +34,7 @@ impl Host for Answers {
     }
 }
 
-/// Finds out about every instance of a page that can be had without arguments; gives the pictures by name.
+/// Fills in the facts of every entry of a page with a default instance, and returns the pictures by name.
 pub(super) fn drawn(
     page: &mut Page,
     files: &dyn Files,
@@ -63,6 +63,7 @@ pub(super) fn drawn(
     pictures
 }
 
+/// Runs the program for one entry; `None` if it has no default instance.
 fn asked(entry: &Entry, import: &str, files: &dyn Files, cancel_state: &CancelState) -> Option<Answers> {
     let name = &entry.name;
     let facts = match entry.word {
@@ -80,7 +81,7 @@ fn asked(entry: &Entry, import: &str, files: &dyn Files, cancel_state: &CancelSt
         return None;
     }
     let mut answers = Answers { lines: Vec::new(), picture: None, cancel_state: cancel_state.clone() };
-    // A robot that does not stand is drawn all the same, and nobody said that it stands.
+    // A robot that falls is drawn, too: no verdict is claimed.
     let options = Options { picture: Some(SIZE), ..Options::default() };
     interpret::run(&checked, Mode::Run, files, &mut answers, &options);
     Some(answers)

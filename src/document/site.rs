@@ -1,4 +1,4 @@
-//! The whole site: what is read, what is written, and what is wrong with the documentation.
+//! The whole site: its pages, its files, and broken links.
 
 use super::html;
 use super::markdown::{Targets, to_html};
@@ -11,38 +11,45 @@ use crate::syntax;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// What to document.
+/// The input of [`site`].
 pub struct Request<'r> {
+    /// The files of the project.
     pub files: &'r dyn Files,
-    /// Programs of the project, by path.
+    /// The paths of the project's programs.
     pub programs: &'r [String],
-    /// Whether to document the standard library, too.
+    /// True if the standard library is documented, too.
     pub library: bool,
+    /// The token that cancels the work.
     pub cancel_state: CancelState,
 }
 
-/// Files of the site by name, and what is wrong.
+/// The generated site.
 pub struct Site {
+    /// The files by name.
     pub files: Vec<(String, Vec<u8>)>,
+    /// The broken links in documentation.
     pub faults: Vec<Fault>,
-    /// Programs that can't be documented because of mistakes in them.
+    /// The programs that are left out because of errors, with their diagnostics.
     pub wrong: Vec<(Checked, Vec<Diagnostic>)>,
 }
 
-/// A link that leads nowhere.
+/// A broken link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
+    /// The file that contains it.
     pub file: String,
-    /// The declaration whose documentation it stands in.
+    /// The declaration whose documentation contains it.
     pub entry: String,
+    /// The text of its target.
     pub link: String,
 }
 
+/// Generates the site of a project. Mistakes in programs and links are part of the result.
 pub fn site(request: &Request) -> Site {
     let mut site = Site { files: Vec::new(), faults: Vec::new(), wrong: Vec::new() };
     let mut pages = Vec::new();
     for path in request.programs {
-        // Private names are no part of it, so an import of all others shows what there is.
+        // Private names are left out.
         let checked = check::check(request.files, path);
         let errors: Vec<Diagnostic> = checked.diagnostics.iter().filter(|d| d.is_error()).cloned().collect();
         let file = checked.sources.files().find(|(_, f)| &*f.name == path.as_str()).map(|(id, _)| id);
@@ -66,7 +73,7 @@ fn page_of(checked: &Checked, file: FileId) -> Option<Page> {
     page(checked, file, doc)
 }
 
-/// Every file of the standard library; the prelude last, since it is the longest.
+/// Returns the page of every file of the standard library; the prelude last, since it is the longest.
 fn library_pages(files: &dyn Files) -> Vec<Page> {
     let names = library::FILES.iter().filter_map(|(name, _)| name.strip_suffix(".mod"));
     let uses: Vec<String> = names.filter(|n| *n != "prelude").map(|n| format!("use std.{n}\n")).collect();
@@ -105,7 +112,7 @@ fn write(pages: &[Page], request: &Request, site: &mut Site) {
     }
     let home = Page { title: String::new(), file: String::new(), doc: None, entries: Vec::new() };
     let links = Links { addresses: &addresses, page: &home, files: request.files, taken: &taken };
-    // What is wrong there was said where it stands.
+    // Broken links in it have been recorded with their declarations.
     add("guide.html", html::guide(pages, &mut |text| to_html(text, &links).0));
     add("index.html", html::index(pages));
     add("index.js", html::search_index(pages));
@@ -119,7 +126,8 @@ fn stands_in(entry: &Entry, text: &str) -> bool {
     entry.doc.as_deref() == Some(text) || entry.inside.iter().any(|i| i.doc.as_deref() == Some(text))
 }
 
-/// Where names lead: the name of a declaration, or of a member behind a dot, by page.
+/// Returns the addresses of names, by name: a declaration, or a member behind a dot, with the title of
+/// its page.
 fn addresses(pages: &[Page]) -> BTreeMap<String, Vec<(String, String)>> {
     let mut found: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
     for page in pages {
@@ -143,14 +151,14 @@ struct Links<'l> {
 }
 
 impl Targets for Links<'_> {
-    /// What the page itself declares comes first.
+    /// Prefers a declaration of the page itself.
     fn address(&self, name: &str) -> Option<String> {
         let found = self.addresses.get(name)?;
         let own = found.iter().find(|(page, _)| *page == self.page.title);
         own.or(found.first()).map(|(_, address)| address.clone())
     }
 
-    /// The site takes it along.
+    /// Copies the file into the site.
     fn file(&self, path: &str) -> Option<String> {
         if path.is_empty() || path.split('/').any(|part| part == "..") {
             return None;

@@ -1,19 +1,20 @@
-//! Comments behind code, one below the other, and the text of all lines.
+//! Alignment of comments behind code, and the text of all lines.
 
 use super::spacing::APART;
 
-/// A line that is laid out, but for the column of its last comment.
+/// A formatted line, except for the column of its comment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Line {
-    /// In spaces.
+    /// The indentation in spaces.
     pub indent: usize,
-    /// Without indentation. May hold line breaks, in a text or comment.
+    /// The text without indentation. A text literal or comment in it may contain line breaks.
     pub text: String,
-    /// `// ...` behind the text.
+    /// The comment `// ...` behind the text.
     pub comment: Option<String>,
 }
 
 impl Line {
+    /// Returns a blank line.
     pub(super) fn blank() -> Line {
         Line::default()
     }
@@ -22,7 +23,7 @@ impl Line {
         self.text.is_empty()
     }
 
-    /// Characters before the end of the text on its last line.
+    /// Returns the number of characters before the end of the text on its last line.
     fn width(&self) -> usize {
         match self.text.rsplit_once('\n') {
             Some((_, last)) => last.chars().count(),
@@ -31,8 +32,8 @@ impl Line {
     }
 }
 
-/// The text of lines. Comments behind adjacent lines begin in one column; two blank lines are one, and
-/// none stands at either end.
+/// Returns the text of lines. Comments behind adjacent lines are aligned; consecutive blank lines become
+/// one, and blank lines at both ends are removed.
 pub(super) fn aligned(lines: Vec<Line>) -> String {
     let mut out = String::new();
     let mut blank = false;

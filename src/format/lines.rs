@@ -1,19 +1,19 @@
-//! Lines: what stands on each, how far it is indented, where one is left blank.
+//! Lines: their pieces, their indentation, and blank lines between them.
 
 use super::columns::Line;
 use super::spacing::{Piece, before_last};
 use crate::syntax::{Outline, Role, TokenKind};
 
-/// Of one level, in spaces.
+/// The indentation of one level, in spaces.
 const STEP: usize = 2;
 
-/// A bracket that is open.
+/// An open bracket.
 struct Open {
-    /// Indentation of the line that it stands on.
+    /// The indentation of the line that it is on.
     line: usize,
 }
 
-/// The lines of a text, laid out anew where it can be read.
+/// Returns the formatted lines of a text; unreadable chunks stay as they are.
 pub(super) fn lines(text: &str, outline: &Outline) -> Vec<Line> {
     let mut layout = Layout { open: Vec::new(), lines: Vec::new(), before: None, opened: false };
     let start = outline.chunks.first().map_or(0, |chunk| chunk.range.start);
@@ -41,16 +41,18 @@ pub(super) fn lines(text: &str, outline: &Outline) -> Vec<Line> {
     layout.lines
 }
 
+/// The state of formatting line by line.
 struct Layout<'t> {
     open: Vec<Open>,
     lines: Vec<Line>,
-    /// The last token that is no comment, since the chunk began.
+    /// The last token of the chunk so far that is not a comment.
     before: Option<Piece<'t>>,
-    /// Whether the last line ended with an opening bracket.
+    /// True if the last line ended with an opening bracket.
     opened: bool,
 }
 
 impl<'t> Layout<'t> {
+    /// Formats a chunk.
     fn chunk(&mut self, pieces: &[Piece<'t>]) {
         self.open.clear();
         self.before = None;
@@ -65,13 +67,13 @@ impl<'t> Layout<'t> {
             self.line(line, pieces.get(at..).unwrap_or_default(), blanks > 0);
             blanks = 0;
         }
-        // The blank lines at the end of a chunk stand before the next.
+        // Blank lines at the end of a chunk are put before the next.
         if blanks > 1 {
             self.lines.push(Line::blank());
         }
     }
 
-    /// `rest` is what follows the line in its chunk.
+    /// Formats a line; `rest` are the pieces of its chunk after it.
     fn line(&mut self, line: &[Piece<'t>], rest: &[Piece<'t>], blank: bool) {
         let first = line[0];
         if blank && !self.opened && !first.closes() {
@@ -99,9 +101,10 @@ impl<'t> Layout<'t> {
         self.lines.push(out);
     }
 
+    /// Returns the indentation of a line.
     fn indent(&self, line: &[Piece], rest: &[Piece]) -> usize {
         let first = line[0];
-        // What is commented out, or points at columns of the line above, stays at the margin.
+        // Commented-out code, and comments that point at columns of the line above, stay at the margin.
         if first.token.kind == TokenKind::LineComment && first.margin {
             return 0;
         }
@@ -109,7 +112,7 @@ impl<'t> Layout<'t> {
             return self.open.last().map_or(0, |open| open.line);
         }
         let base = self.open.last().map_or(0, |open| open.line + STEP);
-        // A comment stands with what it is about: what comes next.
+        // A comment is indented as the code it is about: what comes next.
         let told = line.iter().chain(rest).find(|p| !p.is_comment() && p.token.kind != TokenKind::LineBreak);
         match told {
             Some(told) if self.goes_on(told) => base + STEP,
@@ -117,7 +120,7 @@ impl<'t> Layout<'t> {
         }
     }
 
-    /// Whether a line with this first token continues the one before.
+    /// Returns whether a line with this first token continues the one before.
     fn goes_on(&self, first: &Piece) -> bool {
         let Some(before) = self.before else { return false };
         let anew = first.closes() || first.begins || first.role == Some(Role::Each);
@@ -125,7 +128,7 @@ impl<'t> Layout<'t> {
         !(anew || otherwise || before.opens() || before.text == ",")
     }
 
-    /// Lines that can't be read, without the white space around them.
+    /// Adds unreadable lines, without the white space around them.
     fn as_it_is(&mut self, text: &str) {
         let blanks = text.len() - text.trim_end().len();
         for line in text.trim_end().split('\n') {

@@ -1,8 +1,8 @@
-//! One style for programs: what `modl fmt` writes.
+//! The formatter: the one style for programs, applied by `modl fmt`.
 //!
-//! The author's line breaks stay; indentation, the spaces within a line and blank lines are decided
-//! here, as gofmt does it. So nothing changes its meaning: no token is added, moved or left out, and
-//! none changes its line. A run of items that can't be read stays as it is.
+//! The author's line breaks are kept; indentation, spaces within a line and blank lines are normalised, as
+//! gofmt does. Formatting never changes the meaning: no token is added, moved or left out, and none changes
+//! its line. An unreadable run of items stays as it is.
 
 mod columns;
 mod lines;
@@ -11,19 +11,19 @@ mod spacing;
 use crate::source::{Diagnostic, FileId};
 use crate::syntax::{Outline, parse, skeleton};
 
-/// A text in the one style.
+/// A formatted text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formatted {
-    /// What can't be read stands in it as it was.
+    /// The text; unreadable chunks are unchanged in it.
     pub text: String,
-    /// What can't be read, as parsing tells it.
+    /// The syntax errors of unreadable chunks.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Formats a text; `id` is its name in the diagnostics.
+/// Formats a text; `id` is its file in the diagnostics.
 ///
-/// `None`: the result would have been another program, which is a defect of the formatter that so does
-/// no harm.
+/// `None` if the result would have been another program, which would be a defect of the formatter; the text
+/// must then be left as it is.
 pub fn format(id: FileId, text: &str) -> Option<Formatted> {
     let Some(outline) = Outline::of(text) else {
         return Some(Formatted { text: text.to_owned(), diagnostics: parse(id, text).diagnostics });

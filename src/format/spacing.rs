@@ -1,20 +1,24 @@
-//! How many spaces stand between two tokens of one line.
+//! Spaces between two tokens of one line.
 
 use crate::syntax::{Role, Token, TokenKind};
 
-/// A token with what is known of it.
+/// A token with its role.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece<'t> {
+    /// The token.
     pub token: Token,
+    /// Its text.
     pub text: &'t str,
+    /// Its role in the grammar.
     pub role: Option<Role>,
-    /// Whether an item, clause or statement begins with it.
+    /// True if an item, clause or statement begins with it.
     pub begins: bool,
-    /// Whether it stands in the first column.
+    /// True if it is in the first column.
     pub margin: bool,
 }
 
 impl Piece<'_> {
+    /// Returns whether it is a comment.
     pub(super) fn is_comment(&self) -> bool {
         matches!(
             self.token.kind,
@@ -22,25 +26,27 @@ impl Piece<'_> {
         )
     }
 
+    /// Returns whether it is an opening bracket.
     pub(super) fn opens(&self) -> bool {
         self.token.kind == TokenKind::Open
     }
 
+    /// Returns whether it is a closing bracket.
     pub(super) fn closes(&self) -> bool {
         self.token.kind == TokenKind::Close
     }
 
-    /// A number whose unit a `^` beside it would raise.
+    /// Returns whether it is a number with a unit, which a `^` next to it would raise.
     fn has_unit(&self) -> bool {
         let digits = |c: char| c.is_ascii_digit() || matches!(c, '.' | '_');
         self.token.kind == TokenKind::Number && !self.text.chars().all(digits)
     }
 }
 
-/// Between clauses that share a line, and before a comment behind what it is about.
+/// The number of spaces between clauses on one line, and before a comment behind code.
 pub(super) const APART: usize = 2;
 
-/// The spaces before the last of the pieces of a line, of which there are two at least.
+/// Returns the number of spaces before the last of the pieces of a line, of which there are two at least.
 pub(super) fn before_last(line: &[Piece]) -> usize {
     let [.., before, after] = line else { return 0 };
     if after.token.kind == TokenKind::LineComment {
@@ -83,7 +89,7 @@ pub(super) fn before_last(line: &[Piece]) -> usize {
     1
 }
 
-/// Inside of brackets: none, but for braces, which stand off what they hold.
+/// Returns the number of spaces at a bracket: none, except inside braces.
 fn in_brackets(before: &Piece, after: &Piece) -> Option<usize> {
     match (before.opens(), after.closes()) {
         (true, true) => Some(0),
@@ -93,7 +99,7 @@ fn in_brackets(before: &Piece, after: &Piece) -> Option<usize> {
     }
 }
 
-/// `- -x` is no `--x`, and `-` before `>` no arrow.
+/// Returns whether two operators would become another one without a space: `- -x` is not `--x`.
 fn runs_together(before: &Piece, after: &Piece) -> bool {
     match before.text {
         "-" => after.text.starts_with(['-', '>']),

@@ -1,4 +1,4 @@
-//! What changed in the files of a session when they were read again.
+//! Differences between the files of a session before and after they are read again.
 
 use super::dependencies::{Dependencies, meant};
 use super::state::is_given;
@@ -6,16 +6,20 @@ use crate::check::Checked;
 use crate::check::typed::DefId;
 use std::collections::BTreeMap;
 
-/// A declaration of a file that is another now.
+/// A changed declaration of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
+    /// The name of the file.
     pub file: String,
+    /// The name of the declaration.
     pub name: String,
+    /// The kind of change.
     pub kind: ChangeKind,
-    /// Names of the session that depend on it.
+    /// The names of the session that depend on it.
     pub users: Vec<String>,
 }
 
+/// The kinds of changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChangeKind {
     Added,
@@ -23,7 +27,7 @@ pub enum ChangeKind {
     Removed,
 }
 
-/// Differences between the declarations of files, by file and name.
+/// Returns the differences between the declarations of files, by file and name.
 pub(super) fn changes(before: &Checked, after: &Checked) -> Vec<Change> {
     let (old, new) = (declarations(before), declarations(after));
     let dependencies = Dependencies::of(after);
@@ -49,9 +53,10 @@ pub(super) fn changes(before: &Checked, after: &Checked) -> Vec<Change> {
     found
 }
 
+/// Declarations with their texts, by file and name.
 type Declarations = BTreeMap<(String, String), (DefId, String)>;
 
-/// Texts of the declarations of the project's files, entries left out.
+/// Returns the texts of the declarations of the project's files, without the entries of the session.
 fn declarations(checked: &Checked) -> Declarations {
     let entries = checked.entries.iter();
     let entries: Vec<_> = entries.copied().collect();

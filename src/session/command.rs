@@ -1,8 +1,8 @@
-//! The commands of a session, as they are typed.
+//! The commands of a session and their syntax.
 
 use crate::source::suggest::suggest;
 
-/// What a person wants besides evaluating.
+/// A command of a session; `:help` describes each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Command {
     Help,
@@ -22,7 +22,7 @@ pub(crate) enum Command {
     Quit,
 }
 
-/// Name, what follows it, and what it does; in the order of `:help`.
+/// The commands as (name, argument, description), in the order of `:help`.
 pub(crate) const COMMANDS: &[(&str, &str, &str)] = &[
     ("help", "", "this list"),
     ("type", "EXPR", "the type of an expression, which is not evaluated"),
@@ -41,7 +41,7 @@ pub(crate) const COMMANDS: &[(&str, &str, &str)] = &[
     ("quit", "", "leave; Ctrl-D does, too"),
 ];
 
-/// The command that a line is; `None` where it is none; else what is wrong with it.
+/// Parses a line as a command. `None` if the line is not a command; an error message if it is a wrong one.
 pub(crate) fn parse(line: &str) -> Option<Result<Command, String>> {
     let line = line.trim();
     if let Some(name) = line.strip_prefix('?') {
@@ -53,8 +53,9 @@ pub(crate) fn parse(line: &str) -> Option<Result<Command, String>> {
     Some(command(word, rest.trim()))
 }
 
+/// Returns the command with this name or unique prefix of a name.
 fn command(word: &str, rest: &str) -> Result<Command, String> {
-    // A beginning will do where it says which command is meant.
+    // A prefix is enough if it is unique.
     let of_word = |name: &str| !word.is_empty() && name.starts_with(word);
     let mut meant = COMMANDS.iter().filter(|(name, ..)| *name == word);
     let found = meant.next().or_else(|| {
@@ -90,12 +91,12 @@ fn command(word: &str, rest: &str) -> Result<Command, String> {
     })
 }
 
-/// A path may stand in quotes, as in a program.
+/// Returns a path without the quotes that may be around it, as in a program.
 fn unquoted(path: &str) -> String {
     path.strip_prefix('"').and_then(|p| p.strip_suffix('"')).unwrap_or(path).to_owned()
 }
 
-/// The text of `:help`.
+/// Returns the text of `:help`.
 pub(crate) fn help() -> String {
     let mut out =
         String::from("Type an expression, a declaration or a statement of the language; or one of\n\n");

@@ -1,7 +1,6 @@
-//! Completion: what may stand at a place of a text that is being typed.
+//! Completion: the candidates at an offset of a text being typed.
 //!
-//! Works on a copy of what the session knows, so that somebody who waits only so long can have it
-//! worked out elsewhere.
+//! It works on a copy of the session's state, so that it can run on another thread with a time limit.
 
 use super::command::COMMANDS;
 use super::dependencies::meant;
@@ -18,7 +17,7 @@ use crate::syntax::{self, CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, 
 use crate::units::table::UNITS;
 use std::sync::Arc;
 
-/// What completion needs to know of a session.
+/// The state of a session that completion needs; cheap to clone.
 #[derive(Clone)]
 pub struct Knowledge {
     files: Arc<Kept>,
@@ -27,15 +26,17 @@ pub struct Knowledge {
     last: Option<Symbol>,
 }
 
-/// What may stand at a place.
+/// The candidates at an offset of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Completion {
-    /// Where what it takes the place of begins, in bytes.
+    /// The offset in bytes at which the text to be replaced begins.
     pub start: usize,
+    /// The candidates, those that begin with the typed text.
     pub candidates: Vec<Named>,
 }
 
 impl Session {
+    /// Returns the state that completion needs.
     pub fn knowledge(&self) -> Knowledge {
         Knowledge {
             files: self.files.clone(),
@@ -46,10 +47,10 @@ impl Session {
     }
 }
 
-/// Characters of a hint: it stands on the line that is being typed.
+/// The greatest length of a hint in characters; it is shown on the line being typed.
 const HINT_MAX: usize = 60;
 
-/// What may stand at `at`, a place in bytes.
+/// Returns the candidates at the offset `at`, in bytes.
 pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completion {
     let before = &text[..at];
     let mut completion = candidates(knowledge, before);
@@ -60,12 +61,12 @@ pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completi
     completion
 }
 
-/// The parameters that are still to come in the call in which a text ends, as a person reads them.
+/// Returns the remaining parameters of the call in which a text ends, as text for a reader.
 pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
     let open = open_call(text)?;
     let callee = receiver(&text[..open])?;
     let inside = &text[open + 1..];
-    // Behind a dot the types would have to be worked out, which is not for every key.
+    // Behind a dot the type would have to be inferred, which is too slow for every key.
     if callee.contains('.') || !(inside.trim().is_empty() || inside.trim_end().ends_with(',')) {
         return None;
     }
@@ -82,6 +83,7 @@ pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
     (!rest.is_empty()).then_some(short)
 }
 
+/// Returns the candidates at the end of a text, before they are filtered by what is typed.
 fn candidates(knowledge: &Knowledge, before: &str) -> Completion {
     let word = word_start(before);
     let done = |start, candidates| Completion { start, candidates };
@@ -105,7 +107,7 @@ fn candidates(knowledge: &Knowledge, before: &str) -> Completion {
     }
     let mut found = named_arguments(knowledge, &before[..word]);
     if word == before.len() && !found.is_empty() {
-        // Nothing is typed yet: all that the library has would bury what the call takes.
+        // With nothing typed yet, the library's names would bury the arguments of the call.
         found.extend(project_names(knowledge));
         return done(word, found);
     }
@@ -113,7 +115,7 @@ fn candidates(knowledge: &Knowledge, before: &str) -> Completion {
     done(word, found)
 }
 
-/// The beginning of the word that ends a text.
+/// Returns the offset of the word that ends a text.
 fn word_start(text: &str) -> usize {
     text.rfind(|c: char| !c.is_alphanumeric() && c != '_').map_or(0, |at| at + last_char(text, at))
 }
@@ -126,6 +128,7 @@ fn line_start(text: &str) -> usize {
     text.rfind('\n').map_or(0, |at| at + 1)
 }
 
+/// Returns the candidates of a command line.
 fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
     let line = before.trim_start();
     let indent = before.len() - line.len();
@@ -141,7 +144,7 @@ fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
         Some(("load" | "save", path)) => {
             Some(Completion { start: before.len() - path.len(), candidates: paths(knowledge, path) })
         }
-        // What follows is an expression.
+        // An expression follows.
         Some((_, rest)) => {
             let start = before.len() - rest.len();
             let inner = candidates(knowledge, rest);
@@ -150,13 +153,14 @@ fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
     }
 }
 
-/// Where the content of a text begins that is still open.
+/// Returns the offset of the contents of a text literal that is still open.
 fn open_text(before: &str) -> Option<usize> {
     let outline = Outline::of(before)?;
     let last = outline.tokens.last()?;
     (last.kind == TokenKind::UnclosedText).then_some(last.start + 1)
 }
 
+/// Returns the files of a folder of the project.
 fn paths(knowledge: &Knowledge, typed: &str) -> Vec<Named> {
     let folder = typed.rsplit_once('/').map_or("", |(folder, _)| folder);
     let inside = |name: String| if folder.is_empty() { name } else { format!("{folder}/{name}") };
@@ -164,7 +168,7 @@ fn paths(knowledge: &Knowledge, typed: &str) -> Vec<Named> {
     found.map(|name| Named::new(inside(name), "file")).collect()
 }
 
-/// What follows `use`: libraries, their items, and those of files.
+/// Returns the candidates behind `use`: libraries, their items, and those of files.
 fn imports(knowledge: &Knowledge, rest: &str) -> Vec<Named> {
     let source = rest.split_once(['{', ',']).map_or(rest, |(source, _)| source).trim_end_matches('.');
     if let Some(path) = source.trim().strip_prefix('"') {
@@ -186,7 +190,7 @@ fn imports(knowledge: &Knowledge, rest: &str) -> Vec<Named> {
     }
 }
 
-/// Names that the text of a file declares for others.
+/// Returns the public names that the text of a file declares.
 fn declared(text: &str) -> Vec<Named> {
     use ast::ItemKind as K;
     let file = syntax::parse(FileId(0), text).file;
@@ -208,7 +212,7 @@ fn declared(text: &str) -> Vec<Named> {
     named.collect()
 }
 
-/// Where the unit begins that sticks to a number at the end of a text: `90d`, `6rad/`.
+/// Returns the offset of the unit attached to a number at the end of a text: `90d`, `6rad/`.
 fn unit_start(before: &str) -> Option<usize> {
     let glued = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '/' | '*' | '^' | '_');
     let start = before.rfind(|c| !glued(c)).map_or(0, |at| at + last_char(before, at));
@@ -224,7 +228,7 @@ fn unit_start(before: &str) -> Option<usize> {
     Some(start + last)
 }
 
-/// The expression that ends a text, as far as it is one of names, calls and indices.
+/// Returns the expression of names, calls and indices that ends a text.
 fn receiver(text: &str) -> Option<&str> {
     let bytes = text.as_bytes();
     let mut at = text.len();
@@ -247,6 +251,7 @@ fn receiver(text: &str) -> Option<&str> {
     (!found.is_empty() && closed.is_empty()).then_some(found)
 }
 
+/// Returns the members of the expression before the dot.
 fn behind_dot(knowledge: &Knowledge, before: &str) -> Vec<Named> {
     let Some(receiver) = receiver(before) else { return Vec::new() };
     if let Some((_, Meaning::File(items))) =
@@ -255,10 +260,11 @@ fn behind_dot(knowledge: &Knowledge, before: &str) -> Vec<Named> {
         let program = &knowledge.checked.program;
         return items.iter().map(|(name, id)| Named::new(name.as_str(), about(program, *id))).collect();
     }
-    let (checked, ty) = type_of(knowledge, &told(receiver, before));
+    let (checked, ty) = type_of(knowledge, &substituted(receiver, before));
     ty.map_or_else(Vec::new, |ty| members(&checked, &ty))
 }
 
+/// Checks an expression as the next entry, and returns the program and its type.
 fn type_of(knowledge: &Knowledge, text: &str) -> (Checked, Option<Type>) {
     let mut entries = knowledge.entries.clone();
     entries.push(Entry {
@@ -273,31 +279,31 @@ fn type_of(knowledge: &Knowledge, text: &str) -> (Checked, Option<Type>) {
     (checked, ty)
 }
 
-/// Names that are told by others, in turn, at most so often.
-const TURNS_MAX: usize = 8;
+/// The most substitutions of local names in an expression.
+const SUBSTITUTIONS_MAX: usize = 8;
 
-/// An expression with the names that the text declares further up in the words of what is known without it:
-/// `leg[0].m` by an instance of the type of `leg`, a part of a body that is being typed.
-fn told(expr: &str, before: &str) -> String {
+/// Returns an expression in which names that the unfinished text declares are substituted by known ones:
+/// `leg[0].m` by an instance of the type of `leg`, a part of a body being typed.
+fn substituted(expr: &str, before: &str) -> String {
     let locals = locals(before);
-    let mut told = expr.to_owned();
-    for _ in 0..TURNS_MAX {
-        let end = told.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(told.len());
-        let (head, rest) = told.split_at(end);
+    let mut expr = expr.to_owned();
+    for _ in 0..SUBSTITUTIONS_MAX {
+        let end = expr.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(expr.len());
+        let (head, rest) = expr.split_at(end);
         let Some(local) = locals.iter().rev().find(|local| local.name == head) else { break };
-        told = match &local.is {
+        expr = match &local.is {
             Is::Typed(ty) => format!("{ty}(){rest}"),
             Is::Listed(ty) => format!("[{ty}()]{rest}"),
             Is::Value(value) if !value.starts_with(head) => format!("{}{rest}", value.trim()),
-            // One of the elements; what they are is the same for all.
+            // One of the elements; all have the same type.
             Is::Each(list) if !list.starts_with(head) && !list.contains("..") => format!("{list}[0]{rest}"),
             _ => break,
         };
     }
-    told
+    expr
 }
 
-/// Where the innermost bracket of a call stands that is open at the end of a text.
+/// Returns the offset of the innermost open bracket of a call.
 fn open_call(text: &str) -> Option<usize> {
     let outline = Outline::of(text)?;
     let mut open = Vec::new();
@@ -311,7 +317,7 @@ fn open_call(text: &str) -> Option<usize> {
     open.pop().filter(|at| text[*at..].starts_with('('))
 }
 
-/// What stands between the commas of a call; the last is what is being typed.
+/// Returns the arguments of a call between its commas; the last one is being typed.
 fn arguments(inside: &str) -> Vec<&str> {
     let mut depth = 0usize;
     let mut start = 0;
@@ -331,7 +337,7 @@ fn arguments(inside: &str) -> Vec<&str> {
     found
 }
 
-/// The parameters of the call in which a text ends, and the text of its arguments.
+/// Returns the parameters of the call in which a text ends, and the text of its arguments.
 fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<Param>, &'t str)> {
     let open = open_call(before)?;
     let callee = receiver(&before[..open])?;
@@ -341,12 +347,12 @@ fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<P
         let params = params_of(&knowledge.checked.program, id).to_vec();
         return Some(((*knowledge.checked).clone(), params, inside));
     };
-    let (checked, ty) = type_of(knowledge, &told(object, before));
+    let (checked, ty) = type_of(knowledge, &substituted(object, before));
     let params = params_of_member(&checked, &ty?, Symbol::new(name));
     Some((checked, params, inside))
 }
 
-/// `name: ` of the parameters that are not given yet, where an argument begins.
+/// Returns the names of the parameters that are not given yet, as `name: `, where an argument begins.
 fn named_arguments(knowledge: &Knowledge, before: &str) -> Vec<Named> {
     if !before.trim_end().ends_with(['(', ',']) {
         return Vec::new();
@@ -366,7 +372,7 @@ fn named_arguments(knowledge: &Knowledge, before: &str) -> Vec<Named> {
     open.map(|(_, p)| Named::new(format!("{}: ", p.name), checked.program.type_name(&p.ty))).collect()
 }
 
-/// The words of a choice behind the name of its parameter: `profile: `.
+/// Returns the words of a choice behind the name of its parameter: `profile: `.
 fn words_of_argument(knowledge: &Knowledge, before: &str) -> Option<Vec<Named>> {
     let name = before.trim_end().strip_suffix(':')?;
     let name = &name[word_start(name)..];
@@ -380,6 +386,7 @@ fn words_of_argument(knowledge: &Knowledge, before: &str) -> Option<Vec<Named>> 
     Some(choice.words.iter().map(|word| Named::new(word.as_str(), "choice")).collect())
 }
 
+/// Returns the names visible at the top of the session.
 fn global_names(knowledge: &Knowledge) -> Vec<Named> {
     let program = &knowledge.checked.program;
     let named = knowledge.checked.names.iter().filter(|(name, _)| is_given(*name));
@@ -391,7 +398,7 @@ fn global_names(knowledge: &Knowledge) -> Vec<Named> {
         .collect()
 }
 
-/// Names that the project and the session declare.
+/// Returns the names that the project and the session declare.
 fn project_names(knowledge: &Knowledge) -> Vec<Named> {
     let (program, sources) = (&knowledge.checked.program, &knowledge.checked.sources);
     let own = meant(&knowledge.checked)
@@ -400,7 +407,7 @@ fn project_names(knowledge: &Knowledge) -> Vec<Named> {
     own.map(|(name, id)| Named::new(name.as_str(), about(program, id))).collect()
 }
 
-/// Names that can be seen, those that the text itself declares, and words of the language.
+/// Returns the visible names, those that the text itself declares, and keywords.
 fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
     let mut found = global_names(knowledge);
     let typed = &before[word..];
@@ -413,10 +420,10 @@ fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
     found
 }
 
-/// A name that the text declares further up, with its type.
+/// Returns a name that the text declares above, with its type.
 fn own_name(knowledge: &Knowledge, before: &str, local: Local) -> Named {
     let inferred = || {
-        let (checked, ty) = type_of(knowledge, &told(&local.name, before));
+        let (checked, ty) = type_of(knowledge, &substituted(&local.name, before));
         ty.map_or_else(|| "declared above".to_owned(), |ty| checked.program.type_name(&ty))
     };
     let about = match &local.is {

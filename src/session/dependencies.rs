@@ -1,20 +1,21 @@
-//! Which declarations of a session name which others.
+//! The dependency graph of a session's declarations.
 
 use crate::check::typed::DefId;
 use crate::check::{Checked, Meaning};
 use crate::source::{FileId, Span, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Who names whom, among the declarations of the project and the session.
+/// The graph of uses among the declarations of the project and the session.
 pub(super) struct Dependencies<'c> {
     checked: &'c Checked,
-    /// By file: begin and end of every declaration, in order.
+    /// The begin and end of every declaration, in order, by file.
     places: BTreeMap<FileId, Vec<(u32, u32, DefId)>>,
-    /// By the declaration that is named: those that name it.
+    /// The declarations that name a declaration, by the named one.
     users: BTreeMap<DefId, BTreeSet<DefId>>,
 }
 
 impl<'c> Dependencies<'c> {
+    /// Builds the graph from the recorded uses of a checked program.
     pub(super) fn of(checked: &'c Checked) -> Dependencies<'c> {
         let mut places: BTreeMap<FileId, Vec<(u32, u32, DefId)>> = BTreeMap::new();
         for &id in &checked.program.own {
@@ -31,7 +32,7 @@ impl<'c> Dependencies<'c> {
         found
     }
 
-    /// The declaration in which a place lies.
+    /// Returns the declaration that contains a span.
     pub(super) fn declaration_at(&self, span: Span) -> Option<DefId> {
         let defs = self.places.get(&span.file)?;
         let next = defs.partition_point(|(start, _, _)| *start <= span.start);
@@ -39,7 +40,7 @@ impl<'c> Dependencies<'c> {
         (span.end <= end).then_some(id)
     }
 
-    /// All that name one of these, or name something that does; without these themselves.
+    /// Returns the declarations that name one of these, directly or indirectly; without these themselves.
     pub(super) fn users_of(&self, named: &[DefId]) -> BTreeSet<DefId> {
         let mut found = BTreeSet::new();
         let mut waiting = named.to_vec();
@@ -50,7 +51,7 @@ impl<'c> Dependencies<'c> {
         found
     }
 
-    /// All that the text of a file needs: what it names, and what that names in turn.
+    /// Returns the declarations that the text of a file needs, directly or indirectly.
     pub(super) fn needed_by(&self, file: FileId) -> BTreeSet<DefId> {
         let mut named: BTreeMap<DefId, Vec<DefId>> = BTreeMap::new();
         for (of, users) in &self.users {
@@ -68,7 +69,7 @@ impl<'c> Dependencies<'c> {
     }
 }
 
-/// The declarations that names at the top of the session mean, by name.
+/// Returns the declarations that the names at the top of the session stand for, by name.
 pub(super) fn meant(checked: &Checked) -> BTreeMap<Symbol, DefId> {
     let meant = checked.names.iter().filter_map(|(name, meaning)| match meaning {
         Meaning::Def(id) => Some((*name, *id)),

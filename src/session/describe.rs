@@ -1,4 +1,4 @@
-//! What a name means, how it is declared, and what there is: `:doc`, `:source`, `:vars`, `:type`.
+//! Descriptions of names: `:doc`, `:source`, `:vars`, `:type`.
 
 use super::dependencies::meant;
 use super::members::about;
@@ -12,7 +12,7 @@ use crate::syntax::{self, ast};
 use std::sync::Arc;
 
 impl Session {
-    /// The type of an expression, or what is wrong with it.
+    /// Returns the type of an expression, or the diagnostics if it has none.
     pub fn type_of(&self, text: &str) -> Result<String, (Arc<Checked>, Vec<Diagnostic>)> {
         let entry =
             Entry { name: "<type>".into(), text: text.into(), first_line: 1, value: None, last: self.last };
@@ -30,7 +30,7 @@ impl Session {
         }
     }
 
-    /// What a name means: how it is written, and its documentation.
+    /// Returns the signature and documentation of a name. Fails with a message for an unknown name.
     pub fn doc(&self, name: &str) -> Result<String, String> {
         if let Some(&(_, command, does)) =
             super::command::COMMANDS.iter().find(|(c, ..)| name == format!(":{c}"))
@@ -48,8 +48,8 @@ impl Session {
         }
     }
 
-    /// How a built-in function is called, for a text that is nothing but its name: those that take
-    /// arguments of several types are no values.
+    /// Returns the signature of a built-in function, for a text that is only its name. Functions with
+    /// arguments of several types are no values, so the text alone would be an error.
     pub fn call_of(&self, text: &str) -> Option<String> {
         let (id, member) = self.find(text.trim())?;
         let native = matches!(self.checked.program.def(id).kind, DefKind::Native(_)) && member.is_none();
@@ -57,7 +57,7 @@ impl Session {
         native.then(|| format!("{}\n`:doc {name}` tells more\n", summary::signature(&self.checked, id)))
     }
 
-    /// How a name is declared, with its documentation.
+    /// Returns the declaration of a name with its place. Fails with a message for an unknown name.
     pub fn source(&self, name: &str) -> Result<String, String> {
         let Some((id, _)) = self.find(name) else { return Err(self.unknown(name)) };
         let def = self.checked.program.def(id);
@@ -66,7 +66,7 @@ impl Session {
         Ok(format!("// {}:{line}\n{}\n", file.name, self.checked.sources.text(def.whole)))
     }
 
-    /// Everything that was declared or imported, with its type; by name.
+    /// Returns everything that was declared or imported, with its type, by name.
     pub fn vars(&self) -> Vec<(String, String)> {
         let program = &self.checked.program;
         let own = meant(&self.checked).into_iter().filter(|(name, id)| {
@@ -76,7 +76,7 @@ impl Session {
         own.map(|(name, id)| (name.to_string(), about(program, id))).collect()
     }
 
-    /// A declaration by its name, or by that of a member behind a dot.
+    /// Returns a declaration by its name, and the name of a member behind a dot.
     fn find(&self, name: &str) -> Option<(DefId, Option<String>)> {
         let mut names = name.split('.').map(str::trim);
         let first = names.next()?;
@@ -92,6 +92,7 @@ impl Session {
         }
     }
 
+    /// Returns the message about an unknown name.
     fn unknown(&self, name: &str) -> String {
         let known = self.checked.names.iter().map(|(known, _)| known.as_str());
         match suggest(name, known) {
@@ -100,7 +101,7 @@ impl Session {
         }
     }
 
-    /// What the library has under a name that nothing imported.
+    /// Returns the documentation of a library item that is not imported.
     fn doc_of_library(&self, name: &str) -> Result<String, String> {
         for (file, _) in library::FILES {
             let Some(text) = crate::source::Files::library(&*self.files, file) else { continue };
@@ -115,6 +116,7 @@ impl Session {
         Err(self.unknown(name))
     }
 
+    /// Returns signature, documentation and members of a declaration.
     fn doc_of(&self, id: DefId) -> String {
         let def = self.checked.program.def(id);
         let mut out = format!("{}\n", summary::signature(&self.checked, id));
@@ -129,7 +131,7 @@ impl Session {
     }
 }
 
-/// Checks a text as if it were the next entry: the program, and the type of the expression it ends with.
+/// Checks a text as the next entry, and returns the program and the type of its last expression.
 pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) {
     let mut entries = session.entries.clone();
     entries.push(entry);
@@ -138,6 +140,7 @@ pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) 
     (checked, ty)
 }
 
+/// Returns whether an item declares a name.
 fn is_named(item: &ast::Item, name: &str) -> bool {
     use ast::ItemKind as K;
     let declared = match &item.kind {
@@ -156,7 +159,7 @@ fn is_named(item: &ast::Item, name: &str) -> bool {
     declared.text == name
 }
 
-/// What the value of a `let` is an instance of.
+/// Returns the declaration of which the value of a `let` is an instance.
 fn type_of(def: &Def) -> Option<DefId> {
     match &def.kind {
         DefKind::Let(binding) => match binding.ty {
@@ -167,17 +170,17 @@ fn type_of(def: &Def) -> Option<DefId> {
     }
 }
 
-/// Joints, ports, parts, behaviours, fields and methods, a line each.
+/// Returns the joints, ports, parts, behaviours, fields and methods, a line each.
 fn lines(inside: &[Inside]) -> String {
     let line = |inside: &Inside| {
         let doc = inside.doc.as_deref().map(|doc| format!("      {}\n", first_paragraph(doc)));
         format!("  {}\n{}", head(inside), doc.unwrap_or_default())
     };
-    // Parameters stand in the signature.
+    // Parameters are in the signature.
     inside.iter().filter(|inside| inside.group != Group::Parameter).map(line).collect()
 }
 
-/// With the word of the language before it, where it has one.
+/// Returns a member with its keyword, if it has one.
 fn head(inside: &Inside) -> String {
     match inside.group {
         Group::Field | Group::Method => inside.head.clone(),
@@ -185,7 +188,7 @@ fn head(inside: &Inside) -> String {
     }
 }
 
-/// What is said of a joint, port, behaviour, field or method.
+/// Returns the documentation of a joint, port, behaviour, field or method.
 fn member_doc(checked: &Checked, def: &Def, name: &str) -> Option<String> {
     let found = summary::inside(checked, def).into_iter().find(|inside| inside.name.as_str() == name)?;
     let doc = found.doc.as_deref().map(|doc| format!("\n{}\n", doc.trim())).unwrap_or_default();

@@ -1,9 +1,9 @@
-//! One entry of a person: whether it is complete, and whether the next line belongs to it.
+//! The extent of an entry: whether a text is complete, and whether the next line belongs to it.
 
 use crate::syntax::{Outline, TokenKind, breaks_off};
 
-/// Whether more must follow for a text to mean something: a bracket, a raw text or a comment is open,
-/// or it breaks off where something is wanted. What is wrong elsewhere is complete: it can be judged.
+/// Returns whether a text is incomplete: a bracket, a raw text or a comment is open, or it ends where more
+/// is expected. A text with a mistake elsewhere is complete: it can be checked.
 pub fn is_incomplete(text: &str) -> bool {
     match Outline::of(text).map(|outline| openness(&outline)) {
         _ if text.trim().is_empty() => false,
@@ -13,33 +13,37 @@ pub fn is_incomplete(text: &str) -> bool {
     }
 }
 
-/// Whether somebody who types an incomplete text wants it to be judged all the same: by an empty line;
-/// between brackets, where those have their place, by two.
+/// Returns whether a user submits an incomplete text: by an empty line; inside brackets, where empty lines
+/// may occur, by two.
 pub fn is_given_up(text: &str) -> bool {
     let open = Outline::of(text).is_some_and(|outline| matches!(openness(&outline), Openness::Open));
     text.ends_with(if open { "\n\n" } else { "\n" })
 }
 
-/// Whether a line can only go on with what stands before it.
+/// Returns whether a line can only continue the one before.
 pub fn goes_on(line: &str) -> bool {
     let line = line.trim_start();
     let word = line.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
     if ["and", "or", "else"].contains(&word) {
         return true;
     }
-    // `(`, `[`, `+` and `-` begin something new.
+    // `(`, `[`, `+` and `-` begin a new statement.
     let signs = ["++", ".", "*", "/", "%", "^", "==", "!=", "<", ">", "=>"];
     let comment = line.starts_with("//") || line.starts_with("/*");
     !comment && signs.iter().any(|sign| line.starts_with(sign))
 }
 
+/// The state of brackets at the end of a text.
 enum Openness {
+    /// A bracket, raw text or comment is open.
     Open,
+    /// All brackets are closed.
     Closed,
-    /// Something closes that was never opened, or a text is open whose line is over.
+    /// A closing bracket has no opening one, or a text is not closed on its line.
     Wrong,
 }
 
+/// Returns the state of brackets at the end of a text.
 fn openness(outline: &Outline) -> Openness {
     let mut depth = 0usize;
     for token in &outline.tokens {
@@ -55,7 +59,7 @@ fn openness(outline: &Outline) -> Openness {
     if depth > 0 { Openness::Open } else { Openness::Closed }
 }
 
-/// Documentation wants the item that it is about.
+/// Returns whether a text ends with documentation, which needs an item.
 fn ends_with_documentation(text: &str) -> bool {
     text.lines().last().is_some_and(|line| line.trim_start().starts_with("///"))
 }

@@ -1,13 +1,13 @@
-//! What the pieces of a text are, for colours.
+//! Syntax highlighting of a text being typed.
 
 use crate::syntax::{CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, TRUSS, TokenKind};
 use std::ops::Range;
 
-/// What a piece of a text is.
+/// The classes of highlighted pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Class {
     Keyword,
-    /// The name of a type or of what has instances.
+    /// The name of a type or of a declaration with instances.
     Type,
     Number,
     Text,
@@ -16,7 +16,7 @@ pub(crate) enum Class {
     Command,
 }
 
-/// The pieces of a text that have a class, in order.
+/// Returns the highlighted pieces of a text, in order, as byte ranges.
 pub(crate) fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
     let command = text.trim_start();
     if command.starts_with(':') || command.starts_with('?') {
@@ -43,11 +43,12 @@ pub(crate) fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
     tokens.collect()
 }
 
-/// Clauses of a body that is not complete begin where a line does.
+/// Returns whether an offset is at the beginning of a line, where clauses of an incomplete body begin.
 fn begins_a_line(text: &str, at: usize) -> bool {
     text[..at].rsplit('\n').next().is_none_or(|before| before.trim().is_empty())
 }
 
+/// Returns the class of a word; `begins` is true at the beginning of a statement or clause.
 fn word(word: &str, begins: bool) -> Option<Class> {
     let clauses = [ITEMS, STATEMENTS, MODULE, CONFIG, TRUSS];
     if RESERVED.contains(&word) && word.len() > 1 || begins && clauses.iter().any(|c| c.contains(&word)) {

@@ -1,5 +1,5 @@
-//! Files as they were when a session first read them: until it reads them again, its texts stay as
-//! they are.
+//! A snapshot of the project's files: a file that a session has read stays the same until the session reads
+//! it again.
 
 use crate::source::{Files, ReadError};
 use std::borrow::Cow;
@@ -9,18 +9,19 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The files that a session can read.
 pub type Project = Arc<dyn Files + Send + Sync>;
 
-/// A project, with what has been read of it.
+/// A project with the files read from it so far.
 pub struct Kept {
     project: Project,
     read: Mutex<BTreeMap<String, Result<Vec<u8>, ReadError>>>,
 }
 
 impl Kept {
+    /// Returns a snapshot with nothing read yet.
     pub fn new(project: Project) -> Kept {
         Kept { project, read: Mutex::default() }
     }
 
-    /// The same project, to be read anew.
+    /// Returns a new snapshot of the same project.
     pub fn fresh(&self) -> Kept {
         Kept::new(self.project.clone())
     }

@@ -1,29 +1,31 @@
-//! Names that a text declares which is still being typed: parameters, parts, lets, binders, and what else
-//! has a name in a body. The text need not make sense yet.
+//! The local names that an unfinished text declares: parameters, parts, lets, binders and other names in a
+//! body. The text need not be valid.
 
-/// A name of an unfinished text.
+/// A local name of an unfinished text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Local {
+    /// The name.
     pub name: String,
+    /// Its origin.
     pub is: Is,
 }
 
-/// What is known of it, as it is written.
+/// The origin of a local name, as it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Is {
-    /// Of this type.
+    /// A name of this type.
     Typed(String),
-    /// As many of this type as are given.
+    /// A list of this type.
     Listed(String),
     /// The value of this expression.
     Value(String),
-    /// Each of this list or range.
+    /// An element of this list or range.
     Each(String),
-    /// What this word declares.
+    /// A name declared by this keyword.
     Word(String),
 }
 
-/// Words behind which a name is declared.
+/// The words behind which a name is declared.
 const DECLARING: &[&str] = &[
     "let",
     "part",
@@ -44,10 +46,10 @@ const DECLARING: &[&str] = &[
     "connector",
 ];
 
-/// Words that begin a clause and declare nothing.
+/// The words that begin a clause and declare nothing.
 const CLAUSES: &[&str] = &["connect", "set", "base", "require", "expect", "touching", "alias"];
 
-/// The names that a text declares, the latest last.
+/// Returns the names that a text declares, the latest last.
 pub(super) fn locals(text: &str) -> Vec<Local> {
     let mut found = Vec::new();
     let mut rest = text;
@@ -68,11 +70,12 @@ pub(super) fn locals(text: &str) -> Vec<Local> {
     found
 }
 
+/// Returns the number of blanks at the beginning of a text.
 fn blanks(text: &str) -> usize {
     text.len() - text.trim_start().len()
 }
 
-/// The next word of a text, and what follows it.
+/// Returns the next word of a text, and the text behind it.
 fn next_word(text: &str) -> Option<(&str, &str)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let start = text.find(is_word)?;
@@ -80,7 +83,7 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
     Some((&text[start..end], &text[end..]))
 }
 
-/// What a name is, from the word before it and the text behind it.
+/// Returns the origin of a name, from the word before it and the text behind it.
 fn what(word: &str, behind: &str) -> Is {
     let after = |text: &str, mark: char| text.trim_start().strip_prefix(mark).map(str::to_owned);
     match word {
@@ -106,7 +109,7 @@ fn what(word: &str, behind: &str) -> Is {
     }
 }
 
-/// `name: Type` between the brackets that a text begins with.
+/// Returns the parameters `name: Type` in the parentheses with which a text begins.
 fn parameters(text: &str) -> Vec<(String, String)> {
     let Some(inside) = text.strip_prefix('(') else { return Vec::new() };
     let inside = up_to(inside, &[')']);
@@ -123,7 +126,7 @@ fn parameters(text: &str) -> Vec<(String, String)> {
     found
 }
 
-/// The beginning of a text up to one of these marks that stands in no brackets of its own.
+/// Returns the beginning of a text up to one of these marks outside of brackets.
 fn up_to(text: &str, marks: &[char]) -> String {
     let mut depth = 0usize;
     for (at, c) in text.char_indices() {
@@ -138,7 +141,7 @@ fn up_to(text: &str, marks: &[char]) -> String {
     text.trim().to_owned()
 }
 
-/// The beginning of a line up to the next clause on it.
+/// Returns the beginning of a line up to the next clause on it.
 fn up_to_clause(line: &str) -> String {
     let begins = |at: &usize| {
         let closed =
@@ -150,6 +153,7 @@ fn up_to_clause(line: &str) -> String {
     line[..end].trim().to_owned()
 }
 
+/// Returns the type name with which a text begins.
 fn type_name(text: &str) -> String {
     let text = text.trim_start();
     let end = text.find(|c: char| !c.is_alphanumeric() && c != '_' && c != '.').unwrap_or(text.len());

@@ -1,30 +1,33 @@
-//! What stands behind a dot: the members of a type with their own types.
+//! The members of a type, with their own types, for completion behind a dot.
 
 use crate::check::summary::{param_text, params_of, word};
 use crate::check::typed::{DefId, DefKind, Member, MemberKind, Param, RecordDef};
 use crate::check::{Checked, Program, Type};
 use crate::source::Symbol;
 
-/// A name that can be written, with a few words about it.
+/// A name with a short description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Named {
+    /// The name as it is inserted.
     pub name: String,
+    /// Its description: a type or a kind.
     pub about: String,
 }
 
 impl Named {
+    /// Returns a name with a description.
     pub(crate) fn new(name: impl Into<String>, about: impl Into<String>) -> Named {
         Named { name: name.into(), about: about.into() }
     }
 }
 
-/// What can follow `value.` for a value of this type.
+/// Returns the candidates behind `value.` for a value of this type.
 pub(super) fn members(checked: &Checked, ty: &Type) -> Vec<Named> {
     let program = &checked.program;
     match ty {
         Type::Instance(id) => of_instance(program, *id),
         Type::Record(id) => of_record(program, *id),
-        // A behaviour is asked as the plan that it gives.
+        // A behaviour has the members of its plan.
         Type::Behavior => prelude(checked, "Plan").map_or_else(Vec::new, |plan| of_record(program, plan)),
         Type::Vec3(of) => ["x", "y", "z"].map(|axis| Named::new(axis, program.type_name(of))).to_vec(),
         Type::Range(of) => ["from", "to"].map(|end| Named::new(end, program.type_name(of))).to_vec(),
@@ -34,6 +37,7 @@ pub(super) fn members(checked: &Checked, ty: &Type) -> Vec<Named> {
     }
 }
 
+/// Returns a record of the prelude.
 fn prelude(checked: &Checked, name: &str) -> Option<DefId> {
     let record = |id: &usize| matches!(checked.program.defs[*id].kind, DefKind::Record(_));
     let found = (0..checked.program.defs.len()).filter(record).find(|id| {
@@ -43,6 +47,7 @@ fn prelude(checked: &Checked, name: &str) -> Option<DefId> {
     found.and_then(|index| u32::try_from(index).ok()).map(DefId)
 }
 
+/// Returns the members of an instance.
 fn of_instance(program: &Program, id: DefId) -> Vec<Named> {
     let mut found: Vec<Named> = Vec::new();
     let kind = &program.def(id).kind;
@@ -77,10 +82,11 @@ fn of_instance(program: &Program, id: DefId) -> Vec<Named> {
     sorted(found)
 }
 
+/// Returns the fields and methods of a record.
 fn of_record(program: &Program, id: DefId) -> Vec<Named> {
     let mut found = Vec::new();
     let mut line = Some(id);
-    // A record and those that it is, too.
+    // A record and those that it extends.
     while let Some(DefKind::Record(record)) = line.map(|id| &program.def(id).kind) {
         found.extend(record.fields.iter().map(|f| Named::new(f.name.as_str(), program.type_name(&f.ty))));
         found.extend(methods(program, record));
@@ -89,6 +95,7 @@ fn of_record(program: &Program, id: DefId) -> Vec<Named> {
     sorted(found)
 }
 
+/// Returns the methods of a record.
 fn methods(program: &Program, record: &RecordDef) -> Vec<Named> {
     let method = |id: &DefId| match &program.def(*id).kind {
         DefKind::Native(native) => {
@@ -101,20 +108,20 @@ fn methods(program: &Program, record: &RecordDef) -> Vec<Named> {
     record.methods.iter().filter_map(method).collect()
 }
 
-/// By name, a joint before the port of its name.
+/// Returns candidates by name, a joint before the port of its name.
 fn sorted(mut found: Vec<Named>) -> Vec<Named> {
     found.sort_by(|a, b| a.name.cmp(&b.name));
     found.dedup_by(|b, a| a.name == b.name);
     found
 }
 
-/// `(x: Length, n: Int) -> Angle`
+/// Returns parameters and result: `(x: Length, n: Int) -> Angle`.
 pub(super) fn params_text(program: &Program, params: &[Param], result: &str) -> String {
     let params: Vec<String> = params.iter().map(|p| param_text(program, p)).collect();
     format!("({}) -> {result}", params.join(", "))
 }
 
-/// Parameters of what is called by a name behind a dot.
+/// Returns the parameters of a behaviour or method of a type.
 pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
     let program = &checked.program;
     let mut line = match ty {
@@ -137,7 +144,7 @@ pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Ve
     Vec::new()
 }
 
-/// A few words about a declaration.
+/// Returns a short description of a declaration.
 pub(super) fn about(program: &Program, id: DefId) -> String {
     match &program.def(id).kind {
         DefKind::Let(binding) => program.type_name(&binding.ty),

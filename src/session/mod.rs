@@ -1,10 +1,10 @@
-//! A session: a program that grows entry by entry, and the values that it has so far.
+//! A session: a program that grows entry by entry, with the values computed so far.
 //!
 //! An entry goes through the same rooms as a file. All entries share one scope, in which a later
-//! declaration takes the place of an earlier one of its name, for the earlier entries too: the session
-//! is at any time the program that [`save`] writes. It is checked as a whole for every entry, which
-//! takes milliseconds; values are kept ([`crate::interpret::session`]), but for those that depend on
-//! what was declared anew ([`dependencies`]).
+//! declaration replaces an earlier one of its name, for the earlier entries too: the session is at any time
+//! the program that [`save`] writes. It is checked as a whole for every entry, which takes milliseconds;
+//! values are kept ([`crate::interpret::session`]), except those that depend on a new declaration
+//! ([`dependencies`]).
 
 mod changes;
 mod dependencies;

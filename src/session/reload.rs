@@ -1,15 +1,15 @@
-//! Reading files again: what is another now, and which values do not hold any more.
+//! Invalidation of values when files are read again.
 
 use super::dependencies::Dependencies;
 use crate::check::typed::{Def, DefId, DefKind};
 use crate::check::{Checked, Type};
 use std::collections::BTreeSet;
 
-/// Declarations whose values have to be worked out again. `None`: no identity is what it was, so nothing
-/// can stay.
+/// Returns the declarations whose values must be computed again. `None` if no identity is preserved, so
+/// that no value can be kept.
 ///
-/// What stands elsewhere in its file now is worked out again, too, unless it is plain data: values of
-/// robots and plans know the places that they come from.
+/// A declaration that moved within its file is computed again, too, unless it is plain data: values of
+/// robots and plans record their places in the source.
 pub(super) fn stale(before: &Checked, after: &Checked) -> Option<Vec<DefId>> {
     let names = |checked: &Checked| -> Vec<_> {
         checked.sources.files().map(|(_, file)| file.name.to_string()).collect()
@@ -35,7 +35,7 @@ pub(super) fn stale(before: &Checked, after: &Checked) -> Option<Vec<DefId>> {
     Some(stale.into_iter().collect())
 }
 
-/// Whether the value of a declaration knows nothing of where it comes from.
+/// Returns whether the value of a declaration is plain data, without places in the source.
 fn is_plain(def: &Def) -> bool {
     fn plain(ty: &Type) -> bool {
         match ty {

@@ -1,4 +1,4 @@
-//! The session as a program: what was entered, without what a later entry replaced.
+//! The session as a program: the entries without the declarations that later entries replaced.
 
 use super::dependencies::meant;
 use super::state::{Session, loaded_path};
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 impl Session {
-    /// The text of a program that does what was entered, formatted.
+    /// Returns the text of a program that does what was entered, formatted.
     pub fn program(&self) -> String {
         let checked = self.checked();
         let saved = Saved::of(checked);
@@ -27,7 +27,7 @@ impl Session {
         let mut text = imports.iter().map(|line| format!("{line}\n")).collect::<String>();
         let mut before = imports.join("\n");
         for (i, piece) in pieces.iter().enumerate() {
-            // Lines stand together; what is longer, by itself.
+            // Single lines are joined; longer pieces are separated by blank lines.
             let apart = i == 0 || piece.contains('\n') || before.contains('\n');
             text.push_str(if apart && !text.is_empty() { "\n" } else { "" });
             text.push_str(&format!("{piece}\n"));
@@ -40,13 +40,14 @@ impl Session {
     }
 }
 
+/// The program of a session, prepared for saving.
 struct Saved<'c> {
     checked: &'c Checked,
     meant: BTreeMap<Symbol, DefId>,
     used: BTreeSet<DefId>,
 }
 
-/// A part of a text with what stands there instead.
+/// A range of a text with its replacement.
 type Edit = (Range<usize>, String);
 
 impl<'c> Saved<'c> {
@@ -55,7 +56,7 @@ impl<'c> Saved<'c> {
         Saved { checked, meant: meant(checked), used }
     }
 
-    /// What is left of an entry; its imports are added to those before it.
+    /// Returns the remainder of an entry; its imports are added to `imports`.
     fn entry(&self, entry: &Entry, file: FileId, imports: &mut Vec<String>) -> String {
         let items = syntax::parse(file, &entry.text).file.items;
         let mut edits: Vec<Edit> = self.last_values(file);
@@ -68,7 +69,7 @@ impl<'c> Saved<'c> {
                     edits.push((range, String::new()));
                 }
                 ast::ItemKind::Statement(_) => {
-                    // A value that a later entry means by `_` needs a name.
+                    // A value to which a later entry refers by `_` needs a name.
                     let value = entry.value.filter(|_| i + 1 == count);
                     if let Some(name) = value.filter(|name| self.is_used(*name)) {
                         edits.push((range.start..range.start, format!("let {name} = ")));
@@ -81,7 +82,7 @@ impl<'c> Saved<'c> {
         edited(&entry.text, edits)
     }
 
-    /// `_` by the name of the value that it meant.
+    /// Returns the edits that replace `_` by the name of the value it referred to.
     fn last_values(&self, file: FileId) -> Vec<Edit> {
         let here = self.checked.uses.iter().filter(|(span, _)| span.file == file);
         let of_hole = here.filter(|(span, _)| self.checked.sources.text(*span) == "_");
@@ -89,11 +90,12 @@ impl<'c> Saved<'c> {
         named.collect()
     }
 
+    /// Returns whether a name is used.
     fn is_used(&self, name: Symbol) -> bool {
         self.meant.get(&name).is_some_and(|id| self.used.contains(id))
     }
 
-    /// Whether a later entry declares what the declaration at a place does.
+    /// Returns whether a later entry replaces the declaration at a range.
     fn is_replaced(&self, file: FileId, range: &Range<usize>) -> bool {
         let program = &self.checked.program;
         let own = program.own.iter().map(|id| (*id, program.def(*id)));
@@ -101,8 +103,8 @@ impl<'c> Saved<'c> {
         here.any(|(id, def)| self.meant.get(&def.name) != Some(&id))
     }
 
-    /// An import without the names that mean something else by now; of a file that was loaded as a
-    /// whole, only the names that are used.
+    /// Adds an import without the names that stand for something else by now; of a file loaded as a whole,
+    /// only the names that are used.
     fn import(&self, u: &ast::Use, loaded: bool, imports: &mut Vec<String>) {
         let source = match &u.source {
             ast::UseSource::File { path, .. } => format!("\"{path}\""),
@@ -130,6 +132,7 @@ impl<'c> Saved<'c> {
         }
     }
 
+    /// Returns whether a name of an import is still needed.
     fn is_imported(&self, name: &ast::UseName, loaded: bool) -> bool {
         let shown = name.rename.unwrap_or(name.name).text;
         let Some(id) = self.meant.get(&shown) else { return false };
@@ -138,7 +141,7 @@ impl<'c> Saved<'c> {
     }
 }
 
-/// A text with parts replaced. Edits within others are left out.
+/// Returns a text with ranges replaced. Edits inside of others are left out.
 fn edited(text: &str, mut edits: Vec<Edit>) -> String {
     edits.sort_by_key(|(range, _)| (range.start, std::cmp::Reverse(range.end)));
     let mut out = String::new();

@@ -1,4 +1,4 @@
-//! The state of a session, and the ways to change it.
+//! The state of a session, and its operations.
 
 use super::changes::{Change, changes};
 use super::dependencies::{Dependencies, meant};
@@ -14,24 +14,29 @@ use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What a person has entered so far, and what has come of it.
+/// A session: the entries so far, the program they make, and its values.
 pub struct Session {
+    /// The snapshot of the project's files.
     pub(super) files: Arc<Kept>,
+    /// The accepted entries, in order.
     pub(super) entries: Vec<Entry>,
+    /// The program that they make.
     pub(super) checked: Arc<Checked>,
+    /// The declaration that `_` stands for.
     pub(super) last: Option<Symbol>,
-    /// Files that were loaded, or were to be.
+    /// The files that were loaded, or failed to load.
     pub(super) loaded: Vec<String>,
     evaluator: Evaluator,
     options: Options,
-    /// The session before each entry that can be taken back.
+    /// The state before each entry that can be undone.
     before: Vec<Before>,
-    /// Entries so far, failed ones included.
+    /// The number of entries so far, failed ones included.
     count: usize,
-    /// Whether the evaluator keeps the outcome of an entry that was given up.
+    /// True if the evaluator holds the outcome of an abandoned entry that must be undone.
     to_take_back: Cell<bool>,
 }
 
+/// The state of a session before an entry.
 struct Before {
     entries: usize,
     last: Option<Symbol>,
@@ -41,42 +46,51 @@ struct Before {
 /// A text to enter.
 #[derive(Clone, Debug)]
 pub struct Input<'t> {
+    /// The text.
     pub text: &'t str,
-    /// As diagnostics name it.
+    /// Its name in diagnostics.
     pub name: &'t str,
-    /// The line of a longer input at which it begins; else 1.
+    /// The line of a longer input at which it begins; 1 if there is none.
     pub first_line: usize,
+    /// The values that are printed.
     pub tell: Tell,
-    /// Whether what it declares stays.
+    /// True if its declarations are kept.
     pub keep: bool,
 }
 
-/// What came of an entry.
+/// The outcome of an entry.
 pub struct Reply {
-    /// With the texts that the diagnostics are about.
+    /// The program that was checked, with the texts that the diagnostics refer to.
     pub checked: Arc<Checked>,
+    /// The errors and warnings about the entry.
     pub diagnostics: Vec<Diagnostic>,
-    /// What else there is to say, a line each.
+    /// Further messages, a line each.
     pub notes: Vec<String>,
-    /// What earlier entries say that no longer fit; the entry stands all the same.
+    /// Errors in earlier entries caused by this one, which is accepted all the same.
     pub broken: Vec<Diagnostic>,
+    /// The paths of the files that were written.
     pub written: Vec<String>,
-    /// Whether all went well. If not, the session is as it was.
+    /// True if the entry was accepted. If not, the session is as it was.
     pub ok: bool,
+    /// True if the entry was cancelled.
     pub interrupted: bool,
 }
 
-/// What came of reading all files again.
+/// The outcome of reading all files again.
 pub struct Reloaded {
+    /// The outcome of evaluating the reloaded program.
     pub reply: Reply,
+    /// The changed declarations.
     pub changes: Vec<Change>,
 }
 
 impl Reply {
+    /// Returns the outcome of an entry that was not accepted.
     fn refused(checked: Checked, diagnostics: Vec<Diagnostic>) -> Reply {
         Reply { ok: false, diagnostics, ..Reply::fine(Arc::new(checked)) }
     }
 
+    /// Returns the outcome of an accepted entry without messages.
     fn fine(checked: Arc<Checked>) -> Reply {
         Reply {
             checked,
@@ -91,7 +105,7 @@ impl Reply {
 }
 
 impl Session {
-    /// An empty session in a project. `host` is asked for nothing but its cancellation token.
+    /// Returns an empty session in a project. Only the cancellation token of `host` is used.
     pub fn new(project: Project, options: Options, host: &dyn Host) -> Session {
         let files = Arc::new(Kept::new(project));
         let checked = Arc::new(check::check_session(&*files, &[]));
@@ -109,31 +123,34 @@ impl Session {
         }
     }
 
+    /// Returns the checked program of all entries.
     pub fn checked(&self) -> &Checked {
         &self.checked
     }
 
-    /// Whether interrupted work goes on that nobody waits for any more.
+    /// Returns whether abandoned work is still running.
     pub fn is_left(&self) -> bool {
         self.evaluator.is_left()
     }
 
-    /// Waits for the end of work that was left, which is still wished; says whether it has come.
+    /// Waits for abandoned work to end, and returns whether it has. Returns false if the wait is abandoned,
+    /// too.
     pub fn settle(&mut self) -> bool {
         let Some(kept) = self.evaluator.settle() else { return false };
-        // It ended well after all, just then: but it was said that it did not.
+        // The work ended normally at the last moment, but was reported as cancelled.
         self.to_take_back.set(kept);
         true
     }
 
-    /// Leaves work that does not end to itself. All values are worked out again when they are needed.
-    /// `host` has another cancellation token now.
+    /// Leaves work that does not end, and starts a new evaluator with the current cancellation token of
+    /// `host`. All values are computed again when they are needed.
     pub fn renew(&mut self, host: &dyn Host) {
         self.evaluator = Evaluator::new(host.cancel_state());
         self.to_take_back.set(false);
     }
 
-    /// Checks and evaluates a text. What it declares anew takes the place of what had its name.
+    /// Checks and evaluates a text. A new declaration replaces an earlier one of its name. If the entry
+    /// fails, the session is as it was.
     pub fn enter(&mut self, input: &Input, host: &mut dyn Host) -> Reply {
         self.count += 1;
         let entry = Entry {
@@ -146,6 +163,7 @@ impl Session {
         self.take(entry, input, host)
     }
 
+    /// Checks an entry, and evaluates it if it has no errors.
     fn take(&mut self, entry: Entry, input: &Input, host: &mut dyn Host) -> Reply {
         let mut entries = self.entries.clone();
         entries.push(entry);
@@ -184,6 +202,7 @@ impl Session {
         Reply { checked, diagnostics, notes, broken, written, ok, interrupted }
     }
 
+    /// Runs work on the evaluator.
     fn run(
         &self,
         checked: &Arc<Checked>,
@@ -197,6 +216,7 @@ impl Session {
         self.evaluator.run(task(work), &*self.files, host)
     }
 
+    /// Saves the state for `undo`.
     fn remember(&mut self) {
         self.before.push(Before {
             entries: self.entries.len(),
@@ -207,15 +227,15 @@ impl Session {
         self.before.drain(..too_many);
     }
 
-    /// The file of the newest entry: texts come in the order in which they are read.
+    /// Returns the file of the newest entry: files are numbered in the order in which they are read.
     fn newest(&self, checked: &Checked) -> FileId {
         let known = self.checked.sources.files().count();
         let (id, _) = checked.sources.files().nth(known).expect("an entry is a text of its own");
         id
     }
 
-    /// What there is to say of the newest entry: about its own text, about what it imports for the
-    /// first time, and what was wrong with what it needs.
+    /// Returns the diagnostics about the newest entry: in its own text, in files that it imports for the
+    /// first time, and in what it needs.
     fn about(&self, checked: &Checked, file: FileId) -> Vec<Diagnostic> {
         let dependencies = Dependencies::of(checked);
         let needed = dependencies.needed_by(file);
@@ -230,7 +250,7 @@ impl Session {
         checked.diagnostics.iter().filter(concerns).cloned().collect()
     }
 
-    /// Mistakes in earlier texts that were none before.
+    /// Returns the new errors in earlier texts.
     fn newly_wrong(&self, checked: &Checked, file: FileId) -> Vec<Diagnostic> {
         let live: BTreeSet<DefId> = meant(checked).into_values().collect();
         let dependencies = Dependencies::of(checked);
@@ -244,8 +264,8 @@ impl Session {
         checked.diagnostics.iter().filter(concerns).cloned().collect()
     }
 
-    /// Declarations whose values do not hold any more because a name means something else now, and
-    /// what to say about it.
+    /// Returns the declarations whose values are stale because a name stands for something else now, and
+    /// messages about them.
     fn redefined(&self, checked: &Checked) -> (Vec<DefId>, Vec<String>) {
         let now = meant(checked);
         let changed = meant(&self.checked).into_iter().filter_map(|(name, old)| {
@@ -282,7 +302,7 @@ impl Session {
         (stale, notes)
     }
 
-    /// Takes in the names that a file of the project declares.
+    /// Loads a file: imports the names that it declares. The outcome is that of an entry.
     pub fn load(&mut self, path: &str, host: &mut dyn Host) -> Reply {
         if !self.loaded.iter().any(|known| known == path) {
             self.loaded.push(path.to_owned());
@@ -310,7 +330,7 @@ impl Session {
         reply
     }
 
-    /// Names of what the texts from one on declare, as far as they are meant.
+    /// Returns the visible names declared in the texts from an index on.
     fn names_since(&self, known: usize) -> Vec<String> {
         let new = |id: DefId| self.checked.program.def(id).file.0 as usize >= known;
         meant(&self.checked)
@@ -320,7 +340,7 @@ impl Session {
             .collect()
     }
 
-    /// Reads all files again. If something is wrong with them, the session stays as it was.
+    /// Reads all files again. If there are errors in them, the session stays as it was.
     pub fn reload(&mut self, host: &mut dyn Host) -> Reloaded {
         let files = Arc::new(self.files.fresh());
         let mut entries = self.entries.clone();
@@ -345,7 +365,7 @@ impl Session {
             return nothing;
         }
         let check: Vec<DefId> = elaborated(&checked).collect();
-        // Where no identity holds, everything is stale.
+        // If no identity is preserved, everything is stale.
         let all = || (0..checked.program.defs.len()).map(|index| DefId(index as u32)).collect();
         let stale = stale(&self.checked, &checked).unwrap_or_else(all);
         let before = std::mem::replace(&mut self.files, files);
@@ -364,7 +384,7 @@ impl Session {
         Reloaded { reply, changes }
     }
 
-    /// Takes back the last entry; gives its text, or `None` where there is none to take back.
+    /// Undoes the last entry, and returns its text; `None` if there is none to undo.
     pub fn undo(&mut self, host: &mut dyn Host) -> Option<String> {
         let before = self.before.pop()?;
         let undone = self.entries.drain(before.entries..).next()?;
@@ -374,7 +394,7 @@ impl Session {
         Some(undone.text)
     }
 
-    /// Forgets everything.
+    /// Removes all entries and values.
     pub fn reset(&mut self, host: &mut dyn Host) {
         self.files = Arc::new(self.files.fresh());
         (self.entries, self.before, self.loaded) = (Vec::new(), Vec::new(), Vec::new());
@@ -384,13 +404,13 @@ impl Session {
     }
 }
 
-/// Whether somebody gave this name: values of expressions are kept under others.
+/// Returns whether a name was given by the user; values of expressions are stored under other names.
 pub(super) fn is_given(name: Symbol) -> bool {
     let digits = name.as_str().strip_prefix('_').unwrap_or("x");
     digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())
 }
 
-/// The type of the expression that ends the newest entry, if it has a value.
+/// Returns the type of the expression that ends the newest entry, if it has a value.
 pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
     let program = &checked.program;
     let value = program.statements.statements.last()?;
@@ -400,28 +420,28 @@ pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
     is_last.then(|| type_of(value))?
 }
 
-/// The type of a statement that is an expression, too, and has a value.
+/// Returns the type of a statement that is also an expression with a value.
 fn type_of(statement: &Stmt) -> Option<Type> {
     match &statement.kind {
         StmtKind::Expr(value) => (!matches!(value.ty, Type::Nothing | Type::Error)).then(|| value.ty.clone()),
         StmtKind::If { then, otherwise, .. } => {
             let (then, otherwise) = (type_of(then.last()?)?, type_of(otherwise.last()?)?);
-            // Where they differ it is a statement, as in a file.
+            // If the types differ, it is a statement, as in a file.
             (then == otherwise).then_some(then)
         }
         _ => None,
     }
 }
 
-/// The name of entries that stand for a loaded file.
+/// The prefix of the names of entries that stand for loaded files.
 const LOAD: &str = "<load ";
 
-/// The file that an entry stands for.
+/// Returns the path of the file that an entry stands for.
 pub(super) fn loaded_path(entry: &Entry) -> Option<&str> {
     entry.name.strip_prefix(LOAD)?.strip_suffix('>')
 }
 
-/// The entry that imports all that a file declares for others.
+/// Returns the entry that imports all public declarations of a file.
 fn load_entry(files: &dyn Files, path: &str) -> Result<Entry, String> {
     let bytes = files.read(path).map_err(|error| check::why_unreadable(path, &error))?;
     let text = String::from_utf8_lossy(&bytes);
@@ -430,7 +450,7 @@ fn load_entry(files: &dyn Files, path: &str) -> Result<Entry, String> {
         parsed.file.items.iter().filter_map(declared_name).filter(|name| !name.as_str().starts_with('_'));
     let names: Vec<&str> = names.map(|name| name.as_str()).collect();
     let text = if names.is_empty() && parsed.diagnostics.iter().any(Diagnostic::is_error) {
-        // So that what is wrong with it is told.
+        // An import of an unknown name, so that the errors of the file are reported.
         format!("use \"{path}\".{{any}}")
     } else if names.is_empty() {
         return Err(format!("`{path}` declares nothing"));
@@ -440,6 +460,7 @@ fn load_entry(files: &dyn Files, path: &str) -> Result<Entry, String> {
     Ok(Entry { name: format!("{LOAD}{path}>"), text, first_line: 1, value: None, last: None })
 }
 
+/// Returns the name that an item declares.
 fn declared_name(item: &ast::Item) -> Option<Symbol> {
     use ast::ItemKind as K;
     Some(match &item.kind {
@@ -455,7 +476,7 @@ fn declared_name(item: &ast::Item) -> Option<Symbol> {
     })
 }
 
-/// What has instances, of the project's own declarations that are meant.
+/// Returns the project's own visible declarations with instances.
 fn elaborated(checked: &Checked) -> impl Iterator<Item = DefId> {
     let own: BTreeSet<DefId> = checked.program.own.iter().copied().collect();
     let live = meant(checked).into_values().filter(move |id| own.contains(id));

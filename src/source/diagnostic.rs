@@ -1,44 +1,55 @@
-//! What a person is told: one type for every mistake, warning and note.
+//! Diagnostics: one type for every error, warning and note that a user sees.
 
 use super::{Code, Span};
 
+/// The severity of a diagnostic, the gravest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
+    /// The program (or plan) is wrong.
     Error,
+    /// The program may be wrong.
     Warning,
+    /// Information without fault.
     Note,
 }
 
-/// A span with a few words about it.
+/// A labelled place in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
+    /// The place.
     pub span: Span,
+    /// A few words about it; may be empty.
     pub text: String,
 }
 
-/// One finding: a stable code, what is wrong, where, and how to mend it.
+/// A diagnostic: a stable code, a message, places, and hints for correction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
+    /// The code, which has a page in `docs/errors/`.
     pub code: Code,
+    /// The severity.
     pub severity: Severity,
-    /// What is wrong, in the user's words and units; one sentence without a final stop.
+    /// The message in the user's words and units: one sentence without a final full stop.
     pub message: String,
-    /// The first label is the primary one. Empty only where no text is to blame.
+    /// The places; the first one is the primary one. Empty only if no text is at fault.
     pub labels: Vec<Label>,
-    /// How to mend it, or what else helps; each a sentence without a final stop.
+    /// Hints for correction, each a sentence without a final full stop.
     pub hints: Vec<String>,
 }
 
 impl Diagnostic {
+    /// Returns an error without labels and hints.
     pub fn error(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, Severity::Error, message)
     }
 
+    /// Returns a warning without labels and hints.
     pub fn warning(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, Severity::Warning, message)
     }
 
+    /// Returns a note without labels and hints.
     pub fn note(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, Severity::Note, message)
     }
@@ -53,16 +64,18 @@ impl Diagnostic {
         self
     }
 
+    /// Adds a hint.
     pub fn hint(mut self, text: impl Into<String>) -> Diagnostic {
         self.hints.push(text.into());
         self
     }
 
+    /// Returns whether the severity is [`Severity::Error`].
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 
-    /// The primary span, if any text is to blame.
+    /// Returns the span of the primary label; `None` if there is no label.
     pub fn span(&self) -> Option<Span> {
         self.labels.first().map(|label| label.span)
     }

@@ -1,58 +1,64 @@
-//! The lines of a text that a diagnostic shows, cut to fit: around each label, a line before and
-//! after, long lines shortened about the label, nothing in them that a terminal would obey.
+//! Excerpts: the lines of texts that a diagnostic shows, with one line before and after each label. Long
+//! lines are shortened around the label, and characters that control a terminal are replaced.
 //!
-//! An [`Excerpt`] is a small text of its own, made of blocks from one or several files. Drawing it
-//! costs the same near the end of a large file as at its beginning.
+//! An [`Excerpt`] is a small text of its own, made of blocks from one or several files, so the cost of
+//! drawing does not depend on the position in a large file.
 
 use super::{FileId, Label, LineColumn, Sources};
 use std::ops::Range;
 
-/// Lines shown before the first and after the last labelled line of a block.
+/// The number of lines shown before the first and after the last labelled line of a block.
 const CONTEXT: usize = 1;
 
 /// A label over more lines than this is drawn on its first line only.
 const LABEL_LINES_MAX: usize = 6;
 
-/// Columns between two tab stops.
+/// The columns between two tab stops.
 const TAB: usize = 4;
 
-/// Columns that a label's words need to the right of its middle; else its line is shifted.
+/// The least number of columns for a label's text to the right of its middle; otherwise its line is
+/// shifted.
 pub(super) const LABEL_ROOM: usize = 14;
 
-/// What stands for text that was cut off.
+/// The mark for text that is cut off.
 const CUT: &str = "…";
 
-/// Neighbouring lines of one file.
+/// A block of consecutive lines of one file.
 #[derive(Debug)]
 pub(super) struct Block {
+    /// The file.
     pub file: FileId,
-    /// From 1.
+    /// The number of its first line, from 1.
     pub first_line: usize,
+    /// The number of lines.
     pub line_count: usize,
-    /// In [`Excerpt::text`].
+    /// The bytes of the block in [`Excerpt::text`].
     pub range: Range<usize>,
 }
 
-/// Where a label lies in the excerpt.
+/// The place of a label in the excerpt.
 #[derive(Debug)]
 pub(super) struct Mark {
-    /// In [`Excerpt::text`]; never empty, never past the last visible character.
+    /// The bytes of the label in [`Excerpt::text`]; never empty, never past the last visible character.
     pub range: Range<usize>,
-    /// In the file.
+    /// The position in the file.
     pub position: LineColumn,
-    /// Columns left of the mark's middle.
+    /// The number of columns to the left of the mark's middle.
     pub indent: usize,
 }
 
+/// An excerpt.
 #[derive(Debug, Default)]
 pub(super) struct Excerpt {
+    /// The text of all blocks.
     pub text: String,
+    /// The blocks, those of the first label's file first.
     pub blocks: Vec<Block>,
-    /// One for each label, in the labels' order.
+    /// One mark for each label, in the labels' order.
     pub marks: Vec<Mark>,
 }
 
-/// A label's lines in its file, and bytes within the first and the last of them.
+/// The lines of a label in its file, and its first and last byte within those lines.
 #[derive(Clone, Copy)]
 struct Place {
     file: FileId,
@@ -62,7 +68,7 @@ struct Place {
     end: usize,
 }
 
-/// The excerpt that shows all `labels`, no line of it wider than `columns`.
+/// Returns the excerpt that shows all `labels`, with no line wider than `columns`.
 pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
     let places: Vec<Place> = labels.iter().map(|label| place(sources, label)).collect();
     let mut excerpt = Excerpt::default();
@@ -104,13 +110,14 @@ pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Ex
     excerpt
 }
 
+/// Returns the mark of a label shown at the bytes `shown` of the excerpt.
 fn mark(sources: &Sources, text: &str, place: Place, shown: Range<usize>, columns: usize) -> Mark {
     let Range { start, end } = shown;
     let before = &text[text[..start].rfind('\n').map_or(0, |i| i + 1)..start];
     let before: usize = before.chars().map(columns_of).sum();
     let next = text[start..].chars().next().map_or(0, char::len_utf8);
     let marked = text[start..end.max(start + next)].lines().next().unwrap_or("");
-    // On a narrow terminal the words matter more than the whole length of the line above them.
+    // On a narrow terminal the label's text matters more than the length of the line above it.
     let room = (2 * columns.saturating_sub(LABEL_ROOM + before)).max(1);
     let one_line = place.first == place.last;
     let drawn = if one_line { marked.chars().take(room).map(char::len_utf8).sum() } else { end - start };
@@ -123,7 +130,7 @@ fn mark(sources: &Sources, text: &str, place: Place, shown: Range<usize>, column
     }
 }
 
-/// The label's place, moved onto characters that can be seen.
+/// Returns the place of a label, moved to visible characters.
 fn place(sources: &Sources, label: &Label) -> Place {
     let file = sources.file(label.span.file);
     let range = visible_range(&file.text, label.span.start as usize, label.span.end as usize);
@@ -137,9 +144,8 @@ fn place(sources: &Sources, label: &Label) -> Place {
     Place { file: label.span.file, first, last, start, end: range.end - file.line_start(last) }
 }
 
-/// The range without the blanks at its end. A range without length goes to the character after it,
-/// or, where that is blank, to the last visible one before it on its line; at the end of the text,
-/// in the text. It stays empty on a line of blanks.
+/// Returns the range without the blanks at its end. An empty range is moved to the character after it, or,
+/// if that is blank, to the last visible one before it on its line; on a blank line it stays empty.
 fn visible_range(text: &str, start: usize, end: usize) -> Range<usize> {
     let start = floor(text, start);
     let end = start + text[start..floor(text, end).max(start)].trim_end().len();
@@ -159,7 +165,7 @@ fn visible_range(text: &str, start: usize, end: usize) -> Range<usize> {
     }
 }
 
-/// The greatest character boundary that is not after `offset`.
+/// Returns the greatest character boundary that is not after `offset`.
 fn floor(text: &str, offset: usize) -> usize {
     let mut offset = offset.min(text.len());
     while !text.is_char_boundary(offset) {
@@ -168,7 +174,8 @@ fn floor(text: &str, offset: usize) -> usize {
     offset
 }
 
-/// Runs of lines to show: the first label's file first, then the others in order; in a file by line.
+/// Returns the runs of lines to show: those of the first label's file first, then other files in order; in
+/// a file by line.
 fn blocks(sources: &Sources, places: &[Place]) -> Vec<(FileId, Range<usize>)> {
     let mut ordered: Vec<Place> = places.to_vec();
     let first = places.first().map(|p| p.file);
@@ -176,7 +183,7 @@ fn blocks(sources: &Sources, places: &[Place]) -> Vec<(FileId, Range<usize>)> {
     let mut blocks: Vec<(FileId, Range<usize>)> = Vec::new();
     for place in ordered {
         let file = sources.file(place.file);
-        // After the last line end there is nothing to show.
+        // Nothing can be shown after the last line end.
         let last = file.last_line() - usize::from(file.last_line() > place.last && file.text.ends_with('\n'));
         let lines =
             place.first.saturating_sub(CONTEXT).max(file.first_line)..(place.last + CONTEXT).min(last) + 1;
@@ -190,21 +197,23 @@ fn blocks(sources: &Sources, places: &[Place]) -> Vec<(FileId, Range<usize>)> {
     blocks
 }
 
-/// A line as it is shown, and where its bytes went.
+/// A shortened line, with the mapping from bytes of the file's line.
 struct CutLine {
     text: String,
-    /// Byte in the file's line, byte in `text`; ascending, the last pair is the end.
+    /// Pairs of a byte in the file's line and a byte in `text`, ascending; the last pair is the end.
     bytes: Vec<(usize, usize)>,
 }
 
 impl CutLine {
-    /// Where the character at `byte` of the file's line is shown, or the nearest one that is.
+    /// Returns the byte in `text` of the character at `byte` of the file's line, or of the nearest one
+    /// shown.
     fn byte(&self, byte: usize) -> usize {
         let after = self.bytes.partition_point(|&(from, _)| from < byte);
         self.bytes.get(after).or(self.bytes.last()).map_or(0, |&(_, to)| to)
     }
 }
 
+/// Returns a line shortened to `columns` so that `focus` is visible.
 fn cut_line(line: &str, focus: Range<usize>, columns: usize) -> CutLine {
     let columns = columns.max(8);
     let from = window_start(line, focus, columns);
@@ -233,14 +242,14 @@ fn cut_line(line: &str, focus: Range<usize>, columns: usize) -> CutLine {
     }
     cut.bytes.push((line.len(), cut.text.len()));
     if cut.text.is_empty() {
-        // An empty line must hold a mark, too.
+        // An empty line must have room for a mark.
         cut.text.push(' ');
     }
     cut
 }
 
-/// Where to begin a line so that the `focus` can be seen, with some text before it and room for a
-/// label's words below it.
+/// Returns the byte at which a shown line begins, so that `focus` is visible with some text before it and
+/// room for the label's text below it.
 fn window_start(line: &str, focus: Range<usize>, columns: usize) -> usize {
     let start = floor(line, focus.start);
     let count = |text: &str| text.chars().take(columns).map(columns_of).sum::<usize>();
@@ -257,7 +266,7 @@ fn window_start(line: &str, focus: Range<usize>, columns: usize) -> usize {
     shown.last().map_or(start, |(i, _)| i)
 }
 
-/// Columns that a character takes; East Asian wide ones take two.
+/// Returns the columns that a character occupies; East Asian wide characters occupy two.
 fn columns_of(c: char) -> usize {
     match c {
         '\t' => TAB,
@@ -268,7 +277,7 @@ fn columns_of(c: char) -> usize {
     }
 }
 
-/// A character that a terminal draws and does not obey.
+/// Returns a character that a terminal displays; control characters become their pictures.
 pub(super) fn visible(c: char) -> char {
     match c {
         '\0'..='\u{1f}' => char::from_u32(0x2400 + c as u32).expect("control pictures follow the controls"),

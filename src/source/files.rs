@@ -1,38 +1,40 @@
-//! Where texts come from. The only window through which a program reads: `main` opens it onto a
-//! project folder, tests onto a map.
+//! Access to files. The only way by which a program reads: the command line opens it onto a project folder,
+//! tests onto a map.
 
 use std::borrow::Cow;
 
-/// Why a file can't be had.
+/// The reason why a file can't be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReadError {
+    /// There is no such file.
     NotFound,
     /// The path, or a link on it, leads out of the project.
     Outside,
-    /// Larger than this many bytes.
+    /// The file is larger than this limit, in bytes.
     TooLarge(usize),
-    /// Anything else, in the system's words.
+    /// Another failure, in the system's words.
     Failed(String),
 }
 
-/// Texts by name.
+/// Read access to the files of a project and of the standard library.
 pub trait Files {
-    /// The bytes of a project file. `path` is relative to the project root, has forward slashes and
-    /// no `.` or `..` (see [`join`]).
+    /// Returns the bytes of a project file. `path` is relative to the project root, with forward slashes
+    /// and without `.` and `..` (see [`join`]). Fails with the reason of a failed read.
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError>;
 
-    /// A file of the standard library, such as `smores.mod` for `std.smores`.
+    /// Returns the text of a file of the standard library, such as `smores.mod` for `std.smores`; `None` if
+    /// there is none.
     fn library(&self, path: &str) -> Option<Cow<'static, str>>;
 
-    /// What lies in a folder of the project, for those who look for a name: files, and folders with a
-    /// slash at the end. In order.
+    /// Returns the names in a folder of the project, sorted, for completion: files, and folders with a
+    /// slash at the end.
     fn list(&self, _folder: &str) -> Vec<String> {
         Vec::new()
     }
 }
 
-/// `path` as written in the file `from`, relative to the project root; `None` when it leads out of
-/// the root or is absolute.
+/// Returns the path that `path`, as written in the file `from`, has relative to the project root; `None` if
+/// it leads out of the root or is absolute.
 pub fn join(from: &str, path: &str) -> Option<String> {
     if path.starts_with('/') || path.contains(['\\', '\0', ':']) {
         return None;

@@ -1,20 +1,21 @@
-//! Words of other languages, and what takes their place here: for people who come from there.
+//! Words of other languages with their counterparts in modl, for hints.
 
-/// What to write instead of a word that means nothing here but does in another language.
+/// Returns the hint for a word that means nothing in modl but does in another language.
 pub(crate) fn instead(word: &str) -> Option<&'static str> {
     INSTEAD.iter().find(|(words, _)| words.contains(&word)).map(|(_, instead)| *instead)
 }
 
-/// The type that is meant by its name in another language.
+/// Returns the type with this name in another language.
 pub(crate) fn of_type(name: &str) -> Option<&'static str> {
     TYPES.iter().find(|(names, _)| names.contains(&name)).map(|(_, ty)| *ty)
 }
 
-/// The unit that is meant by a longer name.
+/// Returns the unit with this longer name.
 pub(crate) fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
 }
 
+/// Words of other languages with their hints.
 const INSTEAD: &[(&[&str], &str)] = &[
     (&["def", "func", "function", "fun"], "a function is written `fn name(x: Length) -> Length = 2 * x`"),
     (&["lambda"], "a function without a name is written `x => 2 * x`, where one is wanted"),
@@ -69,6 +70,7 @@ const INSTEAD: &[(&[&str], &str)] = &[
     ),
 ];
 
+/// Type names of other languages with the types of modl.
 const TYPES: &[(&[&str], &str)] = &[
     (&["int", "integer", "i32", "i64", "u32", "usize"], "`Int`"),
     (&["float", "double", "f32", "f64", "real"], "`Number`, or a quantity such as `Length` or `Angle`"),
@@ -78,6 +80,7 @@ const TYPES: &[(&[&str], &str)] = &[
     (&["dict", "tuple", "object", "Dict", "Tuple"], "`List<Length>`, or a parameter for each value"),
 ];
 
+/// Longer names of units.
 const UNITS: &[(&[&str], &str)] = &[
     (&["degree", "degrees", "degs", "°"], "deg"),
     (&["radian", "radians", "rads"], "rad"),

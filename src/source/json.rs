@@ -1,39 +1,49 @@
-//! Diagnostics as data for tools; the form is described in `docs/json.md`.
+//! Diagnostics as JSON for tools; `docs/json.md` describes the format.
 
 use super::render::{Style, sorted};
 use super::{Code, Diagnostic, Label, Severity, Sources};
 use serde::Serialize;
 
-/// One diagnostic with places that an editor can jump to.
+/// A diagnostic with positions that an editor can jump to.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub struct JsonDiagnostic {
+    /// The code, such as `E0201`.
     pub code: String,
+    /// The severity.
     pub severity: Severity,
+    /// The message.
     pub message: String,
-    /// The first one is the primary one.
+    /// The places; the first one is the primary one.
     pub labels: Vec<JsonLabel>,
+    /// The hints.
     pub hints: Vec<String>,
 }
 
-/// A place in a file. Lines and columns count from 1, columns count characters.
+/// A place in a file. Lines and columns count from 1; columns count characters.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub struct JsonLabel {
+    /// The name of the file.
     pub file: String,
-    /// Whether the file belongs to the standard library and may not exist on disk.
+    /// True if the file belongs to the standard library and may not exist on disk.
     pub library: bool,
-    /// In bytes from the beginning of the file.
+    /// The offset of the first byte in the file.
     pub offset: usize,
-    /// In bytes.
+    /// The length in bytes.
     pub length: usize,
+    /// The line of the first character.
     pub line: usize,
+    /// The column of the first character.
     pub column: usize,
-    /// Where the first character after the label stands.
+    /// The line of the first character behind the place.
     pub end_line: usize,
+    /// The column of the first character behind the place.
     pub end_column: usize,
+    /// The text of the label.
     pub text: String,
 }
 
-/// The diagnostics in order, each once, as [`render`](super::render::render) draws them.
+/// Returns the diagnostics sorted and without duplicates, as [`render`](super::render::render) draws them.
+/// `style` gives the names of files.
 pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> Vec<JsonDiagnostic> {
     let one = |diagnostic: &&Diagnostic| {
         let Code(code) = diagnostic.code;
@@ -48,6 +58,7 @@ pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> 
     sorted(diagnostics).iter().map(one).collect()
 }
 
+/// Returns a label with its positions.
 fn place(sources: &Sources, label: &Label, style: &Style) -> JsonLabel {
     let file = sources.file(label.span.file);
     let start = file.line_column(label.span.start as usize);

@@ -7,7 +7,7 @@ macro_rules! embed {
     };
 }
 
-/// Name and text of each file, in order of name.
+/// The name and text of each file, by name.
 pub const FILES: &[(&str, &str)] = embed![
     "crystal.mod",
     "gaits.mod",
@@ -19,12 +19,12 @@ pub const FILES: &[(&str, &str)] = embed![
     "truss.mod",
 ];
 
-/// The text of a library file, such as `smores.mod` for `std.smores`.
+/// Returns the text of a library file, such as `smores.mod` for `std.smores`.
 pub fn text(name: &str) -> Option<&'static str> {
     FILES.iter().find(|(file, _)| *file == name).map(|(_, text)| *text)
 }
 
-/// The library file that declares a public name, without its ending: `smores` for `Smores`.
+/// Returns the library file that declares a public name, without its ending: `smores` for `Smores`.
 pub fn declares(name: &str) -> Option<&'static str> {
     let keywords =
         ["module", "config", "connector", "cell", "strut", "lattice", "truss", "fn", "let", "extern fn"];

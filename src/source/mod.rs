@@ -1,4 +1,4 @@
-//! Texts, positions in them, and what is wrong with them.
+//! Texts, positions in them, and diagnostics about them.
 //!
 //! The lowest room of the left wing: it knows no grammar and no robots.
 

@@ -8,19 +8,20 @@ use miette::{
 };
 use std::fmt;
 
-/// How diagnostics are drawn.
+/// The style in which diagnostics are drawn.
 #[derive(Clone, Debug)]
 pub struct Style {
-    /// Columns of the terminal; fewer than [`WIDTH_MIN`] count as that.
+    /// The width of the terminal in columns; less than [`WIDTH_MIN`] counts as that.
     pub width: usize,
+    /// True if the text is coloured by escape sequences.
     pub color: bool,
     /// The project folder as the user would name it, put before the names of its files; may be empty.
     pub folder: String,
-    /// Diagnostics drawn at most; the rest are counted.
+    /// The most diagnostics that are drawn; the rest are counted.
     pub shown_max: usize,
 }
 
-/// Below this many columns snippets would show nothing.
+/// The least width in columns; in a narrower terminal snippets would show nothing.
 pub const WIDTH_MIN: usize = 30;
 
 impl Default for Style {
@@ -30,7 +31,8 @@ impl Default for Style {
 }
 
 impl Style {
-    /// The name of a file as the user would type it; `<stdin>` and its like are no files.
+    /// Returns the name of a file as the user would type it. `<stdin>` and other names in `<>` are not
+    /// files.
     pub fn name(&self, name: &str, library: bool) -> String {
         match self.folder.as_str() {
             "" => name.to_owned(),
@@ -40,7 +42,7 @@ impl Style {
     }
 }
 
-/// The diagnostics by file and position, errors before warnings, each once.
+/// Returns the diagnostics by file and position, errors before warnings, without duplicates.
 pub fn sorted(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
     let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
     sorted.sort_by(|a, b| key(a).cmp(&key(b)));
@@ -48,13 +50,14 @@ pub fn sorted(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
     sorted
 }
 
-/// A diagnostic without a place comes last. The texts take part so that equal ones are neighbours.
+/// Returns the sort key of a diagnostic. One without a place comes last; texts are part of the key so that
+/// equal diagnostics are adjacent.
 fn key(d: &Diagnostic) -> impl Ord + '_ {
     let texts = d.labels.iter().map(|label| (label.span, label.text.as_str())).collect::<Vec<_>>();
     (d.span().is_none(), d.span(), d.severity, d.code, d.message.as_str(), texts, &d.hints)
 }
 
-/// All diagnostics as text; empty when there is none. Ends with a line end.
+/// Returns all diagnostics as text that ends with a line end; empty if there are none.
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> String {
     let sorted = sorted(diagnostics);
     let mut out = String::new();
@@ -68,7 +71,7 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> S
     out
 }
 
-/// One diagnostic as text: code, message, a snippet for each place, hints.
+/// Returns one diagnostic as text: code, message, a snippet for each place, hints.
 pub fn render_one(sources: &Sources, diagnostic: &Diagnostic, style: &Style) -> String {
     let width = style.width.max(WIDTH_MIN);
     let gutter = gutter_width(sources, diagnostic);
@@ -90,7 +93,8 @@ pub fn render_one(sources: &Sources, diagnostic: &Diagnostic, style: &Style) -> 
     lines.join("\n") + "\n"
 }
 
-/// Columns left of a snippet's text: the line number, the frame, and arrows of labels over lines.
+/// Returns the columns to the left of a snippet's text: line number, frame, and arrows of labels over
+/// lines.
 fn gutter_width(sources: &Sources, diagnostic: &Diagnostic) -> usize {
     let line =
         |offset: u32, label: &super::Label| sources.file(label.span.file).line_column(offset as usize).line;
@@ -104,12 +108,12 @@ fn gutter_width(sources: &Sources, diagnostic: &Diagnostic) -> usize {
     last.to_string().len() + 4 + arrows
 }
 
-/// A diagnostic as miette wants to see it.
+/// A diagnostic in the form that miette draws.
 #[derive(Debug)]
 struct Report<'a> {
     diagnostic: &'a Diagnostic,
     excerpt: Excerpt,
-    /// One for each block of the excerpt.
+    /// The names of the files, one for each block of the excerpt.
     names: Vec<String>,
     label_width: usize,
 }
@@ -140,7 +144,7 @@ impl miette::Diagnostic for Report<'_> {
         if hints.is_empty() { None } else { Some(Box::new(hints.join("\n"))) }
     }
 
-    /// Not a link: where the page is.
+    /// Returns the command that shows the code's page, in place of a link.
     fn url<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(format!("modl explain {}", self.diagnostic.code)))
     }
@@ -152,7 +156,7 @@ impl miette::Diagnostic for Report<'_> {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let labels = self.diagnostic.labels.iter().zip(&self.excerpt.marks).enumerate();
         Some(Box::new(labels.map(|(i, (label, mark))| {
-            // Four columns are for the corner that leads to the words.
+            // Four columns are for the corner that leads to the label's text.
             let width = self.label_width.saturating_sub(mark.indent).max(LABEL_ROOM) - 4;
             let text = (!label.text.is_empty()).then(|| wrapped(&shown(&label.text), width));
             let span = SourceSpan::new(mark.range.start.into(), mark.range.len());
@@ -166,8 +170,8 @@ impl miette::Diagnostic for Report<'_> {
 }
 
 impl SourceCode for Report<'_> {
-    /// A block holds just what is to be shown, so that it is always read whole; blocks are never
-    /// joined. Without context miette asks for a label's place in its file.
+    /// Returns the whole block that contains a span: a block contains exactly what is shown, and blocks are
+    /// never joined. Without context miette asks for a label's position in its file.
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,
@@ -193,12 +197,12 @@ impl SourceCode for Report<'_> {
     }
 }
 
-/// Text of ours that may quote the program: nothing in it that a terminal would obey.
+/// Returns text that may quote the program, without characters that control a terminal.
 fn shown(text: &str) -> String {
     text.chars().map(|c| if c == '\n' { c } else { visible(c) }).collect()
 }
 
-/// Breaks text at blanks so that no line is longer than `width` characters, where words allow.
+/// Breaks text at blanks so that no line is longer than `width` characters, as far as words allow.
 fn wrapped(text: &str, width: usize) -> String {
     let mut out = String::new();
     let mut column = 0;

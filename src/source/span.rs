@@ -1,18 +1,22 @@
 //! Positions: a file and a range of bytes in it.
 
-/// Names one text of a [`Sources`](super::Sources).
+/// The identity of a text among [`Sources`](super::Sources).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FileId(pub u32);
 
 /// A half-open range of bytes `start..end` of one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
+    /// The file.
     pub file: FileId,
+    /// The offset of the first byte.
     pub start: u32,
+    /// The offset behind the last byte.
     pub end: u32,
 }
 
 impl Span {
+    /// Returns the span `start..end` of a file. Panics on offsets beyond 4 GiB.
     pub fn new(file: FileId, start: usize, end: usize) -> Span {
         Span {
             file,
@@ -21,16 +25,18 @@ impl Span {
         }
     }
 
-    /// The smallest span that covers both; both must lie in one file.
+    /// Returns the smallest span that covers both. Both must be in one file.
     pub fn to(self, other: Span) -> Span {
         debug_assert_eq!(self.file, other.file);
         Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
+    /// Returns the range of bytes.
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }
 
+    /// Returns whether `other` is inside this span.
     pub fn contains(self, other: Span) -> bool {
         self.file == other.file && self.start <= other.start && other.end <= self.end
     }

@@ -1,17 +1,19 @@
-//! Names, interned: equal names are one pointer, so comparing and copying them is free.
+//! Interned names: equal names are one pointer, so comparing and copying them is cheap.
 
 use std::collections::HashSet;
 use std::sync::{LazyLock, Mutex};
 
+/// All interned names.
 static NAMES: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Default::default);
 
-/// An interned name. Names live as long as the process: a program has few distinct ones.
+/// An interned name. It is never freed: a program has few distinct names.
 ///
 /// Equality compares pointers; order compares text, so that sorting is reproducible.
 #[derive(Clone, Copy, Eq)]
 pub struct Symbol(&'static str);
 
 impl Symbol {
+    /// Returns the symbol of a text.
     pub fn new(text: &str) -> Symbol {
         let mut names = NAMES.lock().expect("interning cannot panic");
         if let Some(name) = names.get(text) {
@@ -22,6 +24,7 @@ impl Symbol {
         Symbol(name)
     }
 
+    /// Returns the text.
     pub fn as_str(self) -> &'static str {
         self.0
     }

@@ -1,30 +1,34 @@
-//! The texts of one run, and the way from bytes to lines and columns.
+//! The texts of one run, and the conversion of offsets to lines and columns.
 
 use super::{FileId, Span};
 use std::sync::Arc;
 
-/// A line and a column, both from 1; the column counts characters.
+/// A position: line and column, both from 1; the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct LineColumn {
+    /// The line, from 1.
     pub line: usize,
+    /// The column in characters, from 1.
     pub column: usize,
 }
 
-/// One text with the name by which people know it.
+/// A text with its name.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
-    /// As shown in diagnostics and plans: relative to the project root, with forward slashes;
-    /// a file of the standard library is `std/smores.mod`.
+    /// The name in diagnostics and plans: relative to the project root, with forward slashes; a file of the
+    /// standard library is `std/smores.mod`.
     pub name: Arc<str>,
+    /// The text.
     pub text: Arc<str>,
-    /// Whether the file belongs to the standard library.
+    /// True if the file belongs to the standard library.
     pub library: bool,
-    /// The number of its first line: not 1 for a piece of a longer input.
+    /// The number of its first line; not 1 for a piece of a longer input.
     pub first_line: usize,
     line_starts: Vec<u32>,
 }
 
 impl SourceFile {
+    /// Returns the position of a byte offset. An offset beyond the text is taken as its end.
     pub fn line_column(&self, offset: usize) -> LineColumn {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
@@ -35,7 +39,7 @@ impl SourceFile {
         LineColumn { line: line + self.first_line, column: self.text[start..offset].chars().count() + 1 }
     }
 
-    /// The text of a line without its line end; empty when there is no such line.
+    /// Returns the text of a line without its line end; empty if there is no such line.
     pub fn line(&self, line: usize) -> &str {
         let Some(&start) = line.checked_sub(self.first_line).and_then(|i| self.line_starts.get(i)) else {
             return "";
@@ -44,30 +48,32 @@ impl SourceFile {
         self.text[start as usize..end].trim_end_matches(['\n', '\r'])
     }
 
-    /// The byte at which a line begins; the end of the text when there is no such line.
+    /// Returns the offset at which a line begins; the end of the text if there is no such line.
     pub fn line_start(&self, line: usize) -> usize {
         line.checked_sub(self.first_line)
             .and_then(|i| self.line_starts.get(i))
             .map_or(self.text.len(), |&start| start as usize)
     }
 
+    /// Returns the number of the last line.
     pub fn last_line(&self) -> usize {
         self.line_starts.len() + self.first_line - 1
     }
 }
 
-/// All texts of one run. [`FileId`]s are handed out in order of adding.
+/// All texts of one run. [`FileId`]s are numbered in order of adding.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     files: Vec<SourceFile>,
 }
 
 impl Sources {
+    /// Adds a text, and returns its identity.
     pub fn add(&mut self, name: &str, text: &str, library: bool) -> FileId {
         self.add_piece(name, text, library, 1)
     }
 
-    /// A piece of a longer input, which begins at this line of it.
+    /// Adds a piece of a longer input that begins at line `first_line` of it, and returns its identity.
     pub fn add_piece(&mut self, name: &str, text: &str, library: bool, first_line: usize) -> FileId {
         let starts = std::iter::once(0)
             .chain(text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i as u32 + 1))
@@ -77,18 +83,22 @@ impl Sources {
         FileId(self.files.len() as u32 - 1)
     }
 
+    /// Returns a text with its name. Panics if the identity is of another run.
     pub fn file(&self, id: FileId) -> &SourceFile {
         &self.files[id.0 as usize]
     }
 
+    /// Returns all texts in order of adding.
     pub fn files(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
         self.files.iter().enumerate().map(|(i, f)| (FileId(i as u32), f))
     }
 
+    /// Returns the text of a span.
     pub fn text(&self, span: Span) -> &str {
         &self.file(span.file).text[span.range()]
     }
 
+    /// Returns the position at which a span begins.
     pub fn line_column(&self, span: Span) -> LineColumn {
         self.file(span.file).line_column(span.start as usize)
     }
