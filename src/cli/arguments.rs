@@ -173,10 +173,10 @@ pub(super) struct Globals {
     /// Print one JSON object to standard output instead of text
     #[arg(long, global = true)]
     pub json: bool,
-    /// When to colour diagnostics
+    /// Colouring of diagnostics
     #[arg(long, global = true, value_name = "WHEN", value_enum, default_value = "auto")]
     pub color: Color,
-    /// Where plans are written; nothing is written anywhere else
+    /// The folder for plans; nothing is written anywhere else
     #[arg(long, global = true, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
     /// The project: nothing outside is read [default: the folder of the file]
@@ -202,6 +202,7 @@ pub(super) struct Globals {
     pub max_samples: Option<u64>,
 }
 
+/// The choices of `--color`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Color {
     /// On terminals, unless NO_COLOR is set

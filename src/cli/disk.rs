@@ -1,4 +1,4 @@
-//! The project on disk: files below one folder, and nothing else.
+//! The project on disk: access to the files below one folder, and nothing else.
 
 use super::CallError;
 use super::watch::Watched;
@@ -10,33 +10,33 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// No file of a project larger than this is read, bytes.
+/// The greatest size of a project file, in bytes.
 pub(super) const FILE_BYTES_MAX: usize = 64 << 20;
 
-/// Files of a folder that are offered to who looks for a name.
+/// The most files of a folder that are offered for completion.
 const LISTED_MAX: usize = 10_000;
 
-/// The name of a program that comes from standard input.
+/// The name of a program from standard input.
 pub(super) const STDIN_NAME: &str = "<stdin>";
 
-/// A project folder with the program that was named on the command line.
+/// A project folder with the program named on the command line.
 #[derive(Debug)]
 pub(super) struct Project {
-    /// Absolute, without links.
+    /// The root: absolute, without links.
     root: PathBuf,
-    /// Read here instead of from the embedded library; absolute, without links.
+    /// The folder that replaces the embedded library; absolute, without links.
     stdlib: Option<PathBuf>,
     /// The program's name relative to the root.
     pub name: String,
     bytes: Vec<u8>,
     /// The root as the user would name it; empty for the working folder.
     pub folder: String,
-    /// Where to note what is read, or looked for.
+    /// The record of files that are read or searched, for `modl watch`.
     pub watched: Option<Arc<Watched>>,
 }
 
 impl Project {
-    /// A folder as a project without a program.
+    /// Returns a folder as a project without a program. Fails if there is no such folder.
     pub(super) fn of_folder(root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
         let root = root.unwrap_or(Path::new("."));
         Ok(Project {
@@ -49,13 +49,13 @@ impl Project {
         })
     }
 
-    /// The same project, with its program to be read when it is asked for.
+    /// Returns the same project with its program unread, so that it is read again when needed.
     pub(super) fn unread(self) -> Project {
         Project { name: String::new(), bytes: Vec::new(), ..self }
     }
 
-    /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the
-    /// folder of the file (after links), or what the user says.
+    /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the folder of
+    /// the file (after links), or `root`. Fails if the file can't be read or is outside of the root.
     pub(super) fn open(
         file: &Path,
         root: Option<&Path>,
@@ -87,7 +87,7 @@ impl Project {
         })?;
         let name = relative_name(inside)
             .ok_or_else(|| CallError(format!("the path of `{}` is not UTF-8", file.display())))?;
-        // Where a link led elsewhere, only the real folder tells the user where the file is.
+        // If a link leads elsewhere, only the real folder tells the user where the file is.
         let there = fs::canonicalize(if shown == Path::new("") { Path::new(".") } else { shown });
         let folder = if there.is_ok_and(|there| there == root) { shown } else { &root };
         Ok(Project { folder: shown_folder(folder), root, stdlib, name, bytes, watched: None })
@@ -131,7 +131,7 @@ impl Files for Project {
     }
 }
 
-/// A file below `root`, wherever links on its path lead inside of it.
+/// Reads a file below `root`. Links may lead anywhere inside of the root.
 fn read_below(root: &Path, path: &str) -> Result<Vec<u8>, ReadError> {
     let relative = Path::new(path);
     if !relative.components().all(|c| matches!(c, Component::Normal(_))) {
@@ -153,13 +153,14 @@ fn read_error(fault: ReadFault) -> ReadError {
     }
 }
 
-/// Why bytes can't be had. As text it continues "the file `x` ...".
+/// The reason why bytes can't be read. Its text continues "the file `x` ...".
 #[derive(Debug)]
 pub(super) enum ReadFault {
     /// Larger than this many bytes.
     TooLarge(usize),
     /// A folder, pipe or device.
     Irregular,
+    /// A failure of the system.
     System(io::Error),
 }
 
@@ -182,7 +183,7 @@ impl std::fmt::Display for ReadFault {
     }
 }
 
-/// The bytes of a regular file. Others are not even opened: opening a pipe would wait for a writer.
+/// Reads a regular file. Others are not opened: opening a pipe would wait for a writer.
 fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     if !fs::metadata(path)?.is_file() {
         return Err(ReadFault::Irregular);
@@ -190,7 +191,8 @@ fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     read_at_most(File::open(path)?, bytes_max)
 }
 
-/// The bytes that the user named, if they are not too many; `-` is standard input.
+/// Reads a file named by the user, of at most `bytes_max` bytes; `-` is standard input. Fails with a
+/// message.
 pub(super) fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> {
     let bytes = if file == Path::new("-") {
         read_at_most(io::stdin().lock(), bytes_max)
@@ -200,31 +202,33 @@ pub(super) fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> 
     bytes.map_err(|fault| CallError(format!("the file `{}` {fault}", file.display())))
 }
 
-/// All bytes of a stream, if they are not too many. Files may be longer than they say.
+/// Reads a stream of at most `bytes_max` bytes. A file may be longer than its stated size.
 fn read_at_most(stream: impl Read, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     let mut bytes = Vec::new();
     stream.take(bytes_max as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > bytes_max { Err(ReadFault::TooLarge(bytes_max)) } else { Ok(bytes) }
 }
 
-/// The system's words without the error number that Rust appends.
+/// Returns the system's message without the error number that Rust appends.
 pub(super) fn system_words(e: &io::Error) -> String {
     let text = e.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_owned()
 }
 
-/// The real path of a folder that the user named.
+/// Returns the real path of a folder named by the user.
 fn folder(path: &Path) -> Result<PathBuf, CallError> {
     let real = fs::canonicalize(path).map_err(|e| ReadFault::from(e).to_string());
     let real = real.map_err(|e| CallError(format!("the folder `{}` {e}", path.display())))?;
     if real.is_dir() { Ok(real) } else { Err(CallError(format!("`{}` is no folder", path.display()))) }
 }
 
+/// Returns a relative path with forward slashes; `None` if it is not UTF-8.
 fn relative_name(path: &Path) -> Option<String> {
     let parts: Option<Vec<&str>> = path.components().map(|c| c.as_os_str().to_str()).collect();
     parts.map(|parts| parts.join("/"))
 }
 
+/// Returns a folder as the user would name it.
 fn shown_folder(path: &Path) -> String {
     let shown = path.to_string_lossy().into_owned();
     if shown == "." { String::new() } else { shown }

@@ -13,9 +13,10 @@ use std::path::Path;
 /// The folder of the site below the output folder.
 const FOLDER: &str = "doc";
 
-/// Folders within folders that are looked into.
+/// The greatest depth of folders that are searched.
 const DEPTH_MAX: usize = 16;
 
+/// Runs `modl doc`; `library` is true if the standard library is documented, too.
 pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let project =
         Project::of_folder(Some(globals.root.as_deref().unwrap_or(folder)), globals.stdlib.as_deref())?;
@@ -56,7 +57,7 @@ pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
-/// The programs of a folder and those below it, by path.
+/// Collects the programs of a folder and those below it, by path.
 fn collect(files: &Project, folder: &str, depth: usize, found: &mut Vec<String>) {
     for name in files.list(folder) {
         let path = if folder.is_empty() { name } else { format!("{folder}/{name}") };

@@ -16,29 +16,33 @@ use std::path::PathBuf;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-/// Who presses Tab gets an answer within this time or none.
-const COMPLETION_PATIENCE: Duration = Duration::from_millis(50);
+/// The time limit of completion; without a result in time there are no candidates.
+const COMPLETION_TIMEOUT: Duration = Duration::from_millis(50);
 
-/// Entries that are remembered.
+/// The most entries in the history.
 const HISTORY_MAX: usize = 10_000;
 
+/// The prompt of the first line of an entry.
 const PROMPT: &str = "modl> ";
 
-/// What a person typed.
+/// The result of reading one entry.
 pub(super) enum Typed {
+    /// A complete text.
     Entry(String),
-    /// Ctrl-C: what was typed so far is thrown away.
+    /// Ctrl-C: the text typed so far is discarded.
     Nothing,
-    /// Ctrl-D, or there is no terminal any more.
+    /// Ctrl-D, or the terminal is gone.
     End,
 }
 
+/// The line editor with its history.
 pub(super) struct Lines {
-    editor: Editor<Assistant, FileHistory>,
+    editor: Editor<CompletionHelper, FileHistory>,
     history: Option<PathBuf>,
 }
 
 impl Lines {
+    /// Returns an editor with the history of earlier sessions. Fails without a terminal.
     pub(super) fn new(color: bool) -> Result<Lines, CallError> {
         let config = Config::builder()
             .max_history_size(HISTORY_MAX)
@@ -50,15 +54,16 @@ impl Lines {
             .build();
         let mut editor =
             Editor::with_config(config).map_err(|e| CallError(format!("the terminal can't be used: {e}")))?;
-        editor.set_helper(Some(Assistant { knowledge: None, color }));
+        editor.set_helper(Some(CompletionHelper { knowledge: None, color }));
         let history = history_file();
         if let Some(file) = &history {
-            // A history that is not there, or can't be read, is an empty one.
+            // A missing or unreadable history is an empty one.
             drop(editor.load_history(file));
         }
         Ok(Lines { editor, history })
     }
 
+    /// Reads an entry; `knowledge` is the state of the session for completion. Fails if the terminal does.
     pub(super) fn read(&mut self, knowledge: Knowledge) -> Result<Typed, CallError> {
         if let Some(assistant) = self.editor.helper_mut() {
             assistant.knowledge = Some(knowledge);
@@ -74,7 +79,7 @@ impl Lines {
         }
     }
 
-    /// Kept at once: a session may end in many ways.
+    /// Adds an entry to the history. It is saved at once, since a session may end in many ways.
     fn remember(&mut self, entry: &str) {
         if entry.trim().is_empty() {
             return;
@@ -89,7 +94,7 @@ impl Lines {
     }
 }
 
-/// Where the history of sessions is kept: `MODL_HISTORY`, or in the user's state folder.
+/// Returns the file of the history: `MODL_HISTORY`, or a file in the user's state folder.
 fn history_file() -> Option<PathBuf> {
     let folder = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     folder("MODL_HISTORY")
@@ -98,11 +103,12 @@ fn history_file() -> Option<PathBuf> {
         .or_else(|| Some(folder("LOCALAPPDATA")?.join("modl/history")))
 }
 
-/// How many candidates are listed with all that is said of them.
-const SPELT_OUT_MAX: usize = 12;
-/// Characters that are said of each of more.
+/// The most candidates that are listed with their whole descriptions.
+const DESCRIBED_MAX: usize = 12;
+/// The characters of each description in a longer list.
 const ABOUT_MAX: usize = 36;
 
+/// Returns a description, shortened if there are many candidates.
 fn shortened(about: &str, many: bool) -> Cow<'_, str> {
     match about.char_indices().nth(ABOUT_MAX) {
         Some((end, _)) if many => Cow::Owned(format!("{}...", &about[..end])),
@@ -110,26 +116,26 @@ fn shortened(about: &str, many: bool) -> Cow<'_, str> {
     }
 }
 
-/// What helps who types.
-struct Assistant {
+/// Completion, hints, highlighting and validation for the line editor.
+struct CompletionHelper {
     knowledge: Option<Knowledge>,
     color: bool,
 }
 
-impl Helper for Assistant {}
+impl Helper for CompletionHelper {}
 
-impl Completer for Assistant {
+impl Completer for CompletionHelper {
     type Candidate = Pair;
 
     fn complete(&self, line: &str, at: usize, _: &Context<'_>) -> rustyline::Result<(usize, Vec<Pair>)> {
         let Some(knowledge) = self.knowledge.clone() else { return Ok((at, Vec::new())) };
         let (sender, receiver) = channel();
         let text = line.to_owned();
-        // Whoever stops waiting drops the receiver; the thread ends by itself.
+        // After a timeout the receiver is dropped; the thread ends by itself.
         std::thread::spawn(move || drop(sender.send(complete::complete(&knowledge, &text, at))));
-        let Ok(found) = receiver.recv_timeout(COMPLETION_PATIENCE) else { return Ok((at, Vec::new())) };
-        // Many stand side by side; one alone has its line for itself.
-        let many = found.candidates.len() > SPELT_OUT_MAX;
+        let Ok(found) = receiver.recv_timeout(COMPLETION_TIMEOUT) else { return Ok((at, Vec::new())) };
+        // Many candidates are listed in columns; a single one has the line for itself.
+        let many = found.candidates.len() > DESCRIBED_MAX;
         let pair = |named: crate::session::complete::Named| Pair {
             display: if named.about.is_empty() {
                 named.name.clone()
@@ -142,7 +148,7 @@ impl Completer for Assistant {
     }
 }
 
-impl Hinter for Assistant {
+impl Hinter for CompletionHelper {
     type Hint = String;
 
     fn hint(&self, line: &str, at: usize, _: &Context<'_>) -> Option<String> {
@@ -151,7 +157,7 @@ impl Hinter for Assistant {
     }
 }
 
-impl Highlighter for Assistant {
+impl Highlighter for CompletionHelper {
     fn highlight<'l>(&self, line: &'l str, _: usize) -> Cow<'l, str> {
         if !self.color {
             return Cow::Borrowed(line);
@@ -180,6 +186,7 @@ impl Highlighter for Assistant {
     }
 }
 
+/// Returns the escape sequence parameters of a class.
 fn colour(class: Class) -> &'static str {
     match class {
         Class::Keyword => "35",
@@ -191,7 +198,7 @@ fn colour(class: Class) -> &'static str {
     }
 }
 
-impl Validator for Assistant {
+impl Validator for CompletionHelper {
     fn validate(&self, context: &mut ValidationContext) -> rustyline::Result<ValidationResult> {
         let text = context.input();
         let command = text.trim_start().starts_with([':', '?']);

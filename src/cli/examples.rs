@@ -1,4 +1,4 @@
-//! `modl test`, the second half: programs in documentation are run, and write nothing.
+//! The examples in documentation that `modl test` runs; they write nothing.
 
 use super::disk::Project;
 use super::terminal::Terminal;
@@ -8,17 +8,21 @@ use crate::interpret::{self, Host, Mode, Options, WriteError};
 use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, Files};
 
-/// An example that was run.
+/// The result of running an example.
 pub(super) struct Ran {
-    /// By which `--filter` finds it, and people.
+    /// The name that `--filter` matches and messages show.
     pub name: String,
+    /// The checked program.
     pub checked: Checked,
+    /// Its diagnostics.
     pub diagnostics: Vec<Diagnostic>,
+    /// True if there was no error.
     pub passed: bool,
+    /// True if it was cancelled.
     pub cancelled: bool,
 }
 
-/// Nothing that an example prints or writes is wanted.
+/// The host of an example: discards what it prints and writes.
 struct Silent(CancelState);
 
 impl Host for Silent {

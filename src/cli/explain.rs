@@ -6,6 +6,7 @@ use super::terminal::print;
 use super::{CallError, Ending};
 use crate::source::{code, suggest::suggest};
 
+/// Runs `modl explain`: prints the page of a code, or lists all codes. Fails for an unknown code.
 pub(super) fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, CallError> {
     let Some(wanted) = wanted else {
         list(globals);
@@ -25,6 +26,7 @@ pub(super) fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, Cal
     Ok(Ending::Fine)
 }
 
+/// Lists all codes with their titles.
 fn list(globals: &Globals) {
     if globals.json {
         let all: Vec<_> =
@@ -36,6 +38,7 @@ fn list(globals: &Globals) {
     }
 }
 
+/// Returns the message about an unknown code, with the nearest known one.
 fn unknown(wanted: &str) -> String {
     let near = suggest(wanted, code::ALL.iter().map(|(code, _)| code.0));
     let near = near.map_or_else(String::new, |code| format!("; did you mean {code}?"));

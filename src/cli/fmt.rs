@@ -1,4 +1,4 @@
-//! `modl fmt`: programs in the one style, in place.
+//! `modl fmt`: formats programs in place.
 
 use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, STDIN_NAME, system_words};
@@ -10,11 +10,12 @@ use crate::source::{Diagnostic, Sources, code};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Folders within folders that are looked into.
+/// The greatest depth of folders that are searched.
 const DEPTH_MAX: usize = 64;
 
+/// Runs `modl fmt`; with `check` it writes nothing. Fails if a file can't be read or written.
 pub(super) fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<Ending, CallError> {
-    // All files are read first: a call that is wrong does nothing.
+    // All files are read first, so that a wrong call does nothing.
     let mut programs = Vec::new();
     for file in files {
         collect(file, 0, &mut programs)?;
@@ -31,12 +32,13 @@ pub(super) fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<E
 
 /// A program to format.
 struct Program {
-    /// `None`: standard input.
+    /// The file; `None` for standard input.
     file: Option<PathBuf>,
     name: String,
     bytes: Vec<u8>,
 }
 
+/// Collects the programs of a file or folder.
 fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(), CallError> {
     if file == Path::new("-") {
         let bytes = disk::read(file, FILE_BYTES_MAX)?;
@@ -61,7 +63,7 @@ fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(),
     Ok(())
 }
 
-/// Of what lies in a folder: programs, and folders that are neither hidden nor links.
+/// Returns whether a path in a folder is searched: programs, and folders that are neither hidden nor links.
 fn belongs(path: &Path) -> bool {
     let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
     let kind = fs::symlink_metadata(path).map(|found| found.file_type());
@@ -70,7 +72,7 @@ fn belongs(path: &Path) -> bool {
     !hidden && (is_folder || is_program)
 }
 
-/// Whether all is well with a program.
+/// Formats a program, or checks its style. Returns whether it is readable and (with `check`) in style.
 fn one(program: &Program, check: bool, report: &mut Report, globals: &Globals) -> Result<bool, CallError> {
     let Program { file, name, bytes } = program;
     let mut sources = Sources::default();
@@ -116,7 +118,7 @@ fn one(program: &Program, check: bool, report: &mut Report, globals: &Globals) -
     Ok(sound)
 }
 
-/// The first line that is another, from 1.
+/// Returns the first line that differs, from 1.
 fn first_difference(a: &str, b: &str) -> usize {
     let same = a.split('\n').zip(b.split('\n')).take_while(|(a, b)| a == b);
     same.count() + 1

@@ -1,4 +1,4 @@
-//! `modl verify`: judges plan files again, from nothing but the files.
+//! `modl verify`: verifies plan files again, from nothing but the files.
 
 use super::arguments::Globals;
 use super::disk;
@@ -11,11 +11,12 @@ use crate::plan::{self, Body, CheckKind, Plan, Status, Verdict, Worst};
 use crate::source::{Diagnostic, Sources, Span, code};
 use std::path::{Path, PathBuf};
 
-/// No plan file larger than this is read, bytes.
+/// The greatest size of a plan file, in bytes.
 const PLAN_BYTES_MAX: usize = 1 << 30;
 
+/// Runs `modl verify`. Fails if a file can't be read.
 pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
-    // All files are read first: a call that is wrong does nothing.
+    // All files are read first, so that a wrong call does nothing.
     let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, CallError>>()?;
     listen_for_cancel();
     let mut report = Report::default();
@@ -40,7 +41,7 @@ pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallEr
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
-/// The plan that a file holds, or what is wrong with it and where.
+/// Parses a plan file. Fails with a diagnostic at the place of the mistake.
 pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
     let mut sources = Sources::default();
     let Ok(text) = String::from_utf8(bytes) else {
@@ -56,7 +57,7 @@ pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, D
             let id = sources.add(name, &text, false);
             let file = sources.file(id);
             let line = file.line(fault.line);
-            // The reader stands behind what it could not take.
+            // The reader's position is behind the faulty character.
             let at = file.line_start(fault.line) + fault.column.saturating_sub(1).min(line.len());
             diagnostic = diagnostic.label(Span::new(id, at, at), "");
         }
@@ -64,10 +65,10 @@ pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, D
     })
 }
 
-/// The verdict on a plan file, which includes that its program makes its motion.
+/// Returns the verdict on a plan file. It includes the check that the plan's program makes its motion.
 pub(super) fn judged(plan: &Plan) -> Verdict {
     let mut verdict = plan::verify::verify(plan);
-    // What is not sound has no program that could be played.
+    // A plan whose form is wrong has no program that could be scheduled.
     if !verdict.failures.iter().any(|f| f.kind == CheckKind::Form)
         && let Some(failure) = unfaithful(plan)
     {
@@ -89,6 +90,7 @@ pub(super) fn judged(plan: &Plan) -> Verdict {
     verdict
 }
 
+/// Verifies a plan and prints the verdict; returns whether it is good.
 fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> bool {
     let verdict = judged(plan);
     if !globals.json {
@@ -99,15 +101,15 @@ fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Global
     ok
 }
 
-/// The bytes of a plan file, if they are not too many; `-` is standard input.
+/// Reads a plan file; `-` is standard input. Fails with a message.
 pub(super) fn read(file: &Path) -> Result<Vec<u8>, CallError> {
     disk::read(file, PLAN_BYTES_MAX)
 }
 
-/// Values of two verdicts that differ by less are the same.
+/// The tolerance within which values of two verdicts are equal.
 const TOL_VERDICT: f64 = 1e-6;
 
-/// Whether a verdict says something else than another.
+/// Returns whether the stated verdict differs from the one found.
 fn differs(stated: &Verdict, found: &Verdict) -> bool {
     let worst = |v: &Verdict| {
         [

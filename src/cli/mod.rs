@@ -1,7 +1,7 @@
-//! The front door: the command line, files on disk, the terminal.
+//! The command line interface: commands, files on disk, the terminal.
 //!
-//! The only room that touches the outside. The others see it through two windows:
-//! [`Files`](crate::source::Files), opened by [`disk`], and [`Host`](crate::interpret::Host), by
+//! The only room with access to the outside. The other rooms have it through two traits:
+//! [`Files`](crate::source::Files), implemented by [`disk`], and [`Host`](crate::interpret::Host), by
 //! [`terminal`].
 
 mod arguments;
@@ -27,22 +27,23 @@ use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
 use std::process::ExitCode;
 
-/// How a command ended.
+/// The outcome of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ending {
+    /// Everything is fine.
     Fine,
     /// The program (or the plan) is wrong.
     Wrong,
-    /// The user wanted it to end.
+    /// The user cancelled it.
     Cancelled,
 }
 
-/// The call is wrong: what to tell the user.
+/// A wrong call, with the message for the user.
 #[derive(Debug)]
 struct CallError(String);
 
-/// Reads the command line, does what it says, and gives the exit code: 0 when all is fine, 1 when the
-/// program is wrong, 2 when the call is wrong, 130 after Ctrl-C.
+/// Parses the command line, runs the command, and returns the exit code: 0 if all is fine, 1 if the program
+/// is wrong, 2 if the call is wrong, 130 after Ctrl-C.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match run(&arguments) {
@@ -56,6 +57,7 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// Runs the command. Fails if the call is wrong.
 fn run(arguments: &Arguments) -> Result<Ending, CallError> {
     let globals = &arguments.globals;
     let Some(command) = &arguments.command else {

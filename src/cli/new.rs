@@ -7,12 +7,14 @@ use super::{CallError, Ending};
 use std::fs;
 use std::path::Path;
 
+/// The program of a new project.
 const PROGRAM: &str = include_str!("new_program.mod");
 
+/// Runs `modl new`. Fails if a file of that name exists.
 pub(super) fn run(name: &Path, globals: &Globals) -> Result<Ending, CallError> {
     let cannot =
         |e: std::io::Error| CallError(format!("cannot make `{}`: {}", name.display(), system_words(&e)));
-    // Making the last folder fails where anything has its name, so nothing is ever overwritten.
+    // Making the last folder fails if anything has its name, so nothing is ever overwritten.
     if let Some(parent) = name.parent().filter(|parent| !parent.as_os_str().is_empty()) {
         fs::create_dir_all(parent).map_err(cannot)?;
     }

@@ -1,4 +1,4 @@
-//! The output folder: whole files below it, and nothing else.
+//! The output folder: whole files are written below it, and nothing else.
 
 use super::disk::system_words;
 use crate::interpret::WriteError;
@@ -8,11 +8,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// How the names of files begin that are not whole yet.
+/// The prefix of temporary files.
 const PREFIX: &str = ".modl-";
 
-/// Writes `bytes` to `path` below `folder`, making folders as needed. The file appears whole or not
-/// at all: it is written under another name beside its place, then moved. Gives the path to show.
+/// Writes `bytes` to `path` below `folder`, making folders as needed, and returns the path to show. The
+/// file appears whole or not at all: it is written under a temporary name in the same folder, then moved.
+/// Fails if the path leads out of the folder, or with the system's message.
 pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
     let path = join("", path).ok_or(WriteError::Outside)?;
     let relative = Path::new(&path);
@@ -28,8 +29,8 @@ pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, W
     Ok(folder.join(relative).to_string_lossy().into_owned())
 }
 
-/// Puts other bytes into a file that is there, wherever links lead; whole or not at all. Who may read
-/// it stays as it was.
+/// Replaces the contents of an existing file, following links; whole or not at all. Its permissions are
+/// kept. Fails with the system's error.
 pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = fs::canonicalize(file)?;
     let found = fs::metadata(&target)?;
@@ -42,7 +43,8 @@ pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     filled(file, &target, bytes)
 }
 
-/// Steps down folder by folder, making the missing ones. A link may lead about, but not out.
+/// Returns the real parent folder of a path below `root`, making missing folders. Fails if a link leads out
+/// of the root.
 fn parent_below(root: &Path, relative: &Path) -> Result<PathBuf, WriteError> {
     let mut parent = root.to_owned();
     for part in relative.components() {
@@ -59,8 +61,8 @@ fn parent_below(root: &Path, relative: &Path) -> Result<PathBuf, WriteError> {
     Ok(parent)
 }
 
-/// A link at the file's own place would be replaced, not followed; one that leads out is refused
-/// all the same, since someone meant something by it.
+/// Fails if there is a link at the file's own place that leads out of `root`. It would be replaced and not
+/// followed, but someone has put it there on purpose.
 fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
     match fs::symlink_metadata(target) {
         Ok(found) if found.is_dir() => Err(WriteError::Failed("a folder has this name".to_owned())),
@@ -72,6 +74,7 @@ fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
     }
 }
 
+/// Writes a file under a temporary name and moves it to its place.
 fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX);
@@ -80,6 +83,7 @@ fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
     filled(builder.tempfile_in(parent)?, target, bytes)
 }
 
+/// Writes the bytes and moves the file to its place.
 fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.persist(target).map(drop).map_err(|e| e.error)

@@ -1,4 +1,5 @@
-//! The pages about codes, embedded in the binary: every file of `docs/errors/` (a test compares).
+//! The pages about diagnostic codes, embedded in the binary: every file of `docs/errors/` (a test
+//! compares).
 
 /// Pairs codes with the texts of their pages.
 macro_rules! embed {
@@ -7,7 +8,7 @@ macro_rules! embed {
     };
 }
 
-/// Code and page, in order of code.
+/// The code and page of each code, by code.
 const PAGES: &[(&str, &str)] = embed![
     "E0001", "E0002", "E0003", "E0004", "E0005", "E0006", "E0007", "E0008", "E0009", "E0010", "E0101",
     "E0102", "E0103", "E0104", "E0105", "E0106", "E0107", "E0108", "E0201", "E0202", "E0203", "E0204",
@@ -19,7 +20,7 @@ const PAGES: &[(&str, &str)] = embed![
     "E0803", "W0001", "W0002", "W0003", "W0004", "W0005", "W0006", "W0007", "W0008", "N0001",
 ];
 
-/// The page of a code, such as `E0301`.
+/// Returns the page of a code, such as `E0301`.
 pub(super) fn page(code: &str) -> Option<&'static str> {
     PAGES.iter().find(|(known, _)| *known == code).map(|(_, page)| *page)
 }

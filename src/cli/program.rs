@@ -13,16 +13,19 @@ use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// The task of running programs.
 pub(super) enum Task {
+    /// Run the program.
     Run,
-    /// As `Run`, and every plan is drawn.
+    /// Run the program, and draw every plan.
     Show,
+    /// Check the program only.
     Check,
-    /// With the filter of test names.
+    /// Run its tests whose names contain the filter.
     Test(Option<String>),
 }
 
-/// What happened with the files of one call.
+/// The results of all files of one call.
 #[derive(Default)]
 struct Tally {
     report: Report,
@@ -31,11 +34,12 @@ struct Tally {
     cancelled: bool,
 }
 
+/// Runs programs. Fails if a file can't be read.
 pub(super) fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
     run_all(files, &task, globals, None).map(|(ending, _)| ending)
 }
 
-/// Runs programs; what they depend on is noted, and a run that is stale ends early.
+/// Runs programs and records the files they depend on in `watched`. A run that becomes stale ends early.
 pub(super) fn run_watched(
     files: &[PathBuf],
     task: &Task,
@@ -45,7 +49,7 @@ pub(super) fn run_watched(
     run_all(files, task, globals, Some(watched)).map(|(ending, _)| ending)
 }
 
-/// Runs one program; gives the files that it wrote, too.
+/// Runs one program, and returns the files that it wrote, too.
 pub(super) fn run_and_list(
     file: &Path,
     task: Task,
@@ -54,6 +58,7 @@ pub(super) fn run_and_list(
     run_all(&[file.to_owned()], &task, globals, None)
 }
 
+/// Runs programs one after the other.
 fn run_all(
     files: &[PathBuf],
     task: &Task,
@@ -65,7 +70,7 @@ fn run_all(
         project.watched = watched.cloned();
         Ok(project)
     };
-    // All files are opened first: a call that is wrong does nothing.
+    // All files are opened first, so that a wrong call does nothing.
     let projects = files.iter().map(open).collect::<Result<Vec<Project>, CallError>>()?;
     listen_for_cancel();
     let mut tally = Tally::default();
@@ -91,6 +96,7 @@ fn run_all(
     Ok((ending, tally.report.written.unwrap_or_default()))
 }
 
+/// Runs one program.
 fn one(
     file: &Path,
     project: &Project,
@@ -102,7 +108,7 @@ fn one(
     let checked = check::check(project, &project.name);
     let mut diagnostics = checked.diagnostics.clone();
     let mut outcome = Outcome::default();
-    // What is sound in a wrong program is still checked, but nothing of it is run.
+    // The sound parts of a wrong program are checked further, but nothing of it is run.
     if matches!(task, Task::Check) || !diagnostics.iter().any(Diagnostic::is_error) {
         outcome = interpret::run(
             &checked,
@@ -138,6 +144,7 @@ fn one(
     }
 }
 
+/// Prints the result of a test.
 fn show_test(file: &Path, test: &TestResult, tally: &mut Tally, globals: &Globals) {
     if test.passed {
         tally.passed += 1
@@ -152,6 +159,7 @@ fn show_test(file: &Path, test: &TestResult, tally: &mut Tally, globals: &Global
     tally.report.tests.get_or_insert_default().push(json);
 }
 
+/// Prints the paths of written files.
 fn show_written(written: Vec<String>, tally: &mut Tally, task: &Task, globals: &Globals) {
     if !globals.json {
         written.iter().for_each(|path| print_error(&format!("wrote {path}\n")));
@@ -161,6 +169,7 @@ fn show_written(written: Vec<String>, tally: &mut Tally, task: &Task, globals: &
     }
 }
 
+/// Returns the interpreter's mode for a task.
 fn mode(task: &Task) -> Mode {
     match task {
         Task::Run | Task::Show => Mode::Run,
@@ -169,6 +178,7 @@ fn mode(task: &Task) -> Mode {
     }
 }
 
+/// Returns the interpreter's options.
 fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let filter = if let Task::Test(filter) = task { filter.clone() } else { None };
     let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
@@ -180,17 +190,17 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     Options { filter, seed: globals.seed, pages, command, picture: None, limits, threads: threads(globals) }
 }
 
-/// As many threads as the user wants, otherwise as many as there are processors.
+/// Returns the number of threads for planners: that of the command line, or one per processor.
 pub(super) fn threads(globals: &Globals) -> usize {
     let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     globals.threads.map_or_else(processors, |n| usize::try_from(n).unwrap_or(1))
 }
 
-/// The limits that the user wants.
+/// Returns the limits of evaluation: those of the command line, or the defaults.
 pub(super) fn limits(globals: &Globals) -> Limits {
     let defaults = Limits::default();
-    let or = |wish: Option<u64>, default: usize| {
-        wish.map_or(default, |n| usize::try_from(n).unwrap_or(usize::MAX))
+    let or = |value: Option<u64>, default: usize| {
+        value.map_or(default, |n| usize::try_from(n).unwrap_or(usize::MAX))
     };
     Limits {
         steps: globals.max_steps.unwrap_or(defaults.steps),

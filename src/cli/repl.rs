@@ -1,4 +1,4 @@
-//! `modl repl` and `modl -e`: a session with a person, a pipe, or the command line.
+//! `modl repl` and `modl -e`: a session with a terminal, a pipe, or expressions on the command line.
 
 use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, Project};
@@ -20,10 +20,10 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// The page that `:view` writes.
+/// The name of the page that `:view` writes.
 const VIEW_PAGE: &str = "view.html";
 
-/// Whether a session goes on.
+/// The decision after an entry: continue or quit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Next {
     GoOn,
@@ -31,66 +31,66 @@ enum Next {
 }
 
 /// A session with its terminal.
-struct Talk<'g> {
+struct Repl<'g> {
     session: Session,
     terminal: Terminal,
     style: Style,
     globals: &'g Globals,
-    /// Whether anything was wrong so far.
+    /// True if anything was wrong so far.
     wrong: bool,
     interrupted: bool,
 }
 
-/// `modl repl`
+/// Runs `modl repl`. Fails if the project or file can't be read.
 pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> {
     let stdlib = globals.stdlib.as_deref();
     let (project, load) = match file {
         Some(file) => {
             let project = Project::open(file, globals.root.as_deref(), stdlib)?;
             let name = project.name.clone();
-            // It may change while the session lasts.
+            // The file may change during the session.
             (project.unread(), Some(name))
         }
         None => (Project::of_folder(globals.root.as_deref(), stdlib)?, None),
     };
-    let mut talk = Talk::new(project, globals);
+    let mut repl = Repl::new(project, globals);
     if io::stdin().is_terminal() {
         listen_for_interrupt();
         print(&format!("modl {}; `:help` tells what there is\n", env!("CARGO_PKG_VERSION")));
         if let Some(name) = &load {
-            talk.load(name);
+            repl.load(name);
         }
-        talk.converse()
+        repl.interact()
     } else {
         listen_for_cancel();
         if let Some(name) = &load {
-            talk.load(name);
+            repl.load(name);
         }
         let bytes = disk::read(Path::new("-"), FILE_BYTES_MAX)?;
         let text =
             String::from_utf8(bytes).map_err(|_| CallError("standard input is not UTF-8 text".into()))?;
-        talk.read_through(&text);
-        Ok(talk.ending())
+        repl.read_through(&text);
+        Ok(repl.ending())
     }
 }
 
-/// `modl -e`
+/// Runs `modl -e`.
 pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallError> {
     let project = Project::of_folder(globals.root.as_deref(), globals.stdlib.as_deref())?;
     listen_for_cancel();
-    let mut talk = Talk::new(project, globals);
+    let mut repl = Repl::new(project, globals);
     for text in texts {
         let input = Input { text, name: "<-e>", first_line: 1, tell: Tell::Values, keep: true };
-        talk.enter(&input);
-        if talk.wrong {
+        repl.enter(&input);
+        if repl.wrong {
             break;
         }
     }
-    Ok(talk.ending())
+    Ok(repl.ending())
 }
 
-impl<'g> Talk<'g> {
-    fn new(project: Project, globals: &'g Globals) -> Talk<'g> {
+impl<'g> Repl<'g> {
+    fn new(project: Project, globals: &'g Globals) -> Repl<'g> {
         let terminal = Terminal::new(globals);
         let style = report::style(globals, &project.folder);
         let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
@@ -102,9 +102,10 @@ impl<'g> Talk<'g> {
             ..Options::default()
         };
         let session = Session::new(Arc::new(project), options, &terminal);
-        Talk { session, terminal, style, globals, wrong: false, interrupted: false }
+        Repl { session, terminal, style, globals, wrong: false, interrupted: false }
     }
 
+    /// Returns the outcome of the session.
     fn ending(&self) -> Ending {
         match (self.interrupted, self.wrong) {
             (true, _) => Ending::Cancelled,
@@ -113,8 +114,8 @@ impl<'g> Talk<'g> {
         }
     }
 
-    /// Until the person leaves.
-    fn converse(&mut self) -> Result<Ending, CallError> {
+    /// Reads and evaluates entries until the user leaves.
+    fn interact(&mut self) -> Result<Ending, CallError> {
         let mut lines = Lines::new(self.style.color)?;
         let mut typed = 0;
         loop {
@@ -133,7 +134,7 @@ impl<'g> Talk<'g> {
         }
     }
 
-    /// Entry by entry through a text that is there as a whole.
+    /// Evaluates a text entry by entry.
     fn read_through(&mut self, text: &str) {
         let mut lines = text.lines().enumerate().peekable();
         while let Some((number, line)) = lines.next() {
@@ -154,11 +155,12 @@ impl<'g> Talk<'g> {
         }
     }
 
-    /// `first_line` counts what was typed or piped in so far: diagnostics name it.
+    /// Evaluates an entry or executes a command. `first_line` is the line of the whole input at which it
+    /// begins, for diagnostics.
     fn act(&mut self, text: &str, first_line: usize) -> Next {
         match command::parse(text) {
-            Some(Ok(command)) => return self.obey(command),
-            Some(Err(why)) => self.complain(&why),
+            Some(Ok(command)) => return self.execute(command),
+            Some(Err(why)) => self.print_failure(&why),
             None if text.trim().is_empty() => {}
             None if let Some(call) = self.session.call_of(text) => print(&call),
             None => {
@@ -169,13 +171,14 @@ impl<'g> Talk<'g> {
         Next::GoOn
     }
 
-    fn complain(&mut self, why: &str) {
+    /// Prints an error message.
+    fn print_failure(&mut self, why: &str) {
         self.wrong = true;
         print_error(&format!("{why}\n"));
     }
 
-    /// Work that Ctrl-C ends.
-    fn busy<T>(&mut self, work: impl FnOnce(&mut Session, &mut Terminal) -> T) -> T {
+    /// Runs work that Ctrl-C cancels.
+    fn cancellable<T>(&mut self, work: impl FnOnce(&mut Session, &mut Terminal) -> T) -> T {
         if self.session.is_left() && !settled(|| self.session.settle()) {
             self.session.renew(&self.terminal);
             print("what was interrupted does not end; values are worked out again when they are needed\n");
@@ -184,23 +187,24 @@ impl<'g> Talk<'g> {
         work(&mut self.session, &mut self.terminal)
     }
 
+    /// Evaluates an entry and prints the outcome.
     fn enter(&mut self, input: &Input) -> bool {
-        let reply = self.busy(|session, terminal| session.enter(input, terminal));
-        self.tell(&reply)
+        let reply = self.cancellable(|session, terminal| session.enter(input, terminal));
+        self.print_reply(&reply)
     }
 
-    /// Evaluates what a command makes of its expression, and keeps nothing of it.
+    /// Evaluates the expression of a command, and keeps nothing of it.
     fn ask(&mut self, text: &str, tell: Tell) -> bool {
         self.enter(&Input { text, name: "<command>", first_line: 1, tell, keep: false })
     }
 
     fn load(&mut self, path: &str) {
-        let reply = self.busy(|session, terminal| session.load(path, terminal));
-        self.tell(&reply);
+        let reply = self.cancellable(|session, terminal| session.load(path, terminal));
+        self.print_reply(&reply);
     }
 
-    /// Says what came of something; gives whether all went well.
-    fn tell(&mut self, reply: &Reply) -> bool {
+    /// Prints an outcome; returns whether the entry was accepted.
+    fn print_reply(&mut self, reply: &Reply) -> bool {
         self.terminal.clear_progress();
         self.show(&reply.checked, &reply.diagnostics);
         reply.notes.iter().for_each(|note| print(&format!("{note}\n")));
@@ -217,13 +221,15 @@ impl<'g> Talk<'g> {
         reply.ok
     }
 
+    /// Prints diagnostics.
     fn show(&self, checked: &Checked, diagnostics: &[Diagnostic]) {
         for diagnostic in sorted(diagnostics).into_iter().take(self.style.shown_max) {
             print_error(&format!("{}\n", render_one(&checked.sources, diagnostic, &self.style)));
         }
     }
 
-    fn obey(&mut self, command: Command) -> Next {
+    /// Executes a command.
+    fn execute(&mut self, command: Command) -> Next {
         match command {
             Command::Quit => return Next::Quit,
             Command::Help => print(&command::help()),
@@ -262,19 +268,20 @@ impl<'g> Talk<'g> {
             Command::Load(path) => self.load(&path),
             Command::Reload => self.reload(),
             Command::Save(path) => self.save(&path),
-            Command::Undo => match self.busy(|session, terminal| session.undo(terminal)) {
+            Command::Undo => match self.cancellable(|session, terminal| session.undo(terminal)) {
                 Some(text) => print(&format!("took back: {}\n", text.lines().next().unwrap_or(""))),
-                None => self.complain("there is nothing to take back"),
+                None => self.print_failure("there is nothing to take back"),
             },
-            Command::Reset => self.busy(|session, terminal| session.reset(terminal)),
+            Command::Reset => self.cancellable(|session, terminal| session.reset(terminal)),
         }
         Next::GoOn
     }
 
+    /// Prints a description or an error message.
     fn answer(&mut self, found: Result<String, String>) {
         match found {
             Ok(text) => print(&text),
-            Err(why) => self.complain(&why),
+            Err(why) => self.print_failure(&why),
         }
     }
 
@@ -288,8 +295,8 @@ impl<'g> Talk<'g> {
     }
 
     fn reload(&mut self) {
-        let Reloaded { reply, changes } = self.busy(|session, terminal| session.reload(terminal));
-        if !self.tell(&reply) {
+        let Reloaded { reply, changes } = self.cancellable(|session, terminal| session.reload(terminal));
+        if !self.print_reply(&reply) {
             return;
         }
         if changes.is_empty() {
@@ -312,12 +319,12 @@ impl<'g> Talk<'g> {
 
     fn save(&mut self, path: &str) {
         let text = self.session.program();
-        // What was entered reads its files from here, and so will the program.
+        // Entries read their files from the working folder, and so will the saved program.
         let written = output::write(Path::new("."), path, text.as_bytes());
         match written {
             Ok(_) => print(&format!("wrote {path}\n")),
-            Err(WriteError::Outside) => self.complain(&format!("`{path}` leads out of this folder")),
-            Err(WriteError::Failed(why)) => self.complain(&format!("`{path}` can't be written: {why}")),
+            Err(WriteError::Outside) => self.print_failure(&format!("`{path}` leads out of this folder")),
+            Err(WriteError::Failed(why)) => self.print_failure(&format!("`{path}` can't be written: {why}")),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What a command found, as text or as one JSON object (`docs/json.md`).
+//! The report of a command, as text or as one JSON object (`docs/json.md`).
 
 use super::arguments::{Color, Globals};
 use super::terminal::{print, print_error};
@@ -10,53 +10,66 @@ use serde::Serialize;
 use std::collections::HashSet;
 use std::io::{IsTerminal, stderr};
 
-/// Columns where no terminal says how many there are.
+/// The width in columns if the terminal does not report one.
 const WIDTH_DEFAULT: usize = 100;
 
-/// Diagnostics put into one JSON object at most; the rest are counted.
+/// The most diagnostics in one JSON object; the rest are counted.
 const JSON_DIAGNOSTICS_MAX: usize = 10_000;
 
-/// What a command found. The fields are the JSON object.
+/// The report of a command. Its fields are those of the JSON object.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Report {
-    /// Whether the exit code is 0.
+    /// True if the exit code is 0.
     pub ok: bool,
+    /// The diagnostics.
     pub diagnostics: Vec<JsonDiagnostic>,
-    /// Diagnostics left out because there were too many.
+    /// The number of diagnostics left out because there were too many.
     pub omitted: usize,
+    /// The number of errors.
     pub errors: usize,
+    /// The number of warnings.
     pub warnings: usize,
-    /// Lines that the program printed.
+    /// The lines that the program printed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<Vec<String>>,
-    /// Files written.
+    /// The paths of the files written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub written: Option<Vec<String>>,
+    /// The results of tests.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tests: Option<Vec<JsonTest>>,
+    /// The verdicts on plan files.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plans: Option<Vec<JsonPlan>>,
     #[serde(skip)]
     seen: HashSet<String>,
 }
 
+/// The result of a test.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonTest {
+    /// The file that contains it.
     pub file: String,
+    /// Its name.
     pub name: String,
+    /// True if it passed.
     pub passed: bool,
 }
 
+/// The verdict on a plan file.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonPlan {
+    /// The file.
     pub file: String,
+    /// True if the verdict is good.
     pub ok: bool,
+    /// The verdict.
     pub verdict: Verdict,
 }
 
 impl Report {
-    /// Takes diagnostics in: kept for the JSON object, or printed at once. What was reported for
-    /// another file of the same call already, such as a shared import, is not repeated.
+    /// Adds diagnostics: keeps them for the JSON object, or prints them at once. A diagnostic already
+    /// reported for another file of the same call, such as a shared import, is not repeated.
     pub(super) fn add(
         &mut self,
         sources: &Sources,
@@ -92,7 +105,7 @@ impl Report {
         }
     }
 
-    /// Ends the report: prints the JSON object, or how many mistakes there are.
+    /// Ends the report: prints the JSON object, or the numbers of errors and warnings.
     pub(super) fn finish(&mut self, ok: bool, globals: &Globals) {
         self.ok = ok;
         if globals.json {
@@ -107,12 +120,12 @@ impl Report {
     }
 }
 
-/// "2 errors"; nothing for none.
+/// Returns "2 errors"; `None` for none.
 fn counted(n: usize, word: &str) -> Option<String> {
     (n > 0).then(|| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
 }
 
-/// Tells that the call is wrong.
+/// Reports a wrong call.
 pub(super) fn call_error(globals: &Globals, message: &str) {
     if globals.json {
         let object = serde_json::json!({ "ok": false, "call_error": message });
@@ -122,11 +135,12 @@ pub(super) fn call_error(globals: &Globals, message: &str) {
     }
 }
 
-/// How diagnostics are drawn on this terminal.
+/// Returns the style of diagnostics on this terminal.
 pub(super) fn style(globals: &Globals, folder: &str) -> Style {
     Style { width: width(), color: color(globals.color), folder: folder.to_owned(), ..Style::default() }
 }
 
+/// Returns the width of the terminal in columns.
 pub(super) fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok()?.parse().ok();
     match terminal_size::terminal_size_of(stderr()) {
@@ -135,9 +149,10 @@ pub(super) fn width() -> usize {
     }
 }
 
-pub(super) fn color(wish: Color) -> bool {
+/// Returns whether text on standard error is coloured.
+pub(super) fn color(choice: Color) -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    match wish {
+    match choice {
         Color::Always => true,
         Color::Never => false,
         Color::Auto => {

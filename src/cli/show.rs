@@ -1,4 +1,4 @@
-//! `modl show`: pages of what a program plans, or of a plan file.
+//! `modl show`: pages of the plans of a program, or of a plan file.
 
 use super::arguments::Globals;
 use super::program::{self, Task};
@@ -11,6 +11,7 @@ use crate::view::{self, RenderInput};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+/// Runs `modl show`. Fails if the file can't be read or no page was made.
 pub(super) fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let is_plan = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     let (ending, written) =
@@ -22,7 +23,7 @@ pub(super) fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, 
     Ok(ending)
 }
 
-/// The page of a plan file, which is judged again.
+/// Writes the page of a plan file, which is verified again.
 fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
     let bytes = judge::read(file)?;
     listen_for_cancel();
@@ -58,6 +59,7 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
     Ok((if ok { Ending::Fine } else { Ending::Wrong }, vec![written]))
 }
 
+/// Returns the title of a page.
 fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
     match &plan.body {
         Body::Tracks(tracks) if !tracks.robot.name.is_empty() => &tracks.robot.name,
@@ -65,7 +67,7 @@ fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
     }
 }
 
-/// Hands a page to whatever opens pages here.
+/// Opens a page in the system's browser. Fails if no program for it can be started.
 pub(super) fn open_page(page: &str) -> Result<(), CallError> {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])

@@ -20,7 +20,7 @@ static CANCEL_STATE: LazyLock<Mutex<CancelState>> = LazyLock::new(Mutex::default
 /// The time that a cancelled run gets to end at a checkpoint before it is abandoned.
 const CANCEL_GRACE: Duration = Duration::from_millis(400);
 
-/// The same in a session, where a user waits for the prompt.
+/// The grace period in a session, where the user waits for the prompt.
 const CANCEL_GRACE_SESSION: Duration = Duration::from_millis(50);
 
 /// A second Ctrl-C within this time of the first is taken as the same one.
@@ -38,7 +38,7 @@ pub(super) fn listen_for_cancel() {
         std::thread::park_timeout(CANCEL_GRACE);
         std::process::exit(130);
     };
-    // Where no handler can be installed, Ctrl-C ends the process, which is as good.
+    // Without a handler Ctrl-C ends the process, which is as good.
     drop(ctrlc::set_handler(on_signal));
 }
 
@@ -128,28 +128,29 @@ fn poll_progress() {
     });
 }
 
+/// Returns whether Ctrl-C has cancelled the command.
 pub(super) fn cancelled() -> bool {
     CANCELLED.load(Ordering::Relaxed)
 }
 
-/// Writes to standard output. That nobody reads it any more is no mistake: `modl ... | head` is quiet.
+/// Writes to standard output. A closed output is not an error: `modl ... | head` is quiet.
 pub(super) fn print(text: &str) {
     let mut out = io::stdout().lock();
     drop(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
 }
 
-/// Writes to standard error, as quietly.
+/// Writes to standard error, ignoring failures.
 pub(super) fn print_error(text: &str) {
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }
 
-/// The outside of a run as a terminal user sees it.
+/// The host of a run on a terminal.
 #[derive(Debug)]
 pub(super) struct Terminal {
     folder: PathBuf,
-    /// Lines printed, where they go into a JSON object instead of to standard output.
+    /// The printed lines, if they go into a JSON object instead of to standard output.
     pub printed: Option<Vec<String>>,
-    /// What the run depends on, if it is to end once that changes.
+    /// The files that the run depends on, if it ends once they change.
     pub watched: Option<Arc<Watched>>,
     shows_progress: bool,
     progress_shown: bool,
@@ -157,6 +158,7 @@ pub(super) struct Terminal {
 }
 
 impl Terminal {
+    /// Returns the host for the options of a call. Progress is shown only if standard error is a terminal.
     pub(super) fn new(globals: &Globals) -> Terminal {
         let shows_progress = !globals.json && io::stderr().is_terminal();
         if shows_progress {
@@ -172,7 +174,7 @@ impl Terminal {
         }
     }
 
-    /// Takes a progress line away before something else is printed.
+    /// Clears the progress line before something else is printed.
     pub(super) fn clear_progress(&mut self) {
         if std::mem::take(&mut self.progress_shown) {
             print_error("\r\x1b[K");
@@ -195,7 +197,7 @@ impl Host for Terminal {
 
     fn progress(&mut self, line: &str) {
         if self.shows_progress {
-            // A line that is broken can't be taken back.
+            // A line that wraps could not be cleared.
             let wide = super::report::width().saturating_sub(1);
             let shown: String = line.chars().take(wide).collect();
             print_error(&format!("\r{shown}\x1b[K"));

@@ -1,4 +1,4 @@
-//! A verdict as text: every check with its status, worst values, what failed and who is to blame.
+//! A verdict as text: every check with its status, worst values, failures and their causes.
 
 use crate::plan::{
     Cause, Exemption, ExemptionKind, Failure, Ground, Plan, Stability, Status, Verdict, Worst,
@@ -7,7 +7,7 @@ use crate::units::dimension::Dimension;
 use crate::units::display::{number, quantity};
 use std::fmt::Write;
 
-/// The whole verdict on a plan, several lines.
+/// Returns the verdict on a plan as text of several lines.
 pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     let mut out = format!("{name}: {}\n", if verdict.ok() { "verified" } else { "NOT verified" });
     line(&mut out, &summary(verdict));
@@ -51,22 +51,24 @@ pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     out
 }
 
+/// Adds an indented line.
 fn line(out: &mut String, text: &str) {
     out.push_str("  ");
     out.push_str(text);
     out.push('\n');
 }
 
-/// To the nearest multiple of `step`: what is smaller says nothing to a reader.
+/// Rounds to the nearest multiple of `step`; smaller differences mean nothing to a reader.
 fn rounded(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }
 
-/// A length to a hundredth of a millimetre.
+/// Returns a length in metres as text, to a hundredth of a millimetre.
 fn length(value: f64) -> String {
     quantity(rounded(value, 1e-5), Dimension::LENGTH)
 }
 
+/// Returns duration, travel, heading and energy in words.
 fn summary(verdict: &Verdict) -> String {
     let [x, y, z] = verdict.travel.map(length);
     let (duration, energy) = (quantity(verdict.duration, Dimension::TIME), number(verdict.energy));
@@ -77,6 +79,7 @@ fn summary(verdict: &Verdict) -> String {
     )
 }
 
+/// Returns the settings of verification in words.
 fn settings(plan: &Plan) -> String {
     let time = |v| quantity(v, Dimension::TIME);
     let settings = &plan.settings;
@@ -88,6 +91,7 @@ fn settings(plan: &Plan) -> String {
     format!("sampled every {sample}, unstable for {unstable} at most, support by {rule}")
 }
 
+/// Returns the status of a check in words.
 fn status(status: &Status) -> String {
     match status {
         Status::Proved => "proved".to_owned(),
@@ -99,6 +103,7 @@ fn status(status: &Status) -> String {
     }
 }
 
+/// Adds a line for each worst value.
 fn worst_lines(out: &mut String, verdict: &Verdict) {
     let mut add = |name: &str, worst: &Option<Worst>, show: fn(f64) -> String| {
         if let Some(worst) = worst {
@@ -118,6 +123,7 @@ fn worst_lines(out: &mut String, verdict: &Verdict) {
     add("slip", &verdict.slip, length);
 }
 
+/// Returns an exemption in words.
 fn exemption_line(exemption: &Exemption, plan: &Plan) -> String {
     let kind = match exemption.kind {
         ExemptionKind::Unstable => "unstable",
@@ -134,6 +140,7 @@ fn exemption_line(exemption: &Exemption, plan: &Plan) -> String {
     format!("allows {kind} from {from} to {to}{cause}")
 }
 
+/// Adds the lines of a failure and its causes.
 fn failure_lines(out: &mut String, failure: &Failure, plan: &Plan) {
     let time = quantity(failure.time, Dimension::TIME);
     line(out, &format!("failed after {time}: {}", failure.message));
@@ -144,7 +151,7 @@ fn failure_lines(out: &mut String, failure: &Failure, plan: &Plan) {
     }
 }
 
-/// "walkbot.mod:12: `leg[a].lift()` (a = 0)".
+/// Returns a cause: "walkbot.mod:12: `leg[a].lift()` (a = 0)".
 fn cause(cause: &Cause) -> String {
     let mut out = format!("{}:{}: `{}`", cause.file, cause.line, cause.text);
     if !cause.instance.is_empty() {

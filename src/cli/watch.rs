@@ -1,4 +1,4 @@
-//! `modl watch`: the same command again whenever a file changes that it read, or looked for.
+//! `modl watch`: runs a command again whenever a file changes that it read or searched.
 
 use super::arguments::Globals;
 use super::program::{self, Task};
@@ -12,36 +12,36 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
-/// Between two looks at the files. They are few, and are only asked when they were written: that is
-/// cheaper than it sounds, and works on every file system.
-const LOOK: Duration = Duration::from_millis(20);
+/// The time between two polls of the files. Polling the metadata of a few files is cheap, and works on
+/// every file system.
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// What tells one version of a file from another; `None` where there is no file.
+/// The version of a file: time of modification and size; `None` if there is no file.
 type Stamp = Option<(SystemTime, u64)>;
 
 /// The files that a run depends on.
 #[derive(Debug, Default)]
 pub(super) struct Watched {
     stamps: Mutex<BTreeMap<PathBuf, Stamp>>,
-    /// Whether one of them changed since the run began.
+    /// True if one of them changed since the run began.
     stale: AtomicBool,
 }
 
 impl Watched {
-    /// The run depends on this file, which need not be there; called before it is read, so that no
-    /// change is missed.
+    /// Records that the run depends on a file, which need not exist. Called before the file is read, so
+    /// that no change is missed.
     pub(super) fn note(&self, file: &Path) {
         let mut stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
         stamps.entry(file.to_owned()).or_insert_with(|| stamp(file));
     }
 
-    /// Whether the run is not worth ending any more.
+    /// Returns whether a file has changed, so that the run is outdated.
     pub(super) fn stale(&self) -> bool {
         self.stale.load(Ordering::Relaxed)
     }
 
-    /// Looks at the files.
-    fn look(&self) -> bool {
+    /// Polls the files; returns whether one has changed.
+    fn poll(&self) -> bool {
         let stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
         let changed = stamps.iter().any(|(file, before)| stamp(file) != *before);
         if changed {
@@ -52,12 +52,13 @@ impl Watched {
     }
 }
 
+/// Returns the version of a file.
 fn stamp(file: &Path) -> Stamp {
     let found = fs::metadata(file).ok()?;
     Some((found.modified().ok()?, found.len()))
 }
 
-/// Runs, and runs again after each change, until the user wants it to end.
+/// Runs the task, and again after each change, until the user cancels.
 pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, CallError> {
     if let Some(file) = files.iter().find(|file| file.as_path() == Path::new("-")) {
         return Err(CallError(format!("`{}`: standard input does not change", file.display())));
@@ -65,7 +66,7 @@ pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<E
     let mut first = true;
     loop {
         let watched = Arc::new(Watched::default());
-        // The wish to end the last run was that of this text.
+        // The last run was cancelled because of this newer text.
         if !cancelled() {
             cancel_state().reset();
         }
@@ -74,12 +75,12 @@ pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<E
             clear(globals);
         }
         let over = AtomicBool::new(false);
-        let (over, look) = (&over, &watched);
+        let (over, depends) = (&over, &watched);
         let ran = std::thread::scope(|scope| {
-            // A run that takes long is given up for the newer text.
+            // A long run is cancelled for a newer text.
             scope.spawn(move || {
-                while !over.load(Ordering::Relaxed) && !look.look() {
-                    std::thread::park_timeout(LOOK);
+                while !over.load(Ordering::Relaxed) && !depends.poll() {
+                    std::thread::park_timeout(POLL_INTERVAL);
                 }
             });
             let ran = program::run_watched(files, task, globals, &watched);
@@ -87,21 +88,21 @@ pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<E
             ran
         });
         match ran {
-            // While an editor puts a new file in the place of the old, there is none.
+            // There is no file for a moment while an editor replaces it.
             Err(CallError(message)) if !first => report::call_error(globals, &message),
             ran => told(ran?, &watched, globals),
         }
         first = false;
-        while !watched.look() {
+        while !watched.poll() {
             if cancelled() {
                 return Ok(Ending::Cancelled);
             }
-            std::thread::park_timeout(LOOK);
+            std::thread::park_timeout(POLL_INTERVAL);
         }
     }
 }
 
-/// That nothing is said need not mean that nothing is wrong: so something is said.
+/// Prints the outcome even if there is nothing else to print.
 fn told(ending: Ending, watched: &Watched, globals: &Globals) {
     if globals.json || watched.stale() {
         return;
@@ -112,7 +113,7 @@ fn told(ending: Ending, watched: &Watched, globals: &Globals) {
     print_error(&format!("{found}watching {files}\n"));
 }
 
-/// Takes what was said of an older text from the screen.
+/// Clears the screen of messages about an older text.
 fn clear(globals: &Globals) {
     if stderr().is_terminal() && !globals.json {
         print_error("\x1b[2J\x1b[3J\x1b[H");
