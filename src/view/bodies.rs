@@ -1,9 +1,10 @@
 //! The visible bodies of a plan at one time: coloured triangle meshes in the world frame.
 
 use super::colour::{AROUND, FAILED, PALETTE, Rgb, groups};
+use super::input::RenderInput;
 use super::mesh::Mesh;
 use super::primitives::along;
-use super::{RenderInput, findings, surroundings};
+use super::{findings, surroundings};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::articulated::base_at;

@@ -1,8 +1,9 @@
 //! The data of a plan that a page holds, as JSON.
 
+use super::input::RenderInput;
 use super::number::number;
 use super::solids::Meshes;
-use super::{RenderInput, findings, ground_pose, lattice, robot, surroundings, truss};
+use super::{findings, ground_pose, lattice, robot, surroundings, truss};
 use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
 use crate::plan::{Body, Bound, Ground, Plan, file};
 use crate::units::{Dimension, display, quantity};

@@ -1,6 +1,6 @@
 //! The findings of the judge as a page shows them.
 
-use super::RenderInput;
+use super::input::RenderInput;
 use super::number::{number, vector};
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;

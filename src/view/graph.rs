@@ -1,10 +1,10 @@
 //! A configuration as a graph in SVG: modules at their places, in a view from a corner, and the bonds
 //! between them.
 
-use super::RenderInput;
 use super::bodies::link_poses;
 use super::colour::{PALETTE, groups};
-use super::svg::{Drawing, INK, SOFT, around};
+use super::drawing::{Drawing, INK, SOFT, around};
+use super::input::RenderInput;
 use crate::geometry::Vec3;
 use crate::plan::Tracks;
 use crate::robot::{Assembly, PortRef};

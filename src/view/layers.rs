@@ -1,8 +1,8 @@
 //! Lattice and truss plans as SVG: one small drawing per stage, in a view from a corner.
 
-use super::RenderInput;
 use super::colour::Rgb;
-use super::svg::{Drawing, INK, SOFT, around};
+use super::drawing::{Drawing, INK, SOFT, around};
+use super::input::RenderInput;
 use crate::geometry::Vec3;
 use crate::plan::{CellBox, NodePaths, Stages};
 

@@ -5,6 +5,7 @@
 //! between the style and the scripts of `page/` by [`page`]. The page computes the poses itself, by the
 //! same kinematics as the judge; only the base pose on the ground is sampled, from the judge's own rollout.
 
+mod input;
 mod page;
 
 mod data;
@@ -30,6 +31,8 @@ mod raster;
 
 mod fold_format;
 
+mod drawing;
+mod markup;
 mod surroundings;
 mod svg;
 
@@ -38,22 +41,8 @@ mod layers;
 mod pattern;
 mod program;
 
-use crate::plan::Plan;
-
 pub use fold_format::{Crease, CreasePattern, fold_file};
+pub use input::RenderInput;
 pub use page::{page, page_name};
 pub use picture::{Side, StillOptions, png};
 pub use svg::svg;
-
-/// The input of all renderers: a plan with the texts around it.
-#[derive(Clone, Copy, Debug)]
-pub struct RenderInput<'a> {
-    /// The name of the robot, or of the other moving thing.
-    pub title: &'a str,
-    /// The plan. One without a verdict is shown as "not judged".
-    pub plan: &'a Plan,
-    /// The user's source files that the causes name, as (name, text); may be empty.
-    pub texts: &'a [(String, String)],
-    /// The command line that makes the same plan again; may be empty.
-    pub command: &'a str,
-}

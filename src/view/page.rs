@@ -1,7 +1,10 @@
 //! The page of a plan: one HTML file with style, scripts and the plan inside. It loads nothing.
 
+use super::data;
+use super::input::RenderInput;
+use super::markup::escaped;
+use super::picture::StillOptions;
 use super::picture::small_png;
-use super::{RenderInput, StillOptions, data};
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
@@ -25,7 +28,8 @@ const SCRIPTS: [&str; 14] = [
 ];
 
 /// The options of the still picture that is shown where scripts cannot run.
-const STILL: StillOptions = StillOptions { time: 0.0, side: super::Side::Corner, width: 480, height: 300 };
+const STILL: StillOptions =
+    StillOptions { time: 0.0, side: super::picture::Side::Corner, width: 480, height: 300 };
 
 /// Returns the HTML of the page. Nothing in the plan can break out of its place: the data is JSON in which
 /// `<`, `>` and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
@@ -119,22 +123,4 @@ fn unmarked(json: &str) -> String {
         }
     }
     text
-}
-
-/// Returns text escaped for HTML and SVG.
-pub(super) fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '&' => escaped.push_str("&amp;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            // Other control characters are not allowed in HTML or XML in any notation.
-            c if c.is_control() => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

@@ -6,8 +6,8 @@
 //! that coincide in the end have the same letter.
 #![allow(non_snake_case)]
 
-use super::RenderInput;
-use super::svg::{Drawing, INK, SOFT, around, short};
+use super::drawing::{Drawing, INK, SOFT, around, short};
+use super::input::RenderInput;
 use crate::geometry::{Pose, Shape, Vec3};
 use crate::plan::Tracks;
 use crate::robot::{JointOwner, Kinematics, ModuleType, PortRef};

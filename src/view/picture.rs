@@ -3,8 +3,9 @@
 
 use super::bodies::{Drawn, drawn};
 use super::colour::Rgb;
+use super::input::RenderInput;
 use super::raster::{Camera, Canvas};
-use super::{RenderInput, findings, palette, surroundings};
+use super::{findings, palette, surroundings};
 use crate::geometry::Vec3;
 
 /// Supersampling: a pixel is the mean of this many by this many samples.

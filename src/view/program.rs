@@ -1,9 +1,9 @@
 //! A behaviour as its series-parallel graph in SVG: serial steps side by side, parallel branches one below
 //! the other.
 
-use super::RenderInput;
 use super::colour::{PALETTE, groups};
-use super::svg::{Drawing, INK, LETTER, PAPER, SOFT};
+use super::drawing::{Drawing, INK, LETTER, PAPER, SOFT};
+use super::input::RenderInput;
 use crate::plan::{Action, Command, ExemptionKind, Node, Target, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner};
 use crate::units::{Dimension, quantity};
