@@ -4,7 +4,7 @@
 use crate::support::motions::Motion;
 use crate::support::robots::{self, DISC, LEFT, LEFT_WHEEL, RIGHT, RIGHT_WHEEL, TILT};
 use modl::geometry::Vec3;
-use modl::plan::verify::articulated::{Course, Ended, Tip, Tolerances, walk};
+use modl::plan::verify::articulated::{Rollout, RolloutEnd, TipOver, Tolerances, roll_out};
 use modl::plan::{Settings, World, WorldFrom};
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ struct Seen {
     /// Greatest fall after the start, mm, and greatest bound on the motion, mm.
     fall: f64,
     motion: f64,
-    tips: Vec<(f64, Tip)>,
+    tips: Vec<(f64, TipOver)>,
     /// Travel of the base's body and of the centre of mass, mm; turn of the base, degrees.
     base: Vec3,
     centre: Vec3,
@@ -39,7 +39,7 @@ fn seen(motion: &Motion, step: f64) -> Seen {
     let settings = Settings { sample: step, ..Settings::default() };
     let tolerances = Tolerances::default();
     let worlds = [WorldFrom { from: 0.0, world: World::default() }];
-    let course = Course {
+    let course = Rollout {
         tracks: &motion.tracks,
         worlds: &worlds,
         exemptions: &[],
@@ -50,7 +50,7 @@ fn seen(motion: &Motion, step: f64) -> Seen {
     let mut seen = Seen::default();
     let mut first: Option<(modl::geometry::Pose, Vec3)> = None;
     let mut yaw = 0.0;
-    let ended = walk(course, None, motion.tracks.duration, &mut |sample, _| {
+    let ended = roll_out(course, None, motion.tracks.duration, &mut |sample, _| {
         seen.samples += 1;
         let (model, stance) = (sample.model, sample.stance);
         let pose = stance.base_pose(model);
@@ -64,7 +64,7 @@ fn seen(motion: &Motion, step: f64) -> Seen {
         seen.heading = yaw;
         let margin = stance.margin(model).map(|m| m.distance * 1e3);
         let mut contacts: Vec<String> = stance
-            .touches
+            .contact_points
             .iter()
             .filter(|t| t.gap <= 4e-3)
             .map(|t| model.module_name(t.link).to_owned())
@@ -94,7 +94,7 @@ fn seen(motion: &Motion, step: f64) -> Seen {
         }
         true
     });
-    assert_eq!(ended, Ended::AtEnd);
+    assert_eq!(ended, RolloutEnd::AtEnd);
     seen
 }
 

@@ -117,7 +117,7 @@ impl<'a> Ledger<'a> {
 }
 
 /// Keeps the lower of two worst values.
-pub fn lower(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
+pub fn keep_least(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
     if worst.as_ref().is_none_or(|w| value < w.value) {
         *worst = Some(Worst { value, time, at: at() });
     }

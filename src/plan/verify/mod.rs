@@ -5,8 +5,8 @@
 //! order of its checks.
 #![allow(non_snake_case)]
 
-mod footprint;
 mod ledger;
+mod support_polygon;
 
 pub mod articulated;
 pub mod lattice;

@@ -3,11 +3,11 @@
 //! The plan is walked again up to the failure with the joint held, so that the answer takes
 //! everything into account: where the robot stands, what it tips over, what it then has to hold.
 
+use super::base_motion::penetrating_contact;
 use super::docking;
+use super::rollout::{Checkpoint, Rollout, Sample, roll_out};
 use super::stability;
 use super::torque;
-use super::travel::sunk;
-use super::walk::{Course, Sample, Waypoint, walk};
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, Failure, Tracks};
 use crate::robot::{JointId, JointOwner};
@@ -32,10 +32,10 @@ pub struct Suspect {
 }
 
 /// Names who is to blame for the failures that do not say so themselves.
-pub fn blame(course: &Course, waypoints: &[Waypoint], failures: &mut [Failure]) {
+pub fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
     let mut sought = 0;
     for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {
-        let suspects = suspects(course.tracks, failure.time);
+        let suspects = suspects(rollout.tracks, failure.time);
         if failure.kind == CheckKind::Form {
             continue;
         }
@@ -43,7 +43,7 @@ pub fn blame(course: &Course, waypoints: &[Waypoint], failures: &mut [Failure]) 
         if sought <= FAILURES_MAX && ![CheckKind::JointRange, CheckKind::Collision].contains(&failure.kind) {
             for suspect in suspects.iter().take(TRIED_MAX) {
                 let named = failure.blame.contains(&suspect.cause);
-                if !named && removes(course, waypoints, suspect, failure) {
+                if !named && removes(rollout, checkpoints, suspect, failure) {
                     failure.blame.push(suspect.cause);
                 }
                 if failure.blame.len() == BLAMED_MAX {
@@ -58,7 +58,7 @@ pub fn blame(course: &Course, waypoints: &[Waypoint], failures: &mut [Failure]) 
         }
         if failure.blame.is_empty() {
             failure.blames_start = true;
-            failure.blame = of_start(course.tracks, failure);
+            failure.blame = of_start(rollout.tracks, failure);
         }
     }
 }
@@ -82,23 +82,23 @@ pub fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
 }
 
 /// Whether the failure is gone when the suspect's joint stays where it was.
-fn removes(course: &Course, waypoints: &[Waypoint], suspect: &Suspect, failure: &Failure) -> bool {
-    let held = Course { held: Some((suspect.joint, suspect.start)), ..*course };
-    let from = waypoints.iter().rev().find(|w| w.time <= suspect.start);
-    let until = course.tracks.duration.min(failure.time + course.settings.sample);
-    let mut standing = stability::Watch::new(course.settings, course.tolerances);
-    let mut ledger = Ledger::new(course.exemptions, course.tracks.duration);
+fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Suspect, failure: &Failure) -> bool {
+    let held = Rollout { held: Some((suspect.joint, suspect.start)), ..*rollout };
+    let from = checkpoints.iter().rev().find(|w| w.time <= suspect.start);
+    let until = rollout.tracks.duration.min(failure.time + rollout.settings.sample);
+    let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
+    let mut ledger = Ledger::new(rollout.exemptions, rollout.tracks.duration);
     let mut failed = false;
-    walk(held, from, course.tracks.duration, &mut |sample, _| {
+    roll_out(held, from, rollout.tracks.duration, &mut |sample, _| {
         if sample.time > until {
             return false;
         }
         let late = sample.time >= failure.time;
         failed |= match failure.kind {
             CheckKind::Stability => {
-                standing.see(sample, &mut ledger).is_some() || (late && standing.lacking())
+                standing.observe(sample, &mut ledger).is_some() || (late && standing.lacking())
             }
-            _ => late && still(sample, failure, course, &mut ledger),
+            _ => late && still(sample, failure, rollout, &mut ledger),
         };
         // A later sample says nothing about a load that was too great for a moment.
         !failed && (failure.kind == CheckKind::Stability || !late)
@@ -107,13 +107,13 @@ fn removes(course: &Course, waypoints: &[Waypoint], suspect: &Suspect, failure: 
 }
 
 /// Whether what failed fails in this sample, too.
-fn still(sample: &Sample, failure: &Failure, course: &Course, ledger: &mut Ledger) -> bool {
+fn still(sample: &Sample, failure: &Failure, rollout: &Rollout, ledger: &mut Ledger) -> bool {
     match failure.kind {
         CheckKind::Torque | CheckKind::BondLoad => {
-            torque::overloaded(sample, &failure.at[0], course.tolerances, ledger)
+            torque::overloaded(sample, &failure.at[0], rollout.tolerances, ledger)
         }
-        CheckKind::Closure => docking::is_open(sample, &failure.at[0], course.tolerances),
-        CheckKind::Ground => sunk(sample).is_some(),
+        CheckKind::Closure => docking::is_open(sample, &failure.at[0], rollout.tolerances),
+        CheckKind::Ground => penetrating_contact(sample).is_some(),
         _ => true,
     }
 }

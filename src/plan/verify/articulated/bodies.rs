@@ -30,7 +30,7 @@ pub struct Bodies {
 
 /// Two bodies of one module, by their indices among its bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inner {
+pub struct InnerPair {
     pub a: usize,
     pub b: usize,
     /// Whether they count for the clearance: two links that a joint joins do not.
@@ -90,12 +90,12 @@ impl Bodies {
     }
 
     /// The pairs of bodies within a module that may not meet, or not deeper than they are drawn.
-    pub fn inner(&self, module: usize) -> &[Inner] {
+    pub fn inner(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner
     }
 
     /// How deep two modules may be in each other, m: the smaller of what the two allow.
-    pub fn touch(&self, a: usize, b: usize) -> f64 {
+    pub fn allowed_depth(&self, a: usize, b: usize) -> f64 {
         let touch = |module: usize| self.kinds[self.kind_of[module]].touch;
         f64::min(touch(a), touch(b))
     }
@@ -127,7 +127,7 @@ impl Bodies {
 struct Kind {
     /// Link, carrier, part in the carrier's frame.
     bodies: Vec<(usize, usize, Part)>,
-    inner: Vec<Inner>,
+    inner: Vec<InnerPair>,
     touch: f64,
     reach: f64,
 }
@@ -160,7 +160,7 @@ fn pair(
     solids: &[Solid],
     bodies: &[(usize, usize, Part)],
     (a, b): (usize, usize),
-) -> Option<Inner> {
+) -> Option<InnerPair> {
     let (x, y) = (&bodies[a], &bodies[b]);
     let links = |p: usize, q: usize| (p, q) == (x.0, y.0) || (q, p) == (x.0, y.0);
     if x.0 == y.0 || kind.touching.iter().any(|&(p, q)| links(p, q)) {
@@ -172,7 +172,7 @@ fn pair(
         let X_AB = kind.links[x.1].pose.inverse() * kind.links[y.1].pose;
         signed_distance(&x.2, &y.2, &X_AB).distance
     });
-    Some(Inner { a, b, counts: !joined, allowed, fixed })
+    Some(InnerPair { a, b, counts: !joined, allowed, fixed })
 }
 
 /// Whether no joint changes how two bodies lie to one another: they have one carrier, or turn against

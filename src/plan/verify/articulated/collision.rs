@@ -1,16 +1,16 @@
 //! Self-collision over a whole plan, at every instant and not only at samples.
 //!
-//! A stretch of time is looked at in its middle, where everything is known exactly; what can happen
-//! until its ends is bounded ([`frame`](super::frame)). Pairs that are thereby told apart for the
-//! whole stretch are done with; with the others the stretch is halved. Far modules are told apart
+//! A interval of time is looked at in its middle, where everything is known exactly; what can happen
+//! until its ends is bounded ([`frame`](super::interval_state)). Pairs that are thereby told apart for the
+//! whole interval are done with; with the others the interval is halved. Far modules are told apart
 //! over long stretches, near bodies over short ones, and a pair between which nothing moves at once.
 //! Stretches are visited in order of time, so that the first penetration that is met is the first.
 //!
 //! A proof that a pair is not nearer than the clearance found so far serves both questions, for
 //! collisions and for the clearance.
 
+use super::advancement::Advancement;
 use super::bodies::{Bodies, UnsoundLink};
-use super::search::Search;
 use crate::plan::{CheckKind, DockKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst};
 use crate::robot::{Assembly, Kinematics};
 use crate::units::{Dimension, quantity};
@@ -75,7 +75,7 @@ pub fn judge(
 ) -> Result<Findings, UnsoundLink> {
     let everything = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
     let bodies = Bodies::new(&tracks.robot, &everything)?;
-    let mut search = Search::new(tracks, bodies, *precision, settings.samples_max);
+    let mut advancement = Advancement::new(tracks, bodies, *precision, settings.samples_max);
     let mut bonds = tracks.start.bonds.clone();
     let mut docks = tracks.docks.iter().peekable();
     for window in windows(tracks, exemptions) {
@@ -83,9 +83,9 @@ pub fn judge(
             bonds[dock.bond] = dock.kind == DockKind::Dock;
         }
         let excused = excused(tracks, exemptions, window);
-        search.window(&bonds, window, &excused);
+        advancement.window(&bonds, window, &excused);
     }
-    Ok(search.findings(exemptions))
+    Ok(advancement.findings(exemptions))
 }
 
 impl Collision {

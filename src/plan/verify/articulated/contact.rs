@@ -1,14 +1,14 @@
 //! What touches the ground, and how the weight spreads over it.
 
+use super::ground_features::Feature;
 use super::model::Model;
-use super::support::Feature;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
-use crate::plan::verify::footprint::{self, Margin};
+use crate::plan::verify::support_polygon::{self, Margin};
 
 /// A point of a feature near the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
+pub struct ContactPoint {
     pub feature: usize,
     /// Which point of the feature.
     pub k: u8,
@@ -23,7 +23,7 @@ pub struct Touch {
 
 /// A link's contact as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patch {
+pub struct ContactPatch {
     pub link: usize,
     /// Part of the weight.
     pub load: f64,
@@ -36,7 +36,12 @@ pub struct Patch {
 
 /// Everything within its module's contact tolerance of the ground, which is `height` below the
 /// centre of mass; loads spread as over elastic ground.
-pub fn touches(model: &Model, features: &[Feature], height: f64, tolerances: &Tolerances) -> Vec<Touch> {
+pub fn contact_points(
+    model: &Model,
+    features: &[Feature],
+    height: f64,
+    tolerances: &Tolerances,
+) -> Vec<ContactPoint> {
     let up = Vec3::z();
     let mut found = Vec::new();
     for (index, feature) in features.iter().enumerate() {
@@ -49,7 +54,7 @@ pub fn touches(model: &Model, features: &[Feature], height: f64, tolerances: &To
             let p = feature.point(k, &up);
             let gap = p.z + height;
             if gap <= limit {
-                found.push(Touch { feature: index, k, link, p, gap, load: 0.0 });
+                found.push(ContactPoint { feature: index, k, link, p, gap, load: 0.0 });
             }
         }
     }
@@ -58,46 +63,49 @@ pub fn touches(model: &Model, features: &[Feature], height: f64, tolerances: &To
 }
 
 /// Whether a touch counts as a contact of its module.
-pub fn counts(model: &Model, touch: &Touch) -> bool {
-    touch.gap <= model.bodies[touch.link].contact
+pub fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
+    contact_point.gap <= model.bodies[contact_point.link].contact
 }
 
 /// Margin of the centre of mass in the hull of the touches for which `chosen` says true; the edge is
 /// in indices of `touches`.
-pub fn margin(touches: &[Touch], chosen: impl Fn(&Touch) -> bool) -> Option<Margin> {
-    let indices: Vec<usize> = (0..touches.len()).filter(|&i| chosen(&touches[i])).collect();
-    let points: Vec<_> = indices.iter().map(|&i| [touches[i].p.x, touches[i].p.y]).collect();
-    let found = footprint::margin(&points, [0.0, 0.0])?;
+pub fn margin(contact_points: &[ContactPoint], chosen: impl Fn(&ContactPoint) -> bool) -> Option<Margin> {
+    let indices: Vec<usize> = (0..contact_points.len()).filter(|&i| chosen(&contact_points[i])).collect();
+    let points: Vec<_> = indices.iter().map(|&i| [contact_points[i].p.x, contact_points[i].p.y]).collect();
+    let found = support_polygon::margin(&points, [0.0, 0.0])?;
     Some(Margin { edge: (indices[found.edge.0], indices[found.edge.1]), ..found })
 }
 
 /// Touches gathered by link, in order of link: one patch a link, since a wheel with two rims that
 /// each stuck would track as wide as its outer rim.
-pub fn patches(touches: &[Touch]) -> Vec<Patch> {
-    let mut found: Vec<Patch> = Vec::new();
-    let loaded = || touches.iter().filter(|t| t.load > 0.0);
-    for touch in loaded() {
-        let at = match found.binary_search_by_key(&touch.link, |patch| patch.link) {
+pub fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
+    let mut found: Vec<ContactPatch> = Vec::new();
+    let loaded = || contact_points.iter().filter(|t| t.load > 0.0);
+    for contact_point in loaded() {
+        let at = match found.binary_search_by_key(&contact_point.link, |patch| patch.link) {
             Ok(at) => at,
             Err(at) => {
-                found.insert(at, Patch { link: touch.link, load: 0.0, x: 0.0, y: 0.0, spread: 0.0 });
+                found.insert(
+                    at,
+                    ContactPatch { link: contact_point.link, load: 0.0, x: 0.0, y: 0.0, spread: 0.0 },
+                );
                 at
             }
         };
         let patch = &mut found[at];
-        patch.load += touch.load;
-        patch.x += touch.load * touch.p.x;
-        patch.y += touch.load * touch.p.y;
+        patch.load += contact_point.load;
+        patch.x += contact_point.load * contact_point.p.x;
+        patch.y += contact_point.load * contact_point.p.y;
     }
     for patch in &mut found {
         patch.x /= patch.load;
         patch.y /= patch.load;
     }
-    for touch in loaded() {
-        if let Ok(at) = found.binary_search_by_key(&touch.link, |patch| patch.link) {
+    for contact_point in loaded() {
+        if let Ok(at) = found.binary_search_by_key(&contact_point.link, |patch| patch.link) {
             let patch = &mut found[at];
-            let (dx, dy) = (touch.p.x - patch.x, touch.p.y - patch.y);
-            patch.spread += touch.load * (dx * dx + dy * dy) / patch.load;
+            let (dx, dy) = (contact_point.p.x - patch.x, contact_point.p.y - patch.y);
+            patch.spread += contact_point.load * (dx * dx + dy * dy) / patch.load;
         }
     }
     found
@@ -114,11 +122,12 @@ const GRADIENT_MIN: f64 = 1e-14;
 /// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass
 /// and N ≥ 0, where κ falls with the gap. By its dual in three unknowns: `N = κ max(0, λ·g)` with
 /// `g = (1, x, y)`. Where no such loads exist, the moment left is least.
-fn spread(touches: &mut [Touch], tolerances: &Tolerances) {
-    let near = |t: &Touch| t.gap <= tolerances.gap_loaded;
-    let size = touches.iter().filter(|t| near(t)).fold(0.0_f64, |s, t| s.max(t.p.x.abs()).max(t.p.y.abs()));
+fn spread(contact_points: &mut [ContactPoint], tolerances: &Tolerances) {
+    let near = |t: &ContactPoint| t.gap <= tolerances.gap_loaded;
+    let size =
+        contact_points.iter().filter(|t| near(t)).fold(0.0_f64, |s, t| s.max(t.p.x.abs()).max(t.p.y.abs()));
     let size = if size > 0.0 { size } else { 1.0 };
-    let springs: Vec<(f64, Vec3, usize)> = touches
+    let springs: Vec<(f64, Vec3, usize)> = contact_points
         .iter()
         .enumerate()
         .filter(|(_, t)| near(t))
@@ -138,7 +147,7 @@ fn spread(touches: &mut [Touch], tolerances: &Tolerances) {
     let loads = springs.iter().map(|(kappa, g, _)| kappa * lambda.dot(g).max(0.0));
     let sum: f64 = loads.clone().sum();
     for (load, (_, _, i)) in loads.zip(&springs) {
-        touches[*i].load = if sum > 0.0 { load / sum } else { 0.0 };
+        contact_points[*i].load = if sum > 0.0 { load / sum } else { 0.0 };
     }
 }
 
@@ -153,7 +162,7 @@ fn newton(springs: &[(f64, Vec3, usize)], before: Vec3) -> Vec3 {
     let mut lambda = before;
     for _ in 0..NEWTON_ROUNDS_MAX {
         let mut gradient = (lambda - before) * HELD_BACK - Vec3::x();
-        let mut hessian = super::support::Mat3::from_diagonal_element(HELD_BACK);
+        let mut hessian = super::ground_features::Mat3::from_diagonal_element(HELD_BACK);
         for (kappa, g, _) in springs {
             let pressed = lambda.dot(g);
             if pressed > 0.0 {

@@ -1,7 +1,7 @@
 //! Bonds: whether ports are near enough when they dock, loops stay closed, and nothing falls off.
 
+use super::rollout::{Rollout, Sample, positions};
 use super::tolerances::Tolerances;
-use super::walk::{Course, Sample, positions};
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, Dock, DockKind, Failure, Status, Tracks};
@@ -10,14 +10,14 @@ use crate::units::{Dimension, quantity};
 
 /// Judges every docking, and that the robot is one piece from the start to the end. Returns the bonds
 /// that missed.
-pub fn judge(course: &Course, ledger: &mut Ledger) -> Vec<usize> {
-    let tracks = course.tracks;
+pub fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
+    let tracks = rollout.tracks;
     let mut missed = Vec::new();
     let mut bonds = tracks.start.bonds.clone();
     in_one_piece(tracks, &bonds, None, ledger);
     let mut docks = tracks.docks.iter().peekable();
     while let Some(dock) = docks.next() {
-        if dock.kind == DockKind::Dock && !near_enough(course, &bonds, dock, ledger) {
+        if dock.kind == DockKind::Dock && !near_enough(rollout, &bonds, dock, ledger) {
             missed.push(dock.bond);
         }
         bonds[dock.bond] = dock.kind == DockKind::Dock;
@@ -60,8 +60,8 @@ fn listed(names: &[String]) -> String {
 }
 
 /// Whether a dock's ports are near enough; reports it where they are not.
-fn near_enough(course: &Course, bonds: &[bool], dock: &Dock, ledger: &mut Ledger) -> bool {
-    let robot = &course.tracks.robot;
+fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &Dock, ledger: &mut Ledger) -> bool {
+    let robot = &rollout.tracks.robot;
     let kinematics = Kinematics::new(robot, bonds, robot.base);
     let Bond { a, b, .. } = robot.bonds[dock.bond];
     // What hangs on nothing is nowhere: that is another failure.
@@ -69,33 +69,33 @@ fn near_enough(course: &Course, bonds: &[bool], dock: &Dock, ledger: &mut Ledger
         return true;
     }
     let mut joints = Vec::new();
-    positions(course, dock.time, &mut joints);
+    positions(rollout, dock.time, &mut joints);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
     kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
     let residual = kinematics.residual(robot, dock.bond, &joints, &poses);
-    if within(robot, &residual, course.tolerances) {
+    if within(robot, &residual, rollout.tolerances) {
         return true;
     }
     let message = format!("{} does not dock: {}", bond_name(robot, dock.bond), apart(&residual));
-    ledger.fail(failure(CheckKind::Docking, robot, &residual, dock.time, message, vec![dock.cause], course));
+    ledger.fail(failure(CheckKind::Docking, robot, &residual, dock.time, message, vec![dock.cause], rollout));
     false
 }
 
 /// Watches the loops that the bonds close: mated faces must not be driven against each other.
-pub struct Watch<'a> {
-    course: &'a Course<'a>,
+pub struct Monitor<'a> {
+    rollout: &'a Rollout<'a>,
     /// Bonds that did not dock: that their loops are open is no news.
     missed: Vec<usize>,
     samples: usize,
     open: Vec<Failure>,
 }
 
-impl<'a> Watch<'a> {
-    pub fn new(course: &'a Course<'a>, missed: Vec<usize>) -> Watch<'a> {
-        Watch { course, missed, samples: 0, open: vec![] }
+impl<'a> Monitor<'a> {
+    pub fn new(rollout: &'a Rollout<'a>, missed: Vec<usize>) -> Monitor<'a> {
+        Monitor { rollout, missed, samples: 0, open: vec![] }
     }
 
-    pub fn see(&mut self, sample: &Sample) {
+    pub fn observe(&mut self, sample: &Sample) {
         if sample.model.kinematics.tree.closing.is_empty() {
             return;
         }
@@ -104,7 +104,7 @@ impl<'a> Watch<'a> {
             return;
         }
         for residual in residuals(sample) {
-            let fits = within(sample.model.robot, &residual, self.course.tolerances);
+            let fits = within(sample.model.robot, &residual, self.rollout.tolerances);
             if fits || self.missed.iter().any(|&missed| on_loop(sample, residual.bond, missed)) {
                 continue;
             }
@@ -115,7 +115,7 @@ impl<'a> Watch<'a> {
                     let message = format!("{name} is driven apart: {}", apart(&residual));
                     let robot = sample.model.robot;
                     let kind = CheckKind::Closure;
-                    let found = failure(kind, robot, &residual, sample.time, message, vec![], self.course);
+                    let found = failure(kind, robot, &residual, sample.time, message, vec![], self.rollout);
                     self.open.push(found);
                 }
             }
@@ -184,9 +184,9 @@ fn failure(
     time: f64,
     message: String,
     blame: Vec<CauseId>,
-    course: &Course,
+    rollout: &Rollout,
 ) -> Failure {
-    let (distance, _) = allowed(robot, residual.bond, course.tolerances);
+    let (distance, _) = allowed(robot, residual.bond, rollout.tolerances);
     Failure {
         kind,
         time,

@@ -2,12 +2,12 @@
 //! measures it. Nothing is judged here.
 
 use super::contact;
-use super::thinned::Thinned;
+use super::decimated::Decimated;
+use super::rollout::{Rollout, Sample, roll_out};
 use super::tolerances::Tolerances;
-use super::torque::Gauge;
-use super::walk::{Course, Sample, walk};
+use super::torque::LoadGauge;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::footprint::hull;
+use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, validation};
 
 /// Moments of one history; of a longer walk every second, fourth, ... is kept.
@@ -47,13 +47,13 @@ pub struct Moment {
 /// Empty for plans of other families, and for plans that mean nothing.
 pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     let tolerances = Tolerances::default();
-    let mut moments = Thinned::new(MOMENTS_MAX);
+    let mut moments = Decimated::new(MOMENTS_MAX);
     // The latest, where it was not kept.
     let mut last = None;
-    let mut gauge = Gauge::default();
+    let mut gauge = LoadGauge::default();
     visit(plan, until, &tolerances, &mut |sample| {
         let weighed = moments.seen().is_multiple_of(moments.stride() * LOADS_EACH);
-        if moments.turn() {
+        if moments.next_is_kept() {
             let loads = if weighed { gauge.read(sample, &tolerances) } else { vec![] };
             moments.keep(Moment { loads, ..moment(sample) });
             last = None;
@@ -82,7 +82,7 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
     if validation::check(plan).is_err() {
         return;
     }
-    let course = Course {
+    let rollout = Rollout {
         tracks,
         worlds: &plan.worlds,
         exemptions: &plan.exemptions,
@@ -90,7 +90,7 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
         tolerances,
         held: None,
     };
-    walk(course, None, until.min(tracks.duration), &mut |sample, _| {
+    roll_out(rollout, None, until.min(tracks.duration), &mut |sample, _| {
         see(sample);
         true
     });
@@ -101,7 +101,8 @@ fn moment(sample: &Sample) -> Moment {
     let place = stance.place;
     let grounded = sample.world.gravity > 0.0 && sample.world.ground != Ground::Held;
     let (s, c) = libm::sincos(place.yaw);
-    let touching = stance.touches.iter().filter(|touch| contact::counts(sample.model, touch));
+    let touching =
+        stance.contact_points.iter().filter(|contact_point| contact::counts(sample.model, contact_point));
     let points: Vec<[f64; 2]> = touching
         .filter(|_| grounded)
         .map(|t| [place.x + c * t.p.x - s * t.p.y, place.y + s * t.p.x + c * t.p.y])

@@ -4,7 +4,7 @@
 use super::extremum::{elevated, greatest};
 use super::tolerances::Tolerances;
 use crate::plan::polynomial::derivative;
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner, Limits};
 use crate::units::{Dimension, quantity};
@@ -170,7 +170,7 @@ fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut 
         }
     }
     let Some((value, time, piece)) = worst else { return };
-    lower(&mut ledger.verdict.speed_margin, 1.0 - value / limit, time, || vec![drive.name.clone()]);
+    keep_least(&mut ledger.verdict.speed_margin, 1.0 - value / limit, time, || vec![drive.name.clone()]);
     if value > limit * (1.0 + tolerances.limit) {
         let dimension = if drive.turns { Dimension::ANGULAR_SPEED } else { Dimension::SPEED };
         let message = format!(

@@ -10,66 +10,66 @@ mod tolerances;
 mod extremum;
 mod limits;
 
-mod support;
+mod ground_features;
 
 mod model;
 
-mod align;
-mod carry;
+mod alignment;
 mod contact;
-mod descend;
+mod minimum_power;
+mod settle;
 mod stance;
 
-mod sample;
-mod walk;
+mod rollout;
+mod sampling;
 
-mod bolted;
-mod forces;
-mod programme;
+mod base_motion;
+mod contact_forces;
+mod contact_lp;
+mod fixed_base;
 mod stability;
 mod statics;
 mod torque;
-mod travel;
 
+mod advancement;
 mod bodies;
-mod frame;
-mod levels;
-mod pairs;
-mod search;
-mod swing;
+mod interval_state;
+mod motion_bounds;
+mod reference_links;
+mod separation;
 
 pub mod collision;
 
-mod area;
 mod blame;
+mod clearance;
+mod collision_report;
+mod decimated;
 mod docking;
 mod history;
-mod meeting;
-mod nearness;
-mod thinned;
+mod support_area;
 
-pub use area::area;
 pub use bodies::{Bodies, UnsoundLink};
+pub use clearance::{clearances, collision_point};
 pub use collision::{Collision, Findings, Precision};
-pub use contact::{Patch, Touch};
+pub use contact::{ContactPatch, ContactPoint};
 pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
 pub use model::Model;
-pub use nearness::{clearances, collision_point};
+pub use rollout::{Checkpoint, Rollout, RolloutEnd, Sample, TipOver, roll_out};
 pub use stance::Stance;
+pub use support_area::area;
 pub use tolerances::Tolerances;
-pub use walk::{Course, Ended, Sample, Tip, Waypoint, walk};
 
 use super::ledger::Ledger;
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
-use thinned::Thinned;
+use decimated::Decimated;
 
 /// Judges the plan of an articulated robot.
 pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let tolerances = Tolerances::default();
     let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);
     limits::judge(tracks, &tolerances, &mut ledger);
-    let course = Course {
+    let rollout = Rollout {
         tracks,
         worlds: &plan.worlds,
         exemptions: &plan.exemptions,
@@ -77,14 +77,14 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
         tolerances: &tolerances,
         held: None,
     };
-    let missed = docking::judge(&course, &mut ledger);
-    let samples = sample::count(tracks, &plan.worlds, &plan.exemptions, &plan.settings, &tolerances);
+    let missed = docking::judge(&rollout, &mut ledger);
+    let samples = sampling::count(tracks, &plan.worlds, &plan.exemptions, &plan.settings, &tolerances);
     if samples > plan.settings.samples_max {
         ledger.fail(too_many_samples(samples, plan.settings.samples_max));
     } else {
-        let waypoints = on_the_way(&course, missed, &mut ledger);
-        meeting::judge(&course, &mut ledger);
-        blame::blame(&course, &waypoints, ledger.failures_mut());
+        let checkpoints = on_the_way(&rollout, missed, &mut ledger);
+        collision_report::judge(&rollout, &mut ledger);
+        blame::blame(&rollout, &checkpoints, ledger.failures_mut());
     }
     ledger.check(CheckKind::Form, Status::Proved);
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.
@@ -98,43 +98,43 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
 const WAYPOINTS_MAX: usize = 16;
 
 /// Everything that is judged from sample to sample. Returns places to walk on from.
-fn on_the_way(course: &Course, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Waypoint> {
-    let mut loops = docking::Watch::new(course, missed);
-    let mut waypoints = Thinned::new(WAYPOINTS_MAX);
-    let mut standing = stability::Watch::new(course.settings, course.tolerances);
-    let mut travel = travel::Watch::new(course.tolerances);
-    let mut torque = torque::Watch::new(course.tolerances);
-    let ended = walk(*course, None, course.tracks.duration, &mut |sample, waypoint| {
-        if waypoints.turn() {
-            waypoints.keep(waypoint());
+fn on_the_way(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Checkpoint> {
+    let mut loops = docking::Monitor::new(rollout, missed);
+    let mut checkpoints = Decimated::new(WAYPOINTS_MAX);
+    let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
+    let mut base_motion = base_motion::Monitor::new(rollout.tolerances);
+    let mut torque = torque::Monitor::new(rollout.tolerances);
+    let ended = roll_out(*rollout, None, rollout.tracks.duration, &mut |sample, checkpoint| {
+        if checkpoints.next_is_kept() {
+            checkpoints.keep(checkpoint());
         }
-        loops.see(sample);
-        if let Some(lack) = standing.see(sample, ledger) {
-            ledger.fail(lack.failure());
+        loops.observe(sample);
+        if let Some(loss) = standing.observe(sample, ledger) {
+            ledger.fail(loss.failure());
         }
-        travel.see(sample, ledger);
-        torque.see(sample, ledger);
+        base_motion.observe(sample, ledger);
+        torque.observe(sample, ledger);
         true
     });
-    if let Some(lack) = standing.end(course.tracks.duration) {
-        ledger.fail(lack.failure());
+    if let Some(loss) = standing.end(rollout.tracks.duration) {
+        ledger.fail(loss.failure());
     }
-    if let Ended::Limit(time) = ended {
-        ledger.fail(limit_reached(course.settings.samples_max, time));
+    if let RolloutEnd::Limit(time) = ended {
+        ledger.fail(limit_reached(rollout.settings.samples_max, time));
     }
-    ledger.verdict.samples = waypoints.seen();
-    torque.between(&bolted::between(course), course);
+    ledger.verdict.samples = checkpoints.seen();
+    torque.between(&fixed_base::prove(rollout), rollout);
     torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
     torque.finish(ledger);
     standing.finish(ledger);
-    let names = |link| link_name(course, link);
-    travel.finish(names, ledger);
+    let names = |link| link_name(rollout, link);
+    base_motion.finish(names, ledger);
     loops.finish(ledger);
-    waypoints.into_kept()
+    checkpoints.into_kept()
 }
 
-fn link_name(course: &Course, link: usize) -> String {
-    let robot = &course.tracks.robot;
+fn link_name(rollout: &Rollout, link: usize) -> String {
+    let robot = &rollout.tracks.robot;
     let mut rest = link;
     for (module, instance) in robot.modules.iter().enumerate() {
         let links = &robot.module_type(module).links;

@@ -1,7 +1,7 @@
 //! The robot as the judge sees it: kinematics compiled for the bonds that hold, masses, and what can
 //! touch the ground.
 
-use super::support::{self, Feature, Mat3};
+use super::ground_features::{self, Feature, Mat3};
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{Assembly, Kinematics};
 use std::ops::Range;
@@ -61,7 +61,7 @@ impl<'a> Model<'a> {
         for module in 0..robot.modules.len() {
             let declared = robot.module_type(module);
             let shapes = shapes[robot.modules[module].kind].get_or_insert_with(|| {
-                declared.links.iter().map(|link| support::features(&link.collides)).collect()
+                declared.links.iter().map(|link| ground_features::features(&link.collides)).collect()
             });
             let loose = model.kinematics.tree.loose.binary_search(&module).is_ok();
             for (index, link) in declared.links.iter().enumerate() {

@@ -1,31 +1,31 @@
 //! Whether the robot stands: tips, and the margin of the centre of mass in what supports it.
 
 use super::contact;
+use super::rollout::Sample;
 use super::tolerances::Tolerances;
-use super::walk::Sample;
-use crate::plan::verify::footprint::{self, Margin};
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
+use crate::plan::verify::support_polygon::{self, Margin};
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Stability, Status};
 use crate::units::{Dimension, quantity};
 
 /// Watches a walk for the loss of support.
-pub struct Watch<'a> {
+pub struct Monitor<'a> {
     settings: &'a Settings,
     tolerances: &'a Tolerances,
-    /// The present lack of support.
-    lack: Option<Lack>,
+    /// The present loss of support.
+    loss: Option<SupportLoss>,
     samples: usize,
     /// Whether every step so far was proved to be free of tips.
     proved: bool,
     standing: bool,
     /// Whether any part of the plan has a ground, and whether the base is bolted down in any.
     ground: bool,
-    bolted: bool,
+    fixed_base: bool,
 }
 
-/// A stretch of time without support.
+/// A interval of time without support.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lack {
+pub struct SupportLoss {
     pub since: f64,
     pub until: f64,
     /// By how much the robot falls; of no meaning without a tip, m.
@@ -37,23 +37,23 @@ pub struct Lack {
     pub modules: Vec<String>,
 }
 
-impl<'a> Watch<'a> {
-    pub fn new(settings: &'a Settings, tolerances: &'a Tolerances) -> Watch<'a> {
-        Watch {
+impl<'a> Monitor<'a> {
+    pub fn new(settings: &'a Settings, tolerances: &'a Tolerances) -> Monitor<'a> {
+        Monitor {
             settings,
             tolerances,
-            lack: None,
+            loss: None,
             samples: 0,
             proved: true,
             standing: false,
             ground: false,
-            bolted: false,
+            fixed_base: false,
         }
     }
 
-    /// Judges a sample. Returns a lack of support that lasted longer than is allowed, where it ends.
-    pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<Lack> {
-        self.bolted |= sample.world.ground == Ground::Held;
+    /// Judges a sample. Returns a loss of support that lasted longer than is allowed, where it ends.
+    pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<SupportLoss> {
+        self.fixed_base |= sample.world.ground == Ground::Held;
         if matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0 {
             self.standing = false;
             return self.ended(sample.time);
@@ -66,7 +66,7 @@ impl<'a> Watch<'a> {
             // What spans no area leaves no room at all.
             let distance = support.as_ref().map_or(0.0, |s| s.0.distance);
             let edge = || support.as_ref().map_or_else(Vec::new, |s| edge_names(sample, &s.1));
-            lower(&mut ledger.verdict.margin, distance, sample.time, edge);
+            keep_least(&mut ledger.verdict.margin, distance, sample.time, edge);
         }
         self.prove(sample);
         let excuse = |kind: &ExemptionKind| *kind == ExemptionKind::Unstable;
@@ -74,7 +74,7 @@ impl<'a> Watch<'a> {
         if let Some(tip) = sample.tip.filter(|tip| !tip.excused) {
             let (edge, modules) = (edge_words(sample, &tip.edge), edge_names(sample, &tip.edge));
             let (since, drop) = (tip.time, Some(tip.fall));
-            self.lack = Some(Lack { since, until: since, drop, margin: None, edge, modules });
+            self.loss = Some(SupportLoss { since, until: since, drop, margin: None, edge, modules });
         }
         if sample.tip.is_some_and(|tip| tip.excused) {
             ledger.excuses(CheckKind::Stability, sample.tip.map_or(0.0, |t| t.time), excuse);
@@ -88,16 +88,16 @@ impl<'a> Watch<'a> {
 
     /// Whether support is missing at the moment.
     pub fn lacking(&self) -> bool {
-        self.lack.is_some()
+        self.loss.is_some()
     }
 
     /// What is left at the end of the plan: support must be back by then.
-    pub fn end(&mut self, t: f64) -> Option<Lack> {
-        self.lack.take().map(|lack| Lack { until: t, ..lack })
+    pub fn end(&mut self, t: f64) -> Option<SupportLoss> {
+        self.loss.take().map(|loss| SupportLoss { until: t, ..loss })
     }
 
     pub fn finish(&self, ledger: &mut Ledger) {
-        let why = if self.bolted { "what is held fast does not fall" } else { "there is no ground" };
+        let why = if self.fixed_base { "what is held fast does not fall" } else { "there is no ground" };
         let none = || Status::NotChecked(why.to_owned());
         let status = match (self.ground, self.proved) {
             (false, _) => none(),
@@ -111,7 +111,7 @@ impl<'a> Watch<'a> {
         let links = support.as_ref().map_or(&[][..], |s| &s.1);
         let (edge, modules) = (edge_words(sample, links), edge_names(sample, links));
         let margin = support.as_ref().map(|s| s.0.distance);
-        let lack = self.lack.get_or_insert(Lack {
+        let loss = self.loss.get_or_insert(SupportLoss {
             since: sample.time,
             until: sample.time,
             drop: None,
@@ -119,26 +119,26 @@ impl<'a> Watch<'a> {
             edge,
             modules,
         });
-        lack.until = sample.time;
-        lack.margin = match (lack.margin, margin) {
+        loss.until = sample.time;
+        loss.margin = match (loss.margin, margin) {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
     }
 
     /// Support is back at `t`: was it away for too long?
-    fn ended(&mut self, t: f64) -> Option<Lack> {
-        let lack = self.lack.take()?;
-        (t - lack.since > self.settings.unstable_for).then_some(Lack { until: t, ..lack })
+    fn ended(&mut self, t: f64) -> Option<SupportLoss> {
+        let loss = self.loss.take()?;
+        (t - loss.since > self.settings.unstable_for).then_some(SupportLoss { until: t, ..loss })
     }
 
     /// Margin in the support by the rule of the settings, and the modules' links at its edge.
     fn support(&self, sample: &Sample) -> Option<(Margin, [usize; 2])> {
         match self.settings.stability {
             Stability::Footprint => {
-                let touches = &sample.stance.touches;
-                let margin = contact::margin(touches, |t| contact::counts(sample.model, t))?;
-                let links = [touches[margin.edge.0].link, touches[margin.edge.1].link];
+                let contact_points = &sample.stance.contact_points;
+                let margin = contact::margin(contact_points, |t| contact::counts(sample.model, t))?;
+                let links = [contact_points[margin.edge.0].link, contact_points[margin.edge.1].link];
                 Some((margin, links))
             }
             Stability::Centres => centres(sample, self.tolerances),
@@ -181,7 +181,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-impl Lack {
+impl SupportLoss {
     pub fn failure(&self) -> Failure {
         let time = |t| quantity(t, Dimension::TIME);
         let edge = if self.edge.is_empty() { String::new() } else { format!(" over {}", self.edge) };
@@ -245,7 +245,7 @@ fn centres(sample: &Sample, tolerances: &Tolerances) -> Option<(Margin, [usize; 
     let points: Vec<_> = low.iter().map(|&i| [places[i].x, places[i].y]).collect();
     let count = places.len() as f64;
     let mean = places.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p.x / count, sum[1] + p.y / count]);
-    let margin = footprint::margin(&points, mean)?;
+    let margin = support_polygon::margin(&points, mean)?;
     let links = [bodies[low[margin.edge.0]], bodies[low[margin.edge.1]]];
     Some((margin, links))
 }

@@ -1,14 +1,14 @@
 //! How a robot stands on the ground, and how it stands after a small change of posture.
 
-use super::align::{align, guess};
-use super::carry::{Place, carry};
-use super::contact::{self, Patch, Touch};
-use super::descend::{Rest, descend, height};
+use super::alignment::{height_keeping_turn, mass_alignment};
+use super::contact::{self, ContactPatch, ContactPoint};
+use super::ground_features::{Feature, Mat3};
+use super::minimum_power::{PlanarPose, displacement};
 use super::model::{Model, Posture};
-use super::support::{Feature, Mat3};
+use super::settle::{SettledAttitude, height, settle};
 use super::tolerances::Tolerances;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::footprint::Margin;
+use crate::plan::verify::support_polygon::Margin;
 use nalgebra::{Rotation3, UnitQuaternion};
 
 /// A robot on the ground (or held over it), with all that the next sample needs.
@@ -20,26 +20,26 @@ pub struct Stance {
     /// Height of the centre of mass, m.
     pub height: f64,
     /// Where the centre of mass is, and the heading.
-    pub place: Place,
+    pub place: PlanarPose,
     /// The features with the centre of mass at the origin, turned by `R`.
     pub features: Vec<Feature>,
-    pub touches: Vec<Touch>,
-    pub patches: Vec<Patch>,
+    pub contact_points: Vec<ContactPoint>,
+    pub patches: Vec<ContactPatch>,
     /// Whether the base is held because the support was lost.
     pub held: bool,
     /// While it is held: what stood on the ground before, each as if it carried the same.
-    anchors: Vec<Touch>,
+    anchors: Vec<ContactPoint>,
 }
 
 /// What a change of posture does to a stance, before it is decided whether that is a tip.
-pub struct Attempt {
+pub struct SettleAttempt {
     posture: Posture,
     /// Orientation without any fall.
     R: Mat3,
     features: Vec<Feature>,
     /// Height with that orientation, m.
     height: f64,
-    rest: Rest,
+    rest: SettledAttitude,
     /// Upper bound on how far any point moves about the centre of mass, joints' motion only, m.
     pub motion: f64,
     /// By how much the centre of mass falls with the joints held, m.
@@ -48,10 +48,10 @@ pub struct Attempt {
 
 /// Whether an attempt is a tip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Judged {
+pub enum StepOutcome {
     Steady,
     /// The fall is more than the motion can explain.
-    Tip,
+    TipOver,
     /// To be tried again with a shorter step.
     Undecided,
 }
@@ -70,7 +70,7 @@ impl Stance {
         let features = model.placed(&posture, &R);
         let up = height(&features, &Vec3::z());
         let c = X_WB.transform_point(&posture.centre.into());
-        let place = Place { x: c.x, y: c.y, yaw: 0.0 };
+        let place = PlanarPose { x: c.x, y: c.y, yaw: 0.0 };
         let level = match kept {
             Kept::Pose => c.z,
             Kept::Nothing | Kept::Orientation => up,
@@ -81,16 +81,16 @@ impl Stance {
             height: level,
             place,
             features,
-            touches: vec![],
+            contact_points: vec![],
             patches: vec![],
             held: false,
             anchors: vec![],
         };
         if kept != Kept::Nothing {
-            stance.touch(model, tolerances);
+            stance.find_contacts(model, tolerances);
             return (stance, 0.0, 0.0);
         }
-        let rest = descend(&stance.features, tolerances);
+        let rest = settle(&stance.features, tolerances);
         let turned =
             UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rest.turn)).angle();
         stance.turn(&rest);
@@ -98,24 +98,24 @@ impl Stance {
         let drift = stance.base_pose(model).translation.vector - X_WB.translation.vector;
         stance.place.x -= drift.x;
         stance.place.y -= drift.y;
-        stance.touch(model, tolerances);
+        stance.find_contacts(model, tolerances);
         (stance, up - rest.height, turned)
     }
 
     /// Follows a change of posture: turned as the masses and contacts were, then settled. While a
     /// robot is held, the contacts are those that it stood on before.
-    pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Attempt {
-        let mut R = self.R * align(model, &self.posture, &posture);
+    pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> SettleAttempt {
+        let mut R = self.R * mass_alignment(model, &self.posture, &posture);
         let mut features = model.placed(&posture, &R);
-        let contacts = if self.held { &self.anchors } else { &self.touches };
-        let turn = guess(&features, contacts, tolerances);
+        let contacts = if self.held { &self.anchors } else { &self.contact_points };
+        let turn = height_keeping_turn(&features, contacts, tolerances);
         R = turn * R;
         features = features.iter().map(|f| f.placed(&turn, &Vec3::zeros())).collect();
         let moved = self.features.iter().zip(&features).map(|(a, b)| a.moved(b));
         let motion = moved.fold(0.0, f64::max);
         let up = height(&features, &Vec3::z());
-        let rest = descend(&features, tolerances);
-        Attempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
+        let rest = settle(&features, tolerances);
+        SettleAttempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
     }
 
     /// The robot settled as attempted. Returns the slip of each loaded link with its part of the
@@ -123,7 +123,7 @@ impl Stance {
     pub fn settled(
         &self,
         model: &Model,
-        attempt: Attempt,
+        attempt: SettleAttempt,
         tolerances: &Tolerances,
     ) -> (Stance, Vec<(usize, f64, f64)>) {
         let rest = attempt.rest.clone();
@@ -131,22 +131,22 @@ impl Stance {
         next.held = false;
         next.anchors.clear();
         next.turn(&rest);
-        next.touch(model, tolerances);
-        let (place, slips) = carry(model, self, &next.posture, &next.R, next.height, &next.patches);
+        next.find_contacts(model, tolerances);
+        let (place, slips) = displacement(model, self, &next.posture, &next.R, next.height, &next.patches);
         next.place = place;
         (next, slips)
     }
 
     /// The robot held as it would be without falling, lowered to touch the ground.
-    pub fn holding(&self, model: &Model, attempt: Attempt, tolerances: &Tolerances) -> Stance {
+    pub fn holding(&self, model: &Model, attempt: SettleAttempt, tolerances: &Tolerances) -> Stance {
         let mut next = self.lowered(attempt);
         if !self.held {
             // Loads say little where the centre of mass leaves the edge: all that stood there counts.
-            let near = self.touches.iter().filter(|t| t.gap <= tolerances.gap_loaded);
-            next.anchors = near.map(|t| Touch { load: 1.0, ..*t }).collect();
+            let near = self.contact_points.iter().filter(|t| t.gap <= tolerances.gap_loaded);
+            next.anchors = near.map(|t| ContactPoint { load: 1.0, ..*t }).collect();
         }
         next.held = true;
-        next.touch(model, tolerances);
+        next.find_contacts(model, tolerances);
         next
     }
 
@@ -158,12 +158,12 @@ impl Stance {
 
     /// Margin of the centre of mass in the hull of the contacts; `None` where they span no area.
     pub fn margin(&self, model: &Model) -> Option<Margin> {
-        contact::margin(&self.touches, |touch| contact::counts(model, touch))
+        contact::margin(&self.contact_points, |contact_point| contact::counts(model, contact_point))
     }
 
     /// The same with nothing but what support really is.
     pub fn margin_exact(&self, tolerances: &Tolerances) -> Option<Margin> {
-        contact::margin(&self.touches, |touch| touch.gap <= tolerances.gap_exact)
+        contact::margin(&self.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact)
     }
 
     /// `X_WB`, the pose of the base module's body.
@@ -183,21 +183,21 @@ impl Stance {
         Pose::from_parts(p.into(), rotation)
     }
 
-    fn lowered(&self, attempt: Attempt) -> Stance {
+    fn lowered(&self, attempt: SettleAttempt) -> Stance {
         Stance {
             posture: attempt.posture,
             R: attempt.R,
             height: attempt.height,
             place: self.place,
             features: attempt.features,
-            touches: vec![],
+            contact_points: vec![],
             patches: vec![],
             held: self.held,
             anchors: self.anchors.clone(),
         }
     }
 
-    fn turn(&mut self, rest: &Rest) {
+    fn turn(&mut self, rest: &SettledAttitude) {
         self.R = rest.turn * self.R;
         self.height = rest.height;
         for feature in &mut self.features {
@@ -205,9 +205,9 @@ impl Stance {
         }
     }
 
-    fn touch(&mut self, model: &Model, tolerances: &Tolerances) {
-        self.touches = contact::touches(model, &self.features, self.height, tolerances);
-        self.patches = contact::patches(&self.touches);
+    fn find_contacts(&mut self, model: &Model, tolerances: &Tolerances) {
+        self.contact_points = contact::contact_points(model, &self.features, self.height, tolerances);
+        self.patches = contact::patches(&self.contact_points);
     }
 }
 
@@ -222,16 +222,16 @@ pub enum Kept {
     Pose,
 }
 
-impl Attempt {
+impl SettleAttempt {
     /// The centre of mass' height over its attitude moves by no more than the points do, so following
     /// the old minimum releases at most twice that; a fall of more is a minimum that vanished.
-    pub fn judged(&self, tolerances: &Tolerances) -> Judged {
+    pub fn outcome(&self, tolerances: &Tolerances) -> StepOutcome {
         if self.fall <= tolerances.fall_floor {
-            Judged::Steady
+            StepOutcome::Steady
         } else if self.fall > 2.0 * self.motion {
-            Judged::Tip
+            StepOutcome::TipOver
         } else {
-            Judged::Undecided
+            StepOutcome::Undecided
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What joints, motors and bonds have to hold, from the forces on the links.
 //!
 //! Cut the tree of links at a joint or bond: the forces on the far side (its weight, the ground's
-//! pushes) have a force and a moment about a point there, and that is what is held. Every load that
+//! wrenches) have a force and a moment about a point there, and that is what is held. Every load that
 //! has a limit is a sum of such cuts, linear in the forces.
 
 use super::model::Model;
@@ -71,7 +71,7 @@ impl Section {
 
 /// A force on a link: at a place (level axes, from the centre of mass), with a moment.
 #[derive(Clone, Copy, Debug)]
-pub struct Push {
+pub struct Wrench {
     pub link: usize,
     pub p: Vec3,
     pub f: Vec3,
@@ -131,11 +131,11 @@ impl Structure {
             .collect()
     }
 
-    /// What every cut has to hold against these pushes.
-    pub fn held(&self, model: &Model, sections: &[Section], pushes: &[Push]) -> Vec<f64> {
+    /// What every cut has to hold against these wrenches.
+    pub fn held(&self, model: &Model, sections: &[Section], wrenches: &[Wrench]) -> Vec<f64> {
         let mut force = vec![Vec3::zeros(); model.bodies.len()];
         let mut moment = vec![Vec3::zeros(); model.bodies.len()];
-        for push in pushes {
+        for push in wrenches {
             force[push.link] += push.f;
             moment[push.link] += push.p.cross(&push.f) + push.m;
         }

@@ -17,11 +17,11 @@ pub struct Tolerances {
     /// Touches closer than this are what support really is.
     pub gap_exact: f64,
     /// Touches that keep a robot from being shaken, and how far inside them the centre of mass is.
-    pub gap_shaken: f64,
+    pub gap_standing: f64,
     pub inside_min: f64,
-    /// Angle of a shake, and the fall that it must show.
-    pub shake: f64,
-    pub shake_fall: f64,
+    /// Angle of a perturbation, and the fall that it must show.
+    pub perturbation: f64,
+    pub perturbation_fall: f64,
     /// A margin this much below zero is rounding.
     pub margin: f64,
     /// Modules whose centres are within this of the lowest count as lowest (the paper's rule).
@@ -57,10 +57,10 @@ impl Default for Tolerances {
             stiffness_min: 1e-3,
             load_min: 1e-6,
             gap_exact: 1e-5,
-            gap_shaken: 1e-7,
+            gap_standing: 1e-7,
             inside_min: 1e-9,
-            shake: 1e-3,
-            shake_fall: 2e-8,
+            perturbation: 1e-3,
+            perturbation_fall: 2e-8,
             margin: 1e-9,
             centres: 1e-3,
             turn_sample: 5.0 * degree,

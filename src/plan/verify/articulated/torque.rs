@@ -4,26 +4,26 @@
 //! those, forces exist. Loads whose far side touches nothing are the same whatever the forces are.
 //! Only for others, and only where the first answer is no, the best contact forces are sought.
 
-use super::bolted::Between;
-use super::contact::Touch;
-use super::forces::{Best, Question, Recipe};
+use super::contact::ContactPoint;
+use super::contact_forces::{ContactForces, ContactQuery, WarmStart};
+use super::fixed_base::BetweenSamples;
 use super::model::Model;
-use super::statics::{LoadKind, Push, Section, Structure, effects};
+use super::rollout::{Rollout, Sample, bonds_at};
+use super::statics::{LoadKind, Section, Structure, Wrench, effects};
 use super::tolerances::Tolerances;
-use super::walk::{Course, Sample, bonds_at};
 use crate::geometry::Vec3;
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
 use crate::units::{Dimension, quantity};
 
-pub struct Watch<'a> {
+pub struct Monitor<'a> {
     tolerances: &'a Tolerances,
     compiled: Option<Compiled>,
     /// Loads over their limits at the last sample that moved, with their ratios.
     over: Vec<(usize, f64)>,
     /// Overloads so far: one for each load.
     failures: Vec<Overload>,
-    recipes: [Recipe; 2],
+    warm_starts: [WarmStart; 2],
     joints: Vec<f64>,
     efforts: Vec<f64>,
     samples: usize,
@@ -33,7 +33,7 @@ pub struct Watch<'a> {
     effort: usize,
     /// Samples at which it was not decided whether forces exist that overload nothing.
     undecided: usize,
-    uneven: Option<Uneven>,
+    uneven: Option<UnevenForces>,
     energy: f64,
     /// Whether loads were bounded between the samples, too.
     proved: bool,
@@ -62,7 +62,7 @@ pub struct Overload {
 }
 
 /// Where the contact forces must not be spread evenly.
-struct Uneven {
+struct UnevenForces {
     time: f64,
     name: String,
     /// Greatest load by its limit with even forces without friction, and with the best forces.
@@ -83,14 +83,14 @@ struct Loads {
     judged: Vec<usize>,
 }
 
-impl<'a> Watch<'a> {
-    pub fn new(tolerances: &'a Tolerances) -> Watch<'a> {
-        Watch {
+impl<'a> Monitor<'a> {
+    pub fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
+        Monitor {
             tolerances,
             compiled: None,
             over: vec![],
             failures: vec![],
-            recipes: Default::default(),
+            warm_starts: Default::default(),
             joints: vec![],
             efforts: vec![],
             samples: 0,
@@ -103,7 +103,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) {
+    pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             self.over.clear();
             return;
@@ -134,8 +134,8 @@ impl<'a> Watch<'a> {
     fn weigh_in(&mut self, sample: &Sample, compiled: &Compiled, ledger: &mut Ledger) {
         let structure = &compiled.structure;
         let sections = structure.sections(sample.stance);
-        let pushed_down = weights(sample);
-        let weights = structure.held(sample.model, &sections, &pushed_down);
+        let gravity_wrenches = weights(sample);
+        let weights = structure.held(sample.model, &sections, &gravity_wrenches);
         let loads = loads(structure, sample, &sections, self.tolerances);
         if loads.judged.len() < structure.loads.len() {
             self.unknown += 1;
@@ -150,26 +150,26 @@ impl<'a> Watch<'a> {
                 self.margin(sample, structure, worst, loads.ratios[worst], ledger);
                 continue;
             }
-            let question = Question {
+            let query = ContactQuery {
                 model: sample.model,
                 structure,
                 stance: sample.stance,
                 sections: &sections,
-                pushed_down: &pushed_down,
+                gravity_wrenches: &gravity_wrenches,
                 weights: &weights,
                 loads: &judged,
                 weight: sample.model.mass * sample.world.gravity,
                 friction: sample.world.friction,
-                bolted: sample.world.ground == Ground::Held,
+                fixed_base: sample.world.ground == Ground::Held,
                 tolerances: self.tolerances,
             };
-            let sure = settled_loads(structure, sample, &judged, true, self.tolerances);
+            let sure = determinate_loads(structure, sample, &judged, true, self.tolerances);
             let sure = greatest(&sure, |i| loads.ratios[i]).filter(|&i| loads.ratios[i] > 1.0);
             let seen = if bonds { &ledger.verdict.bond_margin } else { &ledger.verdict.torque_margin };
             let seen = seen.as_ref().map_or(0.0, |w| 1.0 - w.value);
             let best = match sure {
                 Some(_) => None,
-                None => best(&question, &mut self.recipes[slot], seen, &mut self.effort),
+                None => best(&query, &mut self.warm_starts[slot], seen, &mut self.effort),
             };
             if sure.is_none() && best.is_none() {
                 self.undecided += 1;
@@ -178,7 +178,7 @@ impl<'a> Watch<'a> {
             match best {
                 Some(best) if best.ratio <= 1.0 => {
                     self.margin(sample, structure, best.load, best.ratio, ledger);
-                    self.uneven(sample.time, question, (worst, loads.ratios[worst]), &best);
+                    self.uneven(sample.time, query, (worst, loads.ratios[worst]), &best);
                 }
                 best => {
                     if best.as_ref().is_some_and(|b| b.bound <= 1.0) {
@@ -203,19 +203,19 @@ impl<'a> Watch<'a> {
             LoadKind::Joint { .. } => &mut ledger.verdict.torque_margin,
             LoadKind::Pull | LoadKind::Moment => &mut ledger.verdict.bond_margin,
         };
-        lower(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
+        keep_least(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
     }
 
     /// Remembers where the loads of even contact forces were too great, and whether others without
     /// friction would do.
-    fn uneven(&mut self, time: f64, question: Question, worst: (usize, f64), best: &Best) {
+    fn uneven(&mut self, time: f64, query: ContactQuery, worst: (usize, f64), best: &ContactForces) {
         if self.uneven.as_ref().is_some_and(|u| worst.1 <= UNEVEN_STEP * u.even) {
             return;
         }
-        let name = question.structure.loads[worst.0].name.clone();
-        let slippery = Question { friction: 0.0, ..question };
-        let needs_friction = slippery.best().is_none_or(|b| b.ratio > 1.0);
-        self.uneven = Some(Uneven { time, even: worst.1, best: best.ratio, name, needs_friction });
+        let name = query.structure.loads[worst.0].name.clone();
+        let slippery = ContactQuery { friction: 0.0, ..query };
+        let needs_friction = slippery.minimise_peak_load().is_none_or(|b| b.ratio > 1.0);
+        self.uneven = Some(UnevenForces { time, even: worst.1, best: best.ratio, name, needs_friction });
     }
 
     /// Work of the motors since the sample before: what they give, not what they get back.
@@ -263,10 +263,10 @@ impl<'a> Watch<'a> {
     }
 
     /// What is known of the time between the samples.
-    pub fn between(&mut self, between: &Between, course: &Course) {
-        self.proved = *between == Between::Proved;
-        if let (Between::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
-            let model = Model::new(&course.tracks.robot, &bonds_at(course.tracks, *time));
+    pub fn between(&mut self, between: &BetweenSamples, rollout: &Rollout) {
+        self.proved = *between == BetweenSamples::Proved;
+        if let (BetweenSamples::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
+            let model = Model::new(&rollout.tracks.robot, &bonds_at(rollout.tracks, *time));
             let load = &Structure::new(&model).loads[*load];
             let (since, until) = (*time, *time);
             let (name, value) = (load.name.clone(), ratio * load.limit);
@@ -357,11 +357,11 @@ impl Overload {
 
 /// Reads loads without judging them.
 #[derive(Default)]
-pub struct Gauge {
+pub struct LoadGauge {
     compiled: Option<Compiled>,
 }
 
-impl Gauge {
+impl LoadGauge {
     /// Load by limit of every joint that states one, with the ground's forces spread evenly and
     /// without friction: (joint, ratio). Empty where nothing is weighed.
     pub fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
@@ -385,61 +385,66 @@ impl Gauge {
 
 /// Whether something of this name is overloaded in a sample: for finding who is to blame.
 pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
-    let mut watch = Watch::new(tolerances);
-    watch.see(sample, ledger);
-    watch.failures.iter().any(|f| f.name == name)
+    let mut observe = Monitor::new(tolerances);
+    observe.observe(sample, ledger);
+    observe.failures.iter().any(|f| f.name == name)
 }
 
 /// Work (columns and loads of the programmes solved) that is done for the sake of an exact margin;
-/// after that only where it is open whether forces exist at all. About 500 programmes of a walker of
+/// after that only where it is open whether forces exist at all. About 500 programmes of a stepper of
 /// 15 modules, 20 of a snake of 300.
 const EFFORT_FOR_MARGIN: usize = 60_000;
 
 /// The best forces: those of the sample before, brought to balance here, do if nothing is worse than
 /// what was seen already; otherwise by a programme.
-fn best(question: &Question, recipe: &mut Recipe, seen: f64, effort: &mut usize) -> Option<Best> {
+fn best(
+    query: &ContactQuery,
+    warm_start: &mut WarmStart,
+    seen: f64,
+    effort: &mut usize,
+) -> Option<ContactForces> {
     // After much work, forces that will do are enough, and the margin is that of these.
     let enough = if *effort < EFFORT_FOR_MARGIN { seen.min(1.0) } else { 1.0 };
-    if let Some(again) = question.again(recipe).filter(|again| again.ratio <= enough) {
+    if let Some(again) = query.warm_started(warm_start).filter(|again| again.ratio <= enough) {
         return Some(again);
     }
-    *effort += question.effort();
-    let best = question.best()?;
-    *recipe = best.recipe.clone();
+    *effort += query.lp_size();
+    let best = query.minimise_peak_load()?;
+    *warm_start = best.warm_start.clone();
     Some(best)
 }
 
 /// The weights of all links.
-fn weights(sample: &Sample) -> Vec<Push> {
+fn weights(sample: &Sample) -> Vec<Wrench> {
     let (model, stance) = (sample.model, sample.stance);
     let push = |&link: &usize| {
         let body = &model.bodies[link];
         let posture = &stance.posture;
         let p = stance.R * (posture.R[link] * body.com + posture.p[link] - posture.centre);
         let f = Vec3::new(0.0, 0.0, -body.mass * sample.world.gravity);
-        Push { link, p, f, m: Vec3::zeros() }
+        Wrench { link, p, f, m: Vec3::zeros() }
     };
     model.attached.iter().map(push).collect()
 }
 
 /// What the ground may push at.
-fn pushing<'s>(sample: &Sample<'s>) -> impl Iterator<Item = &'s Touch> {
-    let bolted = sample.world.ground == Ground::Held;
-    sample.stance.touches.iter().filter(move |_| !bolted)
+fn pushing<'s>(sample: &Sample<'s>) -> impl Iterator<Item = &'s ContactPoint> {
+    let fixed_base = sample.world.ground == Ground::Held;
+    sample.stance.contact_points.iter().filter(move |_| !fixed_base)
 }
 
-/// Loads without friction, with the ground's pushes as they spread.
+/// Loads without friction, with the ground's wrenches as they spread.
 fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerances: &Tolerances) -> Loads {
     let weight = sample.model.mass * sample.world.gravity;
-    let mut pushes = weights(sample);
+    let mut wrenches = weights(sample);
     let (mut x, mut y, mut size) = (0.0, 0.0, 1e-3_f64);
-    for touch in pushing(sample).filter(|t| t.load > 0.0) {
-        let f = Vec3::new(0.0, 0.0, touch.load * weight);
-        pushes.push(Push { link: touch.link, p: touch.p, f, m: Vec3::zeros() });
-        (x, y) = (x + touch.load * touch.p.x, y + touch.load * touch.p.y);
-        size = size.max(touch.p.norm());
+    for contact_point in pushing(sample).filter(|t| t.load > 0.0) {
+        let f = Vec3::new(0.0, 0.0, contact_point.load * weight);
+        wrenches.push(Wrench { link: contact_point.link, p: contact_point.p, f, m: Vec3::zeros() });
+        (x, y) = (x + contact_point.load * contact_point.p.x, y + contact_point.load * contact_point.p.y);
+        size = size.max(contact_point.p.norm());
     }
-    let held = structure.held(sample.model, sections, &pushes);
+    let held = structure.held(sample.model, sections, &wrenches);
     let ratios = structure.loads.iter().map(|load| structure.size(load, &held) / load.limit).collect();
     let all: Vec<usize> = (0..structure.loads.len()).collect();
     // What is bolted down is balanced by what holds it, whatever loops carry.
@@ -447,13 +452,13 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
         Ground::Held => true,
         _ => libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held,
     };
-    let judged = if balanced { all } else { settled_loads(structure, sample, &all, false, tolerances) };
+    let judged = if balanced { all } else { determinate_loads(structure, sample, &all, false, tolerances) };
     Loads { ratios, held, judged }
 }
 
 /// Of some loads those that no forces of the ground can change: nothing beyond their cuts, or
 /// everything, touches it, and no loop passes through them.
-fn settled_loads(
+fn determinate_loads(
     structure: &Structure,
     sample: &Sample,
     loads: &[usize],

@@ -5,7 +5,7 @@ use super::judgement::{Judgement, Step, names};
 use crate::plan::lattice::contacts::ContactForest;
 use crate::plan::lattice::lanes::Overlap;
 use crate::plan::lattice::law::Change;
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Dynamics, Ratio, Stage};
 use crate::units::{Dimension, quantity};
 
@@ -112,7 +112,7 @@ impl Judgement<'_> {
     /// Keeps the least speed margin.
     fn note_speed(&self, step: &Step, distance: i64, lines: i64, cells: &[u32], ledger: &mut Ledger) {
         let margin = 1.0 - self.speed(step, distance, lines) / self.cell.speed;
-        lower(&mut ledger.verdict.speed_margin, margin, step.from, || names(cells));
+        keep_least(&mut ledger.verdict.speed_margin, margin, step.from, || names(cells));
     }
 
     /// F1 and F3: checks linear and angular momentum. Also records peak speed and energies.
@@ -165,7 +165,7 @@ impl Judgement<'_> {
             dynamics.peak_force = dynamics.peak_force.max(value);
             let Some(limit) = self.stages.model.contact_force else { continue };
             let bound = limit.to_f64() * unit;
-            lower(&mut ledger.verdict.bond_margin, 1.0 - value / bound, step.from, || names(&[a, b]));
+            keep_least(&mut ledger.verdict.bond_margin, 1.0 - value / bound, step.from, || names(&[a, b]));
             if step.scaling.compare_acceleration(force, lines, limit).is_gt() {
                 let message = format!(
                     "between cells {a} and {b} a force of {} is needed; {} is allowed",

@@ -7,7 +7,7 @@
 use super::judge::{Judged, Leg};
 use crate::geometry::distance::signed_distance_within;
 use crate::geometry::{HeightField, Part, Pose, Solid, Unsound, Vec3, pose::turned};
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
@@ -102,7 +102,7 @@ impl Judged<'_> {
         let time = leg.begins + leg.lasts * least.1;
         let names = || vec![self.strut_name(strut), obstacle.name.clone()];
         if least.0 <= 2.0 * clearance {
-            lower(&mut ledger.verdict.clearance, least.0, time, names);
+            keep_least(&mut ledger.verdict.clearance, least.0, time, names);
         }
         if holds {
             return;

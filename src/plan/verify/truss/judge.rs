@@ -10,7 +10,7 @@ use super::standing::Standing;
 use super::{around, distance, lengths, shape, standing};
 use crate::geometry::{HeightField, Vec3};
 use crate::interrupt;
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths, Plan, Status, Verdict, World, Worst};
 use crate::robot::Strut;
 use crate::units::{Dimension, quantity};
@@ -157,7 +157,7 @@ impl Judged<'_> {
                 });
             }
             let margin = 1.0 - found.rate / self.strut.speed;
-            lower(&mut ledger.verdict.speed_margin, margin, leg.begins, || vec![self.strut_name(strut)]);
+            keep_least(&mut ledger.verdict.speed_margin, margin, leg.begins, || vec![self.strut_name(strut)]);
             if found.too_fast(self.strut.speed) {
                 let [rate, limit] = [found.rate, self.strut.speed].map(|x| quantity(x, Dimension::SPEED));
                 let message =
@@ -177,7 +177,7 @@ impl Judged<'_> {
         for near in distance::nearest(self.paths, leg, self.strut.clearance) {
             let names = || vec![self.strut_name(near.struts.0), self.strut_name(near.struts.1)];
             let time = leg.begins + leg.lasts * near.part;
-            lower(&mut ledger.verdict.clearance, near.distance, time, names);
+            keep_least(&mut ledger.verdict.clearance, near.distance, time, names);
             if near.holds {
                 continue;
             }

@@ -4,7 +4,7 @@ use super::judge::{Judged, Leg};
 use super::standing::{Standing, centre};
 use super::{distance, shape};
 use crate::geometry::Vec3;
-use crate::plan::verify::footprint;
+use crate::plan::verify::support_polygon;
 use crate::plan::{CheckKind, Failure, Interpolation, Margins};
 use crate::units::display::number;
 
@@ -46,7 +46,7 @@ impl Judged<'_> {
         let inside = || {
             let feet = x.iter().filter(|p| standing.touches(**p)).map(|p| [p.x, p.y]).collect::<Vec<_>>();
             let middle = centre(self.paths, x);
-            footprint::margin(&feet, [middle.x, middle.y]).map(|margin| margin.distance)
+            support_polygon::margin(&feet, [middle.x, middle.y]).map(|margin| margin.distance)
         };
         let angles = || {
             let angles = self.corners.iter().map(|corner| corner.angle(x) - self.paths.limits.angle);

@@ -6,7 +6,7 @@
 use super::judge::{Judged, Leg};
 use super::lengths;
 use crate::geometry::Vec3;
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, LengthSum, NodePaths};
 use crate::units::display::number;
 use crate::units::{Dimension, quantity};
@@ -68,7 +68,7 @@ impl Judged<'_> {
         }
         let time = leg.begins + leg.lasts * least.1;
         let names = || vec![self.strut_name(i), self.strut_name(j)];
-        lower(&mut ledger.verdict.angle, least.0, time, names);
+        keep_least(&mut ledger.verdict.angle, least.0, time, names);
         if proved {
             return;
         }
@@ -133,7 +133,7 @@ impl Judged<'_> {
     fn rigidity(&self, x: &[Vec3], time: f64, ledger: &mut Ledger) {
         let limit = self.paths.limits.rigidity;
         let weakest = weakest(self.paths, x);
-        lower(&mut ledger.verdict.rigidity, weakest, time, Vec::new);
+        keep_least(&mut ledger.verdict.rigidity, weakest, time, Vec::new);
         if weakest < limit - TOL_RIGIDITY {
             let message = format!(
                 "the truss is near to losing its rigidity: a singular value of {}; the plan keeps {}",

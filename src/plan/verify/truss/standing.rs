@@ -3,8 +3,8 @@
 
 use super::judge::{Judged, Leg};
 use crate::geometry::{Vec3, pose::turned};
-use crate::plan::verify::footprint::{self, Point};
-use crate::plan::verify::ledger::{Ledger, lower};
+use crate::plan::verify::ledger::{Ledger, keep_least};
+use crate::plan::verify::support_polygon::{self, Point};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
@@ -137,7 +137,7 @@ impl<'a> Standing<'a> {
             let inside = self.margin(leg, &feet, part);
             let time = leg.begins + part * leg.lasts;
             let names = || feet.iter().map(|&n| paths.node_names[n].clone()).collect();
-            lower(&mut ledger.verdict.margin, inside, time, names);
+            keep_least(&mut ledger.verdict.margin, inside, time, names);
             lost = Some((inside, time));
             if inside < -TOL_MARGIN {
                 break;
@@ -173,7 +173,7 @@ impl<'a> Standing<'a> {
         let paths = self.judged.paths;
         let middle = centre(paths, &leg.from) * (1.0 - part) + centre(paths, &leg.to) * part;
         let points: Vec<Point> = feet.iter().map(|&node| [at(node).x, at(node).y]).collect();
-        let margin = footprint::margin(&points, [middle.x, middle.y]);
+        let margin = support_polygon::margin(&points, [middle.x, middle.y]);
         // On two feet, or on a row of them, nothing stands.
         margin.filter(|m| m.width > WIDTH_MIN).map_or(f64::NEG_INFINITY, |margin| margin.distance)
     }

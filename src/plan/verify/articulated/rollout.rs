@@ -5,8 +5,8 @@
 
 use super::contact;
 use super::model::{Model, Posture};
-use super::sample;
-use super::stance::{Judged, Kept, Stance};
+use super::sampling;
+use super::stance::{Kept, Stance, StepOutcome};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
@@ -15,7 +15,7 @@ use crate::units::{Dimension, quantity};
 
 /// What is walked through, and how strictly.
 #[derive(Clone, Copy)]
-pub struct Course<'a> {
+pub struct Rollout<'a> {
     pub tracks: &'a Tracks,
     pub worlds: &'a [WorldFrom],
     pub exemptions: &'a [Exemption],
@@ -41,7 +41,7 @@ pub struct Sample<'a> {
     pub fall: f64,
     /// Bound on the motion of points about the centre of mass since the sample before, m.
     pub motion: f64,
-    pub tip: Option<&'a Tip>,
+    pub tip: Option<&'a TipOver>,
     /// Slip of loaded links since the sample before, m, with their part of the weight.
     pub slips: &'a [(usize, f64, f64)],
     /// At the start, or where a ground begins: how far the robot turned to settle, rad.
@@ -50,7 +50,7 @@ pub struct Sample<'a> {
 
 /// The support was lost.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tip {
+pub struct TipOver {
     /// When the centre of mass crossed the edge, s.
     pub time: f64,
     /// By how much it falls, m.
@@ -65,7 +65,7 @@ pub struct Tip {
 
 /// Why a walk ended early.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ended {
+pub enum RolloutEnd {
     AtEnd,
     /// Too many samples; it got to this time.
     Limit(f64),
@@ -78,14 +78,14 @@ const HALVINGS_MAX: usize = 50;
 
 /// From where a walk goes on, s.
 #[derive(Clone, Debug)]
-pub struct Waypoint {
+pub struct Checkpoint {
     pub time: f64,
     pub stance: Stance,
     held_since: Option<f64>,
 }
 
-struct Walker<'a> {
-    course: Course<'a>,
+struct Stepper<'a> {
+    rollout: Rollout<'a>,
     model: Model<'a>,
     bonds: Vec<bool>,
     stance: Stance,
@@ -98,29 +98,29 @@ struct Walker<'a> {
     samples: usize,
 }
 
-/// Walks through a plan from its start, or from a waypoint, until `until`. `watch` sees every sample
+/// Walks through a plan from its start, or from a checkpoint, until `until`. `watch` sees every sample
 /// and says whether to go on.
-pub fn walk(
-    course: Course,
-    from: Option<&Waypoint>,
+pub fn roll_out(
+    rollout: Rollout,
+    from: Option<&Checkpoint>,
     until: f64,
-    watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
-) -> Ended {
-    let mut walker = Walker::new(course, from);
-    if from.is_none() && !walker.begin(watch) {
-        return Ended::Stopped;
+    observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool,
+) -> RolloutEnd {
+    let mut stepper = Stepper::new(rollout, from);
+    if from.is_none() && !stepper.begin(observe) {
+        return RolloutEnd::Stopped;
     }
-    let first = walker.now;
-    let instants = sample::instants(course.tracks, course.worlds, course.exemptions);
+    let first = stepper.now;
+    let instants = sampling::instants(rollout.tracks, rollout.worlds, rollout.exemptions);
     for &instant in instants.iter().filter(|t| **t > first) {
         interrupt::progress_checkpoint(|| {
-            let [now, until] = [walker.now, until].map(|t| quantity(t, Dimension::TIME));
-            format!("walked {now} of {until}, {} samples", walker.samples)
+            let [now, until] = [stepper.now, until].map(|t| quantity(t, Dimension::TIME));
+            format!("walked {now} of {until}, {} samples", stepper.samples)
         });
         let target = instant.min(until);
-        if target > walker.now {
-            match walker.stretch(target, watch) {
-                Ended::AtEnd => {}
+        if target > stepper.now {
+            match stepper.interval(target, observe) {
+                RolloutEnd::AtEnd => {}
                 ended => return ended,
             }
         }
@@ -128,55 +128,56 @@ pub fn walk(
             break;
         }
     }
-    Ended::AtEnd
+    RolloutEnd::AtEnd
 }
 
-impl<'a> Walker<'a> {
-    fn new(course: Course<'a>, from: Option<&Waypoint>) -> Walker<'a> {
-        let tracks = course.tracks;
+impl<'a> Stepper<'a> {
+    fn new(rollout: Rollout<'a>, from: Option<&Checkpoint>) -> Stepper<'a> {
+        let tracks = rollout.tracks;
         let now = from.map_or(0.0, |w| w.time);
         let bonds = bonds_at(tracks, now);
         let model = Model::new(&tracks.robot, &bonds);
-        let world = world_at(course.worlds, now);
+        let world = world_at(rollout.worlds, now);
         let mut poses = Vec::new();
         let mut joints = Vec::new();
-        positions(&course, now, &mut joints);
+        positions(&rollout, now, &mut joints);
         let posture = model.posture(&joints, &mut poses);
         let stance = match from {
-            Some(waypoint) => waypoint.stance.clone(),
+            Some(checkpoint) => checkpoint.stance.clone(),
             None => {
-                Stance::start(&model, posture, &tracks.start.base, unsettled(&world), course.tolerances).0
+                Stance::start(&model, posture, &tracks.start.base, unsettled(&world), rollout.tolerances).0
             }
         };
         let held_since = from.and_then(|w| w.held_since);
-        Walker { course, model, bonds, stance, now, joints, poses, world, held_since, samples: 0 }
+        Stepper { rollout, model, bonds, stance, now, joints, poses, world, held_since, samples: 0 }
     }
 
     /// The first sample.
-    fn begin(&mut self, watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool) -> bool {
-        let pose = self.course.tracks.start.base;
+    fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
+        let pose = self.rollout.tracks.start.base;
         let kept = if self.on_ground() { Kept::Nothing } else { unsettled(&self.world) };
         let (settling, fall) = self.stand(&pose, kept);
-        self.show(watch, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
+        self.show(observe, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
     }
 
     /// Samples from `now` to `target`, between which nothing begins or ends.
-    fn stretch(
+    fn interval(
         &mut self,
         target: f64,
-        watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
-    ) -> Ended {
-        let (from, course) = (self.now, self.course);
-        let divisions = sample::divisions(course.tracks, from, target, course.settings, course.tolerances);
+        observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool,
+    ) -> RolloutEnd {
+        let (from, rollout) = (self.now, self.rollout);
+        let divisions =
+            sampling::divisions(rollout.tracks, from, target, rollout.settings, rollout.tolerances);
         for i in 1..=divisions.max(1) {
             let t =
                 if i >= divisions { target } else { from + (target - from) * i as f64 / divisions as f64 };
-            let ended = self.advance(t, divisions > 0, watch);
-            if ended != Ended::AtEnd {
+            let ended = self.advance(t, divisions > 0, observe);
+            if ended != RolloutEnd::AtEnd {
                 return ended;
             }
         }
-        Ended::AtEnd
+        RolloutEnd::AtEnd
     }
 
     /// One sample, or several where a step has to be halved.
@@ -184,12 +185,12 @@ impl<'a> Walker<'a> {
         &mut self,
         target: f64,
         moving: bool,
-        watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
-    ) -> Ended {
+        observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool,
+    ) -> RolloutEnd {
         let mut targets = vec![target];
         while let Some(&t) = targets.last() {
-            if self.samples >= self.course.settings.samples_max {
-                return Ended::Limit(self.now);
+            if self.samples >= self.rollout.settings.samples_max {
+                return RolloutEnd::Limit(self.now);
             }
             self.samples += 1;
             let before = self.now;
@@ -198,11 +199,11 @@ impl<'a> Walker<'a> {
                 continue;
             };
             targets.pop();
-            if !self.show(watch, before, &step) {
-                return Ended::Stopped;
+            if !self.show(observe, before, &step) {
+                return RolloutEnd::Stopped;
             }
         }
-        Ended::AtEnd
+        RolloutEnd::AtEnd
     }
 
     /// Goes to time `t`; `None` where the step is too long.
@@ -213,12 +214,12 @@ impl<'a> Walker<'a> {
             return Some(Step::default());
         }
         let mut joints = Vec::new();
-        positions(&self.course, t, &mut joints);
+        positions(&self.rollout, t, &mut joints);
         let posture = self.model.posture(&joints, &mut self.poses);
         let step = match self.on_ground() {
             true => self.step_on_ground(t, posture, may_halve)?,
             false => {
-                self.stance = self.stance.kept(&self.model, posture, self.course.tolerances);
+                self.stance = self.stance.kept(&self.model, posture, self.rollout.tolerances);
                 Step { moved: true, ..Step::default() }
             }
         };
@@ -227,27 +228,27 @@ impl<'a> Walker<'a> {
     }
 
     fn step_on_ground(&mut self, t: f64, posture: Posture, may_halve: bool) -> Option<Step> {
-        let tolerances = self.course.tolerances;
+        let tolerances = self.rollout.tolerances;
         let attempt = self.stance.attempt(&self.model, posture, tolerances);
         let (fall, motion) = (attempt.fall, attempt.motion);
-        let mut judged = attempt.judged(tolerances);
+        let mut outcome = attempt.outcome(tolerances);
         if may_halve
-            && (judged == Judged::Undecided || motion > tolerances.motion_sample)
+            && (outcome == StepOutcome::Undecided || motion > tolerances.motion_sample)
             && !self.stance.held
         {
             if t - self.now > tolerances.time {
                 return None;
             }
-            judged = if fall > tolerances.fall_floor { Judged::Tip } else { Judged::Steady };
+            outcome = if fall > tolerances.fall_floor { StepOutcome::TipOver } else { StepOutcome::Steady };
         }
         let mut step = Step { moved: true, fall, motion, ..Step::default() };
         let mut hold = false;
         if self.stance.held {
             let since = self.held_since.unwrap_or(t);
-            hold = fall > tolerances.fall_floor && t - since <= self.course.settings.unstable_for;
-        } else if judged != Judged::Steady {
+            hold = fall > tolerances.fall_floor && t - since <= self.rollout.settings.unstable_for;
+        } else if outcome != StepOutcome::Steady {
             let tip = self.tip(t, fall, motion);
-            hold = !tip.excused && t - tip.time <= self.course.settings.unstable_for;
+            hold = !tip.excused && t - tip.time <= self.rollout.settings.unstable_for;
             self.held_since = hold.then_some(tip.time);
             step.tip = Some(tip);
         }
@@ -261,8 +262,8 @@ impl<'a> Walker<'a> {
     }
 
     /// When, and over which edge: by halving between the last sample that stood and this one.
-    fn tip(&mut self, t: f64, fall: f64, motion: f64) -> Tip {
-        let tolerances = self.course.tolerances;
+    fn tip(&mut self, t: f64, fall: f64, motion: f64) -> TipOver {
+        let tolerances = self.rollout.tolerances;
         let (mut standing, mut fallen) = (self.now, t);
         let mut joints = Vec::new();
         for _ in 0..HALVINGS_MAX {
@@ -270,7 +271,7 @@ impl<'a> Walker<'a> {
                 break;
             }
             let middle = standing + (fallen - standing) / 2.0;
-            positions(&self.course, middle, &mut joints);
+            positions(&self.rollout, middle, &mut joints);
             let posture = self.model.posture(&joints, &mut self.poses);
             let tried = self.stance.attempt(&self.model, posture, tolerances);
             if tried.fall > tolerances.fall_floor {
@@ -279,36 +280,41 @@ impl<'a> Walker<'a> {
                 standing = middle;
             }
         }
-        positions(&self.course, fallen, &mut joints);
+        positions(&self.rollout, fallen, &mut joints);
         let posture = self.model.posture(&joints, &mut self.poses);
         let attempt = self.stance.attempt(&self.model, posture, tolerances);
         let over = self.stance.holding(&self.model, attempt, tolerances);
-        let support = contact::margin(&over.touches, |touch| touch.gap <= tolerances.gap_exact);
+        let support =
+            contact::margin(&over.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact);
         let mut edge = match support {
-            Some(margin) => vec![over.touches[margin.edge.0].link, over.touches[margin.edge.1].link],
-            None => over.touches.iter().filter(|x| x.gap <= tolerances.gap_exact).map(|x| x.link).collect(),
+            Some(margin) => {
+                vec![over.contact_points[margin.edge.0].link, over.contact_points[margin.edge.1].link]
+            }
+            None => {
+                over.contact_points.iter().filter(|x| x.gap <= tolerances.gap_exact).map(|x| x.link).collect()
+            }
         };
         edge.dedup();
-        let excused = fallen < self.course.tracks.duration && excused(self.course.exemptions, fallen);
-        Tip { time: fallen, fall, motion, edge, excused }
+        let excused = fallen < self.rollout.tracks.duration && excused(self.rollout.exemptions, fallen);
+        TipOver { time: fallen, fall, motion, edge, excused }
     }
 
     /// Bonds and worlds that begin at `t`.
     fn changes(&self, t: f64) -> Changes {
-        let bonds = bonds_at(self.course.tracks, t) != self.bonds;
-        Changes { bonds, world: world_at(self.course.worlds, t) != self.world }
+        let bonds = bonds_at(self.rollout.tracks, t) != self.bonds;
+        Changes { bonds, world: world_at(self.rollout.worlds, t) != self.world }
     }
 
     fn changed(&mut self, t: f64, changes: Changes, mut step: Step) -> Step {
         if changes.bonds {
-            self.bonds = bonds_at(self.course.tracks, t);
-            self.model = Model::new(&self.course.tracks.robot, &self.bonds);
+            self.bonds = bonds_at(self.rollout.tracks, t);
+            self.model = Model::new(&self.rollout.tracks.robot, &self.bonds);
             step.moved = true;
             self.restand();
         }
         if changes.world {
             let before = self.world.ground;
-            self.world = world_at(self.course.worlds, t);
+            self.world = world_at(self.rollout.worlds, t);
             step.moved = true;
             if self.on_ground() && before != Ground::Settle {
                 let pose = self.stance.base_pose(&self.model);
@@ -324,13 +330,13 @@ impl<'a> Walker<'a> {
         let pose = self.stance.base_pose(&self.model);
         let held = self.stance.held;
         let posture = self.model.posture(&self.joints, &mut self.poses);
-        self.stance = Stance::start(&self.model, posture, &pose, Kept::Pose, self.course.tolerances).0;
+        self.stance = Stance::start(&self.model, posture, &pose, Kept::Pose, self.rollout.tolerances).0;
         self.stance.held = held;
     }
 
     fn stand(&mut self, pose: &Pose, kept: Kept) -> (f64, f64) {
         let posture = self.model.posture(&self.joints, &mut self.poses);
-        let (stance, fall, turn) = Stance::start(&self.model, posture, pose, kept, self.course.tolerances);
+        let (stance, fall, turn) = Stance::start(&self.model, posture, pose, kept, self.rollout.tolerances);
         (self.stance, self.held_since) = (stance, None);
         (turn, fall)
     }
@@ -341,7 +347,7 @@ impl<'a> Walker<'a> {
 
     fn show(
         &self,
-        watch: &mut dyn FnMut(&Sample, &dyn Fn() -> Waypoint) -> bool,
+        observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool,
         before: f64,
         step: &Step,
     ) -> bool {
@@ -360,9 +366,9 @@ impl<'a> Walker<'a> {
             slips: &step.slips,
             settling: step.settling,
         };
-        let waypoint =
-            || Waypoint { time: self.now, stance: self.stance.clone(), held_since: self.held_since };
-        watch(&sample, &waypoint)
+        let checkpoint =
+            || Checkpoint { time: self.now, stance: self.stance.clone(), held_since: self.held_since };
+        observe(&sample, &checkpoint)
     }
 }
 
@@ -382,7 +388,7 @@ struct Step {
     moved: bool,
     fall: f64,
     motion: f64,
-    tip: Option<Tip>,
+    tip: Option<TipOver>,
     slips: Vec<(usize, f64, f64)>,
     settling: Option<f64>,
 }
@@ -393,12 +399,12 @@ pub fn excused(exemptions: &[Exemption], t: f64) -> bool {
 }
 
 /// Joint positions at a time, a blamed joint held.
-pub fn positions(course: &Course, t: f64, joints: &mut Vec<f64>) {
+pub fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
     joints.clear();
-    joints.extend_from_slice(&course.tracks.start.joints);
-    for track in &course.tracks.tracks {
+    joints.extend_from_slice(&rollout.tracks.start.joints);
+    for track in &rollout.tracks.tracks {
         let index = track.joint.0 as usize;
-        let t = match course.held {
+        let t = match rollout.held {
             Some((joint, from)) if joint == index => t.min(from),
             _ => t,
         };

@@ -1,14 +1,14 @@
 //! Where the robot gets to, and what slips on the way; and with a held base, what goes underground.
 
-use super::contact::Touch;
+use super::contact::ContactPoint;
+use super::rollout::Sample;
 use super::tolerances::Tolerances;
-use super::walk::Sample;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
 use crate::units::{Dimension, quantity};
 
-pub struct Watch<'a> {
+pub struct Monitor<'a> {
     tolerances: &'a Tolerances,
     start: Option<Pose>,
     last: Pose,
@@ -16,27 +16,27 @@ pub struct Watch<'a> {
     /// Slip of each link with its part of the load, summed over the plan, m.
     slips: Vec<f64>,
     samples: usize,
-    /// Deepest penetration so far of the present stretch: (depth, time, links' names, since).
-    sunk: Option<(f64, f64, String, f64)>,
+    /// Deepest penetration so far of the present interval: (depth, time, links' names, since).
+    deepest: Option<(f64, f64, String, f64)>,
     grounds: Vec<Ground>,
 }
 
-impl<'a> Watch<'a> {
-    pub fn new(tolerances: &'a Tolerances) -> Watch<'a> {
+impl<'a> Monitor<'a> {
+    pub fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
         let identity = Pose::identity();
-        Watch {
+        Monitor {
             tolerances,
             start: None,
             last: identity,
             yaw: 0.0,
             slips: vec![],
             samples: 0,
-            sunk: None,
+            deepest: None,
             grounds: vec![],
         }
     }
 
-    pub fn see(&mut self, sample: &Sample, ledger: &mut Ledger) {
+    pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.samples += 1;
         if !self.grounds.contains(&sample.world.ground) {
             self.grounds.push(sample.world.ground);
@@ -46,7 +46,7 @@ impl<'a> Watch<'a> {
             self.slip(sample, ledger);
         }
         if sample.world.ground == Ground::Fixed {
-            self.sink(sample, ledger);
+            self.penetration(sample, ledger);
         }
     }
 
@@ -76,21 +76,21 @@ impl<'a> Watch<'a> {
         }
     }
 
-    fn sink(&mut self, sample: &Sample, ledger: &mut Ledger) {
-        match sunk(sample) {
-            Some(touch) => {
-                let since = self.sunk.as_ref().map_or(sample.time, |s| s.3);
-                if self.sunk.as_ref().is_none_or(|s| -touch.gap > s.0) {
-                    let name = sample.model.module_name(touch.link).to_owned();
-                    self.sunk = Some((-touch.gap, sample.time, name, since));
+    fn penetration(&mut self, sample: &Sample, ledger: &mut Ledger) {
+        match penetrating_contact(sample) {
+            Some(contact_point) => {
+                let since = self.deepest.as_ref().map_or(sample.time, |s| s.3);
+                if self.deepest.as_ref().is_none_or(|s| -contact_point.gap > s.0) {
+                    let name = sample.model.module_name(contact_point.link).to_owned();
+                    self.deepest = Some((-contact_point.gap, sample.time, name, since));
                 }
             }
-            None => self.risen(sample.time, ledger),
+            None => self.end_penetration(sample.time, ledger),
         }
     }
 
-    fn risen(&mut self, t: f64, ledger: &mut Ledger) {
-        let Some((depth, _, name, since)) = self.sunk.take() else { return };
+    fn end_penetration(&mut self, t: f64, ledger: &mut Ledger) {
+        let Some((depth, _, name, since)) = self.deepest.take() else { return };
         let words = quantity(depth, Dimension::LENGTH);
         ledger.fail(Failure {
             kind: CheckKind::Ground,
@@ -107,7 +107,7 @@ impl<'a> Watch<'a> {
 
     pub fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
-        self.risen(end, ledger);
+        self.end_penetration(end, ledger);
         if let Some(start) = self.start {
             let travel = self.last.translation.vector - start.translation.vector;
             ledger.verdict.travel = [travel.x, travel.y, travel.z];
@@ -142,8 +142,8 @@ impl<'a> Watch<'a> {
 }
 
 /// The deepest touch that is further underground than its module may be.
-pub fn sunk<'s>(sample: &Sample<'s>) -> Option<&'s Touch> {
-    let deepest = sample.stance.touches.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
+pub fn penetrating_contact<'s>(sample: &Sample<'s>) -> Option<&'s ContactPoint> {
+    let deepest = sample.stance.contact_points.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
     deepest.filter(|t| {
         let module = sample.model.bodies[t.link].module;
         -t.gap > sample.model.robot.module_type(module).touch

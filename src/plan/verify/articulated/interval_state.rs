@@ -1,31 +1,31 @@
-//! The robot in the middle of a stretch of time, with bounds on how it moves until the ends.
+//! The robot in the middle of a interval of time, with bounds on how it moves until the ends.
 //!
 //! Positions and velocities in the middle are exact. What follows from them to the ends is bounded,
-//! for each link as seen from an origin link (see [`levels`](super::levels)), by how far velocities
-//! can stray from those in the middle:
+//! for each link as seen from an origin link (see [`levels`](super::reference_links)), by how far velocities
+//! can deviation from those in the middle:
 //!
-//! - turning: `ω' = ω + q̇ z`, where the axis z turns with the link before, strays by the joint's own
-//!   stray plus `|q̇|` times the angle that z can turn by;
-//! - moving: `v' = v + ω × r`, where r turns with its link, strays by the stray of ω times `|r|` plus
+//! - turning: `ω' = ω + q̇ z`, where the axis z turns with the link before, deviations by the joint's own
+//!   deviation plus `|q̇|` times the angle that z can turn by;
+//! - moving: `v' = v + ω × r`, where r turns with its link, deviations by the deviation of ω times `|r|` plus
 //!   `|ω|` times the distance that the tip of r can move.
 
-use super::levels::Levels;
-use super::swing::{Stretch, Swings};
+use super::motion_bounds::{Interval, MotionBounds};
+use super::reference_links::ReferenceLinks;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::Kinematics;
 use crate::robot::step::{Motion, Step};
 use nalgebra::Matrix3;
 
 #[derive(Clone, Debug, Default)]
-pub struct Frame {
-    pub stretch: Stretch,
+pub struct IntervalState {
+    pub interval: Interval,
     poses: Vec<Pose>,
     /// World orientation, position, angular velocity (rad/s) and velocity (m/s) of each link.
     pub links: Vec<Moving>,
     /// Of each step of the kinematics.
     joints: Vec<JointStretch>,
-    /// Of each level that was asked for: how each link strays.
-    strays: Vec<Vec<Stray>>,
+    /// Of each level that was asked for: how each link deviations.
+    deviations: Vec<Vec<Deviation>>,
     known: Vec<bool>,
 }
 
@@ -39,24 +39,24 @@ pub struct Moving {
 
 /// How far a link's velocities, seen from an origin, can be from those in the middle.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Stray {
+pub struct Deviation {
     /// Of the link's origin, m/s.
-    pub slip: f64,
+    pub velocity: f64,
     /// For each metre that a point is away from the link's origin, 1/s.
-    pub swing: f64,
+    pub gradient: f64,
     /// Of the angular velocity, rad/s.
     turn: f64,
     /// Bound of the angular velocity, rad/s.
     spin: f64,
 }
 
-impl Frame {
+impl IntervalState {
     /// The middle of `from..to`.
-    pub fn set(&mut self, kinematics: &Kinematics, swings: &Swings, from: f64, to: f64) {
-        swings.over(from, to, &mut self.stretch);
+    pub fn set(&mut self, kinematics: &Kinematics, bounds: &MotionBounds, from: f64, to: f64) {
+        bounds.over(from, to, &mut self.interval);
         self.poses.resize(kinematics.link_count(), Pose::identity());
         self.links.resize(kinematics.link_count(), Moving::default());
-        kinematics.link_poses(&self.stretch.at, &Pose::identity(), &mut self.poses);
+        kinematics.link_poses(&self.interval.at, &Pose::identity(), &mut self.poses);
         let root = kinematics.link(kinematics.root, 0);
         self.links[root] = Moving { R: Matrix3::identity(), ..Moving::default() };
         for step in &kinematics.steps {
@@ -74,7 +74,7 @@ impl Frame {
         let pose = &self.poses[step.link];
         let R = *pose.rotation.to_rotation_matrix().matrix();
         let p = pose.translation.vector;
-        let rate = step.position(&self.stretch.rate);
+        let rate = step.position(&self.interval.rate);
         match (step.motion, step.motion.axis()) {
             (_, Some(axis)) => {
                 let to_origin = R * step.offset;
@@ -89,33 +89,33 @@ impl Frame {
         }
     }
 
-    /// How links stray at a level, computed when first asked for.
-    pub fn strays(&mut self, kinematics: &Kinematics, levels: &Levels, level: usize) {
+    /// How links deviation at a level, computed when first asked for.
+    pub fn deviations(&mut self, kinematics: &Kinematics, levels: &ReferenceLinks, level: usize) {
         if self.known.len() != levels.levels.len() {
             self.known.resize(levels.levels.len(), false);
-            self.strays.resize(levels.levels.len(), Vec::new());
+            self.deviations.resize(levels.levels.len(), Vec::new());
         }
         if std::mem::replace(&mut self.known[level], true) {
             return;
         }
-        let mut strays = std::mem::take(&mut self.strays[level]);
-        strays.resize(self.links.len(), Stray::default());
+        let mut deviations = std::mem::take(&mut self.deviations[level]);
+        deviations.resize(self.links.len(), Deviation::default());
         let plan = &levels.levels[level];
-        plan.origins.iter().for_each(|origin| strays[*origin] = Stray::default());
+        plan.origins.iter().for_each(|origin| deviations[*origin] = Deviation::default());
         for hop in &plan.hops {
             let step = &kinematics.steps[hop.step as usize];
             let origin = &self.links[plan.origin_of[hop.to as usize] as usize];
             let spin = |link: u32| (self.links[link as usize].spin - origin.spin).norm();
             let (before, after) = (spin(hop.from), spin(hop.to));
             let joint = &self.joints[hop.step as usize];
-            strays[hop.to as usize] =
-                strays[hop.from as usize].beyond(step, joint, (hop.out, hop.back), (before, after));
+            deviations[hop.to as usize] =
+                deviations[hop.from as usize].beyond(step, joint, (hop.out, hop.back), (before, after));
         }
-        self.strays[level] = strays;
+        self.deviations[level] = deviations;
     }
 
-    pub fn stray(&self, level: usize, link: usize) -> &Stray {
-        &self.strays[level][link]
+    pub fn deviation(&self, level: usize, link: usize) -> &Deviation {
+        &self.deviations[level][link]
     }
 
     /// The pose of link b in link a, in the middle.
@@ -126,39 +126,44 @@ impl Frame {
     fn joint(&self, step: &Step) -> JointStretch {
         let sum = |of: &[f64]| step.terms().iter().map(|&(joint, factor)| factor.abs() * of[joint]).sum();
         JointStretch {
-            rate: step.position(&self.stretch.rate).abs(),
-            stray: sum(&self.stretch.stray),
-            half: self.stretch.half,
-            reach: step.position(&self.stretch.at).abs(),
+            rate: step.position(&self.interval.rate).abs(),
+            deviation: sum(&self.interval.deviation),
+            half: self.interval.half,
+            reach: step.position(&self.interval.at).abs(),
         }
     }
 }
 
-/// The joint of a step over the stretch.
+/// The joint of a step over the interval.
 #[derive(Clone, Copy, Debug, Default)]
 struct JointStretch {
     rate: f64,
-    stray: f64,
+    deviation: f64,
     half: f64,
     /// How far a prismatic joint is out.
     reach: f64,
 }
 
-impl Stray {
+impl Deviation {
     /// Of the next link over a joint. `arms`: the two links' origins from its axis, m; `spins`: the
     /// two links' angular velocities in the middle, rad/s.
-    fn beyond(&self, step: &Step, joint: &JointStretch, arms: (f64, f64), spins: (f64, f64)) -> Stray {
+    fn beyond(&self, step: &Step, joint: &JointStretch, arms: (f64, f64), spins: (f64, f64)) -> Deviation {
         // An axis of this link turns by at most this angle, and a unit vector moves by no more.
         let tilt = f64::min(2.0, self.spin * joint.half);
         if let Motion::Along(_) = step.motion {
-            let slide = (joint.rate + joint.stray) * joint.half;
+            let slide = (joint.rate + joint.deviation) * joint.half;
             let arm = arms.0 + joint.reach + slide;
-            let slip = self.slip + self.turn * arm + spins.0 * (tilt * arm + slide);
-            return Stray { slip: slip + joint.stray + joint.rate * tilt, ..*self };
+            let velocity = self.velocity + self.turn * arm + spins.0 * (tilt * arm + slide);
+            return Deviation { velocity: velocity + joint.deviation + joint.rate * tilt, ..*self };
         }
-        let turn = self.turn + joint.stray + joint.rate * tilt;
+        let turn = self.turn + joint.deviation + joint.rate * tilt;
         let spin = spins.1 + turn;
-        let swing = turn + spins.1 * f64::min(2.0, spin * joint.half);
-        Stray { slip: self.slip + self.swing * arms.0 + swing * arms.1, swing, turn, spin }
+        let gradient = turn + spins.1 * f64::min(2.0, spin * joint.half);
+        Deviation {
+            velocity: self.velocity + self.gradient * arms.0 + gradient * arms.1,
+            gradient,
+            turn,
+            spin,
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! From which module to look at a pair of modules so that the bounds on their motion are tight.
 //!
-//! How far a link strays from uniform motion is bounded by a sum over the joints between it and the
+//! How far a link deviations from uniform motion is bounded by a sum over the joints between it and the
 //! frame it is looked at from; from the far end of a long snake that sum is hopeless. A centroid
 //! splits the tree of modules into halves at most; pairs on different sides of it are looked at from
 //! it, and each side is split again. So every pair has one frame on the path between its two
@@ -11,15 +11,15 @@ use crate::robot::{Assembly, Kinematics};
 const NOWHERE: u32 = u32::MAX;
 
 #[derive(Clone, Debug)]
-pub struct Levels {
-    pub levels: Vec<Level>,
+pub struct ReferenceLinks {
+    pub levels: Vec<ReferenceLevel>,
     /// For each level, the centroid that each module is looked at from.
     centroids: Vec<Vec<u32>>,
 }
 
 /// All modules that are not yet centroids themselves, each seen from the centroid of its part.
 #[derive(Clone, Debug, Default)]
-pub struct Level {
+pub struct ReferenceLevel {
     /// The body link of each centroid.
     pub origins: Vec<usize>,
     /// From links already reached to their neighbours.
@@ -40,9 +40,9 @@ pub struct Hop {
     pub back: f64,
 }
 
-impl Levels {
+impl ReferenceLinks {
     /// For the modules that `kinematics` reaches.
-    pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Levels {
+    pub fn new(robot: &Assembly, kinematics: &Kinematics) -> ReferenceLinks {
         let modules = robot.modules.len();
         let neighbours = neighbours(robot, kinematics);
         let mut centroids: Vec<Vec<u32>> = Vec::new();
@@ -61,8 +61,8 @@ impl Levels {
             centroids.push(seen_from);
             parts = next;
         }
-        let levels = centroids.iter().map(|seen_from| Level::new(kinematics, seen_from)).collect();
-        Levels { levels, centroids }
+        let levels = centroids.iter().map(|seen_from| ReferenceLevel::new(kinematics, seen_from)).collect();
+        ReferenceLinks { levels, centroids }
     }
 
     /// The level at which a centroid lies between two modules, or is one of them. A module is looked
@@ -96,14 +96,15 @@ fn neighbours(robot: &Assembly, kinematics: &Kinematics) -> Vec<Vec<usize>> {
     neighbours
 }
 
-impl Level {
-    fn new(kinematics: &Kinematics, seen_from: &[u32]) -> Level {
+impl ReferenceLevel {
+    fn new(kinematics: &Kinematics, seen_from: &[u32]) -> ReferenceLevel {
         let mut joined = vec![Vec::new(); kinematics.link_count()];
         for (index, step) in kinematics.steps.iter().enumerate() {
             joined[step.parent].push((index, step.link));
             joined[step.link].push((index, step.parent));
         }
-        let mut level = Level { origin_of: vec![NOWHERE; kinematics.link_count()], ..Level::default() };
+        let mut level =
+            ReferenceLevel { origin_of: vec![NOWHERE; kinematics.link_count()], ..ReferenceLevel::default() };
         let mut centroids: Vec<u32> = seen_from.iter().copied().filter(|c| *c != NOWHERE).collect();
         centroids.sort_unstable();
         centroids.dedup();

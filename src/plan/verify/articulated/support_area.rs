@@ -1,10 +1,10 @@
 //! The area that a robot stands on.
 
 use super::contact;
+use super::rollout::{Rollout, roll_out};
 use super::tolerances::Tolerances;
-use super::walk::{Course, walk};
 use crate::geometry::Vec3;
-use crate::plan::verify::footprint::hull;
+use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Settings, Tracks, World, WorldFrom};
 use crate::robot::{Assembly, State};
 
@@ -20,7 +20,7 @@ pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
         start_causes: vec![],
         bond_causes: vec![],
     };
-    let course = Course {
+    let rollout = Rollout {
         tracks: &tracks,
         worlds: &[WorldFrom { from: 0.0, world: World::default() }],
         exemptions: &[],
@@ -29,12 +29,14 @@ pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
         held: None,
     };
     let mut corners = Vec::new();
-    walk(course, None, 0.0, &mut |sample, _| {
+    roll_out(rollout, None, 0.0, &mut |sample, _| {
         let stance = sample.stance;
-        let touching = stance.touches.iter().filter(|touch| contact::counts(sample.model, touch));
+        let touching =
+            stance.contact_points.iter().filter(|contact_point| contact::counts(sample.model, contact_point));
         // The heading is zero at the start, so the levelled frame is the world's but for its origin.
-        let points: Vec<_> =
-            touching.map(|touch| [stance.place.x + touch.p.x, stance.place.y + touch.p.y]).collect();
+        let points: Vec<_> = touching
+            .map(|contact_point| [stance.place.x + contact_point.p.x, stance.place.y + contact_point.p.y])
+            .collect();
         let X_BW = stance.base_pose(sample.model).inverse();
         let on_ground = |i: usize| X_BW.transform_point(&[points[i][0], points[i][1], 0.0].into()).coords;
         corners = hull(&points).into_iter().map(on_ground).collect();

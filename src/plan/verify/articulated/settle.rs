@@ -1,15 +1,15 @@
 //! Settling: the attitude in which the centre of mass is lowest near a given one.
 //!
 //! Standing on level ground with its own "up" `u`, a robot's centre of mass is at the height
-//! `H(u) = max u·(c - p)` over its points p. Rest is a local minimum of H. It is found by a proximal
+//! `H(u) = max u·(c - p)` over its points p. SettledAttitude is a local minimum of H. It is found by a proximal
 //! bundle method: the points near the ground make planes under H, and the lowest point of those
 //! planes, not too far away, is the next trial.
 
-use super::align::rotation;
-use super::support::{Feature, Mat3};
+use super::alignment::rotation;
+use super::ground_features::{Feature, Mat3};
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
-use crate::plan::verify::footprint;
+use crate::plan::verify::support_polygon;
 
 /// Longest trial turn, rad (2°).
 const STEP_MAX: f64 = 0.034_906_585_039_886_59;
@@ -31,7 +31,7 @@ const SHORTENINGS_MAX: usize = 60;
 
 /// Where the descent ended.
 #[derive(Clone, Debug)]
-pub struct Rest {
+pub struct SettledAttitude {
     /// The rotation from where it began.
     pub turn: Mat3,
     /// Height of the centre of mass above the lowest point, m.
@@ -45,7 +45,7 @@ pub fn height(features: &[Feature], up: &Vec3) -> f64 {
 
 /// Settles a robot from its present attitude; `features` have the centre of mass at the origin and
 /// +z up.
-pub fn descend(features: &[Feature], tolerances: &Tolerances) -> Rest {
+pub fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
     let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);
     let mut turn = Mat3::identity();
     let mut level = height(features, &Vec3::z());
@@ -57,9 +57,9 @@ pub fn descend(features: &[Feature], tolerances: &Tolerances) -> Rest {
         let planes = planes(features, &bundle, &turn, level, 2.0 * reach * step);
         let (omega, bottom) = trial(&planes, step, reach);
         if level - bottom < tolerances.fall_min {
-            match shaken(features, &turn, level, tolerances) {
-                Some((shaken, lower)) => {
-                    (turn, level) = (shaken, lower);
+            match perturbed(features, &turn, level, tolerances) {
+                Some((perturbed, lower)) => {
+                    (turn, level) = (perturbed, lower);
                     continue;
                 }
                 None => break,
@@ -76,19 +76,19 @@ pub fn descend(features: &[Feature], tolerances: &Tolerances) -> Rest {
             step = step.min(omega.norm()) / 2.0;
         }
     }
-    Rest { turn, height: level }
+    SettledAttitude { turn, height: level }
 }
 
 /// A point near the ground as a plane under H: `a + b·ω` for a small turn ω = (x, y).
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Plane {
+struct SupportPlane {
     a: f64,
     b: [f64; 2],
 }
 
-impl Plane {
-    fn of(p: &Vec3) -> Plane {
-        Plane { a: -p.z, b: [-p.y, p.x] }
+impl SupportPlane {
+    fn of(p: &Vec3) -> SupportPlane {
+        SupportPlane { a: -p.z, b: [-p.y, p.x] }
     }
 
     fn at(&self, omega: &[f64; 2]) -> f64 {
@@ -97,20 +97,20 @@ impl Plane {
 }
 
 /// Planes of the points that a turn of the present step could bring down to the ground.
-fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_max: f64) -> Vec<Plane> {
+fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_max: f64) -> Vec<SupportPlane> {
     let up = turn.transpose() * Vec3::z();
     let mut planes = Vec::new();
     for feature in features {
         if feature.lowest(&up) + level <= gap_max {
-            planes.extend((0..feature.points()).map(|k| Plane::of(&(turn * feature.point(k, &up)))));
+            planes.extend((0..feature.points()).map(|k| SupportPlane::of(&(turn * feature.point(k, &up)))));
         }
     }
-    planes.extend(bundle.iter().map(|p| Plane::of(&(turn * p))));
+    planes.extend(bundle.iter().map(|p| SupportPlane::of(&(turn * p))));
     planes
 }
 
 /// The turn to try, not longer than `step`, and the height that the planes promise there.
-fn trial(planes: &[Plane], step: f64, reach: f64) -> (Vec3, f64) {
+fn trial(planes: &[SupportPlane], step: f64, reach: f64) -> (Vec3, f64) {
     let mut tau = REACH_START / reach.max(1.0) / reach.max(1.0);
     let mut basis = lowest_bundle(planes, tau);
     for _ in 0..SHORTENINGS_MAX {
@@ -127,16 +127,16 @@ fn trial(planes: &[Plane], step: f64, reach: f64) -> (Vec3, f64) {
 /// A solution of `min t + |ω|²/2τ` with t above a few planes.
 #[derive(Clone, Debug)]
 struct Basis {
-    planes: Vec<Plane>,
+    planes: Vec<SupportPlane>,
     omega: [f64; 2],
     t: f64,
     value: f64,
 }
 
 /// Solves `min t + |ω|²/2τ` with t above all planes: at most three of them decide.
-fn lowest_bundle(planes: &[Plane], tau: f64) -> Basis {
+fn lowest_bundle(planes: &[SupportPlane], tau: f64) -> Basis {
     let highest = planes.iter().copied().reduce(|h, p| if p.a > h.a { p } else { h });
-    let first = highest.unwrap_or(Plane { a: 0.0, b: [0.0; 2] });
+    let first = highest.unwrap_or(SupportPlane { a: 0.0, b: [0.0; 2] });
     let mut basis = solved(&[first], tau).expect("one plane is always a basis");
     for _ in 0..BASES_MAX {
         let worst =
@@ -151,7 +151,7 @@ fn lowest_bundle(planes: &[Plane], tau: f64) -> Basis {
 }
 
 /// The best basis among the new plane and up to two of the old.
-fn exchanged(basis: &Basis, plane: Plane, tau: f64) -> Option<Basis> {
+fn exchanged(basis: &Basis, plane: SupportPlane, tau: f64) -> Option<Basis> {
     let old = &basis.planes;
     let mut best: Option<Basis> = None;
     for subset in 0..1u32 << old.len() {
@@ -172,7 +172,7 @@ fn exchanged(basis: &Basis, plane: Plane, tau: f64) -> Option<Basis> {
 
 /// Solves `τ B Bᵀ λ + t = a`, `Σλ = 1` for up to three planes; `None` where a multiplier is negative
 /// or the planes are dependent.
-fn solved(planes: &[Plane], tau: f64) -> Option<Basis> {
+fn solved(planes: &[SupportPlane], tau: f64) -> Option<Basis> {
     let n = planes.len();
     let mut matrix = nalgebra::Matrix4::<f64>::identity();
     let mut right = nalgebra::Vector4::<f64>::zeros();
@@ -218,22 +218,23 @@ fn keep_lowest(bundle: &mut Vec<Vec3>, features: &[Feature], up: &Vec3, level: f
 /// An unstable balance, on one point or one edge exactly under the centre of mass, is left by
 /// shaking: the first of eight small turns that lets the centre of mass fall. A robot that stands
 /// must not be shaken: it could be pushed over its edge.
-fn shaken(features: &[Feature], turn: &Mat3, level: f64, tolerances: &Tolerances) -> Option<(Mat3, f64)> {
+fn perturbed(features: &[Feature], turn: &Mat3, level: f64, tolerances: &Tolerances) -> Option<(Mat3, f64)> {
     let up = turn.transpose() * Vec3::z();
     let mut support = Vec::new();
-    for feature in features.iter().filter(|f| f.lowest(&up) + level < tolerances.gap_shaken) {
+    for feature in features.iter().filter(|f| f.lowest(&up) + level < tolerances.gap_standing) {
         let points = (0..feature.points()).map(|k| turn * feature.point(k, &up));
-        let low = points.filter(|p| p.z + level < tolerances.gap_shaken);
+        let low = points.filter(|p| p.z + level < tolerances.gap_standing);
         support.extend(low.map(|p| [p.x, p.y]));
     }
-    let stands = footprint::margin(&support, [0.0, 0.0]).is_some_and(|m| m.distance > tolerances.inside_min);
+    let stands =
+        support_polygon::margin(&support, [0.0, 0.0]).is_some_and(|m| m.distance > tolerances.inside_min);
     if stands {
         return None;
     }
     (0..8u8).find_map(|k| {
         let (s, c) = libm::sincos(std::f64::consts::FRAC_PI_4 * f64::from(k));
-        let tried = rotation(Vec3::new(c, s, 0.0) * tolerances.shake) * turn;
+        let tried = rotation(Vec3::new(c, s, 0.0) * tolerances.perturbation) * turn;
         let lower = height(features, &(tried.transpose() * Vec3::z()));
-        (level - lower > tolerances.shake_fall).then_some((tried, lower))
+        (level - lower > tolerances.perturbation_fall).then_some((tried, lower))
     })
 }

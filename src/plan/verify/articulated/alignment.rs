@@ -1,9 +1,9 @@
 //! How a robot stands in its new posture before it settles: turned as it was, its loaded contacts at
 //! their heights.
 
-use super::contact::Touch;
+use super::contact::ContactPoint;
+use super::ground_features::{Feature, Mat3};
 use super::model::{Model, Posture};
-use super::support::{Feature, Mat3};
 use super::tolerances::Tolerances;
 use crate::geometry::{Vec3, pose::turned};
 
@@ -14,7 +14,7 @@ const ORIENTATION_WEIGHT: f64 = 1e-3 * 0.04 * 0.04;
 /// Keeps a robot on one or two contacts from being turned about them, m².
 const TURN_WEIGHT: f64 = 1e-8;
 
-const GUESS_ROUNDS: usize = 4;
+const TURN_ROUNDS: usize = 4;
 
 /// The rotation by a rotation vector, radians.
 pub fn rotation(omega: Vec3) -> Mat3 {
@@ -23,7 +23,7 @@ pub fn rotation(omega: Vec3) -> Mat3 {
 
 /// The rotation from the new robot frame to the old that moves the masses least about the centre of
 /// mass. It does not depend on which module is the base.
-pub fn align(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
+pub fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
     let mut S = Mat3::zeros();
     for &link in &model.attached {
         let body = &model.bodies[link];
@@ -40,17 +40,21 @@ pub fn align(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
 
 /// The rotation about a horizontal axis that keeps the loaded contacts of the sample before at their
 /// heights above the ground: without it a swinging arm would turn the guess.
-pub fn guess(features: &[Feature], touches: &[Touch], tolerances: &Tolerances) -> Mat3 {
+pub fn height_keeping_turn(
+    features: &[Feature],
+    contact_points: &[ContactPoint],
+    tolerances: &Tolerances,
+) -> Mat3 {
     let mut turn = Mat3::identity();
-    for _ in 0..GUESS_ROUNDS {
+    for _ in 0..TURN_ROUNDS {
         let up = turn.transpose() * Vec3::z();
         let mut normal = Mat3::from_diagonal(&Vec3::new(TURN_WEIGHT, TURN_WEIGHT, 0.0));
         let mut right = Vec3::zeros();
-        for touch in touches.iter().filter(|t| t.load > tolerances.load_min) {
-            let p = turn * features[touch.feature].point(touch.k, &up);
+        for contact_point in contact_points.iter().filter(|t| t.load > tolerances.load_min) {
+            let p = turn * features[contact_point.feature].point(contact_point.k, &up);
             let row = Vec3::new(p.y, -p.x, 1.0);
-            normal += row * row.transpose() * touch.load;
-            right += row * ((touch.gap - p.z) * touch.load);
+            normal += row * row.transpose() * contact_point.load;
+            right += row * ((contact_point.gap - p.z) * contact_point.load);
         }
         let Some(solved) = normal.cholesky().map(|c| c.solve(&right)) else { break };
         turn = rotation(Vec3::new(solved.x, solved.y, 0.0)) * turn;

@@ -1,39 +1,39 @@
 //! The contact forces that load a robot least: is there a set of them for which nothing is
 //! overloaded?
 //!
-//! Each contact pushes within a pyramid inside its friction cone; together they carry the weight.
-//! The least greatest load is a linear programme. Its answer is not believed: the forces are brought
+//! Each contact wrenches within a pyramid inside its friction cone; together they carry the weight.
+//! The least greatest load is a linear lp. Its certified is not believed: the forces are brought
 //! to exact balance and the loads computed from them, which proves that they exist; and the
 //! multipliers give a bound below which no forces whatever can come.
 
-use super::contact::Touch;
+use super::contact::ContactPoint;
+use super::contact_lp::ContactLp;
 use super::model::Model;
-use super::programme::Programme;
 use super::stance::Stance;
-use super::statics::{Push, Section, Structure};
+use super::statics::{Section, Structure, Wrench};
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::optimize::solve_linear_program;
-use crate::plan::verify::footprint;
+use crate::plan::verify::support_polygon;
 use nalgebra::{Matrix6, Vector6};
 
 /// The half diagonal of the square inside the unit circle.
 const INSCRIBED: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Columns of a programme that is still tried.
+/// Columns of a lp that is still tried.
 const COLUMNS_MAX: usize = 100_000;
 
 /// A unit of a force that may act: an edge of a contact's pyramid, or a component of what a bond that
 /// closes a loop transmits.
 pub struct Column {
-    pub pushes: Vec<Push>,
+    pub wrenches: Vec<Wrench>,
     /// It may also act the other way round.
     pub free: bool,
 }
 
 /// What forces can do.
 #[derive(Clone, Debug)]
-pub struct Best {
+pub struct ContactForces {
     /// Greatest load by its limit, with forces that balance.
     pub ratio: f64,
     /// Index of that load.
@@ -41,31 +41,31 @@ pub struct Best {
     /// No forces do better than this.
     pub bound: f64,
     /// Sizes of the columns, for the next sample.
-    pub recipe: Recipe,
+    pub warm_start: WarmStart,
 }
 
 /// Which contacts pushed how much: where the contacts stay the same, nearly the same forces do.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Recipe {
+pub struct WarmStart {
     /// Feature and point, in order.
     contacts: Vec<(usize, u8)>,
     /// Of each contact, along the edges of its pyramid.
-    pushes: Vec<[f64; EDGES]>,
+    wrenches: Vec<[f64; EDGES]>,
     /// Of the bonds that close loops.
     loops: Vec<f64>,
 }
 
-/// Edges of the pyramid within which a contact pushes.
+/// Edges of the pyramid within which a contact wrenches.
 const EDGES: usize = 4;
 
-/// One question about one stance.
-pub struct Question<'a> {
+/// One query about one stance.
+pub struct ContactQuery<'a> {
     pub model: &'a Model<'a>,
     pub structure: &'a Structure,
     pub stance: &'a Stance,
     pub sections: &'a [Section],
     /// The weights of the links.
-    pub pushed_down: &'a [Push],
+    pub gravity_wrenches: &'a [Wrench],
     /// What the cuts hold against the weights alone.
     pub weights: &'a [f64],
     /// The loads that count.
@@ -73,76 +73,80 @@ pub struct Question<'a> {
     /// Weight, N; and the factor on friction.
     pub weight: f64,
     pub friction: f64,
-    /// Whether the base is bolted down: then nothing of the ground pushes, and what holds the base
+    /// Whether the base is bolted down: then nothing of the ground wrenches, and what holds the base
     /// balances the rest.
-    pub bolted: bool,
+    pub fixed_base: bool,
     pub tolerances: &'a Tolerances,
 }
 
-impl Question<'_> {
-    /// The forces of a recipe, brought to balance here: a quick answer, or none.
-    pub fn again(&self, recipe: &Recipe) -> Option<Best> {
+impl ContactQuery<'_> {
+    /// The forces of a warm_start, brought to balance here: a quick certified, or none.
+    pub fn warm_started(&self, warm_start: &WarmStart) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
         let mut sizes = Vec::with_capacity(columns.len());
-        for touch in &contacts {
-            // What touches anew pushes nothing yet; what left is missed, and the others take it over.
-            let place = recipe.contacts.binary_search(&(touch.feature, touch.k));
-            sizes.extend(place.map_or([0.0; EDGES], |at| recipe.pushes[at]));
+        for contact_point in &contacts {
+            // What touches anew wrenches nothing yet; what left is missed, and the others take it over.
+            let place = warm_start.contacts.binary_search(&(contact_point.feature, contact_point.k));
+            sizes.extend(place.map_or([0.0; EDGES], |at| warm_start.wrenches[at]));
         }
         let loops = columns.len() - sizes.len();
-        sizes.extend(if recipe.loops.len() == loops { recipe.loops.clone() } else { vec![0.0; loops] });
-        self.answer(&contacts, &columns, &sizes, f64::NEG_INFINITY)
+        sizes.extend(if warm_start.loops.len() == loops {
+            warm_start.loops.clone()
+        } else {
+            vec![0.0; loops]
+        });
+        self.certified(&contacts, &columns, &sizes, f64::NEG_INFINITY)
     }
 
-    /// How large the linear programme is: what solving it costs.
-    pub fn effort(&self) -> usize {
+    /// How large the linear lp is: what solving it costs.
+    pub fn lp_size(&self) -> usize {
         self.columns(&self.contacts()).len() + self.loads.len()
     }
 
     /// The least greatest load by linear programming; `None` where no forces balance the weight, or
     /// the solver did not get there.
-    pub fn best(&self) -> Option<Best> {
+    pub fn minimise_peak_load(&self) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
         if columns.len() > COLUMNS_MAX {
             return None;
         }
-        let programme = Programme::new(self, &columns);
-        let solution = solve_linear_program(&programme.problem).ok()?;
-        let bound = programme.bound(self, &columns, &solution);
-        self.answer(&contacts, &columns, &solution.x[..columns.len()], bound)
+        let lp = ContactLp::new(self, &columns);
+        let solution = solve_linear_program(&lp.problem).ok()?;
+        let bound = lp.bound(self, &columns, &solution);
+        self.certified(&contacts, &columns, &solution.x[..columns.len()], bound)
     }
 
     /// Touches that carry weight, reduced to the corners of each link's hull: other points of it push
     /// no differently than their mean.
-    fn contacts(&self) -> Vec<Touch> {
-        if self.bolted {
+    fn contacts(&self) -> Vec<ContactPoint> {
+        if self.fixed_base {
             return vec![];
         }
-        let near: Vec<&Touch> =
-            self.stance.touches.iter().filter(|t| t.gap <= self.tolerances.gap_loaded).collect();
+        let near: Vec<&ContactPoint> =
+            self.stance.contact_points.iter().filter(|t| t.gap <= self.tolerances.gap_loaded).collect();
         let mut links: Vec<usize> = near.iter().map(|t| t.link).collect();
         links.sort_unstable();
         links.dedup();
         let mut chosen = Vec::new();
         for link in links {
-            let own: Vec<&Touch> = near.iter().copied().filter(|t| t.link == link).collect();
+            let own: Vec<&ContactPoint> = near.iter().copied().filter(|t| t.link == link).collect();
             let points: Vec<_> = own.iter().map(|t| [t.p.x, t.p.y]).collect();
-            chosen.extend(footprint::hull(&points).into_iter().map(|i| *own[i]));
+            chosen.extend(support_polygon::hull(&points).into_iter().map(|i| *own[i]));
         }
         chosen.sort_by_key(|t| (t.feature, t.k));
         chosen
     }
 
-    fn columns(&self, contacts: &[Touch]) -> Vec<Column> {
+    fn columns(&self, contacts: &[ContactPoint]) -> Vec<Column> {
         let mut columns = Vec::new();
-        for touch in contacts {
-            let slope = INSCRIBED * self.friction * self.model.bodies[touch.link].friction;
+        for contact_point in contacts {
+            let slope = INSCRIBED * self.friction * self.model.bodies[contact_point.link].friction;
             for (x, y) in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)] {
                 let f = Vec3::new(x * slope, y * slope, 1.0) * self.weight;
-                let push = Push { link: touch.link, p: touch.p, f, m: Vec3::zeros() };
-                columns.push(Column { pushes: vec![push], free: false });
+                let push = Wrench { link: contact_point.link, p: contact_point.p, f, m: Vec3::zeros() };
+                columns.push(Column { wrenches: vec![push], free: false });
             }
         }
         for &(bond, a, b) in &self.structure.closing {
@@ -150,8 +154,8 @@ impl Question<'_> {
             for axis in 0..6 {
                 let unit = Vec3::ith(axis % 3, self.weight);
                 let (f, m) = if axis < 3 { (unit, Vec3::zeros()) } else { (Vec3::zeros(), unit) };
-                let pushes = vec![Push { link: b, p, f, m }, Push { link: a, p, f: -f, m: -m }];
-                columns.push(Column { pushes, free: true });
+                let wrenches = vec![Wrench { link: b, p, f, m }, Wrench { link: a, p, f: -f, m: -m }];
+                columns.push(Column { wrenches, free: true });
             }
         }
         columns
@@ -160,7 +164,7 @@ impl Question<'_> {
     /// Force and moment of a column about the centre of mass, in parts of the weight.
     pub fn balance(&self, column: &Column) -> Vector6<f64> {
         let mut sum = Vector6::zeros();
-        for push in column.pushes.iter().filter(|_| !column.free) {
+        for push in column.wrenches.iter().filter(|_| !column.free) {
             let (f, m) = (push.f / self.weight, push.p.cross(&push.f) / self.weight);
             sum += Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
         }
@@ -168,30 +172,36 @@ impl Question<'_> {
     }
 
     /// Forces near the given ones that balance to the last digits, and the loads that they make.
-    fn answer(&self, contacts: &[Touch], columns: &[Column], sizes: &[f64], bound: f64) -> Option<Best> {
+    fn certified(
+        &self,
+        contacts: &[ContactPoint],
+        columns: &[Column],
+        sizes: &[f64],
+        bound: f64,
+    ) -> Option<ContactForces> {
         let sizes = self.balanced(columns, sizes)?;
-        let mut pushes = Vec::new();
+        let mut wrenches = Vec::new();
         for (column, size) in columns.iter().zip(&sizes) {
-            pushes.extend(column.pushes.iter().map(|p| Push { f: p.f * *size, m: p.m * *size, ..*p }));
+            wrenches.extend(column.wrenches.iter().map(|p| Wrench { f: p.f * *size, m: p.m * *size, ..*p }));
         }
-        let mut held = self.structure.held(self.model, self.sections, &pushes);
+        let mut held = self.structure.held(self.model, self.sections, &wrenches);
         held.iter_mut().zip(self.weights).for_each(|(h, w)| *h += w);
         let ratio = |index: usize| {
             let load = &self.structure.loads[index];
             self.structure.size(load, &held) / load.limit
         };
         let worst = self.loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })?;
-        let (pushes, loops) = sizes.split_at(contacts.len() * EDGES);
-        let pushes = pushes.chunks_exact(EDGES).map(|c| [c[0], c[1], c[2], c[3]]).collect();
+        let (wrenches, loops) = sizes.split_at(contacts.len() * EDGES);
+        let wrenches = wrenches.chunks_exact(EDGES).map(|c| [c[0], c[1], c[2], c[3]]).collect();
         let names = contacts.iter().map(|t| (t.feature, t.k)).collect();
-        let recipe = Recipe { contacts: names, pushes, loops: loops.to_vec() };
-        Some(Best { ratio: ratio(worst), load: worst, bound, recipe })
+        let warm_start = WarmStart { contacts: names, wrenches, loops: loops.to_vec() };
+        Some(ContactForces { ratio: ratio(worst), load: worst, bound, warm_start })
     }
 
     /// The nearest sizes that balance, measured by the sizes themselves; `None` where one would have
     /// to pull.
     fn balanced(&self, columns: &[Column], sizes: &[f64]) -> Option<Vec<f64>> {
-        if self.bolted {
+        if self.fixed_base {
             // Loops alone: what they transmit balances itself.
             return Some(sizes.to_vec());
         }

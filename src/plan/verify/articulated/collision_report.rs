@@ -3,17 +3,17 @@
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::Bodies;
 use super::collision::{self, Collision, Precision};
-use super::walk::Course;
+use super::rollout::Rollout;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
 /// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
-pub fn judge(course: &Course, ledger: &mut Ledger) {
-    let tracks = course.tracks;
+pub fn judge(rollout: &Rollout, ledger: &mut Ledger) {
+    let tracks = rollout.tracks;
     let precision = Precision::default();
-    let found = match collision::judge(tracks, course.settings, course.exemptions, &precision) {
+    let found = match collision::judge(tracks, rollout.settings, rollout.exemptions, &precision) {
         Ok(found) => found,
         Err(unsound) => {
             let message =

@@ -2,10 +2,10 @@
 
 use super::bodies::Bodies;
 use super::collision::{Collision, Excuse, Findings, Precision};
-use super::frame::Frame;
-use super::levels::{self, Levels};
-use super::pairs::{self, BodyPair, ModulePair, View};
-use super::swing::Swings;
+use super::interval_state::IntervalState;
+use super::motion_bounds::MotionBounds;
+use super::reference_links::{self, ReferenceLinks};
+use super::separation::{self, BodyPair, ModulePair, View};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::{Exemption, Status, Tracks, Worst};
@@ -16,23 +16,23 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Balls of modules nearly meet where they are this part of their radii apart.
 const NEARLY: f64 = 1.0 / 16.0;
 
-pub struct Search<'a> {
+pub struct Advancement<'a> {
     robot: &'a Assembly,
     bodies: Bodies,
-    swings: Swings,
+    bounds: MotionBounds,
     /// Where segments begin and end: stretches are cut there rather than anywhere.
     instants: Vec<f64>,
     precision: Precision,
     samples_max: usize,
     samples: usize,
-    clearance: Option<Nearest>,
+    clearance: Option<Clearance>,
     /// By pair of modules, and whether excused.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
     used: BTreeSet<usize>,
-    frame: Frame,
+    state: IntervalState,
 }
 
-struct Nearest {
+struct Clearance {
     distance: f64,
     time: f64,
     modules: (usize, usize),
@@ -41,7 +41,7 @@ struct Nearest {
 /// A part of the robot that hangs together, over a window of time.
 struct Region<'a> {
     kinematics: Kinematics,
-    levels: Levels,
+    levels: ReferenceLinks,
     /// The pairs of links that carry mated ports.
     mated: BTreeSet<(usize, usize)>,
     excused: &'a [Excuse],
@@ -54,12 +54,17 @@ struct Open {
     bodies: Vec<BodyPair>,
 }
 
-impl<'a> Search<'a> {
-    pub fn new(tracks: &'a Tracks, bodies: Bodies, precision: Precision, samples_max: usize) -> Search<'a> {
-        Search {
+impl<'a> Advancement<'a> {
+    pub fn new(
+        tracks: &'a Tracks,
+        bodies: Bodies,
+        precision: Precision,
+        samples_max: usize,
+    ) -> Advancement<'a> {
+        Advancement {
             robot: &tracks.robot,
             bodies,
-            swings: Swings::new(tracks),
+            bounds: MotionBounds::new(tracks),
             instants: tracks.instants(),
             precision,
             samples_max,
@@ -67,7 +72,7 @@ impl<'a> Search<'a> {
             clearance: None,
             collisions: BTreeMap::new(),
             used: BTreeSet::new(),
-            frame: Frame::default(),
+            state: IntervalState::default(),
         }
     }
 
@@ -79,14 +84,14 @@ impl<'a> Search<'a> {
             let part = Kinematics::new(self.robot, bonds, first);
             part.tree.order.iter().for_each(|(module, _)| seen[*module] = true);
             // From the middle of the part, paths are short and numbers small.
-            let kinematics = Kinematics::new(self.robot, bonds, levels::middle(self.robot, &part));
-            let levels = Levels::new(self.robot, &kinematics);
+            let kinematics = Kinematics::new(self.robot, bonds, reference_links::middle(self.robot, &part));
+            let levels = ReferenceLinks::new(self.robot, &kinematics);
             let mated = mated(self.robot, bonds, &kinematics);
             let region = Region { kinematics, levels, mated, excused };
             self.fixed_pairs(&region, window.0);
             let open = self.all_pairs(&region);
             self.guess_clearance(&region, window.0, &open);
-            self.examine(&region, window.0, window.1, open);
+            self.advance(&region, window.0, window.1, open);
         }
     }
 
@@ -135,7 +140,7 @@ impl<'a> Search<'a> {
 
     /// Pairs within a module whose distance no joint changes: known once and for all.
     fn fixed_pairs(&mut self, region: &Region, time: f64) {
-        self.frame.stretch.middle = time;
+        self.state.interval.middle = time;
         for &(module, _) in &region.kinematics.tree.order {
             let first = self.bodies.of(module).start;
             for index in 0..self.bodies.inner(module).len() {
@@ -172,7 +177,7 @@ impl<'a> Search<'a> {
     /// The pairs of bodies of two modules; mated ones may meet.
     fn expand(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(m, n) as u32;
-        let allowed = self.bodies.touch(m, n);
+        let allowed = self.bodies.allowed_depth(m, n);
         for a in self.bodies.of(m) {
             for b in self.bodies.of(n) {
                 let links = (self.bodies.bodies[a].link, self.bodies.bodies[b].link);
@@ -187,7 +192,7 @@ impl<'a> Search<'a> {
     /// Measures within modules and between neighbours at one instant, so that the search begins with
     /// a clearance that few pairs can beat.
     fn guess_clearance(&mut self, region: &Region, time: f64, open: &Open) {
-        self.frame.set(&region.kinematics, &self.swings, time, time);
+        self.state.set(&region.kinematics, &self.bounds, time, time);
         let mut near = open.bodies.clone();
         for &(module, bond) in &region.kinematics.tree.order {
             let Some(bond) = bond.map(|b| &self.robot.bonds[b]) else { continue };
@@ -202,7 +207,7 @@ impl<'a> Search<'a> {
     }
 
     /// Tells apart what can be over `from..to`, and goes on with the rest in two parts.
-    fn examine(&mut self, region: &Region, from: f64, to: f64, open: Open) {
+    fn advance(&mut self, region: &Region, from: f64, to: f64, open: Open) {
         interrupt::progress_checkpoint(|| {
             let least = self.clearance.as_ref().map_or_else(String::new, |nearest| {
                 format!(", clearance {} so far", quantity(nearest.distance, Dimension::LENGTH))
@@ -215,31 +220,31 @@ impl<'a> Search<'a> {
         }
         self.samples += 1;
         let Open { mut modules, mut bodies } = open;
-        self.look(region, from, to, &modules, &bodies);
-        modules.retain(|pair| self.keeps(region, pair, &mut bodies));
-        bodies.retain_mut(|pair| !self.tells_apart(region, pair, to - from));
+        self.prepare(region, from, to, &modules, &bodies);
+        modules.retain(|pair| self.stays_open(region, pair, &mut bodies));
+        bodies.retain_mut(|pair| !self.is_separated(region, pair, to - from));
         let done = modules.is_empty() && bodies.is_empty();
         if done || to - from <= self.precision.tol_time {
             return;
         }
         let cut = self.cut(from, to);
         let rest = Open { modules, bodies };
-        self.examine(region, from, cut, rest.clone());
-        self.examine(region, cut, to, rest);
+        self.advance(region, from, cut, rest.clone());
+        self.advance(region, cut, to, rest);
     }
 
-    /// Brings the frame to the middle of a stretch, with the levels at which pairs are open.
-    fn look(&mut self, region: &Region, from: f64, to: f64, modules: &[ModulePair], bodies: &[BodyPair]) {
-        self.frame.set(&region.kinematics, &self.swings, from, to);
+    /// Brings the state to the middle of a interval, with the levels at which pairs are open.
+    fn prepare(&mut self, region: &Region, from: f64, to: f64, modules: &[ModulePair], bodies: &[BodyPair]) {
+        self.state.set(&region.kinematics, &self.bounds, from, to);
         let mut used = vec![false; region.levels.levels.len()];
         modules.iter().for_each(|pair| used[pair.level as usize] = true);
         bodies.iter().for_each(|pair| used[pair.level as usize] = true);
         for level in (0..used.len()).filter(|level| used[*level]) {
-            self.frame.strays(&region.kinematics, &region.levels, level);
+            self.state.deviations(&region.kinematics, &region.levels, level);
         }
     }
 
-    /// Where to cut a stretch: at an event in its middle half, or in the middle.
+    /// Where to cut a interval: at an event in its middle half, or in the middle.
     fn cut(&self, from: f64, to: f64) -> f64 {
         let (middle, quarter) = ((from + to) / 2.0, (to - from) / 4.0);
         let after = self.instants.partition_point(|t| *t < middle);
@@ -251,10 +256,10 @@ impl<'a> Search<'a> {
     /// Whether a pair of modules stays open as such. Only where their balls meet in the middle, or
     /// nearly so, are its bodies added to `bodies` instead: they are dozens of pairs for one, which is
     /// more than what a few halvings cost.
-    fn keeps(&self, region: &Region, pair: &ModulePair, bodies: &mut Vec<BodyPair>) -> bool {
+    fn stays_open(&self, region: &Region, pair: &ModulePair, bodies: &mut Vec<BodyPair>) -> bool {
         let (a, b) = (pair.a as usize, pair.b as usize);
-        let bound = pairs::modules(&self.view(region), &self.bodies, pair);
-        let need = self.need(region, a, b, true, self.bodies.touch(a, b));
+        let bound = separation::module_bound(&self.view(region), &self.bodies, pair);
+        let need = self.need(region, a, b, true, self.bodies.allowed_depth(a, b));
         if bound.least >= need {
             return false;
         }
@@ -265,25 +270,29 @@ impl<'a> Search<'a> {
         hopeful
     }
 
-    /// Whether two bodies are as far apart as needed over the whole stretch of this length.
-    fn tells_apart(&mut self, region: &Region, pair: &mut BodyPair, length: f64) -> bool {
+    /// Whether two bodies are as far apart as needed over the whole interval of this length.
+    fn is_separated(&mut self, region: &Region, pair: &mut BodyPair, length: f64) -> bool {
         crate::interrupt::checkpoint();
         let (a, b) = (pair.a as usize, pair.b as usize);
         let need = self.need_of(region, pair);
-        let mut bound =
-            pairs::balls(&self.view(region), &self.bodies.bodies[a], &self.bodies.bodies[b], pair.level);
+        let mut bound = separation::sphere_bound(
+            &self.view(region),
+            &self.bodies.bodies[a],
+            &self.bodies.bodies[b],
+            pair.level,
+        );
         if bound.least >= need {
             return true;
         }
         if pair.normal != Vec3::zeros() {
             bound = self.slab(region, pair);
-            // If it fails by motion alone, another direction would not help before the stretch is
+            // If it fails by motion alone, another direction would not help before the interval is
             // a quarter.
             if bound.least >= need || bound.middle >= need + (bound.middle - bound.least) / 4.0 {
                 return bound.least >= need;
             }
         }
-        let time = self.frame.stretch.middle;
+        let time = self.state.interval.middle;
         let distance = self.measure(pair, need + 2.0 * (bound.middle - bound.least), time);
         if distance < -pair.allowed {
             self.collide(region, pair, distance, length <= self.precision.tol_time);
@@ -292,12 +301,12 @@ impl<'a> Search<'a> {
     }
 
     fn view<'v>(&'v self, region: &'v Region) -> View<'v> {
-        View { frame: &self.frame, levels: &region.levels, kinematics: &region.kinematics }
+        View { state: &self.state, levels: &region.levels, kinematics: &region.kinematics }
     }
 
-    fn slab(&self, region: &Region, pair: &BodyPair) -> pairs::Bound {
+    fn slab(&self, region: &Region, pair: &BodyPair) -> separation::Bound {
         let (a, b) = (pair.a as usize, pair.b as usize);
-        pairs::slab(&self.view(region), &self.bodies.bodies[a], &self.bodies.bodies[b], pair)
+        separation::slab_bound(&self.view(region), &self.bodies.bodies[a], &self.bodies.bodies[b], pair)
     }
 
     fn need_of(&self, region: &Region, pair: &BodyPair) -> f64 {
@@ -323,10 +332,10 @@ impl<'a> Search<'a> {
         region.excused.iter().find(|excuse| excuse.covers(a, b))
     }
 
-    /// Measures in the middle and keeps the least.
+    /// Measures in the middle and stays_open the least.
     fn measure(&mut self, pair: &mut BodyPair, enough: f64, time: f64) -> f64 {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
-        let distance = pairs::measure(&self.frame, a, b, pair, enough);
+        let distance = separation::measure(&self.state, a, b, pair, enough);
         self.count(pair, distance, time);
         distance
     }
@@ -335,17 +344,17 @@ impl<'a> Search<'a> {
     fn count(&mut self, pair: &BodyPair, distance: f64, time: f64) {
         if pair.counts && self.clearance.as_ref().is_none_or(|c| distance < c.distance) {
             let modules = [pair.a, pair.b].map(|body| self.bodies.bodies[body as usize].module);
-            self.clearance = Some(Nearest { distance, time, modules: (modules[0], modules[1]) });
+            self.clearance = Some(Clearance { distance, time, modules: (modules[0], modules[1]) });
         }
     }
 
-    /// A penetration in the middle. It is the first of its pair of modules if the stretch is short
+    /// A penetration in the middle. It is the first of its pair of modules if the interval is short
     /// enough to be an instant: all before has been told apart.
     fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: bool) {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let excuse = self.excuse(region, a.module, b.module);
         let key = (a.module, b.module, excuse.is_some());
-        let (depth, time) = (-distance, self.frame.stretch.middle);
+        let (depth, time) = (-distance, self.state.interval.middle);
         if let Some(known) = self.collisions.get_mut(&key) {
             if depth > known.depth {
                 (known.depth, known.deepest) = (depth, time);

@@ -1,15 +1,15 @@
 //! Torques of a robot that is held fast, at every instant and not only at samples.
 //!
-//! In the middle of a stretch every torque is known; by how much it differs until the ends follows from
+//! In the middle of a interval every torque is known; by how much it differs until the ends follows from
 //! how far joints can turn in it. Seen from the piece before a joint, what hangs on it changes by each turn
 //! beyond the joint no more than the angle times the arm; and the piece before turns against gravity by no
 //! more than all angles before it. Stretches are halved until that is enough.
 
 use super::model::{Model, Posture};
-use super::sample;
+use super::motion_bounds::{Interval, MotionBounds};
+use super::rollout::{Rollout, bonds_at, world_at};
+use super::sampling;
 use super::statics::{LoadKind, Structure, moves};
-use super::swing::{Stretch, Swings};
-use super::walk::{Course, bonds_at, world_at};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::{ExemptionKind, Ground};
@@ -17,7 +17,7 @@ use crate::robot::step::Motion;
 
 /// What was found about the stretches between samples.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Between {
+pub enum BetweenSamples {
     /// No load is ever over its limit.
     Proved,
     /// Not looked at, or not decided.
@@ -33,46 +33,46 @@ const SHORTEST: f64 = 1e-5;
 const ROUNDING: f64 = 1e-9;
 
 /// Judges the whole plan, if its base is held fast all the time and no loop leaves open who carries what.
-pub fn between(course: &Course) -> Between {
+pub fn prove(rollout: &Rollout) -> BetweenSamples {
     let held = |world: &crate::plan::World| world.ground == Ground::Held;
     let excused = |e: &crate::plan::Exemption| matches!(e.kind, ExemptionKind::Overload(_));
-    if !course.worlds.iter().all(|w| held(&w.world)) || course.exemptions.iter().any(excused) {
-        return Between::Open;
+    if !rollout.worlds.iter().all(|w| held(&w.world)) || rollout.exemptions.iter().any(excused) {
+        return BetweenSamples::Open;
     }
-    let swings = Swings::new(course.tracks);
-    let instants = sample::instants(course.tracks, course.worlds, course.exemptions);
-    let mut bonds = bonds_at(course.tracks, 0.0);
-    let mut scales = Scales::new(course, &bonds);
-    let mut stretch = Stretch::default();
+    let bounds = MotionBounds::new(rollout.tracks);
+    let instants = sampling::instants(rollout.tracks, rollout.worlds, rollout.exemptions);
+    let mut bonds = bonds_at(rollout.tracks, 0.0);
+    let mut loads = GravityLoads::new(rollout, &bonds);
+    let mut interval = Interval::default();
     for ends in instants.windows(2) {
-        let now = bonds_at(course.tracks, ends[0]);
+        let now = bonds_at(rollout.tracks, ends[0]);
         if now != bonds {
             bonds = now;
-            scales = Scales::new(course, &bonds);
+            loads = GravityLoads::new(rollout, &bonds);
         }
-        if !scales.decides() {
-            return Between::Open;
+        if !loads.decides() {
+            return BetweenSamples::Open;
         }
-        let gravity = world_at(course.worlds, ends[0]).gravity;
+        let gravity = world_at(rollout.worlds, ends[0]).gravity;
         let mut open = vec![(ends[0], ends[1])];
         while let Some((from, to)) = open.pop() {
             interrupt::checkpoint();
-            swings.over(from, to, &mut stretch);
-            match scales.weigh(&stretch, gravity) {
-                Weighed::Within => {}
-                Weighed::Over { load, ratio } => {
-                    return Between::Over { time: stretch.middle, load, ratio };
+            bounds.over(from, to, &mut interval);
+            match loads.assess(&interval, gravity) {
+                Assessment::Within => {}
+                Assessment::Over { load, ratio } => {
+                    return BetweenSamples::Over { time: interval.middle, load, ratio };
                 }
-                Weighed::Near if to - from < SHORTEST => return Between::Open,
-                Weighed::Near => open.extend([(stretch.middle, to), (from, stretch.middle)]),
+                Assessment::Near if to - from < SHORTEST => return BetweenSamples::Open,
+                Assessment::Near => open.extend([(interval.middle, to), (from, interval.middle)]),
             }
         }
     }
-    Between::Proved
+    BetweenSamples::Proved
 }
 
 /// Everything that is needed to weigh one posture after the other.
-struct Scales<'a> {
+struct GravityLoads<'a> {
     model: Model<'a>,
     structure: Structure,
     /// Downwards in the frame of the base's body, of length 1.
@@ -84,7 +84,7 @@ struct Scales<'a> {
     poses: Vec<crate::geometry::Pose>,
 }
 
-enum Weighed {
+enum Assessment {
     Within,
     Near,
     Over { load: usize, ratio: f64 },
@@ -92,7 +92,7 @@ enum Weighed {
 
 /// Of a step: what hangs on it.
 #[derive(Clone, Copy, Default)]
-struct Hanging {
+struct DistalLoad {
     /// N
     weight: f64,
     /// Sum of weights times places, N·m.
@@ -106,16 +106,16 @@ struct Hanging {
     before: f64,
 }
 
-impl<'a> Scales<'a> {
-    fn new(course: &Course<'a>, bonds: &[bool]) -> Scales<'a> {
-        let model = Model::new(&course.tracks.robot, bonds);
+impl<'a> GravityLoads<'a> {
+    fn new(rollout: &Rollout<'a>, bonds: &[bool]) -> GravityLoads<'a> {
+        let model = Model::new(&rollout.tracks.robot, bonds);
         let structure = Structure::new(&model);
         let steps = &model.kinematics.steps;
         let mut step_of = vec![None; model.bodies.len()];
         steps.iter().enumerate().for_each(|(index, step)| step_of[step.link] = Some(index));
         let moving = (0..steps.len()).filter(|&index| moves(&steps[index])).collect();
-        let down = course.tracks.start.base.rotation.inverse() * -Vec3::z();
-        Scales { model, structure, down, step_of, moving, poses: Vec::new() }
+        let down = rollout.tracks.start.base.rotation.inverse() * -Vec3::z();
+        GravityLoads { model, structure, down, step_of, moving, poses: Vec::new() }
     }
 
     /// Whether loads follow from the weights alone, and all are of joints that turn.
@@ -126,49 +126,49 @@ impl<'a> Scales<'a> {
             && self.structure.loads.iter().all(|load| turns(load.kind))
     }
 
-    fn weigh(&mut self, stretch: &Stretch, gravity: f64) -> Weighed {
-        let posture = self.model.posture(&stretch.at, &mut self.poses);
-        let hanging = self.hanging(&posture, stretch, gravity);
+    fn assess(&mut self, interval: &Interval, gravity: f64) -> Assessment {
+        let posture = self.model.posture(&interval.at, &mut self.poses);
+        let distal = self.distal(&posture, interval, gravity);
         let (mut over, mut near) = (None, false);
         for (index, load) in self.structure.loads.iter().enumerate() {
-            let (mut size, mut stray) = (0.0, 0.0);
+            let (mut size, mut deviation) = (0.0, 0.0);
             for &(cut, factor) in &load.terms {
                 let step = self.moving[cut];
-                let own = &hanging[step];
+                let own = &distal[step];
                 let arm = own.moment - self.point(&posture, step) * own.weight;
                 size += factor * self.axis(&posture, step).dot(&arm.cross(&self.down));
-                stray += factor.abs() * (own.shift + own.before * own.arms);
+                deviation += factor.abs() * (own.shift + own.before * own.arms);
             }
             let ratio = size.abs() / load.limit;
             if ratio > 1.0 + ROUNDING && over.is_none_or(|(_, worst)| ratio > worst) {
                 over = Some((index, ratio));
             }
-            near |= ratio + stray / load.limit > 1.0 + ROUNDING;
+            near |= ratio + deviation / load.limit > 1.0 + ROUNDING;
         }
         match over {
-            Some((load, ratio)) => Weighed::Over { load, ratio },
-            None if near => Weighed::Near,
-            None => Weighed::Within,
+            Some((load, ratio)) => Assessment::Over { load, ratio },
+            None if near => Assessment::Near,
+            None => Assessment::Within,
         }
     }
 
-    fn hanging(&self, posture: &Posture, stretch: &Stretch, gravity: f64) -> Vec<Hanging> {
+    fn distal(&self, posture: &Posture, interval: &Interval, gravity: f64) -> Vec<DistalLoad> {
         let steps = &self.model.kinematics.steps;
-        let mut hanging = vec![Hanging::default(); steps.len()];
+        let mut distal = vec![DistalLoad::default(); steps.len()];
         let points: Vec<Vec3> = (0..steps.len()).map(|step| self.point(posture, step)).collect();
         for (index, step) in steps.iter().enumerate() {
-            let reach = |joint: usize| (stretch.rate[joint].abs() + stretch.stray[joint]) * stretch.half;
+            let reach =
+                |joint: usize| (interval.rate[joint].abs() + interval.deviation[joint]) * interval.half;
             let turn = step.terms().iter().map(|&(joint, factor)| factor.abs() * reach(joint)).sum();
-            let parent =
-                self.step_of[step.parent].map_or(0.0, |p| hanging[p].before + self.angle(p, &hanging));
-            (hanging[index].turn, hanging[index].before) = (turn, parent);
+            let parent = self.step_of[step.parent].map_or(0.0, |p| distal[p].before + self.angle(p, &distal));
+            (distal[index].turn, distal[index].before) = (turn, parent);
         }
         for &link in &self.model.attached {
             let body = &self.model.bodies[link];
             let (weight, place) = (body.mass * gravity, posture.R[link] * body.com + posture.p[link]);
             let mut at = self.step_of[link];
             while let Some(step) = at {
-                let own = &mut hanging[step];
+                let own = &mut distal[step];
                 own.weight += weight;
                 own.moment += place * weight;
                 own.arms += weight * (place - points[step]).norm();
@@ -176,23 +176,23 @@ impl<'a> Scales<'a> {
             }
         }
         for index in (0..steps.len()).rev() {
-            let own = hanging[index];
+            let own = distal[index];
             // Along a line all moves by the same; about an axis as far as its arm is long.
-            let each = if self.angle(index, &hanging) > 0.0 { own.arms } else { own.weight };
-            hanging[index].shift += own.turn * each;
+            let each = if self.angle(index, &distal) > 0.0 { own.arms } else { own.weight };
+            distal[index].shift += own.turn * each;
             if let Some(parent) = self.step_of[steps[index].parent] {
-                let shift = hanging[index].shift;
-                hanging[parent].shift += shift;
+                let shift = distal[index].shift;
+                distal[parent].shift += shift;
             }
         }
-        hanging
+        distal
     }
 
     /// How far a step turns; nothing where it slides.
-    fn angle(&self, step: usize, hanging: &[Hanging]) -> f64 {
+    fn angle(&self, step: usize, distal: &[DistalLoad]) -> f64 {
         match self.model.kinematics.steps[step].motion {
             Motion::Along(_) => 0.0,
-            _ => hanging[step].turn,
+            _ => distal[step].turn,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Even selections from a sequence whose length nobody knows beforehand.
 
 /// At most so many items at even distances, however many are seen.
-pub struct Thinned<T> {
+pub struct Decimated<T> {
     kept: Vec<T>,
     most: usize,
     /// One in so many is kept.
@@ -9,16 +9,16 @@ pub struct Thinned<T> {
     seen: usize,
 }
 
-impl<T> Thinned<T> {
-    pub fn new(most: usize) -> Thinned<T> {
-        Thinned { kept: vec![], most, stride: 1, seen: 0 }
+impl<T> Decimated<T> {
+    pub fn new(most: usize) -> Decimated<T> {
+        Decimated { kept: vec![], most, stride: 1, seen: 0 }
     }
 
     /// Counts one more; whether it is to be kept.
-    pub fn turn(&mut self) -> bool {
-        let turn = self.seen.is_multiple_of(self.stride);
+    pub fn next_is_kept(&mut self) -> bool {
+        let next_is_kept = self.seen.is_multiple_of(self.stride);
         self.seen += 1;
-        if turn && self.kept.len() == self.most {
+        if next_is_kept && self.kept.len() == self.most {
             let mut odd = false;
             self.kept.retain(|_| {
                 odd = !odd;
@@ -26,10 +26,10 @@ impl<T> Thinned<T> {
             });
             self.stride *= 2;
         }
-        turn
+        next_is_kept
     }
 
-    /// Keeps the one whose turn it is.
+    /// Keeps the one whose next_is_kept it is.
     pub fn keep(&mut self, item: T) {
         self.kept.push(item);
     }

@@ -1,4 +1,4 @@
-//! How joints move over a stretch of time: where they are in its middle, how fast, and by how much
+//! How joints move over a interval of time: where they are in its middle, how fast, and by how much
 //! their rate can differ from that.
 
 use crate::plan::{Tracks, polynomial};
@@ -8,7 +8,7 @@ const TOL_RATE: f64 = 1e-9;
 
 /// The tracks of all joints, with bounds of their derivatives.
 #[derive(Clone, Debug)]
-pub struct Swings {
+pub struct MotionBounds {
     start: Vec<f64>,
     /// Of each joint, in order of time.
     pieces: Vec<Vec<Piece>>,
@@ -27,9 +27,9 @@ struct Piece {
     acceleration: f64,
 }
 
-/// All joints over one stretch; indexed by joint.
+/// All joints over one interval; indexed by joint.
 #[derive(Clone, Debug, Default)]
-pub struct Stretch {
+pub struct Interval {
     /// The middle, s.
     pub middle: f64,
     /// Half the length, s.
@@ -39,15 +39,15 @@ pub struct Stretch {
     /// Rates in the middle, per second.
     pub rate: Vec<f64>,
     /// How far the rate can be from that in the middle.
-    pub stray: Vec<f64>,
-    /// Whether no rate jumps within: then it strays in proportion to the time from the middle.
+    pub deviation: Vec<f64>,
+    /// Whether no rate jumps within: then it deviations in proportion to the time from the middle.
     pub smooth: bool,
 }
 
-impl Swings {
-    pub fn new(tracks: &Tracks) -> Swings {
+impl MotionBounds {
+    pub fn new(tracks: &Tracks) -> MotionBounds {
         let joints = tracks.start.joints.len();
-        let mut swings = Swings {
+        let mut bounds = MotionBounds {
             start: tracks.start.joints.clone(),
             pieces: vec![Vec::new(); joints],
             jumps: vec![Vec::new(); joints],
@@ -56,20 +56,20 @@ impl Swings {
             let joint = track.joint.0 as usize;
             let pieces: Vec<Piece> =
                 track.segments.iter().map(|s| Piece::new(s.start, s.end, &s.control)).collect();
-            swings.jumps[joint] = jumps(&pieces);
-            swings.pieces[joint] = pieces;
+            bounds.jumps[joint] = jumps(&pieces);
+            bounds.pieces[joint] = pieces;
         }
-        swings
+        bounds
     }
 
     /// All joints over `from..to`, into what an earlier call has left.
-    pub fn over(&self, from: f64, to: f64, out: &mut Stretch) {
+    pub fn over(&self, from: f64, to: f64, out: &mut Interval) {
         out.middle = (from + to) / 2.0;
         out.half = (to - from) / 2.0;
         out.smooth = true;
         out.at.clear();
         out.rate.clear();
-        out.stray.clear();
+        out.deviation.clear();
         for joint in 0..self.start.len() {
             let pieces = &self.pieces[joint];
             let (at, rate) = position_and_rate(pieces, self.start[joint], out.middle);
@@ -82,7 +82,7 @@ impl Swings {
             out.smooth &= jump == 0.0;
             out.at.push(at);
             out.rate.push(rate);
-            out.stray.push(acceleration * out.half + jump);
+            out.deviation.push(acceleration * out.half + jump);
         }
     }
 }

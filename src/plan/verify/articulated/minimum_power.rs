@@ -4,29 +4,30 @@
 //! is least: Coulomb friction lets the loaded contacts stick and the light ones slip. Contacts of the
 //! sample before and of this one count half each, which makes it reversible in time.
 
-use super::contact::Patch;
+use super::contact::ContactPatch;
+use super::ground_features::Mat3;
 use super::model::{Model, Posture};
 use super::stance::Stance;
-use super::support::Mat3;
 use crate::geometry::Vec3;
 
-/// Place and heading on the ground: metres, radians.
+/// PlanarPose and heading on the ground: metres, radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
+pub struct PlanarPose {
     pub x: f64,
     pub y: f64,
     pub yaw: f64,
 }
 
-impl Place {
+impl PlanarPose {
     /// Moved by a displacement in its own frame along an arc: forward, left, turn.
-    pub fn moved(&self, by: &Vec3) -> Place {
-        let (s, c) = libm::sincos(by.z);
+    pub fn moved(&self, shift: &Vec3) -> PlanarPose {
+        let (s, c) = libm::sincos(shift.z);
         // sin(w)/w and (1 - cos w)/w, by their series where w is small.
-        let (a, b) = if by.z.abs() > 1e-6 { (s / by.z, (1.0 - c) / by.z) } else { (1.0, by.z / 2.0) };
-        let (dx, dy) = (a * by.x - b * by.y, b * by.x + a * by.y);
+        let (a, b) =
+            if shift.z.abs() > 1e-6 { (s / shift.z, (1.0 - c) / shift.z) } else { (1.0, shift.z / 2.0) };
+        let (dx, dy) = (a * shift.x - b * shift.y, b * shift.x + a * shift.y);
         let (s, c) = libm::sincos(self.yaw);
-        Place { x: self.x + c * dx - s * dy, y: self.y + s * dx + c * dy, yaw: self.yaw + by.z }
+        PlanarPose { x: self.x + c * dx - s * dy, y: self.y + s * dx + c * dy, yaw: self.yaw + shift.z }
     }
 }
 
@@ -39,7 +40,7 @@ const ROUNDS_MAX: usize = 100;
 const CHANGE_MIN: f64 = 1e-10;
 
 /// A patch and how the robot's own motion would drag it.
-struct Dragged {
+struct SlidingPatch {
     link: usize,
     /// Part of the weight, halved.
     load: f64,
@@ -53,10 +54,10 @@ struct Dragged {
     spin: f64,
 }
 
-impl Dragged {
+impl SlidingPatch {
     /// Its slip if the robot is carried by `by`.
-    fn slip(&self, by: &Vec3) -> [f64; 3] {
-        [self.v[0] + by.x - by.z * self.y, self.v[1] + by.y + by.z * self.x, self.spin + by.z]
+    fn slip(&self, shift: &Vec3) -> [f64; 3] {
+        [self.v[0] + shift.x - shift.z * self.y, self.v[1] + shift.y + shift.z * self.x, self.spin + shift.z]
     }
 
     fn square(&self, slip: &[f64; 3]) -> f64 {
@@ -66,25 +67,32 @@ impl Dragged {
 
 /// Where the robot is carried to, and the slip of each loaded link (m) with its part of the weight:
 /// half of it for the patch of the sample before, half for that of this one.
-pub fn carry(
+pub fn displacement(
     model: &Model,
     old: &Stance,
     posture: &Posture,
     R: &Mat3,
     height: f64,
-    patches: &[Patch],
-) -> (Place, Vec<(usize, f64, f64)>) {
-    let dragged: Vec<Dragged> =
+    patches: &[ContactPatch],
+) -> (PlanarPose, Vec<(usize, f64, f64)>) {
+    let patches: Vec<SlidingPatch> =
         old.patches.iter().chain(patches).map(|patch| drag(model, old, posture, R, height, patch)).collect();
-    let by = least_friction(&dragged);
-    let slips = dragged.iter().map(|d| {
-        let slip = d.slip(&by);
+    let shift = least_power(&patches);
+    let slips = patches.iter().map(|d| {
+        let slip = d.slip(&shift);
         (d.link, libm::hypot(slip[0], slip[1]) / 2.0, 2.0 * d.load)
     });
-    (old.place.moved(&by), slips.collect())
+    (old.place.moved(&shift), slips.collect())
 }
 
-fn drag(model: &Model, old: &Stance, new: &Posture, R: &Mat3, height: f64, patch: &Patch) -> Dragged {
+fn drag(
+    model: &Model,
+    old: &Stance,
+    new: &Posture,
+    R: &Mat3,
+    height: f64,
+    patch: &ContactPatch,
+) -> SlidingPatch {
     let link = patch.link;
     let p = |posture: &Posture, R: &Mat3, height: f64| {
         R * (posture.p[link] - posture.centre) + Vec3::new(0.0, 0.0, height)
@@ -96,7 +104,7 @@ fn drag(model: &Model, old: &Stance, new: &Posture, R: &Mat3, height: f64, patch
     let at = Vec3::new(patch.x, patch.y, 0.0);
     let motion = o.cross(&at) + v;
     let load = patch.load / 2.0;
-    Dragged {
+    SlidingPatch {
         link,
         load,
         grip: load * model.bodies[link].friction,
@@ -120,19 +128,19 @@ fn twist(R: &Mat3, t: &Vec3) -> (Vec3, Vec3) {
 }
 
 /// The displacement of least friction, by reweighted least squares.
-fn least_friction(dragged: &[Dragged]) -> Vec3 {
+fn least_power(patches: &[SlidingPatch]) -> Vec3 {
     let zero = Vec3::zeros();
-    let greatest = dragged.iter().map(|d| libm::sqrt(d.square(&d.slip(&zero)))).fold(0.0, f64::max);
+    let greatest = patches.iter().map(|d| libm::sqrt(d.square(&d.slip(&zero)))).fold(0.0, f64::max);
     if greatest == 0.0 {
         return zero;
     }
     let smoothed = SMOOTHED_PART * greatest;
-    let mut by = zero;
+    let mut shift = zero;
     for round in 0..ROUNDS_MAX {
         let mut normal = Mat3::zeros();
         let mut right = zero;
-        for d in dragged {
-            let softened = libm::sqrt(d.square(&d.slip(&by)) + smoothed * smoothed);
+        for d in patches {
+            let softened = libm::sqrt(d.square(&d.slip(&shift)) + smoothed * smoothed);
             let weight = if round == 0 { d.grip } else { d.grip / softened };
             let rows = [
                 (Vec3::new(1.0, 0.0, -d.y), d.v[0], 1.0),
@@ -144,12 +152,12 @@ fn least_friction(dragged: &[Dragged]) -> Vec3 {
                 right -= row * (value * weight * factor);
             }
         }
-        let Some(next) = normal.cholesky().map(|c| c.solve(&right)) else { return by };
-        let change = (next - by).norm();
-        by = next;
+        let Some(next) = normal.cholesky().map(|c| c.solve(&right)) else { return shift };
+        let change = (next - shift).norm();
+        shift = next;
         if change <= CHANGE_MIN * greatest {
             break;
         }
     }
-    by
+    shift
 }

@@ -17,7 +17,7 @@ pub fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption])
     all
 }
 
-/// Into how many samples the stretch between two neighbouring instants is divided; 0 where no joint
+/// Into how many samples the interval between two neighbouring instants is divided; 0 where no joint
 /// moves.
 pub fn divisions(tracks: &Tracks, t0: f64, t1: f64, settings: &Settings, tolerances: &Tolerances) -> usize {
     let travel = tracks.tracks.iter().map(|track| travel(tracks, track.joint, t0, t1)).fold(0.0, f64::max);
@@ -43,7 +43,7 @@ pub fn count(
     between.fold(1, usize::saturating_add)
 }
 
-/// A stretch that is this little longer than a whole number of samples is not divided once more.
+/// A interval that is this little longer than a whole number of samples is not divided once more.
 const ROUNDING: f64 = 1e-6;
 
 /// An upper bound on how far a joint moves, back and forth: the length of its control polygon.

@@ -1,8 +1,8 @@
-//! The linear programme of the least greatest load, kept sparse: what is passed on at every cut of
+//! The linear LP of the least greatest load, kept sparse: what is passed on at every cut of
 //! the tree is a variable of its own, so that a robot of hundreds of modules is no denser than a
 //! small one.
 
-use super::forces::{Column, Question};
+use super::contact_forces::{Column, ContactQuery};
 use super::statics::{Load, LoadKind};
 use crate::geometry::Vec3;
 use crate::optimize::{LinearProgram, LinearSolution};
@@ -24,8 +24,8 @@ const DIRECTIONS: [[f64; 3]; 9] = [
 ];
 
 /// Forces are in parts of the weight, moments in parts of the weight times a metre. Columns: sizes of
-/// the pushes, then six for every node but the first, then the greatest load.
-pub struct Programme {
+/// the wrenches, then six for every node but the first, then the greatest load.
+pub struct ContactLp {
     pub problem: LinearProgram,
     rows: Vec<Row>,
 }
@@ -47,16 +47,16 @@ struct Row {
     constant: f64,
 }
 
-impl Programme {
-    pub fn new(question: &Question, columns: &[Column]) -> Programme {
-        let (nodes, node_of) = nodes(question);
-        let rows = rows(question);
+impl ContactLp {
+    pub fn new(query: &ContactQuery, columns: &[Column]) -> ContactLp {
+        let (nodes, node_of) = nodes(query);
+        let rows = rows(query);
         let first = |node: usize| columns.len() + 6 * (node - 1);
         let last = columns.len() + 6 * (nodes.len() - 1);
         let mut problem = LinearProgram { costs: vec![0.0; last + 1], ..LinearProgram::default() };
         problem.costs[last] = 1.0;
-        problem.equal = balances(question, columns, &nodes, &node_of);
-        if question.bolted {
+        problem.equal = balances(query, columns, &nodes, &node_of);
+        if query.fixed_base {
             // What holds the root gives whatever it needs.
             problem.equal.drain(..6);
         }
@@ -71,20 +71,20 @@ impl Programme {
         }
         let pushing = (0..columns.len()).filter(|&k| !columns[k].free);
         problem.at_most.extend(pushing.map(|k| (vec![(k, -1.0)], 0.0)));
-        Programme { problem, rows }
+        ContactLp { problem, rows }
     }
 
     /// A bound from multipliers, whoever made them: for any weights `z ≥ 0` of the rows that sum to 1
     /// and any `y`, `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ
-    /// of the contacts' pushes sum to 1, so that the least coefficient bounds the sum.
-    pub fn bound(&self, question: &Question, columns: &[Column], solution: &LinearSolution) -> f64 {
+    /// of the contacts' wrenches sum to 1, so that the least coefficient bounds the sum.
+    pub fn bound(&self, query: &ContactQuery, columns: &[Column], solution: &LinearSolution) -> f64 {
         let z: Vec<f64> = solution.z[..self.rows.len()].iter().map(|z| z.max(0.0)).collect();
         let total: f64 = z.iter().sum();
         if total <= 0.0 {
             return f64::NEG_INFINITY;
         }
         // What a unit force and moment on each link add to the weighted rows.
-        let model = question.model;
+        let model = query.model;
         let mut field = vec![Vector6::zeros(); model.bodies.len()];
         let mut constant = 0.0;
         for (row, z) in self.rows.iter().zip(&z) {
@@ -95,28 +95,28 @@ impl Programme {
             let inherited = field[step.parent];
             field[step.link] += inherited;
         }
-        let y = match question.bolted {
+        let y = match query.fixed_base {
             true => Vector6::zeros(),
             false => Vector6::from_iterator((0..6).map(|i| solution.y[i] / total)),
         };
         // The last node's equations are those of the root, about the centre of mass.
         let mut least = f64::INFINITY;
         for column in columns {
-            let own: f64 = column.pushes.iter().map(|p| field[p.link].dot(&wrench(question, p))).sum();
-            let coefficient = own + y.dot(&question.balance(column));
+            let own: f64 = column.wrenches.iter().map(|p| field[p.link].dot(&wrench(query, p))).sum();
+            let coefficient = own + y.dot(&query.balance(column));
             if !column.free {
                 least = least.min(coefficient);
-            } else if coefficient.abs() > question.tolerances.balance {
+            } else if coefficient.abs() > query.tolerances.balance {
                 return f64::NEG_INFINITY;
             }
         }
-        // Where nothing pushes there is no sum of sizes to bound.
-        if question.bolted { constant } else { constant - y[2] + least }
+        // Where nothing wrenches there is no sum of sizes to bound.
+        if query.fixed_base { constant } else { constant - y[2] + least }
     }
 }
 
-fn wrench(question: &Question, push: &super::statics::Push) -> Vector6<f64> {
-    let (f, m) = (push.f / question.weight, (push.p.cross(&push.f) + push.m) / question.weight);
+fn wrench(query: &ContactQuery, push: &super::statics::Wrench) -> Vector6<f64> {
+    let (f, m) = (push.f / query.weight, (push.p.cross(&push.f) + push.m) / query.weight);
     Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
 }
 
@@ -136,17 +136,17 @@ fn taken_about(w: &Vector6<f64>, place: &Vec3) -> Vector6<f64> {
 
 /// The pieces of the tree between the cuts of the loads, the root's first, parents before children;
 /// and the piece of every link.
-fn nodes(question: &Question) -> (Vec<Node>, Vec<usize>) {
-    let model = question.model;
+fn nodes(query: &ContactQuery) -> (Vec<Node>, Vec<usize>) {
+    let model = query.model;
     let mut cut = vec![false; model.bodies.len()];
-    for &load in question.loads {
-        for &(index, _) in &question.structure.loads[load].terms {
-            cut[question.sections[index].link] = true;
+    for &load in query.loads {
+        for &(index, _) in &query.structure.loads[load].terms {
+            cut[query.sections[index].link] = true;
         }
     }
     let mut node_of = vec![0; model.bodies.len()];
     let mut nodes = vec![Node { parent: 0, place: Vec3::zeros(), weight: Vector6::zeros() }];
-    let stance = question.stance;
+    let stance = query.stance;
     for step in &model.kinematics.steps {
         let parent = node_of[step.parent];
         node_of[step.link] = parent;
@@ -156,8 +156,8 @@ fn nodes(question: &Question) -> (Vec<Node>, Vec<usize>) {
             nodes.push(Node { parent, place, weight: Vector6::zeros() });
         }
     }
-    for push in question.pushed_down {
-        nodes[node_of[push.link]].weight += wrench(question, push);
+    for push in query.gravity_wrenches {
+        nodes[node_of[push.link]].weight += wrench(query, push);
     }
     (nodes, node_of)
 }
@@ -165,7 +165,7 @@ fn nodes(question: &Question) -> (Vec<Node>, Vec<usize>) {
 /// What a piece gets from its children, from the ground and by its weight, it passes on; the root has
 /// no one to pass it on to. The root's equations come first.
 fn balances(
-    question: &Question,
+    query: &ContactQuery,
     columns: &[Column],
     nodes: &[Node],
     node_of: &[usize],
@@ -176,9 +176,9 @@ fn balances(
         equal.extend((0..6).map(|i| (Vec::new(), -taken_about(&node.weight, &node.place)[i])));
     }
     for (k, column) in columns.iter().enumerate() {
-        for push in &column.pushes {
+        for push in &column.wrenches {
             let node = node_of[push.link];
-            let local = taken_about(&wrench(question, push), &nodes[node].place);
+            let local = taken_about(&wrench(query, push), &nodes[node].place);
             (0..6).filter(|&i| local[i] != 0.0).for_each(|i| equal[6 * node + i].0.push((k, local[i])));
         }
     }
@@ -199,22 +199,22 @@ fn balances(
 }
 
 /// Every load, both ways round unless it is a pull, in parts of its limit.
-fn rows(question: &Question) -> Vec<Row> {
+fn rows(query: &ContactQuery) -> Vec<Row> {
     let mut rows = Vec::new();
-    for &index in question.loads {
-        let load = &question.structure.loads[index];
+    for &index in query.loads {
+        let load = &query.structure.loads[index];
         for (terms, both) in parts(load) {
             for sign in if both { &[1.0, -1.0][..] } else { &[1.0] } {
                 let term = |&(cut, factor): &(usize, f64)| {
-                    let section = &question.sections[cut];
-                    let scale = sign * factor * question.weight / load.limit;
+                    let section = &query.sections[cut];
+                    let scale = sign * factor * query.weight / load.limit;
                     let (f, m) = match section.moment {
                         true => (section.at.cross(&section.dir), section.dir),
                         false => (section.dir, Vec3::zeros()),
                     };
                     (section.link, Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z) * scale)
                 };
-                let held = terms.iter().map(|&(cut, factor)| factor * question.weights[cut]);
+                let held = terms.iter().map(|&(cut, factor)| factor * query.weights[cut]);
                 let constant = sign * held.sum::<f64>() / load.limit;
                 rows.push(Row { terms: terms.iter().map(term).collect(), constant });
             }

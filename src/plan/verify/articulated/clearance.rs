@@ -1,10 +1,10 @@
 //! How near links come to each other, and where they meet, told to whoever draws it. Nothing is judged
 //! here.
 
+use super::advancement::{Advancement, mated};
 use super::bodies::{Bodies, Body, UnsoundLink};
 use super::collision::Precision;
 use super::history::base_at;
-use super::search::{Search, mated};
 use crate::geometry::distance::signed_distance;
 use crate::geometry::{Pose, Vec3, contact_point};
 use crate::plan::{Body as Form, Plan, Tracks, validation};
@@ -28,10 +28,10 @@ pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let afforded = PAIRS_MAX / (modules * modules).max(1);
     let count = count.min(afforded.max(POINTS_MIN)).max(1);
     let Ok(bodies) = bodies(tracks) else { return vec![] };
-    let mut search = Search::new(tracks, bodies, Precision::default(), usize::MAX);
+    let mut advancement = Advancement::new(tracks, bodies, Precision::default(), usize::MAX);
     let at = |i: usize| {
         let time = until * i as f64 / count as f64;
-        Some((time, search.clearance_at(&tracks.state(time).bonds, time)?))
+        Some((time, advancement.clearance_at(&tracks.state(time).bonds, time)?))
     };
     (0..=count).filter_map(at).collect()
 }
@@ -78,7 +78,7 @@ fn pairs(
         let first = bodies.of(m).start;
         return bodies.inner(m).iter().map(|i| (first + i.a, first + i.b, i.allowed)).collect();
     }
-    let allowed = bodies.touch(m, n);
+    let allowed = bodies.allowed_depth(m, n);
     let all = bodies.of(m).flat_map(|a| bodies.of(n).map(move |b| (a, b)));
     let link = |body: usize| bodies.bodies[body].link;
     all.filter(|(a, b)| !mated.contains(&(link(*a), link(*b)))).map(|(a, b)| (a, b, allowed)).collect()
