@@ -4,7 +4,7 @@ use super::checker::Checker;
 use super::typed::{DefId, Program};
 use super::types::{Family, Type};
 use crate::source::Symbol;
-use crate::units::{Dimension, display};
+use crate::units::{Dimension, base_units, usual_unit};
 
 /// Returns the phrase for a quantity of a dimension: `an angular speed`.
 pub(super) fn dimension_words(d: Dimension) -> String {
@@ -24,14 +24,14 @@ pub(super) fn dimension_words(d: Dimension) -> String {
         Some("Area") => "an area",
         Some("Volume") => "a volume",
         Some("Frequency") => "a frequency",
-        _ => return format!("a quantity in {}", display::base_units(d)),
+        _ => return format!("a quantity in {}", base_units(d)),
     };
     words.to_string()
 }
 
 /// Returns the phrase with the usual unit: `an angular speed (rad/s)`.
 pub(super) fn dimension_with_unit(d: Dimension) -> String {
-    let unit = display::usual_unit(d);
+    let unit = usual_unit(d);
     let words = dimension_words(d);
     if unit.is_empty() || d.name().is_none() { words } else { format!("{words} ({unit})") }
 }
@@ -79,7 +79,7 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
         Type::Any => "Any".into(),
         Type::Quantity(d) => match d.name() {
             Some(name) => name.into(),
-            None => format!("Quantity<{}>", display::base_units(*d)),
+            None => format!("Quantity<{}>", base_units(*d)),
         },
         Type::Int => "Int".into(),
         Type::Bool => "Bool".into(),

@@ -375,7 +375,7 @@ fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimension) -> Op
             format!("per second? `{written} / 1s`")
         });
     }
-    let unit = crate::units::display::usual_unit(need);
+    let unit = crate::units::usual_unit(need);
     if have == Dimension::NUMBER && literal {
         return (!unit.is_empty()).then(|| format!("with a unit? `{written}{unit}`"));
     }

@@ -7,7 +7,7 @@ use super::types::Type;
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast;
 use crate::units::Dimension;
-use crate::units::table::to_si;
+use crate::units::to_si;
 
 impl<'a> Checker<'a> {
     /// Checks a number with its unit, and returns it in SI.

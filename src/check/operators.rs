@@ -198,7 +198,7 @@ impl<'a> Checker<'a> {
         let other = self.quoted(beside.span).unwrap_or_default();
         let digits = other.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '_'));
         let same = digits.len() < other.len() && crate::units::is_unit(digits);
-        let unit = if same { digits.to_owned() } else { crate::units::display::usual_unit(needed) };
+        let unit = if same { digits.to_owned() } else { crate::units::usual_unit(needed) };
         (!unit.is_empty()).then(|| format!("{written}{unit}"))
     }
 

@@ -7,7 +7,7 @@ use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Symbol, code};
 use crate::source::{foreign, library};
 use crate::syntax::ast::{self, TypeKind};
-use crate::units::{self, Dimension, dimension};
+use crate::units::{self, Dimension, NAMED};
 use std::sync::Arc;
 
 /// The built-in type names without arguments, named dimensions apart.
@@ -120,7 +120,7 @@ impl<'a> Checker<'a> {
 
     /// Reports an unknown unit.
     fn unknown_unit(&mut self, name: &ast::Name) {
-        let names = units::table::UNITS.iter().map(|u| u.name);
+        let names = units::UNITS.iter().map(|u| u.name);
         let mut diagnostic = Diagnostic::error(code::UNKNOWN_UNIT, format!("`{}` is no unit", name.text))
             .label(name.span, "a unit sticks to its number");
         if let Some(meant) = foreign::unit(name.text.as_str()) {
@@ -168,7 +168,7 @@ impl<'a> Checker<'a> {
         let span = path[0].span.to(last.span);
         let mut known: Vec<&str> = self.visible_names(scope.file);
         known.extend(PLAIN.iter().map(|(n, _)| *n));
-        known.extend(dimension::NAMED.iter().map(|(n, _)| *n));
+        known.extend(NAMED.iter().map(|(n, _)| *n));
         known.extend(WITH_ARGUMENT);
         let types = known.into_iter().filter(|n| n.starts_with(|c: char| c.is_ascii_uppercase()));
         let mut diagnostic = Diagnostic::error(code::NOT_A_TYPE, format!("`{}` {why}", last.text))

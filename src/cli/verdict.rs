@@ -3,8 +3,8 @@
 use crate::plan::{
     Cause, Exemption, ExemptionKind, Failure, Ground, Plan, Stability, Status, Verdict, Worst,
 };
-use crate::units::dimension::Dimension;
-use crate::units::display::{number, quantity};
+use crate::units::Dimension;
+use crate::units::{number, quantity};
 use std::fmt::Write;
 
 /// Returns the verdict on a plan as text of several lines.

@@ -7,7 +7,7 @@ use crate::interpret::design::Design;
 use crate::interpret::planning::Planned;
 use crate::natives::truss::Trussed;
 use crate::plan::{Body, NodePaths};
-use crate::units::display::number;
+use crate::units::number;
 use crate::units::{Dimension, quantity};
 
 /// Characters of a picture; each holds two dots by four.

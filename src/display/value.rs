@@ -6,7 +6,7 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::record::Record;
 use crate::interpret::value::{Callable, Value};
 use crate::interpret::verdicts;
-use crate::units::{Dimension, display, quantity};
+use crate::units::{Dimension, number, quantity};
 
 /// Most elements of a list that are shown; the rest is counted.
 const ELEMENTS_SHOWN: usize = 1000;
@@ -74,7 +74,7 @@ impl Interpreter<'_> {
                 "ground {:?}, gravity {}, friction {}",
                 world.ground,
                 quantity(world.gravity, Dimension::ACCELERATION),
-                display::number(world.friction)
+                number(world.friction)
             )
             .to_lowercase(),
             Record::Frame(nodes, struts) => {
@@ -95,7 +95,7 @@ impl Interpreter<'_> {
                         r.rank,
                         r.rank_rigid,
                         r.self_stresses,
-                        display::number(r.weakest),
+                        number(r.weakest),
                         r.redundant.len()
                     )
                 }

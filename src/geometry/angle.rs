@@ -12,7 +12,7 @@ const ANGLE_MAX: f64 = 1e5;
 /// Adding and subtracting this rounds to the nearest whole number.
 const ROUNDING: f64 = 1.5 * (1u64 << 52) as f64;
 
-/// Sine and cosine of an angle in radians, to about one unit in the last place.
+/// Returns sine and cosine of an angle in radians, to about one unit in the last place.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if angle.is_nan() || angle.abs() > ANGLE_MAX {
@@ -29,7 +29,7 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
-/// By the series of Taylor, which within an eighth of a turn are exact to 1e-17 after eight terms.
+/// Returns sine and cosine by the series of Taylor, which within an eighth of a turn are exact to 1e-17 after eight terms.
 #[inline]
 fn near_zero(x: f64) -> (f64, f64) {
     const fn inverse_factorial(n: u64) -> f64 {

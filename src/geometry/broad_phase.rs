@@ -5,7 +5,7 @@
 //! proportion to their number; it is made anew for every posture, which takes less than keeping a tree balanced.
 //! Pairs are told in an order that depends on nothing but the positions.
 
-use super::Vec3;
+use super::pose::Vec3;
 
 /// Cells of the grid of boxes at most, for each box.
 const CELLS_PER_BOX: f64 = 8.0;

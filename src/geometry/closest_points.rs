@@ -6,8 +6,10 @@
 //! (2005), chapter 5, unless another source is named.
 
 use super::broad_phase::Aabb;
+use super::distance::SignedDistance;
 use super::distance::signed_distance_within;
-use super::{Part, Pose, SignedDistance, Vec3};
+use super::part::Part;
+use super::pose::{Pose, Vec3};
 
 /// A segment from its first point to its second; the two may be one point.
 pub type Segment = (Vec3, Vec3);

@@ -1,7 +1,8 @@
 //! A contact point of convex parts: for people to look at, not for the judge.
 
 use super::distance::distance_apart;
-use super::{Part, Pose, Vec3};
+use super::part::Part;
+use super::pose::{Pose, Vec3};
 
 /// Rounds of projections at most; parts that overlap take a few.
 const ROUNDS_MAX: usize = 64;

@@ -5,7 +5,9 @@
 //! polytope and by directions of our own, of which each is a valid bound; see [`separation_along`].
 
 use super::gjk::closest_cores;
-use super::{Part, Pose, Solid, Vec3};
+use super::part::Part;
+use super::pose::{Pose, Vec3};
+use super::solid::Solid;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::details::contact_support_map_support_map;
 use parry3d_f64::shape::SupportMap;

@@ -5,7 +5,9 @@
 //! nearest to the origin is as far from it as the bodies are from each other. The distance is bracketed: every point of
 //! the difference is at least as far as the nearest, and the separation along any direction is at most as large.
 
-use super::{Part, Pose, SignedDistance, Vec3};
+use super::distance::SignedDistance;
+use super::part::Part;
+use super::pose::{Pose, Vec3};
 
 /// The bracket is close enough below this width: relative, and in metres.
 const TOL_BRACKET: (f64, f64) = (1e-9, 1e-9);

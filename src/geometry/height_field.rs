@@ -1,6 +1,6 @@
-//! Uneven ground: heights over a grid, with flat triangles between.
+//! Uneven ground: a height field over a grid, with flat triangles between.
 
-use super::Vec3;
+use super::pose::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,18 +9,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeightField {
-    /// Where the first height is, m.
+    /// The place (x, y) of the first height in the world, m.
     pub corner: [f64; 2],
-    /// Between neighbours, m.
+    /// The distance of neighbours along x and y, m; positive.
     pub spacing: f64,
-    /// How many heights there are along x.
+    /// The number of heights along x, at least 2.
     pub columns: usize,
-    /// Row by row along y, m.
+    /// The heights, m, row by row along y; at least two rows.
     pub heights: Vec<f64>,
 }
 
 impl HeightField {
-    /// What keeps it from being one.
+    /// Returns what keeps these numbers from being a height field; `None` if nothing does. The other methods need that.
     pub fn fault(&self) -> Option<&'static str> {
         let rows = self.heights.len().checked_div(self.columns).unwrap_or(0);
         let faults = [
@@ -32,24 +32,26 @@ impl HeightField {
         faults.into_iter().find_map(|(bad, why)| bad.then_some(why))
     }
 
+    /// Returns the number of heights along y.
     pub fn rows(&self) -> usize {
         self.heights.len() / self.columns
     }
 
-    /// Over a place, m.
+    /// Returns the height of the ground at a place, m.
     pub fn height(&self, x: f64, y: f64) -> f64 {
         let (triangle, [u, v]) = self.triangle(x, y);
         triangle.height + triangle.slope[0] * u + triangle.slope[1] * v
     }
 
-    /// How the height grows with x and with y. On a crease that of one of its sides.
+    /// Returns the derivatives of the height by x and by y at a place; on a crease those of one of its sides, and 0 across
+    /// the rim.
     pub fn slope(&self, x: f64, y: f64) -> [f64; 2] {
         let (triangle, _) = self.triangle(x, y);
         let inside = [self.along(0, x), self.along(1, y)].map(|(_, clamped)| !clamped);
         [0, 1].map(|k| if inside[k] { triangle.slope[k] / self.spacing } else { 0.0 })
     }
 
-    /// The greatest slope: height by way.
+    /// Returns the greatest slope of all triangles: height by horizontal distance.
     pub fn steepest(&self) -> f64 {
         let squares =
             (0..self.rows() - 1).flat_map(|row| (0..self.columns - 1).map(move |column| (column, row)));
@@ -58,17 +60,17 @@ impl HeightField {
         slopes.map(|[a, b]| libm::hypot(a, b) / self.spacing).fold(0.0, f64::max)
     }
 
-    /// How far a point is above.
+    /// Returns the height of a point above the ground, m; negative below it.
     pub fn above(&self, p: Vec3) -> f64 {
         p.z - self.height(p.x, p.y)
     }
 
-    /// How far a segment is above, told with the part of its length: at its ends and wherever it crosses, seen
-    /// from above, a side of a triangle; in between that changes evenly.
+    /// Calls `tell` with parts of a segment's length (0 to 1) and the heights above the ground there (m): at its ends and
+    /// wherever it crosses, seen from above, a side of a triangle. In between the height is linear. In no order.
     pub fn profile(&self, p: Vec3, q: Vec3, mut tell: impl FnMut(f64, f64)) {
-        let mut look = |part: f64| tell(part, self.above(p + (q - p) * part));
-        look(0.0);
-        look(1.0);
+        let mut sample = |part: f64| tell(part, self.above(p + (q - p) * part));
+        sample(0.0);
+        sample(1.0);
         let (columns, rows) = (self.columns as f64, self.rows() as f64);
         let flat = |v: Vec3| [v.x - self.corner[0], v.y - self.corner[1]].map(|w| w / self.spacing);
         let ([px, py], [qx, qy]) = (flat(p), flat(q));
@@ -83,12 +85,12 @@ impl HeightField {
             let last = libm::floor(from.max(to)).min(most);
             if from != to && first <= last {
                 let lines = (first as i64..=last as i64).map(|line| (line as f64 - from) / (to - from));
-                lines.filter(|part| 0.0 < *part && *part < 1.0).for_each(&mut look);
+                lines.filter(|part| 0.0 < *part && *part < 1.0).for_each(&mut sample);
             }
         }
     }
 
-    /// Where a segment is lowest above it: the part of its length, and how high, m.
+    /// Returns the point of a segment that is lowest above the ground: the part of its length, and its height, m.
     pub fn lowest(&self, p: Vec3, q: Vec3) -> (f64, f64) {
         let mut least = (0.0, f64::INFINITY);
         self.profile(p, q, |part, height| {
@@ -99,7 +101,7 @@ impl HeightField {
         least
     }
 
-    /// In steps of the grid, and whether it was brought to the rim.
+    /// Returns a coordinate in steps of the grid, and true if it was clamped to the rim.
     fn along(&self, axis: usize, at: f64) -> (f64, bool) {
         let count = if axis == 0 { self.columns } else { self.rows() };
         let free = (at - self.corner[axis]) / self.spacing;
@@ -107,7 +109,7 @@ impl HeightField {
         (kept, kept != free)
     }
 
-    /// The triangle at a place, and the place in it from its square's corner.
+    /// Returns the triangle at a place, and the place in it from its square's corner.
     fn triangle(&self, x: f64, y: f64) -> (Half, [f64; 2]) {
         let [u, v] = [self.along(0, x).0, self.along(1, y).0];
         let column = (u as usize).min(self.columns - 2);
@@ -116,7 +118,7 @@ impl HeightField {
         (self.half(column, row, u >= v), [u, v])
     }
 
-    /// A half of a square: that of greater x, or that of greater y.
+    /// Returns a half of a square: that of greater x, or that of greater y.
     fn half(&self, column: usize, row: usize, low: bool) -> Half {
         let at = |right: usize, up: usize| self.heights[(row + up) * self.columns + column + right];
         let slope = if low {

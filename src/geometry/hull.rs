@@ -1,6 +1,6 @@
 //! Convex hulls of points.
 
-use super::Vec3;
+use super::pose::Vec3;
 use nalgebra::Matrix3;
 use parry3d_f64::transformation::try_convex_hull;
 use std::collections::BTreeMap;
@@ -9,28 +9,30 @@ use std::collections::BTreeMap;
 /// counter-clockwise from outside.
 #[derive(Clone, Debug)]
 pub struct Faces {
+    /// The corners of the hull, m.
     pub points: Vec<Vec3>,
+    /// Indices of corners, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// `None` where the points do not span a volume.
+/// Returns the surface of the convex hull of points; `None` where they do not span a volume.
 pub fn faces(points: &[Vec3]) -> Option<Faces> {
-    // An affine map changes nothing in which points are corners; what is thin is as thick as wide in it, or
-    // it would be taken for flat.
+    // Which points are corners does not depend on an affine map: coordinates are whitened, so that a thin hull is as
+    // thick as wide and not taken for flat.
     let [along, across, up] = extents(points, 0.0)?;
-    let even = Matrix3::from_columns(&[along, across, up]).try_inverse()?;
-    let evened: Vec<_> = points.iter().map(|p| (even * (p - points[0])).into()).collect();
-    let (corners, triangles) = try_convex_hull(&evened).ok()?;
+    let whitening = Matrix3::from_columns(&[along, across, up]).try_inverse()?;
+    let whitened: Vec<_> = points.iter().map(|p| (whitening * (p - points[0])).into()).collect();
+    let (corners, triangles) = try_convex_hull(&whitened).ok()?;
     let bits = |p: [f64; 3]| p.map(f64::to_bits);
     let own: BTreeMap<[u64; 3], Vec3> =
-        evened.iter().map(|p| bits((*p).into())).zip(points.iter().copied()).collect();
+        whitened.iter().map(|p| bits((*p).into())).zip(points.iter().copied()).collect();
     let corners = corners.into_iter().map(|corner| own.get(&bits(corner.into())).copied());
     Some(Faces { points: corners.collect::<Option<_>>()?, triangles })
 }
 
-/// How far points reach from the first of them, and in which direction, m: where most; across that; and
-/// across both, which is the flattest direction among the planes through three far apart points. The
-/// three are right-handed. `None` where one is shorter than `least`, or has no length.
+/// Returns three perpendicular vectors by which points reach from the first of them, m: in the direction where they reach
+/// farthest; across that; and across both, the flattest direction among the planes through three far apart points.
+/// The three are right-handed. `None` where one is shorter than `least`, or has no length.
 pub fn extents(points: &[Vec3], least: f64) -> Option<[Vec3; 3]> {
     let first = points.first()?;
     let farthest = |measure: &dyn Fn(&Vec3) -> f64| {

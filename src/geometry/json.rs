@@ -1,7 +1,7 @@
-//! How poses stand in plan files: `{"p": [x, y, z], "q": [w, x, y, z]}`, metres and a unit quaternion,
+//! Poses in plan files: `{"p": [x, y, z], "q": [w, x, y, z]}`, metres and a unit quaternion,
 //! to the bit. For `#[serde(with = "crate::geometry::json")]`.
 
-use super::{Pose, Vec3};
+use super::pose::{Pose, Vec3};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
@@ -16,8 +16,8 @@ pub struct PoseText {
     q: [f64; 4],
 }
 
-/// How far from 1 the norm of a written quaternion may be: what rounding can explain after many
-/// products, and nothing more.
+/// The greatest difference from 1 of the norm of a written quaternion: what rounding can explain after many products,
+/// and nothing more.
 const NORM_TOLERANCE: f64 = 1e-6;
 
 /// Writes the numbers as they are.

@@ -1,10 +1,11 @@
 //! Convex parts, of which all solids are made, by their support functions.
 //!
-//! The support function `h(n)`, the greatest `n · p` over the part's points, is all that distances
-//! need: for any unit `n` the gap along it, `-h_B(-n) - h_A(n)`, is a lower bound of the signed
-//! distance from A to B, and the greatest of them is that distance.
+//! The support function `h(n)`, the greatest `n · p` over the part's points, is all that distances need: for any unit `n`
+//! the separation along it, `-h_B(-n) - h_A(n)`, is a lower bound of the signed distance from A to B, and the greatest of
+//! them is that distance.
 
-use super::{Pose, Vec3};
+use super::pose::{Pose, Vec3};
+
 /// Directions this near to a cylinder's axis are along it: what is left across it is rounding.
 const TOL_STRAIGHT: f64 = 1e-9;
 
@@ -12,8 +13,9 @@ const TOL_STRAIGHT: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct Part {
     form: Form,
-    /// Centre of a ball around the part, and its radius, m.
+    /// Centre of a ball around the part, m.
     pub centre: Vec3,
+    /// Radius of that ball, m.
     pub radius: f64,
 }
 
@@ -30,25 +32,29 @@ enum Form {
 }
 
 impl Part {
+    /// Returns a box from half its edges as vectors, which are perpendicular; m.
     pub fn boxed(centre: Vec3, half_edges: [Vec3; 3]) -> Part {
         let radius = half_edges.iter().map(Vec3::norm_squared).sum::<f64>().sqrt();
         Part { form: Form::Box(half_edges), centre, radius }
     }
 
+    /// Returns a cylinder from half its axis as a vector, which is not zero, and its radius; m.
     pub fn cylinder(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
         let reach = (half_axis.norm_squared() + radius * radius).sqrt();
         Part { form: Form::Cylinder(half_axis, half_axis.normalize(), radius), centre, radius: reach }
     }
 
+    /// Returns all points within a radius of a segment, given by half of it as a vector; both may be zero. m
     pub fn capsule(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
         Part { form: Form::Capsule(half_axis, radius), centre, radius: half_axis.norm() + radius }
     }
 
+    /// Returns a ball; m. With a radius of 0 it is a point.
     pub fn sphere(centre: Vec3, radius: f64) -> Part {
         Part { form: Form::Sphere(radius), centre, radius }
     }
 
-    /// The hull of these points, of which there is at least one.
+    /// Returns the convex hull of these points (m), of which there is at least one.
     pub fn points(points: &[Vec3]) -> Part {
         let bound = |pick: fn(f64, f64) -> f64| points.iter().fold(points[0], |m, p| m.zip_map(p, pick));
         let centre = (bound(f64::min) + bound(f64::max)) / 2.0;
@@ -57,7 +63,7 @@ impl Part {
         Part { form: Form::Points(points), centre, radius }
     }
 
-    /// `max n · (p - centre)`; `n` need not be of unit length.
+    /// Returns the support function from the centre, `max n · (p - centre)`, m for a unit vector; `n` may have any length.
     #[inline]
     pub fn reach(&self, n: &Vec3) -> f64 {
         match &self.form {
@@ -72,12 +78,13 @@ impl Part {
         }
     }
 
-    /// A point of the part that is farthest along `n`.
+    /// Returns a point of the part that is farthest along `n`, a support point; m.
     pub fn support(&self, n: &Vec3) -> Vec3 {
         self.core_support(n) + unit_or_zero(n) * self.rounding()
     }
 
-    /// A sphere is a point and a capsule a line, rounded by this much, m; other parts by nothing.
+    /// Returns the radius by which the core of the part is rounded, m: a sphere is a point and a capsule a segment, rounded
+    /// by their radii; other parts are their own core, rounded by 0.
     pub fn rounding(&self) -> f64 {
         match self.form {
             Form::Sphere(radius) | Form::Capsule(_, radius) => radius,
@@ -85,7 +92,7 @@ impl Part {
         }
     }
 
-    /// A point of what is rounded that is farthest along `n`.
+    /// Returns a point of the core that is farthest along `n`; m.
     pub fn core_support(&self, n: &Vec3) -> Vec3 {
         let toward = |v: &Vec3| if n.dot(v) < 0.0 { -v } else { *v };
         let from_centre = match &self.form {
@@ -103,7 +110,7 @@ impl Part {
         self.centre + from_centre
     }
 
-    /// The part in the frame in which its own frame has this pose.
+    /// Returns the part in the frame in which its own frame has the pose `X`.
     pub fn moved(&self, X: &Pose) -> Part {
         let turn = |v: &Vec3| X.rotation * v;
         let form = match &self.form {
@@ -116,7 +123,7 @@ impl Part {
         Part { form, centre: X.transform_point(&self.centre.into()).coords, radius: self.radius }
     }
 
-    /// The part shrunk or grown about its centre.
+    /// Returns the part scaled about its centre.
     pub fn scaled(&self, factor: f64) -> Part {
         let form = match &self.form {
             Form::Box(e) => Form::Box(e.map(|v| v * factor)),
@@ -128,7 +135,8 @@ impl Part {
         Part { form, centre: self.centre, radius: self.radius * factor }
     }
 
-    /// Whether turning about this line leaves the part where it is, to `tol` metres.
+    /// Returns true if a turn by any angle about the line through `point` along the unit vector `axis` leaves the part where
+    /// it is, to `tol` metres.
     pub fn is_round_about(&self, point: &Vec3, axis: &Vec3, tol: f64) -> bool {
         let off_line = |p: &Vec3| (p - axis * axis.dot(p)).norm();
         let centred = off_line(&(self.centre - point)) <= tol;
@@ -145,7 +153,7 @@ fn unit_or_zero(v: &Vec3) -> Vec3 {
     v.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
 
-/// The first of the points that are farthest along `n`.
+/// Returns the first of the points that are farthest along `n`.
 fn farthest(points: &[Vec3], n: &Vec3) -> Vec3 {
     let mut best = (f64::NEG_INFINITY, Vec3::zeros());
     for p in points {

@@ -1,9 +1,9 @@
 //! Polygons in space as triangles.
 
-use super::Vec3;
+use super::pose::Vec3;
 
-/// A plane polygon, convex or not, as triangles: three indices of its corners each, turning the same way
-/// as it does. Ears are cut off one by one (Meisters). A polygon that crosses itself gives triangles all
+/// Splits a plane polygon, convex or not, into triangles: three indices of its corners each, turning the same way as it
+/// does. Ears are cut off one by one (Meisters 1975), in cubic time. A polygon that crosses itself gives triangles all
 /// the same, which overlap.
 pub fn triangulate(corners: &[Vec3]) -> Vec<[usize; 3]> {
     // Newell's normal, of twice the area.

@@ -1,13 +1,14 @@
-//! Rigid displacements. A pose `X_AB` is the pose of frame B in frame A: `p_A = X_AB * p_B`.
+//! Vectors, and rigid displacements with a quaternion. A pose `X_AB` is the pose of frame B in frame A: `p_A = X_AB * p_B`.
 
-/// A rigid displacement of SE(3): rotation, then translation in metres.
+/// A rigid displacement of SE(3), by a unit quaternion: rotation, then translation in metres. For inner loops see
+/// [`RigidTransform`](super::RigidTransform).
 pub type Pose = nalgebra::Isometry3<f64>;
 
 /// A vector of three numbers: a position in metres, a direction, a moment.
 pub type Vec3 = nalgebra::Vector3<f64>;
 
-/// A rotation about an axis by the right-hand rule; radians. The axis need not be of unit length;
-/// a zero axis gives no rotation.
+/// Returns the rotation about an axis through the origin by an angle in radians, by the right-hand rule. The axis need not
+/// be of unit length; a zero axis gives no rotation.
 pub fn turned(axis: Vec3, angle: f64) -> Pose {
     let n = axis.norm();
     if n == 0.0 {
@@ -19,7 +20,7 @@ pub fn turned(axis: Vec3, angle: f64) -> Pose {
     Pose::from_parts(nalgebra::Translation3::identity(), nalgebra::UnitQuaternion::new_normalize(q))
 }
 
-/// A displacement without rotation; metres.
+/// Returns the translation by a vector in metres.
 pub fn shifted(p: Vec3) -> Pose {
     Pose::from_parts(p.into(), nalgebra::UnitQuaternion::identity())
 }

@@ -7,7 +7,7 @@
 //! 0 and ±1 multiply exactly, which planners on lattices rely on.
 
 use super::angle::sin_cos;
-use super::{Pose, Vec3};
+use super::pose::{Pose, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::ops::Mul;
 

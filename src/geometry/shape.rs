@@ -1,7 +1,7 @@
 //! The shapes that links are made of, as declared. Lengths in metres; the shape's own frame is at
 //! its centre (a hull's and a mesh's where their points say).
 
-use super::{Pose, Vec3};
+use super::pose::{Pose, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -52,8 +52,10 @@ pub enum Shape {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Placed {
+    /// The pose of the shape's frame, `X_LS`.
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
+    /// The shape in that frame.
     pub shape: Shape,
 }

@@ -1,7 +1,10 @@
 //! Solids: shapes compiled into convex parts.
 
+use super::hull;
+use super::part::Part;
+use super::pose::{Pose, Vec3};
+use super::shape::{Placed, Shape};
 use super::soundness::{self, Unsound};
-use super::{Part, Placed, Pose, Shape, Vec3, hull};
 
 /// Corners of a mesh may be this far inside its convex hull for the mesh to count as convex, m.
 const TOL_CONVEX: f64 = 1e-9;
@@ -9,22 +12,27 @@ const TOL_CONVEX: f64 = 1e-9;
 /// Hulls of more points than this are reduced to their corners.
 const CORNERS_KEPT: usize = 200;
 
-/// What a link is to the judge of distances: convex parts in the link's frame.
+/// A solid for distances: convex parts in the link's frame.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
+    /// The convex parts; together they are the solid, or the surface of a mesh that is not convex.
     pub parts: Vec<Part>,
     /// Closed surfaces whose triangles are among the parts. Only the surface of a mesh that is not
     /// convex is made of parts: what is wholly inside of it is found by [`Solid::encloses`].
     shells: Vec<Vec<[Vec3; 3]>>,
-    /// A ball around the whole, m.
+    /// Centre of a ball around the whole, m.
     pub centre: Vec3,
+    /// Radius of that ball, m; 0 for an empty solid.
     pub radius: f64,
     /// Lowest and highest corner of a box along the frame's axes, m.
     pub bounds: (Vec3, Vec3),
 }
 
 impl Solid {
-    /// Refuses shapes that enclose no volume; a link without shapes is an empty solid.
+    /// Compiles placed shapes; a link without shapes is an empty solid.
+    ///
+    /// # Errors
+    /// The fault of a shape that encloses no volume.
     pub fn new(shapes: &[Placed]) -> Result<Solid, Unsound> {
         let mut solid = Solid::default();
         shapes.iter().try_for_each(|placed| solid.add(placed, &Pose::identity()))?;
@@ -41,7 +49,7 @@ impl Solid {
         Ok(solid)
     }
 
-    /// Whether a point is inside a mesh that is not convex. Its winding number is the sum of the
+    /// Returns true if a point (m) is inside a mesh that is not convex. Its winding number is the sum of the
     /// solid angles of the triangles over the whole sphere.
     pub fn encloses(&self, point: &Vec3) -> bool {
         self.shells.iter().any(|shell| {
@@ -99,7 +107,7 @@ fn corners(points: &[Vec3]) -> Result<Part, Unsound> {
     Ok(Part::points(&faces.points))
 }
 
-/// Whether no vertex is outside the plane of any triangle.
+/// Returns true if no vertex is outside the plane of any triangle.
 fn is_convex(shell: &[[Vec3; 3]], vertices: &[Vec3]) -> bool {
     shell.iter().all(|[a, b, c]| {
         let normal = (b - a).cross(&(c - a));
@@ -108,7 +116,7 @@ fn is_convex(shell: &[[Vec3; 3]], vertices: &[Vec3]) -> bool {
     })
 }
 
-/// Of a triangle seen from the origin, signed: positive from behind (van Oosterom and Strackee 1983).
+/// Returns the solid angle of a triangle seen from the origin, signed: positive from behind (van Oosterom and Strackee 1983).
 fn solid_angle([a, b, c]: &[Vec3; 3]) -> f64 {
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(c));

@@ -1,7 +1,8 @@
-//! Which shapes are solids: refusals as values.
+//! Validation of shapes: which are solids, and the fault of those that are not.
 
 use super::hull::extents;
-use super::{Shape, Vec3};
+use super::pose::Vec3;
+use super::shape::Shape;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -12,7 +13,7 @@ pub const THICKNESS_MIN: f64 = 1e-6;
 /// The greatest coordinate or size of a shape, m: beyond it, differences of a micrometre are lost.
 pub const SIZE_MAX: f64 = 1e6;
 
-/// Why a shape is no solid.
+/// The fault by which a shape is no solid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unsound {
     /// A number that is not finite, or larger than [`SIZE_MAX`].
@@ -54,7 +55,10 @@ impl fmt::Display for Unsound {
     }
 }
 
-/// Whether a shape is a solid that can be weighed and judged.
+/// Checks that a shape is a solid that can be weighed and judged.
+///
+/// # Errors
+/// Its first fault.
 pub fn check(shape: &Shape) -> Result<(), Unsound> {
     match shape {
         Shape::Box { size } => {

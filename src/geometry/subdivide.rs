@@ -1,12 +1,12 @@
-//! Triangles cut into smaller ones.
+//! Subdivision of triangle meshes.
 
-use super::Vec3;
+use super::pose::Vec3;
 use std::collections::BTreeMap;
 
-/// Vertices, and faces as places among them.
+/// Vertices (m), and faces as indices among them.
 pub type Surface = (Vec<Vec3>, Vec<[usize; 3]>);
 
-/// Where a new vertex lies: a corner, a place along an edge from its lower corner, or a place within a
+/// The place of a new vertex: a corner, a place along an edge from its lower corner, or a place within a
 /// face. Faces that share an edge so share the vertices on it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
@@ -15,7 +15,7 @@ enum Place {
     Face(usize, [usize; 2]),
 }
 
-/// Every triangle as `parts`² triangles of the same shape; the triangles of a face follow each other, and
+/// Cuts every triangle of a mesh into `parts`² triangles of the same shape; the triangles of a face follow each other, and
 /// keep its sense. `parts` is at least 1.
 pub fn subdivide(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surface {
     let mut found: BTreeMap<Place, usize> = BTreeMap::new();

@@ -1,23 +1,25 @@
 //! Volume, centre and second moments of shapes.
 
+use super::hull;
+use super::pose::{Pose, Vec3};
+use super::shape::{Placed, Shape};
 use super::soundness::{self, Unsound};
-use super::{Placed, Pose, Shape, Vec3, hull};
 use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
-/// What a solid of density one weighs and how that is spread.
+/// The volume of a solid, with its first and second moments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Volume {
-    /// m³
+    /// Volume, m³.
     pub volume: f64,
-    /// m
+    /// Centroid, m.
     pub centre: Vec3,
-    /// ∫ p pᵀ dV with p from the centre, m⁵.
+    /// Second moments `∫ p pᵀ dV` with p from the centroid, m⁵.
     pub second: Matrix3<f64>,
 }
 
 impl Volume {
-    /// About the centre at density one: `tr(S) 1 - S`, m⁵.
+    /// Returns the inertia about the centroid at density one, `tr(S) 1 - S`, m⁵.
     pub fn inertia(&self) -> Matrix3<f64> {
         Matrix3::identity() * self.second.trace() - self.second
     }
@@ -47,7 +49,10 @@ impl Volume {
     }
 }
 
-/// Of one shape in its own frame.
+/// Returns the moments of one shape in its own frame.
+///
+/// # Errors
+/// Its fault, if it encloses no volume.
 pub fn of_shape(shape: &Shape) -> Result<Volume, Unsound> {
     soundness::check(shape)?;
     Ok(match shape {
@@ -73,7 +78,10 @@ pub fn of_shape(shape: &Shape) -> Result<Volume, Unsound> {
     })
 }
 
-/// Of several placed shapes together; an overlap counts as often as shapes share it.
+/// Returns the moments of several placed shapes together; an overlap counts as often as shapes share it.
+///
+/// # Errors
+/// The fault of a shape that encloses no volume, or [`Unsound::Empty`] where there is none.
 pub fn of_placed(shapes: &[Placed]) -> Result<Volume, Unsound> {
     if shapes.is_empty() {
         return Err(Unsound::Empty);
@@ -82,14 +90,14 @@ pub fn of_placed(shapes: &[Placed]) -> Result<Volume, Unsound> {
     Ok(Volume::sum(&parts.collect::<Result<Vec<_>, Unsound>>()?))
 }
 
-/// A body of revolution with these mean squares along and across its axis.
+/// Returns the moments of a body of revolution with these mean squares along and across its axis.
 fn about_axis(axis: &Vec3, volume: f64, along: f64, across: f64) -> Volume {
     let u = axis.normalize();
     let uu = u * u.transpose();
     Volume::centred(volume, uu * (volume * along) + (Matrix3::identity() - uu) * (volume * across))
 }
 
-/// A cylinder and two half balls; a half ball's centre is 3/8 of the radius from its flat face.
+/// Returns the moments of a cylinder and two half balls; a half ball's centroid is 3/8 of the radius from its flat face.
 fn capsule(radius: f64, length: f64, axis: &Vec3) -> Volume {
     let r2 = radius * radius;
     let (rod, ball) = (PI * r2 * length, 4.0 / 3.0 * PI * r2 * radius);
@@ -100,8 +108,8 @@ fn capsule(radius: f64, length: f64, axis: &Vec3) -> Volume {
     about_axis(axis, volume, along / volume, across / volume)
 }
 
-/// The inside of a closed surface of triangles, counter-clockwise from outside: tetrahedra with a
-/// common tip, signed.
+/// Returns the moments of the inside of a closed surface of triangles, counter-clockwise from outside: a sum over signed
+/// tetrahedra with a common tip.
 fn of_triangles(points: &[Vec3], triangles: &[[u32; 3]]) -> Volume {
     let tip = points[0];
     let (mut volume, mut first, mut second) = (0.0, Vec3::zeros(), Matrix3::zeros());

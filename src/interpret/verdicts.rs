@@ -8,7 +8,7 @@ use super::stop::Stop;
 use crate::behavior::{Reason, Refusal};
 use crate::plan::{CauseId, Check, CheckKind, ExemptionKind, Failure, Settings, Verdict, Worst};
 use crate::source::{Code, Diagnostic, Label, Span, code};
-use crate::units::{Dimension, display, quantity};
+use crate::units::{Dimension, number, quantity};
 use std::collections::BTreeSet;
 
 /// Failures that are told one by one; the rest is counted.
@@ -29,7 +29,7 @@ pub fn check_line(check: &Check) -> String {
 /// The worst values that there are, each with its time and place.
 pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     let length = |x: f64| quantity(x, Dimension::LENGTH);
-    let number = |x: f64| display::number(x);
+    let number = |x: f64| number(x);
     let line = |name: &str, worst: &Option<Worst>, show: &dyn Fn(f64) -> String| {
         worst.as_ref().map(|w| {
             let at = if w.at.is_empty() { String::new() } else { format!(", {}", w.at.join(" and ")) };

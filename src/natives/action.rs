@@ -351,7 +351,7 @@ fn table(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             let parts = [(Part::Joint, 0), (Part::Duration, 1), (Part::Target, 3), (Part::Speed, 3)];
             let parts = parts.map(|(part, index)| (part, call.at(index))).to_vec();
             let extras = Extras { until: None, timeout: None, parts };
-            let target = Target::To(crate::units::table::to_si(position, unit));
+            let target = Target::To(crate::units::to_si(position, unit));
             let action = joint_action(interpreter, call, joint, extras, |joint| Command::Move {
                 joint,
                 target,

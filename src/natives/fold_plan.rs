@@ -20,7 +20,7 @@ use crate::planners::fold::sweep_collision::{Collision, meeting};
 use crate::planners::fold::{Layout, Proof, energy_order, spanning_trees, steps, thickness, work_order};
 use crate::robot::State;
 use crate::source::{Diagnostic, code};
-use crate::units::display::number;
+use crate::units::number;
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 

@@ -112,7 +112,7 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
                 .into()
         }
         Refusal::Stiff { smallest } => {
-            let part = crate::units::display::number(smallest.to_f64());
+            let part = crate::units::number(smallest.to_f64());
             Diagnostic::error(code::NO_WAY, "the cells do not shrink to half their size, as this method needs")
                 .label(call.at(0), format!("these shrink to {part} of their size"))
                 .hint("`method: accordion` keeps the size of cells: it takes rows and boxes to each other")

@@ -29,7 +29,7 @@ pub struct LinearSolution {
     pub z: Vec<f64>,
 }
 
-/// Why a program has no solution.
+/// The reason that a program has no solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsolved {
     /// No x meets the constraints.

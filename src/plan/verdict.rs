@@ -1,7 +1,7 @@
 //! What the judge found: every check with its status, worst values, and failures with their causes.
 
 use super::cause::CauseId;
-use crate::units::display::number;
+use crate::units::number;
 use crate::units::{Dimension, quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,28 +1,34 @@
-//! A robot as connected modules, and the state it is in: Definitions IV.2 and V.1, flattened.
+//! A robot as connected modules, and the state it is in: Definitions IV.2 and V.1 of the compositional-design paper,
+//! flattened.
 //!
-//! What a configuration is to a person, a tree of parts, is here a list of modules with path names
-//! and a list of bonds between their ports.
+//! A configuration is a tree of parts to a person; here it is a list of modules with path names and a list of bonds
+//! between their ports.
 
-use super::Library;
+use super::library::{Hinge, Library, ModuleType};
 use crate::geometry::Pose;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+/// A robot: modules, and every bond between them that exists at some time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Assembly {
+    /// The name of the configuration.
     pub name: String,
+    /// The declarations that `kind` and connector indices refer to.
     pub library: Arc<Library>,
+    /// The modules; a module is referred to by its index here.
     pub modules: Vec<ModuleInstance>,
     /// Every bond that exists at some time; which ones do at the moment is part of the state.
     pub bonds: Vec<Bond>,
     /// The module whose body frame is drawn upright at the start, and whose pose is reported.
     pub base: usize,
-    /// Whether the connections may close loops.
+    /// True if the connections may close loops.
     pub closed: bool,
 }
 
+/// A module of an assembly: a name and a type.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModuleInstance {
@@ -36,7 +42,9 @@ pub struct ModuleInstance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PortRef {
+    /// Index in [`Assembly::modules`].
     pub module: usize,
+    /// Index in [`ModuleType::ports`](super::ModuleType::ports).
     pub port: usize,
 }
 
@@ -44,8 +52,11 @@ pub struct PortRef {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bond {
+    /// The first port, P.
     pub a: PortRef,
+    /// The second port, Q.
     pub b: PortRef,
+    /// The turn about the common normal, in steps of the connector: 0 to `turns` - 1.
     pub turn: u32,
 }
 
@@ -54,7 +65,7 @@ pub struct Bond {
 #[serde(transparent)]
 pub struct JointId(pub u32);
 
-/// Where a joint of the assembly lives.
+/// The place of a joint in the assembly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum JointOwner {
     /// Module and index in its `joints`. Fixed joints are listed too, so that numbering is plain;
@@ -72,19 +83,20 @@ pub struct State {
     pub joints: Vec<f64>,
     /// One flag for every bond of the assembly.
     pub bonds: Vec<bool>,
-    /// World pose of the base module's body (`X_WB`).
+    /// World pose of the base module's body, `X_WB`.
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub base: Pose,
 }
 
 impl Assembly {
-    pub fn module_type(&self, module: usize) -> &super::ModuleType {
+    /// Returns the type of a module.
+    pub fn module_type(&self, module: usize) -> &ModuleType {
         &self.library.modules[self.modules[module].kind]
     }
 
-    /// All joints in the order of their ids: those of the modules in order, then the hinges of the
-    /// bonds whose connectors have one.
+    /// Iterates over all joints in the order of their ids: those of the modules in order, then the hinges of the bonds
+    /// whose connectors have one.
     pub fn joints(&self) -> impl Iterator<Item = JointOwner> + '_ {
         let of_modules = (0..self.modules.len()).flat_map(move |module| {
             (0..self.module_type(module).joints.len()).map(move |joint| JointOwner::Module { module, joint })
@@ -93,14 +105,14 @@ impl Assembly {
         of_modules.chain(of_bonds)
     }
 
-    /// The hinge of a bond, that of the connector at its first port.
-    pub fn hinge(&self, bond: usize) -> Option<&super::Hinge> {
+    /// Returns the hinge of a bond, that of the connector at its first port; `None` for a bond that does not turn.
+    pub fn hinge(&self, bond: usize) -> Option<&Hinge> {
         let a = self.bonds[bond].a;
         let connector = self.module_type(a.module).ports[a.port].connector;
         self.library.connectors[connector].hinge.as_ref()
     }
 
-    /// The path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports.
+    /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports.
     pub fn joint_name(&self, owner: JointOwner) -> String {
         match owner {
             JointOwner::Module { module, joint } => {
@@ -112,6 +124,7 @@ impl Assembly {
         }
     }
 
+    /// Returns the path name of a port, such as `leg[2].m[0].front`.
     pub fn port_name(&self, p: PortRef) -> String {
         format!("{}.{}", self.modules[p.module].name, self.module_type(p.module).ports[p.port].name)
     }

@@ -15,8 +15,11 @@
 //! ([`crate::optimize::cholesky`]). The inequalities are rows beside those of J by an active-set method: what is
 //! violated is taken in, and what would pull is dropped. A joint at its limit is fixed for the rest of the step.
 
+use super::assembly::{Assembly, JointOwner};
 use super::jacobian::{LinkFrame, geometric_jacobian};
-use super::{Assembly, JointKind, JointOwner, Kinematics};
+use super::kinematics::Kinematics;
+use super::library::JointKind;
+use super::step::Motion;
 use crate::geometry::rigid_transform::rotation_vector;
 use crate::geometry::{Pose, RigidTransform, Vec3};
 use crate::interrupt;
@@ -37,13 +40,13 @@ pub struct Row {
 pub struct Evaluation {
     /// The norm of the residual of the task: it sets the damping.
     pub residual: f64,
-    /// What is to become less from iteration to iteration, residual and violations of inequalities together.
+    /// The figure that is to become less from iteration to iteration: residual and violations of inequalities together.
     pub merit: f64,
     /// True where the task is fulfilled.
     pub converged: bool,
 }
 
-/// What is to be reached. Joint positions are numbered as the problem likes; every method after
+/// The problem that [`solve`] solves. Joint positions are numbered as the problem likes; every method after
 /// [`evaluate`](IkProblem::evaluate) is about the positions given there last.
 pub trait IkProblem {
     /// Works out what the other methods need at these joint positions; `iteration` counts from 0.
@@ -111,7 +114,7 @@ impl Default for Settings {
     }
 }
 
-/// Why a descent ended.
+/// The reason that a descent ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StopReason {
     /// The task is fulfilled.
@@ -269,7 +272,7 @@ fn damped_least_squares(
 /// The trace of `J Jᵀ` counts as at least this, so that a task that no joint moves is damped, too.
 const TRACE_MIN: f64 = 1e-9;
 
-/// What of a pose is to be reached.
+/// The part of a pose that is to be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// Origin and orientation: six rows.
@@ -288,13 +291,13 @@ pub struct Reach<'a> {
     pub frame: LinkFrame,
     /// The module whose body stays where it is, and its world pose.
     pub base: (usize, Pose),
-    /// Where the frame is to be, `X_WF`.
+    /// The pose at which the frame is to be, `X_WF`.
     pub goal: Pose,
-    /// What of that matters.
+    /// The part of that pose that matters.
     pub aim: Aim,
     /// Positions that joints are drawn to as far as the goal allows (secondary task), one for every joint.
     pub rest: Option<&'a [f64]>,
-    /// How near is near enough: m, and rad.
+    /// The errors at which the goal counts as reached: m, and rad.
     pub tolerance: (f64, f64),
 }
 
@@ -303,7 +306,7 @@ pub struct Reach<'a> {
 pub struct Reached {
     /// Positions of all joints by [`super::JointId`], radians or metres; within the joints' limits.
     pub joints: Vec<f64>,
-    /// Why the descent ended; only [`StopReason::Converged`] means that the goal is reached.
+    /// The reason that the descent ended; only [`StopReason::Converged`] means that the goal is reached.
     pub stop: StopReason,
     /// Steps taken.
     pub iterations: usize,
@@ -379,7 +382,7 @@ fn chain_length(task: &Reach, path: &[usize], limits: &[(f64, f64)]) -> f64 {
     let of = |pair: &[usize]| {
         let (step, _) = task.kinematics.step_between(pair[0], pair[1]);
         let travel = match step.motion {
-            super::step::Motion::Along(_) => {
+            Motion::Along(_) => {
                 let most = |&(joint, factor): &(usize, f64)| {
                     let (low, high): (f64, f64) = limits[joint];
                     factor.abs() * low.abs().max(high.abs())

@@ -1,8 +1,9 @@
 //! The geometric Jacobian of a frame on a link: how fast it moves for each joint that moves (Siciliano et al., *Robotics*
 //! 2009, sec. 3.1).
 
+use super::assembly::{Assembly, PortRef};
+use super::kinematics::Kinematics;
 use super::step::{Motion, Step};
-use super::{Assembly, Kinematics, PortRef};
 use crate::geometry::{Pose, Vec3};
 use nalgebra::{DMatrix, Matrix6};
 

@@ -1,22 +1,24 @@
-//! Forward kinematics: where every link is, from the positions of the joints.
+//! Forward kinematics: the poses of all links from the positions of the joints.
 //!
 //! An [`Assembly`] is compiled once, for a root and the bonds that hold, into one [`Step`] per link,
 //! parents first. Links of all modules are numbered in order of module, then of link.
 
+use super::assembly::{Assembly, JointOwner, PortRef};
 use super::step::{Motion, Step, driven};
 use super::tree::{self, Tree};
-use super::{Assembly, JointOwner, PortRef};
 use crate::geometry::pose::turned;
 use crate::geometry::{Pose, Vec3};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
+/// An assembly compiled for forward kinematics.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
     /// The module whose body carries all others.
     pub root: usize,
+    /// The spanning tree of modules over the bonds that hold.
     pub tree: Tree,
-    /// One for every link that hangs on the root but the root itself, parents before children.
+    /// One step for every link that is connected with the root but the root itself, parents before children.
     pub steps: Vec<Step>,
     /// Index of the first link of each module, and one more at the end.
     first_link: Vec<usize>,
@@ -30,18 +32,20 @@ pub struct Kinematics {
     step_of: Vec<Option<usize>>,
 }
 
-/// How far a bond that closes a loop is from closing it.
+/// The closure error of a bond that closes a kinematic loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
+    /// Index in [`Assembly::bonds`].
     pub bond: usize,
-    /// Metres between the port where it is and where the bond wants it.
+    /// Between the port where it is and where the bond wants it, m.
     pub distance: f64,
-    /// Radians between the two orientations.
+    /// Between the two orientations, rad.
     pub angle: f64,
 }
 
 impl Kinematics {
-    /// Compiles `robot` with the bonds for which `holds` says true, seen from module `root`.
+    /// Compiles `robot` with the bonds for which `holds` says true, seen from module `root`. Panics unless `holds` has one
+    /// flag for every bond.
     pub fn new(robot: &Assembly, holds: &[bool], root: usize) -> Kinematics {
         assert_eq!(holds.len(), robot.bonds.len(), "one flag for every bond");
         let first_link = sums(robot, |module| robot.module_type(module).links.len());
@@ -71,6 +75,7 @@ impl Kinematics {
         compiled
     }
 
+    /// Returns the number of links of all modules.
     pub fn link_count(&self) -> usize {
         self.step_of.len()
     }
@@ -80,30 +85,32 @@ impl Kinematics {
         self.joint_count
     }
 
+    /// Returns the number of a module's link among all links.
     pub fn link(&self, module: usize, link: usize) -> usize {
         self.first_link[module] + link
     }
 
+    /// Returns the numbers of a module's links.
     pub fn links_of(&self, module: usize) -> Range<usize> {
         self.first_link[module]..self.first_link[module + 1]
     }
 
-    /// The module of a link.
+    /// Returns the module of a link.
     pub fn module_of(&self, link: usize) -> usize {
         self.first_link.partition_point(|&first| first <= link) - 1
     }
 
-    /// The joint of a module by its index there.
+    /// Returns the number of a module's joint among all joints, a [`super::JointId`].
     pub fn joint(&self, module: usize, joint: usize) -> usize {
         self.first_joint[module] + joint
     }
 
-    /// The joint of the bond's hinge, if it has one.
+    /// Returns the number of a bond's hinge among all joints; `None` if the bond does not turn.
     pub fn hinge(&self, bond: usize) -> Option<usize> {
         self.hinge_joint[bond]
     }
 
-    /// The step that places a link against its parent.
+    /// Returns the step that places a link against its parent; `None` for the root's body and for loose links.
     pub fn step(&self, link: usize) -> Option<&Step> {
         self.step_of[link].map(|index| &self.steps[index])
     }
@@ -116,8 +123,8 @@ impl Kinematics {
         down.or_else(up).expect("the links are neighbours in the tree")
     }
 
-    /// World poses of all links (`X_WL`), with the root module's body at `X_WR`. `joints` holds one
-    /// position for each joint. Loose links' entries of `out` stay as they are.
+    /// Writes the world poses of all links, `X_WL`, with the root module's body at `X_WR`. `joints` holds one position
+    /// (rad, m) for each joint. The entries of `out` of links that are not connected with the root stay as they are.
     pub fn link_poses(&self, joints: &[f64], X_WR: &Pose, out: &mut [Pose]) {
         crate::interrupt::checkpoint();
         out[self.first_link[self.root]] = *X_WR;
@@ -126,26 +133,26 @@ impl Kinematics {
         }
     }
 
-    /// Like [`link_poses`](Self::link_poses), with the body of module `base` at `X_WB` whatever the
-    /// root is. The base must not be loose.
+    /// Writes what [`link_poses`](Self::link_poses) writes, with the body of module `base` at `X_WB` whatever the root is.
+    /// The base must be connected with the root.
     pub fn link_poses_from(&self, base: usize, joints: &[f64], X_WB: &Pose, out: &mut [Pose]) {
         self.link_poses(joints, &Pose::identity(), out);
         let X_WR = X_WB * out[self.link(base, 0)].inverse();
         self.link_poses(joints, &X_WR, out);
     }
 
-    /// The pose of a module: that of its body, the first link.
+    /// Returns the pose of a module: that of its body, the first link.
     pub fn module_pose(&self, module: usize, poses: &[Pose]) -> Pose {
         poses[self.link(module, 0)]
     }
 
-    /// `X_WP`
+    /// Returns the world pose of a port, `X_WP`.
     pub fn port_pose(&self, robot: &Assembly, port: PortRef, poses: &[Pose]) -> Pose {
         let declared = &robot.module_type(port.module).ports[port.port];
         poses[self.link(port.module, declared.link)] * declared.pose
     }
 
-    /// Links from `a` to `b` along the tree, both included; `None` if one of them is loose.
+    /// Returns the links from `a` to `b` along the tree, both included; `None` if bonds do not connect them.
     pub fn path(&self, a: usize, b: usize) -> Option<Vec<usize>> {
         let to_root = |link: usize| {
             let parents = std::iter::successors(Some(link), |&l| self.step(l).map(|step| step.parent));
@@ -168,7 +175,8 @@ impl Kinematics {
         Some(up)
     }
 
-    /// Centre of mass of the links that hang on the root, in the world, and their mass in kg.
+    /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their mass (kg). Of
+    /// no mass, the world's origin.
     pub fn centre_of_mass(&self, robot: &Assembly, poses: &[Pose]) -> (Vec3, f64) {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
         for &(module, _) in &self.tree.order {
@@ -180,19 +188,19 @@ impl Kinematics {
         (if mass > 0.0 { moment / mass } else { moment }, mass)
     }
 
-    /// How far the bonds that close loops are from doing so.
+    /// Returns the closure errors of the bonds that close loops, in order of bond.
     pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
         self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
     }
 
-    /// How far two ports are from being mated by a bond, whether it holds or not.
+    /// Returns the error of two ports from the mate that a bond makes, whether it holds or not.
     pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
         let Pair { p, q } = self.mated(robot, bond, joints, poses);
         let error = p.inverse() * q;
         Residual { bond, distance: error.translation.vector.norm(), angle: error.rotation.angle() }
     }
 
-    /// Where the second port of a bond should be, and where it is.
+    /// Returns the world poses of the second port of a bond: where it should be, and where it is.
     fn mated(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Pair {
         let declared = &robot.bonds[bond];
         let hinge = robot.hinge(bond).zip(self.hinge_joint[bond]);
@@ -241,7 +249,7 @@ impl Kinematics {
         self.push(Step::new(self.link(module, from), self.link(module, to), &X_JA, &X_JB, motion, terms));
     }
 
-    /// The bond as seen from the parent side of the tree.
+    /// Returns the ports of a bond, the parent's in the tree first.
     fn across(&self, robot: &Assembly, bond: usize, child: usize) -> (PortRef, PortRef) {
         let bond = &robot.bonds[bond];
         if bond.b.module == child { (bond.a, bond.b) } else { (bond.b, bond.a) }
@@ -276,7 +284,7 @@ struct Pair {
     q: Pose,
 }
 
-/// `X_PQ` of a bond whose hinge, if it has one, is at zero: `Rz(180°) · Rx(θ)`.
+/// Returns `X_PQ` of a bond whose hinge, if it has one, is at zero: `Rz(180°) · Rx(θ)`.
 pub fn mate(robot: &Assembly, bond: usize) -> Pose {
     let bond = &robot.bonds[bond];
     let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;
@@ -284,7 +292,7 @@ pub fn mate(robot: &Assembly, bond: usize) -> Pose {
     turned(Vec3::z(), PI) * turned(Vec3::x(), TAU * f64::from(bond.turn) / turns)
 }
 
-/// Running sums over the modules, from 0 to the whole.
+/// Returns running sums over the modules, from 0 to the whole.
 fn sums(robot: &Assembly, count: impl Fn(usize) -> usize) -> Vec<usize> {
     let mut sums = vec![0];
     for module in 0..robot.modules.len() {

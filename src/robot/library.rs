@@ -9,36 +9,43 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Library {
+    /// Kinds of connectors.
     pub connectors: Vec<Connector>,
+    /// Types of modules with links and joints.
     pub modules: Vec<ModuleType>,
+    /// Types of expanding cubes.
     pub cells: Vec<Cell>,
+    /// Types of linear actuators.
     pub struts: Vec<Strut>,
 }
 
+/// A kind of connector: what it mates with, how, and what a bond of it holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Connector {
+    /// The declared name.
     pub name: String,
     /// Indices of the connectors it mates with; the relation is symmetric.
     pub mates: Vec<usize>,
     /// Allowed turns: `k * 360° / turns`, k = 0..turns. At least 1.
     pub turns: u32,
-    /// Pull along the normal that a bond holds, N.
+    /// Pull along the normal that a bond holds, N; `None`: no limit stated.
     pub holds_force: Option<f64>,
-    /// Moment across the bond that it holds, N·m.
+    /// Moment across the bond that it holds, N·m; `None`: no limit stated.
     pub holds_moment: Option<f64>,
+    /// The error that docking tolerates; `None`: not stated.
     pub capture: Option<Capture>,
     /// The joint that lives in the bond, if bonds of this connector turn.
     pub hinge: Option<Hinge>,
 }
 
-/// How far two ports may be from a perfect mate when they dock.
+/// The greatest error of two ports from a perfect mate at which they dock.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Capture {
-    /// Metres between the port origins.
+    /// Between the port origins, m.
     pub distance: f64,
-    /// Radians between the orientations.
+    /// Between the orientations, rad.
     pub angle: f64,
 }
 
@@ -46,8 +53,10 @@ pub struct Capture {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hinge {
+    /// Unit vector in the frame of the first port.
     #[schemars(with = "[f64; 3]")]
     pub axis: Vec3,
+    /// Its range, speed and torque.
     pub limits: Limits,
 }
 
@@ -59,8 +68,11 @@ pub struct ModuleType {
     pub name: String,
     /// The first link is the body: its frame is the module's frame.
     pub links: Vec<Link>,
+    /// The joints, which make a tree of the links.
     pub joints: Vec<Joint>,
+    /// The places at which it docks.
     pub ports: Vec<Port>,
+    /// Motors that drive several joints together.
     pub motors: Vec<Motor>,
     /// Pairs of links that meet by design.
     pub touching: Vec<(usize, usize)>,
@@ -70,9 +82,11 @@ pub struct ModuleType {
     pub contact: f64,
 }
 
+/// A rigid body of a module.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
+    /// The declared name.
     pub name: String,
     /// The link's frame in the module's frame, all joints at zero (`X_ML`).
     #[serde(with = "crate::geometry::json")]
@@ -82,8 +96,9 @@ pub struct Link {
     pub shape: Vec<Placed>,
     /// To judge, in the link's frame; the same as `shape` unless declared otherwise.
     pub collides: Vec<Placed>,
+    /// Mass, kg.
     pub mass: f64,
-    /// Centre of mass in the link's frame.
+    /// Centre of mass in the link's frame, m.
     #[schemars(with = "[f64; 3]")]
     pub com: Vec3,
     /// About the centre of mass in the link's frame, symmetric, kg·m²: xx, yy, zz, xy, xz, yz.
@@ -92,11 +107,15 @@ pub struct Link {
     pub friction: f64,
 }
 
+/// The degree of freedom of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
+    /// Turns about its axis; positions in radians.
     Revolute,
+    /// Slides along its axis; positions in metres.
     Prismatic,
+    /// Does not move.
     Fixed,
 }
 
@@ -106,33 +125,40 @@ pub enum JointKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
+    /// The declared name.
     pub name: String,
+    /// Index of the link that carries, in [`ModuleType::links`].
     pub parent: usize,
+    /// Index of the link that is carried.
     pub child: usize,
+    /// The degree of freedom.
     pub kind: JointKind,
-    /// `X_MJ`
+    /// The joint's frame in the module's frame, all joints at zero (`X_MJ`).
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
     /// Unit vector in the joint's frame.
     #[schemars(with = "[f64; 3]")]
     pub axis: Vec3,
+    /// Its range, speed, acceleration and effort.
     pub limits: Limits,
-    /// No motor: it can't be commanded.
+    /// True if it has no motor, so that it can't be commanded.
     pub passive: bool,
     /// The joint follows others of its module: `q = Σ factor · q_index`. It takes no commands.
     pub mimic: Option<Vec<(usize, f64)>>,
 }
 
-/// What a joint or a motor can do. Radians or metres; `None`: no limit stated.
+/// The limits of a joint or a motor. Radians or metres; `None`: no limit stated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
     /// Lowest and highest position; `None` is a continuous joint.
     pub range: Option<(f64, f64)>,
+    /// Greatest speed, rad/s or m/s.
     pub speed: Option<f64>,
+    /// Greatest acceleration, rad/s² or m/s².
     pub acceleration: Option<f64>,
-    /// Torque (N·m) or force (N).
+    /// Greatest torque (N·m) or force (N).
     pub effort: Option<f64>,
 }
 
@@ -140,17 +166,23 @@ pub struct Limits {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motor {
+    /// The declared name.
     pub name: String,
+    /// Index in [`ModuleType::joints`] and factor of each joint that it drives.
     pub joints: Vec<(usize, f64)>,
+    /// Its range, speed, acceleration and effort.
     pub limits: Limits,
 }
 
+/// A place of a module at which it docks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Port {
+    /// The declared name.
     pub name: String,
+    /// Index of its link in [`ModuleType::links`].
     pub link: usize,
-    /// Origin on the mating face, +x outward, +z up, in the frame of its link (`X_LP`).
+    /// The port's frame in the frame of its link (`X_LP`): origin on the mating face, +x outward, +z up.
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
@@ -162,11 +194,17 @@ pub struct Port {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cell {
+    /// The declared name.
     pub name: String,
+    /// Edge of the cube when it is expanded, m.
     pub size: f64,
+    /// Edge of the cube when it is contracted, m.
     pub shrinks_to: f64,
+    /// Mass, kg.
     pub mass: f64,
+    /// Greatest force with which it expands and contracts, N.
     pub force: f64,
+    /// Greatest speed at which a face moves against the opposite one, m/s.
     pub speed: f64,
 }
 
@@ -174,10 +212,15 @@ pub struct Cell {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Strut {
+    /// The declared name.
     pub name: String,
+    /// Least and greatest length, m.
     pub length: (f64, f64),
+    /// Greatest speed of lengthening and shortening, m/s.
     pub speed: f64,
+    /// Greatest force along it, N.
     pub force: f64,
+    /// Mass, kg.
     pub mass: f64,
     /// Least distance to other struts, m.
     pub clearance: f64,

@@ -2,17 +2,23 @@
 
 use crate::geometry::{Placed, Unsound, Vec3, volume};
 
-/// A rigid body's mass (kg), centre of mass (m, in the frame that its shapes are placed in) and
-/// inertia about that centre (kg·m²; xx, yy, zz, xy, xz, yz as entries of the symmetric matrix).
+/// The mass properties of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
+    /// Mass, kg.
     pub mass: f64,
+    /// Centre of mass in the frame that the shapes are placed in, m.
     pub com: Vec3,
+    /// Inertia about the centre of mass, kg·m²: the entries xx, yy, zz, xy, xz, yz of the symmetric matrix, along the axes
+    /// of that frame.
     pub inertia: [f64; 6],
 }
 
-/// Of shapes that fill space with `density` (kg/m³). Where shapes overlap, the overlap counts twice.
-/// Refuses a shape that encloses no volume.
+/// Returns the mass properties of shapes that fill space with `density` (kg/m³). Where shapes overlap, the overlap counts
+/// as often as shapes share it.
+///
+/// # Errors
+/// The fault of a shape that encloses no volume, or that there is none.
 pub fn of_shapes(shapes: &[Placed], density: f64) -> Result<Mass, Unsound> {
     let whole = volume::of_placed(shapes)?;
     let inertia = whole.inertia();
@@ -24,8 +30,12 @@ pub fn of_shapes(shapes: &[Placed], density: f64) -> Result<Mass, Unsound> {
     })
 }
 
-/// Splits a module's mass over its links by volume: of uniform density, links with a mass of their
-/// own (`stated`, kg) take it from the whole first. `None` where the stated masses exceed the whole.
+/// Splits a module's mass (kg) over its links, each given by its shapes and its own mass if that is stated: those take
+/// theirs from the whole, the others share the rest by volume, at one density. `None` where the stated masses exceed the
+/// whole.
+///
+/// # Errors
+/// The fault of a shape that encloses no volume.
 pub fn split(links: &[(&[Placed], Option<f64>)], mass: f64) -> Result<Option<Vec<Mass>>, Unsound> {
     let unit: Vec<Mass> =
         links.iter().map(|(shapes, _)| of_shapes(shapes, 1.0)).collect::<Result<_, Unsound>>()?;

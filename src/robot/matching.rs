@@ -1,22 +1,23 @@
-//! Whether two robots are the same but for the names of their modules: an isomorphism that keeps
-//! module types, ports, turns and joint positions, where a module may lie turned round if it is the same
-//! then.
+//! Graph isomorphism of robots: two are the same but for the names of their modules if there is a map that keeps module
+//! types, ports, turns and joint positions, where a module may lie turned round if it is the same then.
 //!
 //! A connected robot is explored from one module along its bonds, and a bond leaves by a known port:
 //! so the image of one module fixes all others. Every image of the first module is tried in turn,
 //! which takes time in the square of the number of modules at worst.
 
+use super::assembly::{Assembly, JointOwner, PortRef, State};
+use super::kinematics::Kinematics;
+use super::library::{JointKind, Library};
 use super::symmetry::{Symmetry, symmetries};
-use super::{Assembly, JointKind, Kinematics, Library, PortRef, State};
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-/// How the modules and bonds of robot B are found in robot A.
+/// An isomorphism from robot B to robot A: the images of its modules, bonds and joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matching {
     /// For every module of B, the module of A.
     pub modules: Vec<usize>,
-    /// For every module of B, how it lies there.
+    /// For every module of B, the symmetry by which it lies there.
     pub turned: Vec<Symmetry>,
     /// For every bond of B that holds, the bond of A.
     pub bonds: Vec<Option<usize>>,
@@ -26,19 +27,19 @@ pub struct Matching {
 }
 
 impl Matching {
-    /// Where a port of B is in A.
+    /// Returns the image in A of a port of B.
     pub fn port(&self, port: PortRef) -> PortRef {
         let turned = &self.turned[port.module];
         PortRef { module: self.modules[port.module], port: turned.ports[port.port] }
     }
 
-    /// Where a joint of a module of B is in A: module, and index in its joints.
+    /// Returns the image in A of a joint of a module of B: module, and index in its joints.
     pub fn joint(&self, module: usize, joint: usize) -> (usize, usize) {
         (self.modules[module], self.turned[module].joints[joint])
     }
 }
 
-/// Why two robots do not match; modules by path name.
+/// The reason that two robots do not match; modules are told by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mismatch {
     /// Different numbers of modules.
@@ -71,8 +72,11 @@ impl std::fmt::Display for Mismatch {
     }
 }
 
-/// Finds robot B, in its state, in robot A, in its own. Joint positions agree within `tol_joint` (rad
-/// or m), those of endless joints up to whole turns.
+/// Finds an isomorphism from robot B, in its state, to robot A, in its own. Joint positions agree within `tol_joint` (rad
+/// or m), those of endless joints up to whole turns. Of several the one that keeps the first module's name, if it can.
+///
+/// # Errors
+/// What differs in the attempt that mapped the most modules.
 pub fn matching(
     a: (&Assembly, &State),
     b: (&Assembly, &State),
@@ -104,7 +108,7 @@ pub fn matching(
     Err(best.expect("there is at least one module").1)
 }
 
-/// Whether two module types are the same but for the numbering of their connectors.
+/// Returns true if two module types are the same but for the numbering of their connectors.
 fn same_kind(a: (&Library, usize), b: (&Library, usize)) -> bool {
     let (of_a, of_b) = (&a.0.modules[a.1], &b.0.modules[b.1]);
     if std::ptr::eq(of_a, of_b) {
@@ -259,7 +263,7 @@ impl<'a> Search<'a> {
         else {
             return Ok(());
         };
-        let name = |side: &Side, bond| side.robot.joint_name(super::JointOwner::Bond(bond));
+        let name = |side: &Side, bond| side.robot.joint_name(JointOwner::Bond(bond));
         let endless = self.b.robot.hinge(bond_b).is_some_and(|h| h.limits.range.is_none());
         self.joint((at_a, name(&self.a, bond_a)), (at_b, name(&self.b, bond_b)), endless, found)
     }

@@ -1,28 +1,38 @@
-//! Modules, what they are made of, robots composed of them, and where everything is.
+//! Modules, what they are made of, robots composed of them, and the kinematics and mass of robots.
+//!
+//! In reading order: declarations ([`Library`]), robots and their states ([`Assembly`], [`State`]), mass ([`mass`]), forward
+//! kinematics ([`Kinematics`]), the geometric Jacobian ([`jacobian`]) and inverse kinematics ([`inverse_kinematics`]), when
+//! two robots are the same ([`matching()`]), rigidity of trusses ([`truss`]), and files of RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
-pub mod assembly;
-pub mod library;
+mod assembly;
+mod library;
 pub mod mass;
+
+mod kinematics;
+mod step;
+mod tree;
+
+pub mod inverse_kinematics;
+pub mod jacobian;
+
+mod matching;
+mod symmetry;
+
+pub mod truss;
+mod truss_band;
+
 pub mod rofi;
 pub mod rofi_assembly;
 pub mod rofi_json;
 
-pub mod inverse_kinematics;
-pub mod jacobian;
-pub mod kinematics;
-pub mod matching;
-pub mod step;
-pub mod symmetry;
-pub mod tree;
-pub mod truss;
-mod truss_band;
-
 pub use assembly::{Assembly, Bond, JointId, JointOwner, ModuleInstance, PortRef, State};
-pub use kinematics::{Kinematics, Residual};
+pub use kinematics::{Kinematics, Residual, mate};
 pub use library::{
     Capture, Cell, Connector, Hinge, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Port, Strut,
 };
 pub use mass::Mass;
 pub use matching::{Matching, Mismatch, matching};
+pub use step::{Motion, Step, driven};
 pub use symmetry::{Symmetry, symmetries};
+pub use tree::Tree;

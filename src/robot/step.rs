@@ -1,9 +1,9 @@
-//! One step of forward kinematics: a link placed against its parent by a joint, or by a bond.
+//! One step of forward kinematics: the pose of a link from that of its parent, across a joint or a bond.
 //!
 //! The pose of the child is `X_WB = X_WA · Trans(shift) · Turn · Rot(axis, q) · Trans(offset)`: the
 //! axis passes the child's frame at `-offset`, which is zero for most modules and then costs nothing.
 
-use super::{JointKind, ModuleType};
+use super::library::{JointKind, ModuleType};
 use crate::geometry::{Pose, Vec3, sin_cos};
 use nalgebra::{Quaternion, UnitQuaternion};
 
@@ -13,14 +13,18 @@ const ROUNDING: f64 = 1e-15;
 /// Mimics may follow mimics; deeper than this they can only be going round in circles.
 const MIMIC_DEPTH_MAX: usize = 16;
 
+/// The placement of a link B against its parent A.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
+    /// The parent's number among all links.
     pub parent: usize,
+    /// The link's number.
     pub link: usize,
     /// Position of the joint's axis in the parent's frame, m.
     pub shift: Vec3,
     /// Orientation of the child in the parent's frame with the joint at zero.
     pub turn: UnitQuaternion<f64>,
+    /// The motion that the joint's position adds.
     pub motion: Motion,
     /// Position of the child's origin from the axis, in the child's frame, m.
     pub offset: Vec3,
@@ -29,7 +33,7 @@ pub struct Step {
     offset_from_axis: bool,
 }
 
-/// What gives a step its position: joints times factors. In place for the one that nearly all have,
+/// The joints and factors that give a step its position. In place for the one that nearly all have,
 /// so that walking over the steps reads one stretch of memory.
 #[derive(Clone, Debug, PartialEq)]
 enum Drive {
@@ -38,21 +42,26 @@ enum Drive {
     Sum(Box<[(usize, f64)]>),
 }
 
-/// How a step moves, by the joint's position.
+/// The motion of a step for a joint position in radians or metres. Turns about an axis of the frame cost half as much as
+/// others, and nearly all joints have such an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
+    /// None.
     Fixed,
-    /// About an axis of the child's frame: +x, +y, +z, or any.
+    /// A turn about +x of the child's frame, times this sign.
     X(f64),
+    /// A turn about +y of the child's frame, times this sign.
     Y(f64),
+    /// A turn about +z of the child's frame, times this sign.
     Z(f64),
+    /// A turn about this unit vector of the child's frame.
     Axis(Vec3),
-    /// Along a direction of the parent's frame.
+    /// A shift along this unit vector of the parent's frame.
     Along(Vec3),
 }
 
 impl Motion {
-    /// About or along a unit vector in the frame of the joint.
+    /// Returns the motion of a joint about or along a unit vector in the frame of the joint.
     pub fn new(kind: JointKind, axis: Vec3) -> Motion {
         match kind {
             JointKind::Revolute => Motion::revolute(axis),
@@ -61,6 +70,7 @@ impl Motion {
         }
     }
 
+    /// Returns a turn about an axis, which need not be of unit length but must not be zero.
     pub fn revolute(axis: Vec3) -> Motion {
         let axis = axis.normalize().map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
         match (axis.x != 0.0, axis.y != 0.0, axis.z != 0.0) {
@@ -71,7 +81,7 @@ impl Motion {
         }
     }
 
-    /// The axis of a revolute joint in the child's frame.
+    /// Returns the unit axis of a turn in the child's frame; `None` for other motions.
     pub fn axis(&self) -> Option<Vec3> {
         match *self {
             Motion::X(sign) => Some(Vec3::x() * sign),
@@ -84,8 +94,8 @@ impl Motion {
 }
 
 impl Step {
-    /// From the poses of parent A and child B, joint at zero, in the frame J of the joint, in which
-    /// `motion` has its axis.
+    /// Returns the step from the poses of parent A and child B with the joint at zero, in the frame J of the joint, in
+    /// which `motion` has its axis. `terms` are the joints and factors whose sum is the position.
     pub fn new(
         parent: usize,
         link: usize,
@@ -123,7 +133,7 @@ impl Step {
         }
     }
 
-    /// The joint's position: radians or metres.
+    /// Returns the step's position, rad or m, from the positions of all joints.
     #[inline]
     pub fn position(&self, joints: &[f64]) -> f64 {
         match &self.drive {
@@ -132,7 +142,7 @@ impl Step {
         }
     }
 
-    /// The joint's position is the sum of these joints times factors: one, unless it mimics.
+    /// Returns the joints and factors whose sum is the step's position: one joint, unless it mimics others.
     pub fn terms(&self) -> &[(usize, f64)] {
         match &self.drive {
             Drive::One(one) => std::slice::from_ref(one),
@@ -140,7 +150,7 @@ impl Step {
         }
     }
 
-    /// `X_WB` from `X_WA`.
+    /// Returns `X_WB` from `X_WA` and the positions of all joints.
     #[inline]
     pub fn place(&self, X_WA: &Pose, joints: &[f64]) -> Pose {
         let mut shift = self.shift;
@@ -160,7 +170,7 @@ impl Step {
         Pose::from_parts(p.into(), rotation)
     }
 
-    /// `R · Rot(axis, angle)`; an axis of the frame costs half the products.
+    /// Returns `R · Rot(axis, angle)`; an axis of the frame costs half the products.
     #[inline]
     fn rotated(&self, R: UnitQuaternion<f64>, angle: f64) -> UnitQuaternion<f64> {
         let (s, c) = sin_cos(0.5 * angle);
@@ -188,7 +198,8 @@ impl Step {
     }
 }
 
-/// What drives a joint of a module whose joints begin at `first`: itself, or those it mimics.
+/// Returns the joints and factors that drive a joint of a module whose joints begin at `first`: itself, or those it
+/// mimics. A fixed joint has none.
 pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)> {
     if kind.joints[joint].kind == JointKind::Fixed {
         return vec![];

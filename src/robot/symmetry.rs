@@ -1,23 +1,27 @@
-//! The ways in which a module is the same again when it is turned: which link, joint and port then
-//! stands where which one stood.
+//! The symmetries of a module: the turns after which it is the same again, with the permutations of links, joints and
+//! ports that they make.
 //!
 //! A RoFI module has no front: turned end for end, alpha and beta change places and nothing else does.
 
-use super::{Joint, JointKind, ModuleType};
+use super::library::{Joint, JointKind, ModuleType, Port};
 use crate::geometry::{Pose, Shape, Vec3};
 
 /// Lengths (m), directions, masses (kg) and moments that differ by less are the same.
 const TOL_SAME: f64 = 1e-9;
 
-/// Where each link, joint and port of a module goes.
+/// A symmetry of a module, by the images of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symmetry {
+    /// For each link the link that it takes the place of.
     pub links: Vec<usize>,
+    /// For each joint the joint that it takes the place of.
     pub joints: Vec<usize>,
+    /// For each port the port that it takes the place of.
     pub ports: Vec<usize>,
 }
 
 impl Symmetry {
+    /// Returns the symmetry that every module has.
     pub fn identity(kind: &ModuleType) -> Symmetry {
         let all = |count: usize| (0..count).collect();
         Symmetry {
@@ -28,9 +32,8 @@ impl Symmetry {
     }
 }
 
-/// All symmetries of a module under which equal joint positions stay equal joint positions, the identity
-/// first. Those that move no port are left out, and of modules with motors all but the identity: nothing
-/// asks for them.
+/// Returns all symmetries of a module under which equal joint positions stay equal joint positions, the identity first.
+/// Those that move no port are left out, and of modules with motors all but the identity: nothing asks for them.
 pub fn symmetries(kind: &ModuleType) -> Vec<Symmetry> {
     let mut all = vec![Symmetry::identity(kind)];
     if let Some(first) = kind.ports.first().filter(|_| kind.motors.is_empty()) {
@@ -92,7 +95,7 @@ impl<'a> Search<'a> {
         Some(())
     }
 
-    /// Whether bodies and ports are the same, too.
+    /// Returns true if bodies and ports are the same, too.
     fn finish(self) -> Option<Symmetry> {
         let kind = self.kind;
         let links: Vec<(usize, Pose)> = self.links.into_iter().collect::<Option<_>>()?;
@@ -100,7 +103,7 @@ impl<'a> Search<'a> {
         for (link, (to, map)) in links.iter().enumerate() {
             same_body(kind, link, *to, map).then_some(())?;
         }
-        let image = |port: &super::Port| {
+        let image = |port: &Port| {
             let (to, map) = &links[port.link];
             let pose = map * port.pose;
             kind.ports.iter().position(|candidate| {

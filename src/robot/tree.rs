@@ -1,8 +1,8 @@
-//! How modules hang together: a spanning tree of the bonds that hold, breadth first.
+//! The spanning tree of a robot's modules over the bonds that hold, breadth first.
 
-use super::Assembly;
+use super::assembly::Assembly;
 
-/// A spanning tree over the modules that the root's bonds reach.
+/// A spanning tree over the modules that bonds connect with the root.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
     /// Reached modules, parents before children, the root first; each with the bond that leads to it.

@@ -14,7 +14,7 @@ use crate::check::typed::Param;
 use crate::check::{self, Checked, Entry, Meaning, Type};
 use crate::source::{FileId, Files, Symbol, library};
 use crate::syntax::{self, CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, TRUSS, TokenKind, ast};
-use crate::units::table::UNITS;
+use crate::units::UNITS;
 use std::sync::Arc;
 
 /// The state of a session that completion needs; cheap to clone.

@@ -1,12 +1,16 @@
-//! What a quantity measures: exponents of length, mass, time and angle.
+//! Dimensions of quantities: exponents of length, mass, time and angle.
 
 /// A product of powers of metre, kilogram, second and radian. Angle is a dimension of its own, so
 /// that degrees never meet plain numbers silently.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
 pub struct Dimension {
+    /// Exponent of the metre.
     pub length: i8,
+    /// Exponent of the kilogram.
     pub mass: i8,
+    /// Exponent of the second.
     pub time: i8,
+    /// Exponent of the radian.
     pub angle: i8,
 }
 
@@ -36,41 +40,54 @@ pub const NAMED: &[(&str, Dimension)] = &[
 ];
 
 impl Dimension {
+    /// No dimension: a plain number.
     pub const NUMBER: Dimension = dim(0, 0, 0, 0);
+    /// Length, m.
     pub const LENGTH: Dimension = dim(1, 0, 0, 0);
+    /// Mass, kg.
     pub const MASS: Dimension = dim(0, 1, 0, 0);
+    /// Time, s.
     pub const TIME: Dimension = dim(0, 0, 1, 0);
+    /// Angle, rad.
     pub const ANGLE: Dimension = dim(0, 0, 0, 1);
+    /// Speed, m/s.
     pub const SPEED: Dimension = dim(1, 0, -1, 0);
+    /// Angular speed, rad/s.
     pub const ANGULAR_SPEED: Dimension = dim(0, 0, -1, 1);
+    /// Acceleration, m/s².
     pub const ACCELERATION: Dimension = dim(1, 0, -2, 0);
+    /// Angular acceleration, rad/s².
     pub const ANGULAR_ACCELERATION: Dimension = dim(0, 0, -2, 1);
+    /// Force, N.
     pub const FORCE: Dimension = dim(1, 1, -2, 0);
+    /// Torque, N·m, or energy, J.
     pub const TORQUE: Dimension = dim(2, 1, -2, 0);
+    /// Angular momentum, N·m·s.
     pub const ANGULAR_MOMENTUM: Dimension = dim(2, 1, -1, 0);
+    /// Frequency, Hz.
     pub const FREQUENCY: Dimension = dim(0, 0, -1, 0);
 
-    /// The dimension with this name, such as `AngularSpeed`.
+    /// Returns the dimension with this name, such as `AngularSpeed`.
     pub fn named(name: &str) -> Option<Dimension> {
         NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
     }
 
-    /// The name of this dimension, if it has one.
+    /// Returns the name of this dimension, if it has one.
     pub fn name(self) -> Option<&'static str> {
         NAMED.iter().find(|(_, d)| *d == self).map(|(n, _)| *n)
     }
 
-    /// `None` when an exponent leaves -128..=127.
+    /// Returns the dimension of a product; `None` when an exponent leaves -128..=127.
     pub fn times(self, other: Dimension) -> Option<Dimension> {
         self.combine(other, i8::checked_add)
     }
 
-    /// `None` when an exponent leaves -128..=127.
+    /// Returns the dimension of a quotient; `None` when an exponent leaves -128..=127.
     pub fn over(self, other: Dimension) -> Option<Dimension> {
         self.combine(other, i8::checked_sub)
     }
 
-    /// `None` when an exponent leaves -128..=127.
+    /// Returns the dimension of a power; `None` when an exponent leaves -128..=127.
     pub fn power(self, n: i32) -> Option<Dimension> {
         let n = i8::try_from(n).ok()?;
         Some(dim(
@@ -81,7 +98,7 @@ impl Dimension {
         ))
     }
 
-    /// Half of every exponent; `None` when one is odd.
+    /// Returns the dimension of a square root, half of every exponent; `None` when one is odd.
     pub fn root(self) -> Option<Dimension> {
         let all = [self.length, self.mass, self.time, self.angle];
         all.iter()
@@ -98,7 +115,7 @@ impl Dimension {
         ))
     }
 
-    /// Whether a quantity of this dimension may stand where `wanted` is: the same dimension, or one
+    /// Returns true if a quantity of this dimension may stand where `wanted` is: the same dimension, or one
     /// that radians were dropped from. Radians are dropped, never invented, and only where a length
     /// or a mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular
     /// speed no frequency.
@@ -110,7 +127,7 @@ impl Dimension {
                 && Dimension { angle: 0, ..self } == wanted)
     }
 
-    /// The dimension that both fit, if there is one.
+    /// Returns the dimension that both fit, if there is one.
     pub fn common(self, other: Dimension) -> Option<Dimension> {
         if self.fits(other) {
             Some(other)

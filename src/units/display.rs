@@ -1,9 +1,9 @@
-//! Quantities as people write them.
+//! Display of quantities with units, as people write them.
 
-use super::Dimension;
+use super::dimension::Dimension;
 use super::table::{UNITS, to_si};
 
-/// A value in SI as text with a fitting unit: `76 mm` is shown as `76mm`, as it would be written.
+/// Returns a value in SI as text with a fitting unit: `76 mm` is shown as `76mm`, as it would be written.
 /// Six significant digits; a dimension without a name is shown in base units (`0.25kg*m^2`).
 pub fn quantity(value: f64, dimension: Dimension) -> String {
     if dimension == Dimension::NUMBER {
@@ -13,7 +13,7 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     format!("{}{}", number(value / to_si(1.0, factor)), suffix)
 }
 
-/// A plain number: up to six significant digits, no trailing zeros, exponent only when far from one.
+/// Returns a plain number as text: up to six significant digits, no trailing zeros, exponent only when far from one.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -40,10 +40,10 @@ fn trim_zeros(text: &str) -> &str {
     }
 }
 
-/// The units to show a dimension in, largest first; the first in which the value reaches 1 is taken.
+/// Returns the unit to show a value of a dimension in, with its factor to SI: the largest in which the value reaches 1.
 fn best_unit(value: f64, dimension: Dimension) -> (String, f64) {
     const DEG: f64 = std::f64::consts::PI / 180.0;
-    let ladder: &[(&str, f64)] = match dimension.name() {
+    let units: &[(&str, f64)] = match dimension.name() {
         Some("Length") => &[("m", 1.0), ("mm", 1e-3)],
         Some("Angle") => &[("deg", DEG)],
         Some("Time") => &[("s", 1.0), ("ms", 1e-3)],
@@ -56,12 +56,12 @@ fn best_unit(value: f64, dimension: Dimension) -> (String, f64) {
         Some("Frequency") => &[("Hz", 1.0)],
         _ => return (base_units(dimension), 1.0),
     };
-    let last = ladder[ladder.len() - 1];
-    let (name, factor) = *ladder.iter().find(|(_, f)| value.abs() >= f * (1.0 - 1e-12)).unwrap_or(&last);
+    let last = units[units.len() - 1];
+    let (name, factor) = *units.iter().find(|(_, f)| value.abs() >= f * (1.0 - 1e-12)).unwrap_or(&last);
     (name.to_string(), factor)
 }
 
-/// The dimension as a product of base units, as it could be written: `kg*m^2/s^2`.
+/// Returns a dimension as a product of base units, as it could be written: `kg*m^2/s^2`.
 pub fn base_units(dimension: Dimension) -> String {
     let parts =
         [("kg", dimension.mass), ("m", dimension.length), ("rad", dimension.angle), ("s", dimension.time)];
@@ -77,7 +77,7 @@ pub fn base_units(dimension: Dimension) -> String {
     }
 }
 
-/// The usual unit of a dimension, for messages: `rad/s` for an angular speed.
+/// Returns the usual unit of a dimension, for messages: `rad/s` for an angular speed.
 pub fn usual_unit(dimension: Dimension) -> String {
     match dimension.name() {
         Some("Number") => String::new(),
@@ -85,7 +85,7 @@ pub fn usual_unit(dimension: Dimension) -> String {
     }
 }
 
-/// Whether any unit has this name.
+/// Returns true if a unit has this name.
 pub fn is_unit(name: &str) -> bool {
     UNITS.iter().any(|unit| unit.name == name)
 }

@@ -1,9 +1,9 @@
 //! Dimensions and units. Only here degrees and millimetres are known: all else is in SI.
 
-pub mod dimension;
-pub mod display;
-pub mod table;
+mod dimension;
+mod display;
+mod table;
 
-pub use dimension::Dimension;
-pub use display::{is_unit, quantity};
-pub use table::{Unit, unit};
+pub use dimension::{Dimension, NAMED};
+pub use display::{base_units, is_unit, number, quantity, usual_unit};
+pub use table::{UNITS, Unit, to_si, unit};

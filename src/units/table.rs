@@ -1,12 +1,15 @@
 //! The units of the language with their factors to SI.
 
-use super::Dimension;
+use super::dimension::Dimension;
 
 /// A unit: `value_si = value * factor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
+    /// The name as written, such as `mm`.
     pub name: &'static str,
+    /// The dimension of what it measures.
     pub dimension: Dimension,
+    /// One of it in SI.
     pub factor: f64,
 }
 
@@ -45,12 +48,12 @@ pub const UNITS: &[Unit] = &[
     u("Hz", Dimension::FREQUENCY, 1.0),
 ];
 
-/// The unit with this name.
+/// Returns the unit with this name.
 pub fn unit(name: &str) -> Option<Unit> {
     UNITS.iter().copied().find(|unit| unit.name == name)
 }
 
-/// `value` in a unit of this factor, in SI. A factor below one is applied by dividing by its exact
+/// Returns `value`, in a unit of this factor, in SI. A factor below one is applied by dividing by its exact
 /// inverse where that is a whole number: `76mm` is the double nearest to 0.076.
 pub fn to_si(value: f64, factor: f64) -> f64 {
     let inverse = (1.0 / factor).round();

@@ -6,7 +6,7 @@ use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
 use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
 use crate::plan::{Body, Bound, Ground, Plan, file};
-use crate::units::{Dimension, display, quantity};
+use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
 /// The most bytes of source texts in one page; if there are more, no text is included.
@@ -88,11 +88,11 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts.extend(made.budget.map(|budget| ("budget", budget.to_string())));
     facts.push(("duration", time(plan.body.duration())));
     facts.extend(made.bound.map(|Bound::FoldingEnergy(least)| {
-        ("lower bound", format!("no such pattern folds with less than {}J", display::number(least)))
+        ("lower bound", format!("no such pattern folds with less than {}J", units::number(least)))
     }));
     if let Some(verdict) = &plan.verdict {
         facts.push(("verdict", if verdict.ok() { "verified".into() } else { "not verified".into() }));
-        facts.push(("energy", format!("{}J", display::number(libm::round(verdict.energy * 1e3) / 1e3))));
+        facts.push(("energy", format!("{}J", units::number(libm::round(verdict.energy * 1e3) / 1e3))));
         facts.push(("samples", verdict.samples.to_string()));
         facts.extend(verdict.dynamics.iter().flat_map(|d| d.in_words(plan.body.duration())));
     }
@@ -106,8 +106,8 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
         };
         let words = format!(
             "{ground}, gravity {}m/s^2, friction x {}",
-            display::number(world.gravity),
-            display::number(world.friction)
+            units::number(world.gravity),
+            units::number(world.friction)
         );
         facts.push((
             "world",

@@ -5,7 +5,7 @@ use super::number::{number, vector};
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
 use crate::plan::{Body, Cause, CheckKind, Failure, Plan, Verdict, Worst};
-use crate::units::{Dimension, display, quantity};
+use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
 /// The tolerance within which a picture's time is that of a failure, in seconds.
@@ -90,7 +90,7 @@ fn modules(names: &[String], plan: &Plan) -> Vec<usize> {
 /// Returns `[time, text]` of each worst value.
 fn worst(verdict: &Verdict) -> Vec<Value> {
     let length = |x: f64| quantity(short_length(x), Dimension::LENGTH);
-    let percent = |x: f64| format!("{}%", display::number(libm::round(x * 1e4) / 1e2));
+    let percent = |x: f64| format!("{}%", units::number(libm::round(x * 1e4) / 1e2));
     let line = |name: &str, worst: &Option<Worst>, words: &dyn Fn(f64) -> String| {
         worst.as_ref().map(|w| {
             let at = if w.at.is_empty() { String::new() } else { format!(", {}", w.at.join(" and ")) };
@@ -104,7 +104,7 @@ fn worst(verdict: &Verdict) -> Vec<Value> {
         line("bond margin", &verdict.bond_margin, &percent),
         line("speed margin", &verdict.speed_margin, &percent),
         line("angle", &verdict.angle, &|v| quantity(v, Dimension::ANGLE)),
-        line("rigidity", &verdict.rigidity, &|v| display::number(v)),
+        line("rigidity", &verdict.rigidity, &|v| units::number(v)),
     ];
     lines.into_iter().flatten().collect()
 }

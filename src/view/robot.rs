@@ -4,8 +4,8 @@ use super::number::{list, number, rotation, vector};
 use super::solids::{Meshes, solids};
 use crate::geometry::Pose;
 use crate::plan::{DockKind, Segment, Track, Tracks, polynomial};
-use crate::robot::step::{Motion, Step};
 use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, ModuleType};
+use crate::robot::{Motion, Step};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 

@@ -7,7 +7,7 @@
 use crate::support::desk::run_clean;
 use modl::geometry::Pose;
 use modl::plan::{Body, Plan, file};
-use modl::robot::kinematics::Kinematics;
+use modl::robot::Kinematics;
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use serde_json::Value;
 use std::sync::LazyLock;

@@ -4,7 +4,7 @@
 
 use crate::support::robots;
 use modl::geometry::Pose;
-use modl::robot::kinematics::mate;
+use modl::robot::mate;
 use modl::robot::{Assembly, JointKind, Kinematics, PortRef};
 use serde_json::json;
 use std::fmt::Write as _;

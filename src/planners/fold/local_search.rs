@@ -12,7 +12,7 @@ use super::symmetry;
 use super::target::Target;
 use super::weights::Weights;
 use crate::interrupt;
-use crate::units::display::number;
+use crate::units::number;
 use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 

@@ -13,7 +13,7 @@ use super::statics::{LoadKind, Structure, moves};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::{ExemptionKind, Ground};
-use crate::robot::step::Motion;
+use crate::robot::Motion;
 
 /// What was found about the stretches between samples.
 #[derive(Clone, Debug, PartialEq)]

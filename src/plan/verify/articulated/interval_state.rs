@@ -13,7 +13,7 @@ use super::motion_bounds::{Interval, MotionBounds};
 use super::reference_links::ReferenceLinks;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::Kinematics;
-use crate::robot::step::{Motion, Step};
+use crate::robot::{Motion, Step};
 use nalgebra::Matrix3;
 
 #[derive(Clone, Debug, Default)]

@@ -53,7 +53,7 @@ fn drives(robot: &Assembly) -> Vec<Drive> {
             JointOwner::Module { module, joint } => {
                 let declared = &robot.module_type(module).joints[joint];
                 let kind = declared.kind;
-                let terms = crate::robot::step::driven(robot.module_type(module), joint, firsts[module]);
+                let terms = crate::robot::driven(robot.module_type(module), joint, firsts[module]);
                 let turns = kind == JointKind::Revolute;
                 (kind != JointKind::Fixed).then_some(Drive { name, limits: declared.limits, terms, turns })
             }

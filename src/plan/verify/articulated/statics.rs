@@ -7,8 +7,8 @@
 use super::model::Model;
 use super::stance::Stance;
 use crate::geometry::Vec3;
-use crate::robot::step::{Motion, Step};
 use crate::robot::{JointId, JointKind, PortRef};
+use crate::robot::{Motion, Step};
 use nalgebra::DMatrix;
 
 /// Everything of a model that holds loads; compiled once for its bonds.

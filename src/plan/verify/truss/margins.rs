@@ -6,7 +6,7 @@ use super::{distance, shape};
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
 use crate::plan::{CheckKind, Failure, Interpolation, Margins};
-use crate::units::display::number;
+use crate::units::number;
 
 /// How far a stated margin may be off: rounding, of the singular values of large trusses.
 const TOL_MARGIN: f64 = 1e-7;

@@ -8,7 +8,7 @@ use super::lengths;
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, LengthSum, NodePaths};
-use crate::units::display::number;
+use crate::units::number;
 use crate::units::{Dimension, quantity};
 use nalgebra::DMatrix;
 
