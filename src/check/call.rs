@@ -129,8 +129,8 @@ impl<'a> Checker<'a> {
     ) -> Callee {
         if let Some(entity) = self.file_item(scope, object, field) {
             return match entity {
-                Some(Entity::Def(id)) => self.def_callee(id, span),
-                _ => Callee::Error,
+                Entity::Def(id) => self.def_callee(id, span),
+                Entity::File(_) | Entity::Error => Callee::Error,
             };
         }
         let object = self.expr(scope, object, None);
@@ -160,13 +160,13 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the item `gaits.caterpillar` of an imported file. `None` if the object is no file name;
-    /// `Some(None)` if the file has no such item (reported).
+    /// [`Entity::Error`] if the file has no such item (reported).
     pub(super) fn file_item(
         &mut self,
         scope: &mut Scope,
         object: &ast::Expr,
         field: ast::Name,
-    ) -> Option<Option<Entity>> {
+    ) -> Option<Entity> {
         let ast::ExprKind::Name(name) = &object.kind else { return None };
         if scope.has_local(*name) || scope.this.is_some_and(|t| self.members(t).index.contains_key(name)) {
             return None;
@@ -186,7 +186,7 @@ impl<'a> Checker<'a> {
             }
             self.report(d);
         }
-        Some(found)
+        Some(found.unwrap_or(Entity::Error))
     }
 
     /// Returns the index of a behaviour of a configuration.

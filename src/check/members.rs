@@ -279,8 +279,8 @@ impl<'a> Checker<'a> {
     ) -> Expr {
         if let Some(entity) = self.file_item(scope, object, field) {
             return match entity {
-                Some(Entity::Def(id)) => self.def_value(id, span),
-                _ => error_expr(span),
+                Entity::Def(id) => self.def_value(id, span),
+                Entity::File(_) | Entity::Error => error_expr(span),
             };
         }
         // `m.left.joint` and `m.left.port` choose between the two name spaces.

@@ -10,7 +10,7 @@ use crate::source::{FileId, Span, Symbol};
 use crate::units::Dimension;
 use std::sync::Arc;
 
-pub use super::typed_expr::*;
+pub use super::typed_expr::{BinaryOp, Body, Clause, Expr, ExprKind, Stmt, StmtKind, Test, UnaryOp};
 
 /// The identity of a declaration: an index into [`Program::defs`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -354,21 +354,14 @@ pub enum ModuleClause {
     Port(Box<PortClause>),
     /// Two links (indices into `links`) that may touch, and the span of the clause.
     Touching(usize, usize, Span),
-    Let {
-        local: Local,
-        value: Expr,
-    },
+    /// A local `let`.
+    Let { local: Local, value: Expr },
+    /// `require`
     Require(Require),
-    If {
-        condition: Expr,
-        then: Vec<ModuleClause>,
-        otherwise: Vec<ModuleClause>,
-    },
-    For {
-        binder: Local,
-        iterable: Expr,
-        body: Vec<ModuleClause>,
-    },
+    /// `if`; only the clauses of one branch are elaborated.
+    If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
+    /// `for`; the clauses are elaborated for each element.
+    For { binder: Local, iterable: Expr, body: Vec<ModuleClause> },
 }
 
 /// A port, or one element of a port array.
@@ -498,7 +491,9 @@ pub struct Exemption {
 /// The kinds of exemptions.
 #[derive(Clone, Debug)]
 pub enum ExemptionKind {
+    /// The robot may be unstable.
     Unstable,
+    /// The robot may slip.
     Slip,
     /// Two instances, or none: any two.
     Collision(Option<(Expr, Expr)>),
@@ -509,11 +504,17 @@ pub enum ExemptionKind {
 /// A clause of a configuration that depends on values.
 #[derive(Clone, Debug)]
 pub enum ConfigClause {
+    /// `connect a -- b turn angle`: bonds two ports.
     Connect { a: Expr, b: Expr, turn: Option<Expr>, span: Span },
+    /// `set joint = value`: a joint position at the start.
     Set { joint: Expr, value: Expr, span: Span },
+    /// A local `let`.
     Let { local: Local, value: Expr },
+    /// `require`
     Require(Require),
+    /// `if`; only the clauses of one branch are elaborated.
     If { condition: Expr, then: Vec<ConfigClause>, otherwise: Vec<ConfigClause> },
+    /// `for`; the clauses are elaborated for each element.
     For { binder: Local, iterable: Expr, body: Vec<ConfigClause> },
 }
 
@@ -560,33 +561,17 @@ pub enum TrussBody {
 #[derive(Clone, Debug)]
 pub enum TrussClause {
     /// `name` is the member's; `index` its place in an array of nodes.
-    Node {
-        member: MemberId,
-        index: Option<Expr>,
-        value: Expr,
-        span: Span,
-    },
+    Node { member: MemberId, index: Option<Expr>, value: Expr, span: Span },
     /// Nodes by member and index.
-    Strut {
-        a: NodeRef,
-        b: NodeRef,
-        span: Span,
-    },
-    Let {
-        local: Local,
-        value: Expr,
-    },
+    Strut { a: NodeRef, b: NodeRef, span: Span },
+    /// A local `let`.
+    Let { local: Local, value: Expr },
+    /// `require`
     Require(Require),
-    If {
-        condition: Expr,
-        then: Vec<TrussClause>,
-        otherwise: Vec<TrussClause>,
-    },
-    For {
-        binder: Local,
-        iterable: Expr,
-        body: Vec<TrussClause>,
-    },
+    /// `if`; only the clauses of one branch are elaborated.
+    If { condition: Expr, then: Vec<TrussClause>, otherwise: Vec<TrussClause> },
+    /// `for`; the clauses are elaborated for each element.
+    For { binder: Local, iterable: Expr, body: Vec<TrussClause> },
 }
 
 /// A reference to a node: a member, with its index in an array of nodes.

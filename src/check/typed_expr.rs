@@ -39,10 +39,15 @@ pub struct Stmt {
 /// The kinds of statements.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
+    /// `let`; binds a local.
     Let { local: Local, value: Expr },
+    /// An expression; its value may be printed.
     Expr(Expr),
+    /// `expect condition, message`
     Expect { condition: Expr, message: Option<Expr> },
+    /// `if`
     If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
+    /// `for`
     For { binder: Local, iterable: Expr, body: Vec<Stmt> },
 }
 
@@ -60,6 +65,7 @@ pub struct Expr {
 /// The kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
+    /// A mistake that has been reported.
     Error,
     /// In SI; the dimension is in `ty`.
     Number(f64),
@@ -67,7 +73,9 @@ pub enum ExprKind {
     Int(i64),
     /// A whole number of more digits.
     BigInt(Symbol),
+    /// `true`, `false`
     Bool(bool),
+    /// A text without interpolation.
     Text(Arc<str>),
     /// Pieces to be joined; values are shown as `print` shows them.
     Interpolation(Vec<Expr>),
@@ -75,118 +83,69 @@ pub enum ExprKind {
     Word(Symbol),
     /// `_`, or an argument left out that has no default: the missing value of an optional type.
     Missing,
+    /// A local variable.
     Local(Local),
     /// A top-level `let`.
     Global(DefId),
     /// A function used as a value.
     FnValue(DefId),
     /// A behaviour used as a value: a function of its parameters.
-    BehaviorValue {
-        object: Box<Expr>,
-        behavior: usize,
-    },
+    BehaviorValue { object: Box<Expr>, behavior: usize },
     /// The instance whose body this is.
     This,
-    Member {
-        object: Box<Expr>,
-        member: MemberId,
-    },
+    /// A member of an instance.
+    Member { object: Box<Expr>, member: MemberId },
     /// A joint of a module instance; `joint` indexes [`ModuleDef::joints`].
-    Joint {
-        object: Box<Expr>,
-        joint: usize,
-    },
+    Joint { object: Box<Expr>, joint: usize },
     /// A port or a port array of a module instance; indexes [`ModuleDef::ports`].
-    Port {
-        object: Box<Expr>,
-        port: usize,
-    },
+    Port { object: Box<Expr>, port: usize },
     /// The joint that lives in the connection at a port.
     Hinge(Box<Expr>),
     /// A field of a record.
-    Field {
-        object: Box<Expr>,
-        field: Symbol,
-    },
+    Field { object: Box<Expr>, field: Symbol },
+    /// `[a, b]`
     List(Vec<Expr>),
-    Comprehension {
-        body: Box<Expr>,
-        clauses: Vec<Clause>,
-    },
+    /// `[body for x in xs if c]`
+    Comprehension { body: Box<Expr>, clauses: Vec<Clause> },
+    /// `[x, y, z]` where a vector is expected.
     Vec3(Box<[Expr; 3]>),
-    Range {
-        from: Box<Expr>,
-        to: Box<Expr>,
-    },
-    Unary {
-        op: UnaryOp,
-        operand: Box<Expr>,
-    },
-    Binary {
-        op: BinaryOp,
-        left: Box<Expr>,
-        right: Box<Expr>,
-    },
+    /// `from..to`
+    Range { from: Box<Expr>, to: Box<Expr> },
+    /// A prefix operator with its operand.
+    Unary { op: UnaryOp, operand: Box<Expr> },
+    /// An infix operator with its operands.
+    Binary { op: BinaryOp, left: Box<Expr>, right: Box<Expr> },
     /// `x else y` for an optional `x`.
-    OrElse {
-        value: Box<Expr>,
-        otherwise: Box<Expr>,
-    },
+    OrElse { value: Box<Expr>, otherwise: Box<Expr> },
     /// `move(..., timeout: 2s) else b` for behaviours.
-    TimeoutElse {
-        action: Box<Expr>,
-        otherwise: Box<Expr>,
-    },
+    TimeoutElse { action: Box<Expr>, otherwise: Box<Expr> },
     /// Drops radians, so that the dimension is that of `ty`.
     DropRadians(Box<Expr>),
-    Index {
-        object: Box<Expr>,
-        index: Box<Expr>,
-    },
-    If {
-        condition: Box<Expr>,
-        then: Box<Expr>,
-        otherwise: Option<Box<Expr>>,
-    },
-    Block {
-        statements: Vec<Stmt>,
-        value: Option<Box<Expr>>,
-    },
+    /// `object[index]`
+    Index { object: Box<Expr>, index: Box<Expr> },
+    /// `if condition { then } else { otherwise }`
+    If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
+    /// `{ statements value }`
+    Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
     /// Runs in a frame of its own: the parameters are its first slots, and each capture copies a
     /// local of the frame where the lambda stands (first) to a slot of the new one (second).
-    Lambda {
-        captures: Vec<(Local, Local)>,
-        params: usize,
-        body: Arc<Expr>,
-        frame: usize,
-    },
+    Lambda { captures: Vec<(Local, Local)>, params: usize, body: Arc<Expr>, frame: usize },
     /// A call of a user's function or a built-in; arguments in the order of the parameters. `None`:
     /// take the default.
-    Call {
-        def: DefId,
-        args: Vec<Option<Expr>>,
-    },
+    Call { def: DefId, args: Vec<Option<Expr>> },
     /// A call of a function value.
-    CallValue {
-        callee: Box<Expr>,
-        args: Vec<Expr>,
-    },
+    CallValue { callee: Box<Expr>, args: Vec<Expr> },
     /// A call of a behaviour of an instance of a configuration.
-    CallBehavior {
-        object: Box<Expr>,
-        behavior: usize,
-        args: Vec<Option<Expr>>,
-    },
+    CallBehavior { object: Box<Expr>, behavior: usize, args: Vec<Option<Expr>> },
     /// An instance of a module, cell, strut, config, lattice or truss.
-    Instance {
-        def: DefId,
-        args: Vec<Option<Expr>>,
-    },
+    Instance { def: DefId, args: Vec<Option<Expr>> },
 }
 
 /// A clause of a comprehension.
 #[derive(Clone, Debug)]
 pub enum Clause {
+    /// `for x in iterable`
     For { binder: Local, iterable: Expr },
+    /// `if condition`
     If(Expr),
 }

@@ -19,28 +19,45 @@ pub enum Type {
     Quantity(Dimension),
     /// A whole number; it is a `Number`.
     Int,
+    /// `Bool`
     Bool,
+    /// `Text`
     Text,
+    /// `List<T>`
     List(Arc<Type>),
     /// Three quantities; a direction is three numbers.
     Vec3(Arc<Type>),
+    /// `Pose`
     Pose,
+    /// `Range<T>`
     Range(Arc<Type>),
+    /// `T?`
     Optional(Arc<Type>),
+    /// `fn(A, B) -> C`
     Fn(Arc<FnType>),
+    /// A choice of words and types.
     Choice(Arc<Choice>),
     /// `Joint<Angle>`, `Joint<Length>`
     Joint(Arc<Type>),
+    /// `Port`
     Port,
+    /// `Behavior`
     Behavior,
+    /// `Signal<T>`: a value that changes during a behaviour.
     Signal(Arc<Type>),
+    /// `Condition`: a truth that changes during a behaviour.
     Condition,
+    /// `Shape`
     Shape,
     /// `revolute(...)`, `prismatic(...)`, `fixed()`: only a `joint` clause takes it.
     JointKind,
+    /// `Cells`: the cells of a lattice.
     Cells,
+    /// `Mesh`: a triangle mesh.
     Mesh,
+    /// `Cloud`: a point cloud.
     Cloud,
+    /// `Terrain`: a height field.
     Terrain,
     /// The instances of a `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
     Instance(DefId),
@@ -51,20 +68,23 @@ pub enum Type {
     /// A type parameter of the `extern fn` at hand.
     Param(u8),
     /// A quantity in a dimension parameter raised to a power: `Quantity<D>`, `Quantity<D^2>`.
-    QuantityParam {
-        param: u8,
-        power: i8,
-    },
+    QuantityParam { param: u8, power: i8 },
 }
 
 /// A family of declarations with instances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
+    /// `module` declarations.
     Module,
+    /// `config` declarations.
     Config,
+    /// `cell` declarations.
     Cell,
+    /// `strut` declarations.
     Strut,
+    /// `lattice` declarations.
     Lattice,
+    /// `truss` declarations.
     Truss,
 }
 

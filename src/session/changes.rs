@@ -22,8 +22,11 @@ pub struct Change {
 /// The kinds of changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChangeKind {
+    /// The declaration is new.
     Added,
+    /// Its text is another one.
     Changed,
+    /// It is gone.
     Removed,
 }
 

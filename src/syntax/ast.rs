@@ -67,18 +67,31 @@ pub struct Item {
 /// The kinds of items.
 #[derive(Clone, Debug)]
 pub enum ItemKind {
+    /// `use`
     Use(Use),
+    /// `let`
     Let(Let),
+    /// `fn`
     Fn(Fn),
+    /// `extern fn`
     ExternFn(ExternFn),
+    /// `extern type`
     ExternType(ExternType),
+    /// `connector`
     Connector(Connector),
+    /// `module`
     Module(Module),
+    /// `cell`
     Cell(Facts),
+    /// `strut`
     Strut(Facts),
+    /// `config`
     Config(Config),
+    /// `lattice`
     Lattice(Lattice),
+    /// `truss`
     Truss(Truss),
+    /// `test`
     Test(Test),
     /// A statement at the top of the file.
     Statement(Stmt),
@@ -214,21 +227,16 @@ pub struct TypeExpr {
 #[derive(Clone, Debug)]
 pub enum TypeKind {
     /// `Length`, `std.smores.Smores`, `List<Length>`, `Vec3<Length>`
-    Named {
-        path: Vec<Name>,
-        args: Vec<TypeExpr>,
-    },
+    Named { path: Vec<Name>, args: Vec<TypeExpr> },
     /// `Quantity<kg*m^2>`: the unit as written (a lone name may be a dimension parameter).
     Quantity(UnitExpr),
     /// `T?`
     Optional(Box<TypeExpr>),
     /// `fn(A, B) -> C`
-    Fn {
-        params: Vec<TypeExpr>,
-        result: Box<TypeExpr>,
-    },
+    Fn { params: Vec<TypeExpr>, result: Box<TypeExpr> },
     /// `exact | enumerate | heuristic`, `auto | Int`, `Mesh | Cloud`; at least two.
     Choice(Vec<TypeExpr>),
+    /// A type that could not be parsed.
     Error,
 }
 
@@ -262,16 +270,10 @@ pub enum ConnectorClause {
     /// `holds 88N`, `holds 1.9N*m`
     Holds(Expr),
     /// `capture 4mm 5deg`
-    Capture {
-        keyword: Span,
-        distance: Expr,
-        angle: Option<Expr>,
-    },
+    Capture { keyword: Span, distance: Expr, angle: Option<Expr> },
     /// `hinge(axis: Z, range: ...)`: the joint lives in the bond.
-    Hinge {
-        keyword: Span,
-        args: Vec<Arg>,
-    },
+    Hinge { keyword: Span, args: Vec<Arg> },
+    /// A piece that could not be parsed.
     Error,
 }
 
@@ -306,53 +308,29 @@ pub enum ModuleClauseKind {
     Touch(Expr),
     /// `contact 4mm`: links within this of the ground touch it.
     Contact(Expr),
-    Link {
-        name: Name,
-        shape: Expr,
-        collides: Option<Expr>,
-        at: Option<Placement>,
-    },
+    /// `link body = shape collides shape at [...]`
+    Link { name: Name, shape: Expr, collides: Option<Expr>, at: Option<Placement> },
     /// `joint bend : base -> tip = revolute(...) at [...]`; `kind` is a call.
-    Joint {
-        name: Name,
-        parent: Name,
-        child: Name,
-        kind: Expr,
-        at: Option<Placement>,
-    },
+    Joint { name: Name, parent: Name, child: Name, kind: Expr, at: Option<Placement> },
     /// `joint b = -a`
-    Mimic {
-        name: Name,
-        value: Expr,
-    },
+    Mimic { name: Name, value: Expr },
     /// `port side[4] : Face on base at ... facing +X up +Z`
     Port(ModulePort),
     /// `motor p = tilt + pan (max_speed: ..., max_torque: ...)`
-    Motor {
-        name: Name,
-        value: Expr,
-        args: Vec<Arg>,
-    },
+    Motor { name: Name, value: Expr, args: Vec<Arg> },
     /// `touching a b`
     Touching(Name, Name),
     /// `alias pan = front`: another name for a joint or a port.
-    Alias {
-        name: Name,
-        target: Name,
-    },
+    Alias { name: Name, target: Name },
+    /// `let name = value`
     Let(Let),
+    /// `require condition`
     Require(Require),
-    If {
-        condition: Expr,
-        then: Vec<ModuleClause>,
-        otherwise: Vec<ModuleClause>,
-    },
+    /// `if condition { ... } else { ... }`
+    If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
     /// The ports of an array are declared in a loop: `for i in 0..4 { port side[i] : ... }`.
-    For {
-        binder: Name,
-        iterable: Expr,
-        body: Vec<ModuleClause>,
-    },
+    For { binder: Name, iterable: Expr, body: Vec<ModuleClause> },
+    /// A piece that could not be parsed.
     Error,
 }
 
@@ -426,36 +404,27 @@ pub struct ConfigClause {
 /// The kinds of clauses of a configuration.
 #[derive(Clone, Debug)]
 pub enum ConfigClauseKind {
+    /// `part name: Type`
     Part(Part),
     /// `port head = body.head`, `port side[4] = [...]`
-    Port {
-        name: Name,
-        count: Option<Expr>,
-        value: Expr,
-    },
+    Port { name: Name, count: Option<Expr>, value: Expr },
+    /// `base path`
     Base(Path),
+    /// `behavior name = body`
     Behavior(Behavior),
-    Connect {
-        a: Path,
-        b: Path,
-        turn: Option<Expr>,
-    },
-    Set {
-        joint: Path,
-        value: Expr,
-    },
+    /// `connect a -- b turn angle`
+    Connect { a: Path, b: Path, turn: Option<Expr> },
+    /// `set joint = value`
+    Set { joint: Path, value: Expr },
+    /// `let name = value`
     Let(Let),
+    /// `require condition`
     Require(Require),
-    If {
-        condition: Expr,
-        then: Vec<ConfigClause>,
-        otherwise: Vec<ConfigClause>,
-    },
-    For {
-        binder: Name,
-        iterable: Expr,
-        body: Vec<ConfigClause>,
-    },
+    /// `if condition { ... } else { ... }`
+    If { condition: Expr, then: Vec<ConfigClause>, otherwise: Vec<ConfigClause> },
+    /// `for name in iterable { ... }`
+    For { binder: Name, iterable: Expr, body: Vec<ConfigClause> },
+    /// A piece that could not be parsed.
     Error,
 }
 
@@ -532,7 +501,9 @@ pub struct Path {
 /// A step of a path.
 #[derive(Clone, Debug)]
 pub enum PathStep {
+    /// `.name`
     Field(Name),
+    /// `[index]`
     Index { index: Expr, span: Span },
 }
 
@@ -567,7 +538,9 @@ pub struct Truss {
 /// The nodes and struts of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussBody {
+    /// `= value`, a value of the prelude's record `Frame`.
     Value(Expr),
+    /// `{ clauses }`
     Clauses(Vec<TrussClause>),
 }
 
@@ -584,27 +557,18 @@ pub struct TrussClause {
 #[derive(Clone, Debug)]
 pub enum TrussClauseKind {
     /// `node a = [0m, 0m, 0m]`, in a loop `node ring[i] = ...`
-    Node {
-        name: Name,
-        index: Option<Expr>,
-        value: Expr,
-    },
-    Strut {
-        a: Path,
-        b: Path,
-    },
+    Node { name: Name, index: Option<Expr>, value: Expr },
+    /// `strut a -- b`
+    Strut { a: Path, b: Path },
+    /// `let name = value`
     Let(Let),
+    /// `require condition`
     Require(Require),
-    If {
-        condition: Expr,
-        then: Vec<TrussClause>,
-        otherwise: Vec<TrussClause>,
-    },
-    For {
-        binder: Name,
-        iterable: Expr,
-        body: Vec<TrussClause>,
-    },
+    /// `if condition { ... } else { ... }`
+    If { condition: Expr, then: Vec<TrussClause>, otherwise: Vec<TrussClause> },
+    /// `for name in iterable { ... }`
+    For { binder: Name, iterable: Expr, body: Vec<TrussClause> },
+    /// A piece that could not be parsed.
     Error,
 }
 
@@ -633,12 +597,19 @@ pub struct Stmt {
 /// The kinds of statements.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
+    /// `let name = value`
     Let(Let),
+    /// An expression.
     Expr(Expr),
+    /// `expect condition, message`
     Expect { condition: Expr, message: Option<Expr> },
+    /// `require condition`
     Require(Require),
+    /// `if condition { ... } else { ... }`
     If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
+    /// `for name in iterable { ... }`
     For { binder: Name, iterable: Expr, body: Vec<Stmt> },
+    /// A piece that could not be parsed.
     Error,
 }
 
@@ -655,73 +626,42 @@ pub struct Expr {
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     /// `12`, `1_000`, `90deg`: the digits as written without underscores, and the unit attached to them.
-    Number {
-        digits: Symbol,
-        unit: Option<UnitExpr>,
-    },
+    Number { digits: Symbol, unit: Option<UnitExpr> },
+    /// `true`, `false`
     Bool(bool),
     /// Text with `{expr}` in it; a plain text is one `Literal` (or none, when empty).
     Text(Vec<TextPart>),
+    /// A name.
     Name(Symbol),
     /// `X`, `Y`, `Z`; `-X` is a `Unary`.
     Axis(Axis),
     /// `_`: the missing value, as in the rows of a gait table.
     Hole,
+    /// `[a, b]`
     List(Vec<Expr>),
     /// `[e for x in xs if c for y in ys]`
-    Comprehension {
-        body: Box<Expr>,
-        clauses: Vec<ComprehensionClause>,
-    },
-    Unary {
-        op: UnaryOp,
-        op_span: Span,
-        operand: Box<Expr>,
-    },
-    Binary {
-        op: BinaryOp,
-        op_span: Span,
-        left: Box<Expr>,
-        right: Box<Expr>,
-    },
+    Comprehension { body: Box<Expr>, clauses: Vec<ComprehensionClause> },
+    /// A prefix operator with its operand.
+    Unary { op: UnaryOp, op_span: Span, operand: Box<Expr> },
+    /// An infix operator with its operands.
+    Binary { op: BinaryOp, op_span: Span, left: Box<Expr>, right: Box<Expr> },
     /// `a..b`
-    Range {
-        from: Box<Expr>,
-        to: Box<Expr>,
-    },
+    Range { from: Box<Expr>, to: Box<Expr> },
     /// `x else y`: `y` if `x` is missing. It binds like `or`.
-    Otherwise {
-        value: Box<Expr>,
-        otherwise: Box<Expr>,
-    },
-    Call {
-        callee: Box<Expr>,
-        args: Vec<Arg>,
-    },
-    Index {
-        object: Box<Expr>,
-        index: Box<Expr>,
-    },
-    Field {
-        object: Box<Expr>,
-        field: Name,
-    },
+    Otherwise { value: Box<Expr>, otherwise: Box<Expr> },
+    /// `callee(args)`
+    Call { callee: Box<Expr>, args: Vec<Arg> },
+    /// `object[index]`
+    Index { object: Box<Expr>, index: Box<Expr> },
+    /// `object.field`
+    Field { object: Box<Expr>, field: Name },
     /// `if c { a } else { b }`; the branches are blocks.
-    If {
-        condition: Box<Expr>,
-        then: Box<Expr>,
-        otherwise: Option<Box<Expr>>,
-    },
+    If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
     /// `{ let a = ... newline expr }`
-    Block {
-        statements: Vec<Stmt>,
-        value: Option<Box<Expr>>,
-    },
+    Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
     /// `x => e`, `(a, b) => e`
-    Lambda {
-        params: Vec<Name>,
-        body: Box<Expr>,
-    },
+    Lambda { params: Vec<Name>, body: Box<Expr> },
+    /// A piece that could not be parsed.
     Error,
 }
 
@@ -730,13 +670,16 @@ pub enum ExprKind {
 pub enum TextPart {
     /// Escapes already resolved.
     Literal(String),
+    /// `{expr}`
     Value(Expr),
 }
 
 /// A clause of a comprehension.
 #[derive(Clone, Debug)]
 pub enum ComprehensionClause {
+    /// `for name in iterable`
     For { binder: Name, iterable: Expr },
+    /// `if condition`
     If(Expr),
 }
 
@@ -752,38 +695,58 @@ pub struct Arg {
 /// An axis of the frame: a unit vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
+    /// `X`
     X,
+    /// `Y`
     Y,
+    /// `Z`
     Z,
 }
 
 /// The unary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryOp {
+    /// `-a`
     Neg,
+    /// `+a`
     Plus,
+    /// `not a`
     Not,
 }
 
 /// The binary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOp {
+    /// `or`
     Or,
+    /// `and`
     And,
+    /// `==`
     Eq,
+    /// `!=`
     Ne,
+    /// `<`
     Lt,
+    /// `<=`
     Le,
+    /// `>`
     Gt,
+    /// `>=`
     Ge,
     /// `a <-> b`: the two ports are mated.
     Mated,
     /// `++`
     Join,
+    /// `+`
     Add,
+    /// `-`
     Sub,
+    /// `*`
     Mul,
+    /// `/`
     Div,
+    /// `%`
     Rem,
+    /// `^`
     Pow,
 }
