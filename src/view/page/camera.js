@@ -49,7 +49,7 @@ function cameraOf(canvas, calm, changed) {
     camera.atEnd = true;
     const half = Math.atan(camera.aspect() * Math.tan(FOVY / 2));
     const { end, angle, wide } = thread;
-    // What goes away from the eye vanishes within the picture, above its middle.
+    // Parallel lines away from the camera vanish within the picture, above its middle.
     goal.yaw = angle - 0.55 * half;
     goal.pitch = 0.3 * FOVY;
     goal.target = add(end, [-2 * wide * Math.cos(angle), -2 * wide * Math.sin(angle), 0]);

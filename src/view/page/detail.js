@@ -1,4 +1,4 @@
-// How finely each body is drawn: by its size on the screen, and not at all where it is out of the
+// The level of detail of each body: by its size on the screen, and not at all where it is out of the
 // picture. A robot of hundreds of modules costs no more than what can be seen of it.
 
 /** From this diameter on, in pixels, round things are drawn with so many pieces a full turn. */

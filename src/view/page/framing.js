@@ -1,4 +1,4 @@
-// What the camera has to see: how large things are at a time and over time, and from where to look.
+// Framing: the extent of the scene at a time and over time, and the viewpoint that shows it.
 
 /** A row longer than so many times its width is looked at along itself: from the side it is a thread. */
 const THREAD = 9;

@@ -1,4 +1,4 @@
-// Where every body is at a time. One motion a family, all with the same face:
+// The pose of every body at a time. One motion per family, all with the same interface:
 //   bodies       how many there are
 //   solids       what is drawn: {body, shape, p, q, s}; `collides` the same for the judge's shapes
 //   moduleOf     the module (cell, node, strut) of each body, an index of `modules`

@@ -1,4 +1,4 @@
-// How finely to draw while things move: where frames come too slowly for the eye, as with a renderer in
+// Adaptive resolution while things move: where frames come too slowly for the eye, as with a renderer in
 // software, shadows and soft edges of the picture go first, then drawn edges and pixels, then the detail
 // of what is small. What stands still is drawn in full.
 

@@ -62,7 +62,7 @@ function rendererOf(canvas, plan, motion) {
     calls = 0;
     const { camera, theme } = scene;
     const sun = sunView(scene);
-    // What is out of the picture may still throw a shadow into it.
+    // A body outside of the picture may still throw a shadow into it.
     choose(scene.solids, X, scene, scene.shadow ? null : camera.matrix);
     if (scene.shadow) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, shadows.frame);
@@ -101,7 +101,7 @@ function rendererOf(canvas, plan, motion) {
     gl.depthMask(false);
     if (scene.area.length) drawArea(scene);
     drawLines(scene, scene.lines);
-    // What matters most is seen through everything.
+    // The most important marks are drawn on top of everything.
     gl.disable(gl.DEPTH_TEST);
     drawLines(scene, scene.marks);
     gl.depthMask(true);

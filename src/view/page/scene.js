@@ -1,4 +1,4 @@
-// What is drawn at a time: colours, lines, marks.
+// The scene at a time: colours, lines, marks.
 
 /** Told apart by people who see no red, no green or no blue, too: a test measures it. */
 const PALETTE = ["#3865d4", "#f5b116", "#2aa264", "#b76086", "#7bd3f4", "#c4bb58", "#8b84bf", "#a0c7aa"];

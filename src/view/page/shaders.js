@@ -31,7 +31,7 @@ out vec3 at, facing, colour;
 out vec4 lit;
 out float glow;
 void main() {
-  // What is thinner than a pixel would be seen in dots, or not at all.
+  // A line thinner than a pixel would appear as dots, or not at all.
   float away = (view * vec4(place(), 1.0)).w;
   at = grown(max(vec3(1.0), 1.1 * away / (pixels * sides())));
   facing = worldNormal();
@@ -163,7 +163,7 @@ layout(location=3) in vec4 tint;
 out vec4 colour;
 void main() {
   vec4 a = view * vec4(from.xyz, 1.0), b = view * vec4(to, 1.0);
-  // What is behind the eye has no direction on the screen.
+  // A point behind the camera has no direction on the screen.
   if (a.w < 0.001) a = mix(a, b, (0.001 - a.w) / (b.w - a.w));
   if (b.w < 0.001) b = mix(b, a, (0.001 - b.w) / (a.w - b.w));
   vec2 d = (b.xy / b.w - a.xy / a.w) * screen;

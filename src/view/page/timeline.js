@@ -73,7 +73,7 @@ function timelineOf(plan, motion, events, seek) {
       last = x;
     }
     if (plan.end < plan.duration) {
-      // What comes after a failure is not shown.
+      // The time after a failure is not shown.
       g.strokeStyle = colour("--bad");
       g.globalAlpha = 0.55;
       const from = (w * plan.end) / whole;
