@@ -20,8 +20,11 @@ use std::sync::Arc;
 /// Two commands to one joint at one time, in order of cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Conflict {
+    /// The cause that comes first in the source.
     pub first: CauseId,
+    /// The other cause.
     pub second: CauseId,
+    /// The joint that both command.
     pub joint: JointId,
 }
 

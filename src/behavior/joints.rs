@@ -7,9 +7,11 @@ use crate::robot::{Assembly, JointKind, JointOwner, Limits, ModuleType};
 pub struct Facts {
     /// Path name, such as `leg[2].m[0].tilt`.
     pub name: String,
+    /// Where the joint lives.
     pub owner: JointOwner,
     /// Why it takes no commands, if it takes none.
     pub mute: Option<Mute>,
+    /// Whether it moves along its axis, in metres.
     pub prismatic: bool,
     /// Lowest and highest position; `None` is a continuous joint.
     pub range: Option<(f64, f64)>,

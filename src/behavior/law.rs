@@ -7,14 +7,18 @@ use crate::plan::time::{tick_after, tick_near};
 /// A piece of motion that lasts `duration` seconds; control points are positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
+    /// Seconds.
     pub duration: f64,
+    /// Control points in Bernstein form, rad or m.
     pub control: Vec<f64>,
 }
 
 /// What a joint can do: greatest speed and acceleration, rad or m per s and s².
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ability {
+    /// rad/s or m/s; `None`: no limit.
     pub speed: Option<f64>,
+    /// rad/s² or m/s²; `None`: no limit.
     pub acceleration: Option<f64>,
 }
 

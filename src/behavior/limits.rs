@@ -13,22 +13,32 @@ use std::sync::Arc;
 /// A command that asks for what the robot can't do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Issue {
+    /// The command of the source that this comes from.
     pub cause: CauseId,
     /// Which of the command's arguments is at fault.
     pub part: Part,
+    /// What is asked for that cannot be had.
     pub kind: IssueKind,
 }
 
 /// An argument of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
+    /// The joint.
     Joint,
+    /// The end of a move.
     Target,
+    /// The speed of a spin.
     Speed,
+    /// The duration.
     Duration,
+    /// The timeout.
     Timeout,
+    /// The followed function.
     Keyframes,
+    /// The condition.
     Until,
+    /// The ports to dock.
     Ports,
 }
 
@@ -36,17 +46,55 @@ pub enum Part {
 #[derive(Clone, Debug, PartialEq)]
 pub enum IssueKind {
     /// The position is outside the joint's range.
-    OutOfRange { joint: String, position: f64, range: (f64, f64), prismatic: bool },
+    OutOfRange {
+        /// The path name of the joint.
+        joint: String,
+        /// The position, rad or m.
+        position: f64,
+        /// The lowest and the highest position, rad or m.
+        range: (f64, f64),
+        /// Whether the joint moves along its axis, in metres.
+        prismatic: bool,
+    },
     /// The speed is more than the joint, or a motor that drives it, can do.
-    TooFast { joint: String, speed: f64, limit: f64, prismatic: bool },
+    TooFast {
+        /// The path name of the joint.
+        joint: String,
+        /// The speed, rad/s or m/s.
+        speed: f64,
+        /// The greatest speed, rad/s or m/s.
+        limit: f64,
+        /// Whether the joint moves along its axis, in metres.
+        prismatic: bool,
+    },
     /// The duration is shorter than the joint's limits allow, s.
-    TooShort { joint: String, given: f64, needed: f64 },
+    TooShort {
+        /// The path name of the joint.
+        joint: String,
+        /// The stated duration, s.
+        given: f64,
+        /// The least duration, s.
+        needed: f64,
+    },
     /// The joint takes no commands.
-    Mute { joint: String, why: Mute },
+    Mute {
+        /// The path name of the joint.
+        joint: String,
+        /// The reason.
+        why: Mute,
+    },
     /// The connectors do not mate.
-    NoMate { a: String, b: String },
+    NoMate {
+        /// The path name of the first port.
+        a: String,
+        /// The path name of the second port.
+        b: String,
+    },
     /// Not finite, negative, or out of order.
-    BadNumber { value: f64 },
+    BadNumber {
+        /// The number.
+        value: f64,
+    },
 }
 
 /// The issues of every action, each action once, in order of the graph. `tol` is the part by which a

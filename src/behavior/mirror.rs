@@ -14,8 +14,11 @@ use std::sync::Arc;
 /// A plane through the middle of the robot, along two axes of the base's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {
+    /// The plane along x and y: left stays left, up becomes down.
     XY,
+    /// The plane along y and z: front becomes back.
     YZ,
+    /// The plane along x and z: left becomes right.
     XZ,
 }
 

@@ -9,6 +9,7 @@ use crate::units::{Dimension, quantity};
 pub struct Refusal {
     /// The action to blame; `None` where it is the behaviour as a whole.
     pub cause: Option<CauseId>,
+    /// What cannot be done.
     pub reason: Reason,
 }
 
@@ -16,35 +17,98 @@ pub struct Refusal {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// The joint takes no commands.
-    Mute { joint: String, why: Mute },
+    Mute {
+        /// The path name of the joint.
+        joint: String,
+        /// The reason.
+        why: Mute,
+    },
     /// No limit says how fast the joint is, so the action needs a duration.
-    NoSpeed { joint: String },
+    NoSpeed {
+        /// The path name of the joint.
+        joint: String,
+    },
     /// A duration, speed, target or keyframe that is not finite, is negative, or is out of order.
-    BadNumber { what: &'static str, value: f64 },
+    BadNumber {
+        /// Which number.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
     /// The followed function does not begin where the joint is.
-    Jump { joint: String, at: f64, begins: f64 },
+    Jump {
+        /// The path name of the joint.
+        joint: String,
+        /// Where the joint is, rad or m.
+        at: f64,
+        /// Where the function begins, rad or m.
+        begins: f64,
+    },
     /// The joint moves too fast to be stopped within the duration of the move that takes over.
-    NoTimeToStop { joint: String, needed: f64, given: f64 },
+    NoTimeToStop {
+        /// The path name of the joint.
+        joint: String,
+        /// The time to stop, s.
+        needed: f64,
+        /// The duration, s.
+        given: f64,
+    },
     /// The plan would end while the joint still turns.
-    StillTurning { joint: String, speed: f64 },
+    StillTurning {
+        /// The path name of the joint.
+        joint: String,
+        /// rad/s or m/s.
+        speed: f64,
+    },
     /// The condition never holds in the undisturbed run.
     NeverHolds,
     /// The behaviour aborts in the undisturbed run.
-    Aborted { message: String, time: f64 },
+    Aborted {
+        /// The message of `abort`.
+        message: String,
+        /// Seconds.
+        time: f64,
+    },
     /// The port is taken.
-    PortTaken { port: String, by: String },
+    PortTaken {
+        /// The path name of the port.
+        port: String,
+        /// The path name of the port that is docked to it.
+        by: String,
+    },
     /// Nothing is docked at the port.
-    PortFree { port: String },
+    PortFree {
+        /// The path name of the port.
+        port: String,
+    },
     /// The connectors do not mate.
-    NoMate { a: String, b: String },
+    NoMate {
+        /// The path name of the first port.
+        a: String,
+        /// The path name of the second port.
+        b: String,
+    },
     /// The two ports are on parts of the robot that nothing connects.
-    Apart { a: String, b: String },
+    Apart {
+        /// The path name of the first port.
+        a: String,
+        /// The path name of the second port.
+        b: String,
+    },
     /// A phase or stretch holds something that can't be shifted or scaled.
-    NotCyclic { what: &'static str },
+    NotCyclic {
+        /// What it holds.
+        what: &'static str,
+    },
     /// A piece of motion shorter than a tick of time.
     TooShort,
     /// A limit was reached.
-    Limit { what: &'static str, limit: u64 },
+    Limit {
+        /// What is counted.
+        what: &'static str,
+        /// The most there may be.
+        limit: u64,
+    },
 }
 
 impl Refusal {

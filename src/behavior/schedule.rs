@@ -18,13 +18,17 @@ use std::sync::Arc;
 /// A behaviour of a robot that is in a state.
 #[derive(Clone, Debug)]
 pub struct Problem {
+    /// The robot, with the bonds that exist at the start.
     pub robot: Assembly,
+    /// The state that the behaviour begins in, at rest.
     pub start: State,
+    /// The behaviour.
     pub program: Arc<Node>,
     /// Handed on to the tracks: who set the start pose.
     pub start_causes: Vec<(JointId, CauseId)>,
     /// Who connected which bond.
     pub bond_causes: Vec<(usize, CauseId)>,
+    /// Limits and tolerances.
     pub settings: Settings,
 }
 
@@ -65,8 +69,11 @@ impl Default for Settings {
 /// When everything happens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheduled {
+    /// The motion of every joint, and docking.
     pub tracks: Tracks,
+    /// The behaviour itself, which a robot executes.
     pub program: Program,
+    /// What parts of the motion are excused from.
     pub exemptions: Vec<Exemption>,
     /// Whether times depend on what sensors would say.
     pub nominal: bool,

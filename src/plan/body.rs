@@ -6,11 +6,12 @@ use super::node_paths::{self, NodePaths};
 use super::operation_error::OperationError;
 use super::program::Node;
 use super::stages::{self, CellBox, Stages};
+use super::stated::Stated;
 use super::tracks::{self, Remap, Tracks};
+use super::world::DynamicsModel;
 use crate::robot::{Library, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// The motion itself.
@@ -108,6 +109,14 @@ impl Body {
         }
     }
 
+    /// Returns the dynamics that plans of this family are judged under.
+    pub fn dynamics(&self) -> DynamicsModel {
+        match self {
+            Body::Tracks(_) | Body::NodePaths(_) => DynamicsModel::Statics,
+            Body::Stages(_) => DynamicsModel::Kinodynamic,
+        }
+    }
+
     /// Returns the motion from its end to its start.
     pub(super) fn reversed(&self) -> Body {
         match self {
@@ -188,24 +197,33 @@ impl Body {
 #[serde(rename = "Body", rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum BodyJson<'a> {
     Tracks(tracks::TracksJson<'a>),
-    Stages(Cow<'a, Stages>),
-    NodePaths(Cow<'a, NodePaths>),
+    Stages(stages::StagesJson<'a>),
+    NodePaths(node_paths::NodePathsJson<'a>),
 }
 
 impl<'a> BodyJson<'a> {
-    pub(super) fn of(body: &'a Body) -> BodyJson<'a> {
+    pub(super) fn of(body: &'a Body, library: &Library) -> BodyJson<'a> {
         match body {
             Body::Tracks(tracks) => BodyJson::Tracks(tracks::TracksJson::of(tracks)),
-            Body::Stages(stages) => BodyJson::Stages(Cow::Borrowed(stages)),
-            Body::NodePaths(paths) => BodyJson::NodePaths(Cow::Borrowed(paths)),
+            Body::Stages(stages) => BodyJson::Stages(stages::StagesJson::of(stages, library)),
+            Body::NodePaths(paths) => BodyJson::NodePaths(node_paths::NodePathsJson::of(paths, library)),
+        }
+    }
+
+    /// Lists the names that the file states beside indices.
+    pub(super) fn names(&self, stated: &mut Stated) {
+        match self {
+            BodyJson::Tracks(tracks) => tracks.names(stated),
+            BodyJson::Stages(stages) => stages.names(stated),
+            BodyJson::NodePaths(paths) => paths.names(stated),
         }
     }
 
     pub(super) fn into_body(self, library: &Arc<Library>) -> Body {
         match self {
             BodyJson::Tracks(tracks) => tracks.into_tracks(library).into(),
-            BodyJson::Stages(stages) => stages.into_owned().into(),
-            BodyJson::NodePaths(paths) => paths.into_owned().into(),
+            BodyJson::Stages(stages) => stages.into_stages().into(),
+            BodyJson::NodePaths(paths) => paths.into_node_paths().into(),
         }
     }
 }

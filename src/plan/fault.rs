@@ -6,6 +6,7 @@
 
 use super::finite::{self, Unwritable};
 use super::time::DURATION_MAX;
+use super::world::DynamicsModel;
 use crate::geometry::Unsound;
 use serde::Serialize;
 use std::fmt;
@@ -14,13 +15,31 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlanFault {
     /// An index into a list of things of one sort that is too large for the list.
-    Index { what: &'static str, index: usize, count: usize },
+    Index {
+        /// What the list holds.
+        what: &'static str,
+        /// Its index.
+        index: usize,
+        /// The length of the list.
+        count: usize,
+    },
     /// A duration that is negative, not finite, or longer than [`DURATION_MAX`].
-    Duration { duration: f64 },
+    Duration {
+        /// Seconds.
+        duration: f64,
+    },
     /// Times that must ascend and do not.
-    TimeOrder { what: &'static str },
+    TimeOrder {
+        /// Whose times they are.
+        what: &'static str,
+    },
     /// A number that no file can hold, in a part of the plan.
-    Unwritable { part: &'static str, value: Unwritable },
+    Unwritable {
+        /// The part of the plan.
+        part: &'static str,
+        /// What no file can hold.
+        value: Unwritable,
+    },
     /// The first world does not hold from 0 on.
     FirstWorld,
     /// An exemption that ends before it begins.
@@ -32,23 +51,77 @@ pub enum PlanFault {
     /// A world that holds a base where the robot has none.
     NoBaseToHold,
     /// A sampling interval of the judge that is not positive.
-    SampleInterval { interval: f64 },
+    SampleInterval {
+        /// Seconds.
+        interval: f64,
+    },
     /// A negative time for which support may be missing.
     UnstableFor,
     /// A judge that may take no sample.
     NoSamples,
     /// A node of a program whose child does not stand before it in the table.
-    ProgramChild { node: usize, child: usize },
+    ProgramChild {
+        /// The index of the node.
+        node: usize,
+        /// The index of its child.
+        child: usize,
+    },
     /// A root that is no node of the program's table.
-    ProgramRoot { node: usize },
+    ProgramRoot {
+        /// The index that is given.
+        node: usize,
+    },
     /// A fault inside a module type.
-    InModule { module: String, fault: Box<PlanFault> },
+    InModule {
+        /// The name of the module type.
+        module: String,
+        /// The fault.
+        fault: Box<PlanFault>,
+    },
     /// A fault inside the track of a joint.
-    InTrack { joint: u32, fault: Box<PlanFault> },
+    InTrack {
+        /// The index of the joint.
+        joint: u32,
+        /// The fault.
+        fault: Box<PlanFault>,
+    },
     /// A fault inside a stage of a lattice's plan.
-    InStage { stage: String, fault: Box<PlanFault> },
+    InStage {
+        /// The name of the stage.
+        stage: String,
+        /// The fault.
+        fault: Box<PlanFault>,
+    },
     /// A fault in the bonds that hold after a docking or an undocking.
-    After { time: f64, fault: Box<PlanFault> },
+    After {
+        /// Seconds.
+        time: f64,
+        /// The fault.
+        fault: Box<PlanFault>,
+    },
+    /// A name in a file that contradicts the index which it stands beside.
+    Name {
+        /// What has the name.
+        what: &'static str,
+        /// Its index.
+        index: usize,
+        /// What the file states.
+        stated: String,
+        /// The name of what the index stands for.
+        name: String,
+    },
+    /// Names in a file that are too few or too many, or stand in another order.
+    Names {
+        /// The first that has no counterpart.
+        what: &'static str,
+    },
+    /// A world that states other dynamics than those under which plans of this family are judged.
+    Dynamics {
+        /// What the file states.
+        stated: DynamicsModel,
+        /// What plans of this family are judged under.
+        judged: DynamicsModel,
+    },
     /// A fault of a module type or a connector.
     Library(LibraryFault),
     /// A fault of the plan of an articulated robot.
@@ -63,73 +136,162 @@ pub enum PlanFault {
 #[derive(Clone, Debug, PartialEq)]
 pub enum LibraryFault {
     /// A connector without an allowed turn.
-    NoTurn { connector: String },
+    NoTurn {
+        /// The name of the connector.
+        connector: String,
+    },
     /// A joint whose axis has no direction.
-    NoAxis { module: String, joint: String },
+    NoAxis {
+        /// The name of the module type.
+        module: String,
+        /// The name of the joint.
+        joint: String,
+    },
     /// A link that two joints of its module carry.
-    SharedLink { module: String },
+    SharedLink {
+        /// The name of the module type.
+        module: String,
+    },
     /// A link that no joint of its module carries.
-    LooseLink { module: String },
+    LooseLink {
+        /// The name of the module type.
+        module: String,
+    },
     /// Joints of a module that form a loop.
-    CyclicJoints { module: String },
+    CyclicJoints {
+        /// The name of the module type.
+        module: String,
+    },
     /// A negative tolerance of a module.
     NegativeTolerance,
     /// A module without mass.
     NoMass,
     /// A joint whose axis is no unit vector.
-    AxisNorm { joint: String },
+    AxisNorm {
+        /// The name of the joint.
+        joint: String,
+    },
     /// A pose whose rotation is no unit quaternion: that of the named link, joint, port or base.
-    Pose { of: String },
+    Pose {
+        /// The name of what has the pose.
+        of: String,
+    },
     /// A joint whose range ends before it begins.
-    JointRange { joint: String },
+    JointRange {
+        /// The name of the joint.
+        joint: String,
+    },
     /// A limit of a joint or a motor that is not positive.
     Limit,
     /// A link of negative mass.
-    LinkMass { link: String },
+    LinkMass {
+        /// The name of the link.
+        link: String,
+    },
     /// A link with a negative coefficient of friction.
-    LinkFriction { link: String },
+    LinkFriction {
+        /// The name of the link.
+        link: String,
+    },
     /// A link without a shape.
-    NoShape { link: String },
+    NoShape {
+        /// The name of the link.
+        link: String,
+    },
     /// A shape of a link that is no solid.
-    Shape { link: String, fault: Unsound },
+    Shape {
+        /// The name of the link.
+        link: String,
+        /// The fault.
+        fault: Unsound,
+    },
 }
 
 /// A fault of the plan of an articulated robot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TracksFault {
     /// Two modules of one name.
-    SharedName { name: String },
+    SharedName {
+        /// The name.
+        name: String,
+    },
     /// A start pose without one position for each joint.
-    StartJoints { joints: usize },
+    StartJoints {
+        /// The number of joints.
+        joints: usize,
+    },
     /// A start pose without one flag for each bond.
-    StartBonds { bonds: usize },
+    StartBonds {
+        /// The number of bonds.
+        bonds: usize,
+    },
     /// Tracks that are not in ascending order of joint.
     TrackOrder,
     /// A segment whose degree is too low or too high.
-    ControlPoints { time: f64, count: usize },
+    ControlPoints {
+        /// Seconds.
+        time: f64,
+        /// The number of control points.
+        count: usize,
+    },
     /// A segment that begins before the one before ends, ends before it begins, or ends after the plan.
-    SegmentOrder { start: f64, end: f64 },
+    SegmentOrder {
+        /// Seconds.
+        start: f64,
+        /// Seconds.
+        end: f64,
+    },
     /// A segment that begins elsewhere than where the joint is.
-    Jump { time: f64 },
+    Jump {
+        /// Seconds.
+        time: f64,
+    },
     /// A docking or undocking out of order, or after the end.
-    EventOrder { time: f64 },
+    EventOrder {
+        /// Seconds.
+        time: f64,
+    },
     /// A bond that is docked while it holds, or undocked while it does not.
-    BondUnchanged { time: f64, bond: usize, holds: bool },
+    BondUnchanged {
+        /// Seconds.
+        time: f64,
+        /// The index of the bond.
+        bond: usize,
+        /// Whether it holds before.
+        holds: bool,
+    },
     /// A joint that is moved beyond this, rad or m.
-    FarJoint { limit: f64 },
+    FarJoint {
+        /// The greatest position, rad or m.
+        limit: f64,
+    },
     /// A track of a joint that takes no commands.
-    NoCommands { joint: String },
+    NoCommands {
+        /// The name of the joint.
+        joint: String,
+    },
     /// A port with two bonds at once.
-    PortTaken { port: String },
+    PortTaken {
+        /// The path name of the port.
+        port: String,
+    },
     /// A bond between ports whose connectors do not mate.
-    NoMate { a: String, b: String },
+    NoMate {
+        /// The path name of the first port.
+        a: String,
+        /// The path name of the second port.
+        b: String,
+    },
 }
 
 /// A fault of the plan of a lattice.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StagesFault {
     /// More cells than a lattice may have.
-    CellCount { most: u64 },
+    CellCount {
+        /// The most cells there may be.
+        most: u64,
+    },
     /// A unit of time that is not positive.
     TimeUnit,
     /// Limits of cells that are out of range.
@@ -139,7 +301,10 @@ pub enum StagesFault {
     /// A start that leaves out cells.
     Start,
     /// A stage whose squared duration is negative.
-    StageDuration { stage: String },
+    StageDuration {
+        /// The name of the stage.
+        stage: String,
+    },
     /// A ramp whose part of the time has too large a denominator.
     RampTooFine,
     /// A ramp that takes none of the time, or too much of it.
@@ -147,9 +312,21 @@ pub enum StagesFault {
     /// A run of no cells, or of more than there are.
     RunSize,
     /// A run that names cells which there are not: the lowest and the highest that it names.
-    RunCells { low: i128, high: i128, count: u64 },
+    RunCells {
+        /// The lowest number.
+        low: i128,
+        /// The highest number.
+        high: i128,
+        /// The number of cells.
+        count: u64,
+    },
     /// A pair of numbers that is no rational number with a positive denominator.
-    Ratio { numerator: i64, denominator: i64 },
+    Ratio {
+        /// The number above.
+        numerator: i64,
+        /// The number below.
+        denominator: i64,
+    },
 }
 
 /// A fault of the plan of a truss.
@@ -158,11 +335,22 @@ pub enum NodePathsFault {
     /// A first keyframe elsewhere than at 0.
     FirstKeyframe,
     /// A keyframe without one position for each node.
-    KeyframeNodes { time: f64, nodes: usize },
+    KeyframeNodes {
+        /// Seconds.
+        time: f64,
+        /// The number of nodes.
+        nodes: usize,
+    },
     /// A roll about two nodes that are one.
-    RollEdge { time: f64 },
+    RollEdge {
+        /// Seconds.
+        time: f64,
+    },
     /// A roll about two nodes that are at one place.
-    RollLength { time: f64 },
+    RollLength {
+        /// Seconds.
+        time: f64,
+    },
     /// A strut between a node and itself.
     StrutEnds,
     /// An obstacle that is no solid.
@@ -243,6 +431,15 @@ impl fmt::Display for PlanFault {
             PlanFault::InTrack { joint, fault } => write!(f, "in the track of joint {joint}: {fault}"),
             PlanFault::InStage { stage, fault } => write!(f, "in stage `{stage}`: {fault}"),
             PlanFault::After { time, fault } => write!(f, "at {time} s {fault}"),
+            PlanFault::Name { what, index, stated, name } => {
+                write!(f, "`{stated}` stands as the name of {what} {index}, whose index stands for `{name}`")
+            }
+            PlanFault::Names { what } => {
+                write!(f, "the names of {what} and so on are not as many as the indices")
+            }
+            PlanFault::Dynamics { stated, judged } => {
+                write!(f, "a world states the dynamics `{stated}`; such plans are judged under `{judged}`")
+            }
             PlanFault::Library(fault) => fault.fmt(f),
             PlanFault::Tracks(fault) => fault.fmt(f),
             PlanFault::Stages(fault) => fault.fmt(f),

@@ -7,9 +7,17 @@ use serde::ser::{self, Serialize};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unwritable {
     /// A number that is not finite, with the field that holds it.
-    Number { field: &'static str, value: f64 },
+    Number {
+        /// The name of the field.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
     /// A field that is nested more deeply than readers take.
-    TooDeep { field: &'static str },
+    TooDeep {
+        /// The name of the field.
+        field: &'static str,
+    },
     /// What a value says of itself that cannot be written.
     Other(String),
 }

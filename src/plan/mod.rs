@@ -28,6 +28,7 @@ mod fault;
 mod finite;
 mod operation_error;
 mod operations;
+mod stated;
 pub mod validation;
 
 pub mod file;
@@ -50,4 +51,4 @@ pub use stages::{
 };
 pub use tracks::{Dock, DockKind, Remap, Segment, TOL_JOIN_JOINT, Track, Tracks, timeline};
 pub use verdict::{Check, CheckKind, Dynamics, Failure, Status, Verdict, Worst};
-pub use world::{Exemption, ExemptionKind, Ground, Settings, Stability, World, WorldFrom};
+pub use world::{DynamicsModel, Exemption, ExemptionKind, Ground, Settings, Stability, World, WorldFrom};

@@ -6,29 +6,53 @@ use crate::robot::Mismatch;
 #[derive(Clone, Debug, PartialEq)]
 pub enum OperationError {
     /// A slice that ends before it begins.
-    Times { from: f64, to: f64 },
+    Times {
+        /// Seconds.
+        from: f64,
+        /// Seconds.
+        to: f64,
+    },
     /// A lattice plan is cut only between stages.
-    InsideStage { time: f64 },
+    InsideStage {
+        /// Seconds.
+        time: f64,
+    },
     /// Plans of different families.
     Families,
     /// The end of the one is not the start of the other.
     Robots(Mismatch),
     /// Two trusses that differ in their struts, or in where a node is.
-    Trusses { node: Option<String> },
+    Trusses {
+        /// The name of the first node that is elsewhere, if the struts are the same.
+        node: Option<String>,
+    },
     /// Two trusses among different obstacles, or on different ground.
     Surroundings,
     /// Two lattices of different cells.
     Cells,
     /// Two lattices with other numbers of cells.
-    CellCounts { first: u64, second: u64 },
+    CellCounts {
+        /// The cells of the first plan.
+        first: u64,
+        /// The cells of the second plan.
+        second: u64,
+    },
     /// The shape in which the one ends is not that in which the other starts.
     Shapes,
     /// The numbers of lattice plans do not fit into those of a plan together.
     Inexact,
     /// Together they are longer than a plan may be, s.
-    TooLong { duration: f64 },
+    TooLong {
+        /// Seconds.
+        duration: f64,
+    },
     /// Between two times, s, a joint moves by a law that no command of a program states.
-    NoCommand { from: f64, to: f64 },
+    NoCommand {
+        /// Seconds.
+        from: f64,
+        /// Seconds.
+        to: f64,
+    },
     /// Only a robot with joints has a program.
     NoJoints,
 }

@@ -10,53 +10,75 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
+    /// The node that all others are under.
     pub root: Arc<Node>,
 }
 
 /// Series (`Sc`) and parallel (`Pc`) composition. Nodes are shared where a behaviour is used twice.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
+    /// One action.
     Action(Action),
+    /// Behaviours one after the other: `Sc`.
     Series(Vec<Arc<Node>>),
+    /// Behaviours that begin together, and end when the last of them has: `Pc`.
     Parallel(Vec<Arc<Node>>),
+    /// A behaviour several times, one after the other.
     Repeat {
+        /// The behaviour.
         body: Arc<Node>,
+        /// The number of repetitions.
         times: u64,
     },
     /// A cyclic behaviour begun at `shift` (0..1) of its cycle.
     Phase {
+        /// The behaviour.
         body: Arc<Node>,
+        /// The part of the cycle, 0 to 1.
         shift: f64,
+        /// The command of the source that this comes from.
         cause: CauseId,
     },
     /// The joints move together to where `Phase` of the same body and shift begins, in least time.
     Approach {
+        /// The behaviour.
         body: Arc<Node>,
+        /// The part of the cycle, 0 to 1.
         shift: f64,
+        /// The command of the source that this comes from.
         cause: CauseId,
     },
     /// A behaviour whose time is scaled so that it lasts `duration` seconds.
     Stretch {
+        /// The behaviour.
         body: Arc<Node>,
+        /// Seconds.
         duration: f64,
+        /// The command of the source that this comes from.
         cause: CauseId,
     },
     /// A behaviour excused from checks over its own interval.
     Exempt {
+        /// The behaviour.
         body: Arc<Node>,
+        /// The checks.
         kind: ExemptionKind,
+        /// The command of the source that this comes from.
         cause: CauseId,
     },
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
+    /// J and X: what is commanded.
     pub command: Command,
     /// ξ: ends the action when it holds.
     pub until: Option<Condition>,
     /// T, in seconds.
     pub timeout: Option<f64>,
+    /// What follows the timeout.
     pub otherwise: Otherwise,
+    /// The command of the source that this comes from.
     pub cause: CauseId,
 }
 
@@ -65,32 +87,47 @@ pub struct Action {
 pub enum Command {
     /// `duration: None` is the least time that the limits allow.
     Move {
+        /// The joint.
         joint: JointId,
+        /// Where to.
         target: Target,
+        /// Seconds, or `None`.
         duration: Option<f64>,
+        /// The time law.
         profile: Profile,
     },
     /// `duration: None` lasts until the next command to the joint.
     Spin {
+        /// The joint.
         joint: JointId,
+        /// rad/s or m/s.
         speed: f64,
+        /// Seconds, or `None`.
         duration: Option<f64>,
     },
     /// A sampled function of time since the action's start: (time, position) with the velocities
     /// between which it is a cubic.
     Follow {
+        /// The joint.
         joint: JointId,
+        /// (s, rad or m, rad/s or m/s), in order of time; the first at 0.
         keyframes: Vec<[f64; 3]>,
     },
+    /// Nothing moves for a time.
     Wait {
+        /// Seconds.
         duration: f64,
     },
     /// Port `b` docks to port `a`; the turn is the allowed one nearest to where they are.
     Dock {
+        /// The port that is docked to.
         a: PortRef,
+        /// The port that docks.
         b: PortRef,
     },
+    /// What is docked at a port is undocked.
     Undock {
+        /// One of the two ports of the bond.
         port: PortRef,
     },
 }
@@ -98,7 +135,9 @@ pub enum Command {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Target {
+    /// A position, rad or m.
     To(f64),
+    /// A change of position, rad or m.
     By(f64),
 }
 
@@ -107,7 +146,9 @@ pub enum Target {
 pub enum Profile {
     /// Quintic, at rest at both ends.
     Smooth,
+    /// Constant acceleration, constant speed, constant deceleration.
     Trapezoid,
+    /// Constant speed throughout.
     Linear,
 }
 
@@ -116,14 +157,18 @@ pub enum Profile {
 pub enum Otherwise {
     /// The next action begins: the paper's meaning.
     Proceed,
+    /// The behaviour fails, with a message.
     Abort(String),
+    /// Another behaviour begins.
     Node(Arc<Node>),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Signal {
+    /// The position of a joint, rad or m.
     Angle(JointId),
+    /// The rate of a joint, rad/s or m/s.
     Speed(JointId),
     /// Seconds since the action began.
     Elapsed,
@@ -132,20 +177,37 @@ pub enum Signal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Compare {
+    /// `<`
     Less,
+    /// `<=`
     LessEqual,
+    /// `>`
     Greater,
+    /// `>=`
     GreaterEqual,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Condition {
-    Compare { signal: Signal, compare: Compare, value: f64 },
+    /// A signal compares with a value.
+    Compare {
+        /// The left side.
+        signal: Signal,
+        /// The comparison.
+        compare: Compare,
+        /// The right side, in the unit of the signal.
+        value: f64,
+    },
+    /// Something is docked at a port.
     Docked(PortRef),
+    /// Two ports are docked to each other.
     Mated(PortRef, PortRef),
+    /// Both hold.
     And(Box<Condition>, Box<Condition>),
+    /// One of them holds, or both.
     Or(Box<Condition>, Box<Condition>),
+    /// It does not hold.
     Not(Box<Condition>),
 }
 

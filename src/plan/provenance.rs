@@ -11,7 +11,9 @@ pub struct Provenance {
     pub planner: String,
     /// Name and SHA-256 of every source text, in order of name.
     pub sources: Vec<(String, String)>,
+    /// The seed of the random numbers, where the planner draws any.
     pub seed: Option<u64>,
+    /// The limit that was set for the search, in the steps that the planner counts.
     pub budget: Option<u64>,
     /// What the planner proved of every plan for the same task; nothing of a plan changed since.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -34,14 +36,18 @@ pub enum Bound {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Change {
+    /// It runs from its end to its start.
     Reversed,
     /// Only what lay between these times (s) was kept.
     Sliced {
+        /// Seconds.
         from: f64,
+        /// Seconds.
         to: f64,
     },
     /// Another plan was appended at a time (s).
     Joined {
+        /// Seconds.
         at: f64,
         /// What of the other plan's modules had another name here: (its name there, its name here).
         renamed: Vec<(String, String)>,

@@ -23,9 +23,30 @@ pub enum Ground {
 pub struct World {
     /// m/s², downwards; 0 is weightless.
     pub gravity: f64,
+    /// What is under the robot.
     pub ground: Ground,
     /// Factor on the friction of every link.
     pub friction: f64,
+}
+
+/// The dynamics that a plan is judged under: what is assumed of how forces and motion go together. Later
+/// versions add models; none of those here changes its meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DynamicsModel {
+    /// Every instant is judged at rest: weight and contacts balance, inertia is left out.
+    Statics,
+    /// Cells accelerate within their force along each axis, and momentum is kept; there is no weight.
+    Kinodynamic,
+}
+
+impl std::fmt::Display for DynamicsModel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            DynamicsModel::Statics => "statics",
+            DynamicsModel::Kinodynamic => "kinodynamic",
+        })
+    }
 }
 
 impl World {
@@ -48,7 +69,9 @@ impl Default for World {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldFrom {
+    /// Seconds.
     pub from: f64,
+    /// The world from then on.
     pub world: World,
 }
 
@@ -69,6 +92,7 @@ pub struct Settings {
     pub sample: f64,
     /// How long support may be missing at a stretch (the paper's t_max), s.
     pub unstable_for: f64,
+    /// The polygon of the check of stability.
     pub stability: Stability,
     /// Most samples of one verification, refinements included.
     pub samples_max: usize,
@@ -83,7 +107,9 @@ impl Default for Settings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ExemptionKind {
+    /// The centre of mass outside the support polygon.
     Unstable,
+    /// Links in contact that slide.
     Slip,
     /// Between two modules; `None`: between any.
     Collision(Option<(usize, usize)>),
@@ -95,8 +121,12 @@ pub enum ExemptionKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Exemption {
+    /// The check that is excused.
     pub kind: ExemptionKind,
+    /// Seconds.
     pub from: f64,
+    /// Seconds.
     pub to: f64,
+    /// The command of the source that this comes from.
     pub cause: CauseId,
 }

@@ -10,6 +10,7 @@ use modl::plan::{
 };
 use modl::robot::{Cell, JointId, Library, PortRef};
 use proptest::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 const L: u32 = LEFT as u32;
@@ -150,14 +151,118 @@ fn faults_of_the_text_have_a_line_and_a_column() {
     assert!(refused("").line <= 1);
     assert_eq!(refused("[]").line, 1);
     assert!(refused("{}").message.contains("no plan file"));
-    let future = refused(&text.replacen("\"version\": 2", "\"version\": 3", 1));
-    assert!(future.message.contains("version is 3"), "{future}");
     let past = refused(&text.replacen("\"version\": 2", "\"version\": 1", 1));
     assert!(past.message.contains("plan again with this tool"), "{past}");
     let deep = format!("{{\"format\": {}", "[".repeat(100_000));
     assert!(
         refused(&deep).message.contains("recursion limit") || refused(&deep).message.contains("invalid type")
     );
+}
+
+#[test]
+fn a_later_version_is_read_unless_it_uses_what_was_added() {
+    let text = written(&rich()).replacen("\"version\": 2", "\"version\": 3", 1);
+    assert_eq!(read(&text).expect("versions only add fields"), rich());
+    let added = refused(&text.replacen("\"nominal\"", "\"added\": 1, \"nominal\"", 1));
+    assert!(added.message.contains("unknown field `added`"), "{added}");
+    assert!(added.message.contains("version is 3") && added.message.contains("newer modl"), "{added}");
+    assert!(added.line > 1);
+    let unsaid = refused(&text.replacen("\"version\": 3,", "", 1));
+    assert!(unsaid.message.contains("does not say its `version`"), "{unsaid}");
+}
+
+/// The names of a file with one of them changed, by its place in the JSON.
+fn renamed(plan: &Plan, place: &str) -> String {
+    let mut value: serde_json::Value = serde_json::from_str(&written(plan)).expect("it is JSON");
+    *value.pointer_mut(place).unwrap_or_else(|| panic!("{place} is there")) = "another".into();
+    value.to_string()
+}
+
+#[test]
+fn names_that_contradict_their_indices_are_refused() {
+    let tracks = [
+        "/names/connectors/0/mates/0",
+        "/names/modules/0/joints/0/parent",
+        "/names/modules/0/ports/0/link",
+        "/body/tracks/robot/modules/3/kind_name",
+        "/body/tracks/robot/joints/5",
+        "/body/tracks/robot/bonds/0/name",
+        "/body/tracks/robot/bonds/0/b/name",
+        "/body/tracks/robot/base_name",
+        "/body/tracks/clusters/0/reference",
+        "/body/tracks/clusters/0/modules/2",
+        "/body/tracks/tracks/1/name",
+        "/body/tracks/events/0/name",
+        "/body/tracks/events/0/ports/1",
+        "/program/nodes/1/action/on/0",
+        "/program/nodes/1/action/until_on/0",
+    ];
+    for place in tracks {
+        let error = refused(&renamed(&rich(), place));
+        assert!(error.message.contains("`another` stands as the name of"), "{place}: {error}");
+    }
+    for (plan, place) in [
+        (lattice(), "/body/stages/cell_name"),
+        (truss(), "/body/node_paths/strut_name"),
+        (truss(), "/body/node_paths/strut_ends/1/0"),
+    ] {
+        assert!(refused(&renamed(&plan, place)).message.contains("`another` stands"), "{place}");
+    }
+    let mut fewer: serde_json::Value = serde_json::from_str(&written(&rich())).expect("it is JSON");
+    let joints = fewer.pointer_mut("/body/tracks/robot/joints").and_then(|j| j.as_array_mut());
+    joints.expect("a list").pop();
+    assert!(refused(&fewer.to_string()).message.contains("not as many"));
+    let moving = written(&rich()).replacen("\"statics\"", "\"kinodynamic\"", 1);
+    assert!(refused(&moving).message.contains("judged under `statics`"));
+}
+
+/// What an independent reader does who knows no index: positions and bonds at a time, by name.
+fn by_names(text: &str, t: f64) -> (BTreeMap<String, f64>, BTreeMap<String, bool>) {
+    let value: serde_json::Value = serde_json::from_str(text).expect("it is JSON");
+    let tracks = &value["body"]["tracks"];
+    let list = |v: &serde_json::Value| v.as_array().expect("a list").clone();
+    let name = |v: &serde_json::Value| v.as_str().expect("a name").to_owned();
+    let number = |v: &serde_json::Value| v.as_f64().expect("a number");
+    let joints = list(&tracks["robot"]["joints"]);
+    let mut positions: BTreeMap<String, f64> =
+        joints.iter().zip(list(&tracks["start"]["joints"])).map(|(n, q)| (name(n), number(&q))).collect();
+    let bonds = list(&tracks["robot"]["bonds"]);
+    let mut holds: BTreeMap<String, bool> = bonds
+        .iter()
+        .zip(list(&tracks["start"]["bonds"]))
+        .map(|(bond, holds)| (name(&bond["name"]), holds.as_bool().expect("a flag")))
+        .collect();
+    for track in list(&tracks["tracks"]) {
+        for segment in list(&track["segments"]).iter().filter(|s| number(&s["start"]) <= t) {
+            let (start, end) = (number(&segment["start"]), number(&segment["end"]));
+            let control: Vec<f64> = list(&segment["control"]).iter().map(number).collect();
+            let u = ((t - start) / (end - start)).min(1.0);
+            positions.insert(name(&track["name"]), modl::plan::polynomial::value(&control, u));
+        }
+    }
+    for event in list(&tracks["events"]).iter().filter(|e| number(&e["time"]) <= t) {
+        holds.insert(name(&event["name"]), event["kind"] == "dock");
+    }
+    (positions, holds)
+}
+
+#[test]
+fn a_reader_who_goes_by_names_finds_the_same_states() {
+    let plan = rich();
+    let text = written(&plan);
+    let tracks = plan.body.tracks().expect("a robot of modules");
+    for t in [0.0, 0.7, 2.0, 5.5, tracks.duration] {
+        let (positions, holds) = by_names(&text, t);
+        let state = tracks.state(t);
+        for (joint, owner) in tracks.robot.joints().enumerate() {
+            let found = positions[&tracks.robot.joint_name(owner)];
+            assert!((found - state.joints[joint]).abs() < 1e-12, "joint {joint} at {t} s");
+        }
+        for (bond, ends) in tracks.robot.bonds.iter().enumerate() {
+            let name = format!("{} -- {}", tracks.robot.port_name(ends.a), tracks.robot.port_name(ends.b));
+            assert_eq!(holds[&name], state.bonds[bond], "bond {bond} at {t} s");
+        }
+    }
 }
 
 #[test]

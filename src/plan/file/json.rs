@@ -1,17 +1,25 @@
 //! The JSON of a plan file: what stands in it, in order, and how it becomes a plan and back.
 //!
-//! It differs from [`Plan`] in two places: the library stands once, beside the body, and a program is
-//! a table of nodes whose children come before them, so that what is shared stays shared and nothing
-//! nests deeply.
+//! It differs from [`Plan`] in three ways: the library stands once, beside the body; a program is a table
+//! of nodes whose children come before them, so that what is shared stays shared and nothing nests
+//! deeply; and beside the indices stand the names of what they stand for, which say nothing new and are
+//! compared with the indices when a file is read.
+//!
+//! From version 2 on, versions only add fields. A field that a later version adds is optional here, so
+//! that files of every version since 2 are read.
 
-use super::program::ProgramJson;
+use super::library::LibraryNamesJson;
+use super::program::{ProgramJson, of_exemption};
 use crate::plan::body::BodyJson;
-use crate::plan::cause::Cause;
+use crate::plan::cause::{Cause, CauseId};
 use crate::plan::fault::PlanFault;
 use crate::plan::motion_plan::Plan;
 use crate::plan::provenance::Provenance;
+use crate::plan::stated::Stated;
+use crate::plan::tracks::RobotNames;
+use crate::plan::validation::validate;
 use crate::plan::verdict::Verdict;
-use crate::plan::world::{Exemption, Settings, WorldFrom};
+use crate::plan::world::{DynamicsModel, Exemption, ExemptionKind, Ground, Settings, World, WorldFrom};
 use crate::robot::Library;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,29 +28,72 @@ use std::sync::Arc;
 
 /// What the first field of every plan file says.
 pub(super) const FORMAT: &str = "modl plan";
-/// The version of the form that is written, and the only one that is read.
+/// The version of the schema that is written.
 pub(super) const VERSION: u32 = 2;
+/// The oldest version that is read.
+pub(super) const VERSION_MIN: u32 = 2;
 
 /// A verified motion of a modular robot. SI units throughout: m, rad, s, kg, N, N·m; poses are a
-/// position and a unit quaternion. Every reference is an index, from 0, into a list of this file.
+/// position and a unit quaternion. Every reference is an index, from 0, into a list of this file, with the
+/// name of what it stands for beside it.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Plan", deny_unknown_fields)]
 pub(super) struct PlanJson<'a> {
     /// Always `modl plan`.
     format: Cow<'a, str>,
-    /// Always 2.
+    /// 2. Later versions only add fields.
     version: u32,
     provenance: Cow<'a, Provenance>,
-    worlds: Cow<'a, [WorldFrom]>,
+    /// In order of time.
+    worlds: Vec<WorldFromJson>,
     settings: Settings,
     /// Whether times depend on what sensors would say: then they hold for the undisturbed run.
     nominal: bool,
     library: Arc<Library>,
+    /// What the indices inside the library stand for.
+    names: LibraryNamesJson,
     body: BodyJson<'a>,
     program: Option<ProgramJson<'a>>,
     causes: Cow<'a, [Cause]>,
-    exemptions: Cow<'a, [Exemption]>,
+    exemptions: Vec<ExemptionJson>,
     verdict: Option<Cow<'a, Verdict>>,
+}
+
+/// From when on which world holds; the first begins at 0.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "WorldFrom", deny_unknown_fields)]
+struct WorldFromJson {
+    /// Seconds.
+    from: f64,
+    world: WorldJson,
+}
+
+/// What is assumed of the surroundings, and of how forces and motion go together.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "World", deny_unknown_fields)]
+struct WorldJson {
+    /// m/s², downwards; 0 is weightless.
+    gravity: f64,
+    ground: Ground,
+    /// Factor on the friction of every link.
+    friction: f64,
+    /// What the verdict rests on.
+    dynamics: DynamicsModel,
+}
+
+/// What a stretch of the plan is excused from. The end of the whole plan never is.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Exemption", deny_unknown_fields)]
+struct ExemptionJson {
+    kind: ExemptionKind,
+    /// The names of the modules or of the joint that it is about.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    on: Vec<String>,
+    /// Seconds.
+    from: f64,
+    /// Seconds.
+    to: f64,
+    cause: CauseId,
 }
 
 /// Only what tells the versions apart.
@@ -55,36 +106,86 @@ pub(super) struct Header {
 impl<'a> PlanJson<'a> {
     /// The form of a plan; it borrows what is large.
     pub(super) fn of(plan: &'a Plan) -> PlanJson<'a> {
+        let names = plan.body.tracks().map(|tracks| RobotNames::of(&tracks.robot));
+        let dynamics = plan.body.dynamics();
+        let world = |w: &WorldFrom| WorldFromJson {
+            from: w.from,
+            world: WorldJson {
+                gravity: w.world.gravity,
+                ground: w.world.ground,
+                friction: w.world.friction,
+                dynamics,
+            },
+        };
+        let exemption = |e: &Exemption| ExemptionJson {
+            kind: e.kind.clone(),
+            on: names.as_ref().map_or_else(Vec::new, |names| of_exemption(&e.kind, names)),
+            from: e.from,
+            to: e.to,
+            cause: e.cause,
+        };
         PlanJson {
             format: Cow::Borrowed(FORMAT),
             version: VERSION,
             provenance: Cow::Borrowed(&plan.provenance),
-            worlds: Cow::Borrowed(&plan.worlds),
+            worlds: plan.worlds.iter().map(world).collect(),
             settings: plan.settings,
             nominal: plan.nominal,
             library: plan.library.clone(),
-            body: BodyJson::of(&plan.body),
-            program: plan.program.as_ref().map(ProgramJson::of),
+            names: LibraryNamesJson::of(&plan.library),
+            body: BodyJson::of(&plan.body, &plan.library),
+            program: plan.program.as_ref().map(|p| ProgramJson::of(p, names.as_ref())),
             causes: Cow::Borrowed(&plan.causes),
-            exemptions: Cow::Borrowed(&plan.exemptions),
+            exemptions: plan.exemptions.iter().map(exemption).collect(),
             verdict: plan.verdict.as_ref().map(Cow::Borrowed),
         }
     }
 
-    /// The plan, or what is wrong with the table of its program.
-    pub(super) fn into_plan(self) -> Result<Plan, PlanFault> {
+    /// The names that the file states beside indices, in its order.
+    fn names(&self) -> Stated {
+        let mut stated = Stated::default();
+        self.names.names(&mut stated);
+        self.body.names(&mut stated);
+        if let Some(program) = &self.program {
+            program.names(&mut stated);
+        }
+        self.exemptions.iter().for_each(|e| stated.add_all("what exemptions excuse, number", &e.on));
+        stated
+    }
+
+    /// The plan that stands in a file, its references and orders validated, its names compared with its
+    /// indices.
+    pub(super) fn into_valid_plan(self) -> Result<Plan, PlanFault> {
+        let names = self.names();
+        let dynamics: Vec<DynamicsModel> = self.worlds.iter().map(|w| w.world.dynamics).collect();
+        let plan = self.into_plan()?;
+        validate(&plan)?;
+        names.check(&PlanJson::of(&plan).names())?;
+        let judged = plan.body.dynamics();
+        match dynamics.into_iter().find(|stated| *stated != judged) {
+            Some(stated) => Err(PlanFault::Dynamics { stated, judged }),
+            None => Ok(plan),
+        }
+    }
+
+    fn into_plan(self) -> Result<Plan, PlanFault> {
+        let world = |w: WorldFromJson| WorldFrom {
+            from: w.from,
+            world: World { gravity: w.world.gravity, ground: w.world.ground, friction: w.world.friction },
+        };
+        let exemption = |e: ExemptionJson| Exemption { kind: e.kind, from: e.from, to: e.to, cause: e.cause };
         let program = self.program.map(ProgramJson::into_program).transpose()?;
         let body = self.body.into_body(&self.library);
         Ok(Plan {
             provenance: self.provenance.into_owned(),
-            worlds: self.worlds.into_owned(),
+            worlds: self.worlds.into_iter().map(world).collect(),
             settings: self.settings,
             nominal: self.nominal,
             library: self.library,
             body,
             program,
             causes: self.causes.into_owned(),
-            exemptions: self.exemptions.into_owned(),
+            exemptions: self.exemptions.into_iter().map(exemption).collect(),
             verdict: self.verdict.map(Cow::into_owned),
         })
     }

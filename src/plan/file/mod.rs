@@ -3,13 +3,13 @@
 
 mod json;
 mod layout;
+mod library;
 mod program;
 
-use self::json::{FORMAT, Header, PlanJson, VERSION};
+use self::json::{FORMAT, Header, PlanJson, VERSION, VERSION_MIN};
 use self::layout::laid_out;
 use super::finite;
 use super::motion_plan::Plan;
-use super::validation::validate;
 use sha2::{Digest, Sha256};
 
 /// Longest text that is read, bytes.
@@ -22,6 +22,7 @@ pub struct FileError {
     pub line: usize,
     /// From 1, in bytes; 0 where the fault has no place in the text.
     pub column: usize,
+    /// What is wrong, in words.
     pub message: String,
 }
 
@@ -48,15 +49,24 @@ impl From<serde_json::Error> for FileError {
     }
 }
 
-/// A plan as text. Refused are numbers that are not finite.
+/// Returns a plan as text.
+///
+/// # Errors
+/// Where a number is not finite, which JSON cannot hold.
 pub fn write(plan: &Plan) -> Result<String, FileError> {
     let json = PlanJson::of(plan);
     finite::check(&json).map_err(|fault| FileError::whole(fault.to_string()))?;
     Ok(laid_out(&serde_json::to_string(&json)?))
 }
 
-/// A plan from text, its indices and orders checked. What it says of its own verdict is not believed:
-/// that is for the judge.
+/// Returns the plan that a text holds, its indices, orders and names checked. What it says of its own
+/// verdict is not believed: that is for the judge.
+///
+/// Files of version 2 and of later versions are read, as versions only add fields; a later version's
+/// file is refused where it uses what was added.
+///
+/// # Errors
+/// Where the text is no plan of a known version, or where the plan has a [`PlanFault`](super::PlanFault).
 pub fn read(text: &str) -> Result<Plan, FileError> {
     if text.len() > TEXT_MAX {
         return Err(FileError::whole(format!("the file is longer than {TEXT_MAX} bytes")));
@@ -65,21 +75,31 @@ pub fn read(text: &str) -> Result<Plan, FileError> {
     if header.format.as_deref() != Some(FORMAT) {
         return Err(FileError::whole(format!("this is no plan file: its `format` is not \"{FORMAT}\"")));
     }
-    if header.version != Some(VERSION) {
-        let version = header.version.map_or("none".into(), |v| v.to_string());
-        let hint = match header.version {
-            Some(1) => {
-                ", in which `knots` are now `keyframes` and a `way` is an `interpolation`: plan again with this tool"
-            }
-            _ => "",
-        };
-        let message = format!("the file's version is {version}; this tool reads version {VERSION}{hint}");
-        return Err(FileError::whole(message));
+    let Some(version) = header.version else {
+        return Err(FileError::whole("the file does not say its `version`"));
+    };
+    if version < VERSION_MIN {
+        return Err(FileError::whole(format!(
+            "the file's version is {version}, older than {VERSION_MIN}, the oldest that is read: plan again \
+             with this tool (`knots` are now `keyframes`, a `way` is an `interpolation`, `docks` are \
+             `events`, and names stand beside the indices)"
+        )));
     }
-    let json: PlanJson = serde_json::from_str(text)?;
-    let plan = json.into_plan().map_err(|fault| FileError::whole(fault.to_string()))?;
-    validate(&plan).map_err(|fault| FileError::whole(fault.to_string()))?;
-    Ok(plan)
+    let json: PlanJson = serde_json::from_str(text).map_err(|error| newer(version, error.into()))?;
+    json.into_valid_plan().map_err(|fault| newer(version, FileError::whole(fault.to_string())))
+}
+
+/// An error in a file of a later version may come of what that version added: then it says so.
+fn newer(version: u32, error: FileError) -> FileError {
+    if version <= VERSION {
+        return error;
+    }
+    let message = format!(
+        "{}; the file's version is {version}, and this tool knows up to version {VERSION}: read it with a \
+         newer modl",
+        error.message
+    );
+    FileError { message, ..error }
 }
 
 /// SHA-256 of a text in hexadecimal, as plans and their pages name sources and plans.

@@ -3,9 +3,12 @@
 
 use crate::plan::cause::CauseId;
 use crate::plan::fault::PlanFault;
-use crate::plan::program::{Action, Command, Condition, Node, Otherwise, Program};
+use crate::plan::program::{Action, Command, Condition, Node, Otherwise, Program, Signal};
+use crate::plan::stated::Stated;
+use crate::plan::tracks::RobotNames;
 use crate::plan::visit::Graph;
 use crate::plan::world::ExemptionKind;
+use crate::robot::JointId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -27,19 +30,47 @@ enum NodeJson<'a> {
     Action(ActionJson<'a>),
     Series(Vec<usize>),
     Parallel(Vec<usize>),
-    Repeat { body: usize, times: u64 },
-    Phase { body: usize, shift: f64, cause: CauseId },
-    Approach { body: usize, shift: f64, cause: CauseId },
-    Stretch { body: usize, duration: f64, cause: CauseId },
-    Exempt { body: usize, kind: ExemptionKind, cause: CauseId },
+    Repeat {
+        body: usize,
+        times: u64,
+    },
+    Phase {
+        body: usize,
+        shift: f64,
+        cause: CauseId,
+    },
+    Approach {
+        body: usize,
+        shift: f64,
+        cause: CauseId,
+    },
+    Stretch {
+        body: usize,
+        duration: f64,
+        cause: CauseId,
+    },
+    Exempt {
+        body: usize,
+        kind: ExemptionKind,
+        /// The names of the modules or of the joint that it excuses.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        on: Vec<String>,
+        cause: CauseId,
+    },
 }
 
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Action", deny_unknown_fields)]
 struct ActionJson<'a> {
     command: Cow<'a, Command>,
+    /// The names of the joint or the ports that the command is about, in its order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    on: Vec<String>,
     /// Ends the action when it holds.
     until: Option<Cow<'a, Condition>>,
+    /// The names of the joints and ports in `until`, in its order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    until_on: Vec<String>,
     /// Seconds.
     timeout: Option<f64>,
     otherwise: OtherwiseJson,
@@ -56,10 +87,30 @@ enum OtherwiseJson {
 }
 
 impl<'a> ProgramJson<'a> {
-    pub(super) fn of(program: &'a Program) -> ProgramJson<'a> {
+    /// The JSON of a program; `names` are those of the robot that it is for.
+    pub(super) fn of(program: &'a Program, names: Option<&RobotNames>) -> ProgramJson<'a> {
         let graph = Graph::of(&program.root);
-        let nodes = graph.nodes.iter().map(|node| NodeJson::of(node, &graph)).collect::<Vec<_>>();
+        let nodes = graph.nodes.iter().map(|node| NodeJson::of(node, &graph, names)).collect::<Vec<_>>();
         ProgramJson { root: nodes.len() - 1, nodes }
+    }
+
+    /// Lists the names that the file states beside indices.
+    pub(super) fn names(&self, stated: &mut Stated) {
+        for node in &self.nodes {
+            match node {
+                NodeJson::Action(action) => {
+                    stated.add_all("what commands are about, number", &action.on);
+                    stated.add_all("what conditions are about, number", &action.until_on);
+                }
+                NodeJson::Exempt { on, .. } => stated.add_all("what exemptions are about, number", on),
+                NodeJson::Series(_)
+                | NodeJson::Parallel(_)
+                | NodeJson::Repeat { .. }
+                | NodeJson::Phase { .. }
+                | NodeJson::Approach { .. }
+                | NodeJson::Stretch { .. } => {}
+            }
+        }
     }
 
     pub(super) fn into_program(self) -> Result<Program, PlanFault> {
@@ -78,10 +129,10 @@ impl<'a> ProgramJson<'a> {
 }
 
 impl<'a> NodeJson<'a> {
-    fn of(node: &'a Node, graph: &Graph) -> NodeJson<'a> {
+    fn of(node: &'a Node, graph: &Graph, names: Option<&RobotNames>) -> NodeJson<'a> {
         let at = |child: &Arc<Node>| graph.position(child);
         match node {
-            Node::Action(action) => NodeJson::Action(ActionJson::of(action, graph)),
+            Node::Action(action) => NodeJson::Action(ActionJson::of(action, graph, names)),
             Node::Series(list) => NodeJson::Series(list.iter().map(at).collect()),
             Node::Parallel(list) => NodeJson::Parallel(list.iter().map(at).collect()),
             Node::Repeat { body, times } => NodeJson::Repeat { body: at(body), times: *times },
@@ -95,7 +146,8 @@ impl<'a> NodeJson<'a> {
                 NodeJson::Stretch { body: at(body), duration: *duration, cause: *cause }
             }
             Node::Exempt { body, kind, cause } => {
-                NodeJson::Exempt { body: at(body), kind: kind.clone(), cause: *cause }
+                let on = names.map_or_else(Vec::new, |names| of_exemption(kind, names));
+                NodeJson::Exempt { body: at(body), kind: kind.clone(), on, cause: *cause }
             }
         }
     }
@@ -113,16 +165,22 @@ impl<'a> NodeJson<'a> {
             NodeJson::Stretch { body, duration, cause } => {
                 Node::Stretch { body: child(body)?, duration, cause }
             }
-            NodeJson::Exempt { body, kind, cause } => Node::Exempt { body: child(body)?, kind, cause },
+            NodeJson::Exempt { body, kind, cause, .. } => Node::Exempt { body: child(body)?, kind, cause },
         })
     }
 }
 
 impl<'a> ActionJson<'a> {
-    fn of(action: &'a Action, graph: &Graph) -> ActionJson<'a> {
+    fn of(action: &'a Action, graph: &Graph, names: Option<&RobotNames>) -> ActionJson<'a> {
+        let mut until_on = Vec::new();
+        if let (Some(condition), Some(names)) = (&action.until, names) {
+            add_of_condition(condition, names, &mut until_on);
+        }
         ActionJson {
             command: Cow::Borrowed(&action.command),
+            on: names.map_or_else(Vec::new, |names| of_command(&action.command, names)),
             until: action.until.as_ref().map(Cow::Borrowed),
+            until_on,
             timeout: action.timeout,
             otherwise: match &action.otherwise {
                 Otherwise::Proceed => OtherwiseJson::Proceed,
@@ -146,5 +204,46 @@ impl<'a> ActionJson<'a> {
             otherwise,
             cause: self.cause,
         })
+    }
+}
+
+/// The names of the joint or the ports that a command is about.
+fn of_command(command: &Command, names: &RobotNames) -> Vec<String> {
+    match command {
+        Command::Move { joint, .. } | Command::Spin { joint, .. } | Command::Follow { joint, .. } => {
+            vec![names.joint(*joint)]
+        }
+        Command::Dock { a, b } => vec![names.port(*a), names.port(*b)],
+        Command::Undock { port } => vec![names.port(*port)],
+        Command::Wait { .. } => vec![],
+    }
+}
+
+/// Adds the names of the joints and ports in a condition, in its order.
+fn add_of_condition(condition: &Condition, names: &RobotNames, found: &mut Vec<String>) {
+    match condition {
+        Condition::Compare { signal: Signal::Angle(joint) | Signal::Speed(joint), .. } => {
+            found.push(names.joint(*joint));
+        }
+        Condition::Compare { signal: Signal::Elapsed, .. } => {}
+        Condition::Docked(port) => found.push(names.port(*port)),
+        Condition::Mated(a, b) => found.extend([names.port(*a), names.port(*b)]),
+        Condition::And(a, b) | Condition::Or(a, b) => {
+            add_of_condition(a, names, found);
+            add_of_condition(b, names, found);
+        }
+        Condition::Not(a) => add_of_condition(a, names, found),
+    }
+}
+
+/// The names of the modules or of the joint that an exemption is about.
+pub(super) fn of_exemption(kind: &ExemptionKind, names: &RobotNames) -> Vec<String> {
+    match kind {
+        ExemptionKind::Collision(Some((a, b))) => vec![names.module(*a), names.module(*b)],
+        ExemptionKind::Overload(Some(joint)) => vec![names.joint(JointId(*joint))],
+        ExemptionKind::Unstable
+        | ExemptionKind::Slip
+        | ExemptionKind::Collision(None)
+        | ExemptionKind::Overload(None) => vec![],
     }
 }

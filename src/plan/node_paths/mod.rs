@@ -1,6 +1,7 @@
 //! The family of trusses: positions of the nodes at keyframes; strut lengths follow.
 
 mod join;
+mod json;
 mod limits;
 mod motion;
 mod reversal;
@@ -9,5 +10,6 @@ mod validation;
 
 pub use join::TOL_JOIN_NODE;
 pub(super) use join::joined;
+pub(super) use json::NodePathsJson;
 pub use limits::{LengthSum, Margins, Surroundings, TrussLimits};
 pub use motion::{Interpolation, Keyframe, NodePaths};

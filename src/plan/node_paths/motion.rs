@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 pub struct NodePaths {
     /// Index in [`Library::struts`](crate::robot::Library).
     pub strut: usize,
+    /// The names of the nodes, by index.
     pub node_names: Vec<String>,
     /// Pairs of nodes.
     pub struts: Vec<(usize, usize)>,
@@ -21,6 +22,7 @@ pub struct NodePaths {
     /// What it keeps beside the limits of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
+    /// What is around the truss.
     #[serde(default, skip_serializing_if = "Surroundings::is_none")]
     pub surroundings: Surroundings,
 }
@@ -34,7 +36,9 @@ pub struct Keyframe {
     pub interpolation: Interpolation,
     /// World position of each node, m.
     pub nodes: Vec<[f64; 3]>,
+    /// The command of the source that this comes from.
     pub cause: CauseId,
+    /// By how much the truss keeps its limits here, as the planner states it.
     #[serde(default, skip_serializing_if = "Margins::is_none")]
     pub margins: Margins,
 }
@@ -47,7 +51,12 @@ pub enum Interpolation {
     Linear,
     /// The whole truss turns as a rigid body about the line through two nodes that stay, from the
     /// first to the second by the right-hand rule; radians. No strut changes its length.
-    RigidRoll { edge: (usize, usize), angle: f64 },
+    RigidRoll {
+        /// The two nodes that stay.
+        edge: (usize, usize),
+        /// Radians.
+        angle: f64,
+    },
 }
 
 impl NodePaths {

@@ -4,8 +4,11 @@
 /// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ArithmeticRun {
+    /// The first number.
     pub first: usize,
+    /// The number of lines.
     pub times: usize,
+    /// The numbers of a line.
     pub length: usize,
 }
 

@@ -2,6 +2,7 @@
 
 mod arithmetic_runs;
 mod join;
+mod json;
 pub(super) mod motion;
 pub(super) mod ratio;
 mod reversal;
@@ -10,5 +11,6 @@ mod validation;
 
 pub use arithmetic_runs::{ArithmeticRun, arithmetic_runs};
 pub(super) use join::joined;
+pub(super) use json::StagesJson;
 pub use motion::{CellBox, CellLimits, Counter, Law, Model, Run, Stage, Stages};
 pub use ratio::Ratio;

@@ -21,11 +21,13 @@ pub struct Stages {
     /// Seconds of one unit of time: that in which the greatest force brings a cell from rest to one
     /// cell size a unit of time.
     pub time_unit: f64,
+    /// What a cell can do.
     pub limits: CellLimits,
     /// What the cells' forces are bound to.
     pub model: Model,
     /// Where every cell is at the start. Of two runs that name a cell the later holds.
     pub start: Vec<Run>,
+    /// In order of time.
     pub stages: Vec<Stage>,
 }
 
@@ -68,8 +70,11 @@ pub struct Stage {
     pub name: String,
     /// Square of its duration in units of time: a rational number, where the duration is its root.
     pub time_squared: Ratio,
+    /// The time law that all cells share.
     pub law: Law,
+    /// Where cells are at the end of the stage.
     pub end: Vec<Run>,
+    /// The command of the source that this comes from.
     pub cause: CauseId,
 }
 
@@ -95,6 +100,7 @@ pub enum Law {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
+    /// The cell of which all counters are 0.
     pub first: u64,
     /// Outermost first; none for a single cell.
     pub counters: Vec<Counter>,
@@ -109,6 +115,7 @@ pub struct Run {
 pub struct Counter {
     /// `k` runs through 0..count; at least 1.
     pub count: u64,
+    /// What one step of `k` adds to the number of the cell.
     pub stride: i64,
     /// What one step of `k` adds to the centre along x, y, z.
     pub step: [Ratio; 3],
@@ -117,7 +124,9 @@ pub struct Counter {
 /// A cell at an instant, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellBox {
+    /// Centre, in cell sizes along x, y, z.
     pub center: [f64; 3],
+    /// Size along x, y, z, in cell sizes.
     pub size: [f64; 3],
 }
 

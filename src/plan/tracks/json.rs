@@ -1,8 +1,11 @@
-//! Tracks as they stand in a plan file. The library stands once, beside the body.
+//! Tracks as they stand in a plan file: beside every index the name of what it stands for. The library
+//! stands once, beside the body.
 
-use super::motion::{Dock, Track, Tracks};
+use super::motion::{Dock, DockKind, Segment, Track, Tracks};
+use super::names::RobotNames;
 use crate::plan::cause::CauseId;
-use crate::robot::{Assembly, Bond, JointId, Library, ModuleInstance, State};
+use crate::plan::stated::Stated;
+use crate::robot::{Assembly, Bond, JointId, Library, ModuleInstance, PortRef, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -13,13 +16,17 @@ use std::sync::Arc;
 #[serde(rename = "Tracks", deny_unknown_fields)]
 pub(in crate::plan) struct TracksJson<'a> {
     robot: RobotJson<'a>,
+    /// The connected parts of the robot at the start; one, as long as plans have one robot.
+    clusters: Vec<ClusterJson>,
+    /// The pose before the first motion; positions are in the order of `robot.joints`, flags in the order
+    /// of `robot.bonds`.
     start: Cow<'a, State>,
     /// Seconds.
     duration: f64,
     /// At most one a joint, in order of joint. A joint without a track keeps its start position.
-    tracks: Cow<'a, [Track]>,
-    /// In order of time.
-    docks: Cow<'a, [Dock]>,
+    tracks: Vec<TrackJson<'a>>,
+    /// Changes of which bonds hold, in order of time.
+    events: Vec<EventJson>,
     /// Who set which joint of the start pose.
     start_causes: Cow<'a, [(JointId, CauseId)]>,
     /// Who connected which bond.
@@ -30,52 +37,193 @@ pub(in crate::plan) struct TracksJson<'a> {
 #[serde(rename = "Robot", deny_unknown_fields)]
 struct RobotJson<'a> {
     name: Cow<'a, str>,
-    modules: Cow<'a, [ModuleInstance]>,
+    modules: Vec<ModuleJson>,
+    /// The path name of every joint, by index: the joints of the modules in order, as their types list
+    /// them, and then the hinges of the bonds that have one.
+    joints: Vec<String>,
     /// Every bond that exists at some time.
-    bonds: Cow<'a, [Bond]>,
+    bonds: Vec<BondJson>,
     /// The module whose body frame is drawn upright at the start, and whose pose is reported.
     base: usize,
+    /// The name of that module.
+    base_name: String,
     /// Whether the connections may close loops.
     closed: bool,
 }
 
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Module", deny_unknown_fields)]
+struct ModuleJson {
+    /// Path name, such as `leg[2].m[0]`; unique in the robot.
+    name: String,
+    /// Index in the library's `modules`.
+    kind: usize,
+    /// The name of that type.
+    kind_name: String,
+}
+
+/// Port `b` docked to port `a` with a turn: `X_PQ = Rz(180°) · Rx(turn · 360° / turns)`, P at `a`.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Bond", deny_unknown_fields)]
+struct BondJson {
+    /// The names of its ports: `m[0].top -- m[1].bottom`; also the name of its hinge, if it has one.
+    name: String,
+    a: PortJson,
+    b: PortJson,
+    turn: u32,
+}
+
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "PortOfModule", deny_unknown_fields)]
+struct PortJson {
+    module: usize,
+    port: usize,
+    /// Path name, such as `m[0].top`.
+    name: String,
+}
+
+/// Modules that hold together, moved and judged as one robot.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Cluster", deny_unknown_fields)]
+struct ClusterJson {
+    /// The name of the module whose pose stands for that of the cluster.
+    reference: String,
+    /// The names of its modules.
+    modules: Vec<String>,
+}
+
+/// The motion of one joint: segments in order of time that do not overlap. Between two segments and
+/// after the last, the joint holds where the segment before ended.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Track", deny_unknown_fields)]
+struct TrackJson<'a> {
+    joint: JointId,
+    /// The path name of the joint.
+    name: String,
+    segments: Cow<'a, [Segment]>,
+}
+
+/// A bond begins or ends to hold.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Event", deny_unknown_fields)]
+struct EventJson {
+    /// Seconds.
+    time: f64,
+    kind: DockKind,
+    /// Index in the robot's bonds.
+    bond: usize,
+    /// The name of that bond.
+    name: String,
+    /// The names of its ports.
+    ports: [String; 2],
+    cause: CauseId,
+}
+
 impl<'a> TracksJson<'a> {
     pub(in crate::plan) fn of(tracks: &'a Tracks) -> TracksJson<'a> {
-        let robot = &tracks.robot;
+        let names = RobotNames::of(&tracks.robot);
+        let event = |dock: &Dock| EventJson {
+            time: dock.time,
+            kind: dock.kind,
+            bond: dock.bond,
+            name: names.bond(dock.bond),
+            ports: names.ends(dock.bond),
+            cause: dock.cause,
+        };
+        let track = |track: &'a Track| TrackJson {
+            joint: track.joint,
+            name: names.joint(track.joint),
+            segments: Cow::Borrowed(&track.segments),
+        };
         TracksJson {
-            robot: RobotJson {
-                name: Cow::Borrowed(&robot.name),
-                modules: Cow::Borrowed(&robot.modules),
-                bonds: Cow::Borrowed(&robot.bonds),
-                base: robot.base,
-                closed: robot.closed,
-            },
+            robot: RobotJson::of(&tracks.robot, &names),
+            clusters: vec![ClusterJson {
+                reference: names.module(tracks.robot.base),
+                modules: tracks.robot.modules.iter().map(|module| module.name.clone()).collect(),
+            }],
             start: Cow::Borrowed(&tracks.start),
             duration: tracks.duration,
-            tracks: Cow::Borrowed(&tracks.tracks),
-            docks: Cow::Borrowed(&tracks.docks),
+            tracks: tracks.tracks.iter().map(track).collect(),
+            events: tracks.docks.iter().map(event).collect(),
             start_causes: Cow::Borrowed(&tracks.start_causes),
             bond_causes: Cow::Borrowed(&tracks.bond_causes),
         }
     }
 
+    /// Lists the names that the file states beside indices.
+    pub(in crate::plan) fn names(&self, stated: &mut Stated) {
+        let robot = &self.robot;
+        robot.modules.iter().for_each(|module| stated.add("the type of module", &module.kind_name));
+        stated.add("the base, module", &robot.base_name);
+        stated.add_all("joint", &robot.joints);
+        for bond in &robot.bonds {
+            stated.add("bond", &bond.name);
+            stated.add("port `a` of bond", &bond.a.name);
+            stated.add("port `b` of bond", &bond.b.name);
+        }
+        for cluster in &self.clusters {
+            stated.add("the reference of cluster", &cluster.reference);
+            stated.add_all("of the clusters, module", &cluster.modules);
+        }
+        self.tracks.iter().for_each(|track| stated.add("the joint of track", &track.name));
+        for event in &self.events {
+            stated.add("the bond of event", &event.name);
+            stated.add("port `a` of event", &event.ports[0]);
+            stated.add("port `b` of event", &event.ports[1]);
+        }
+    }
+
     pub(in crate::plan) fn into_tracks(self, library: &Arc<Library>) -> Tracks {
-        let robot = Assembly {
-            name: self.robot.name.into_owned(),
-            library: library.clone(),
-            modules: self.robot.modules.into_owned(),
-            bonds: self.robot.bonds.into_owned(),
-            base: self.robot.base,
-            closed: self.robot.closed,
-        };
+        let track = |track: TrackJson| Track { joint: track.joint, segments: track.segments.into_owned() };
+        let dock = |e: EventJson| Dock { time: e.time, kind: e.kind, bond: e.bond, cause: e.cause };
         Tracks {
-            robot,
+            robot: self.robot.into_assembly(library),
             start: self.start.into_owned(),
-            tracks: self.tracks.into_owned(),
-            docks: self.docks.into_owned(),
+            tracks: self.tracks.into_iter().map(track).collect(),
+            docks: self.events.into_iter().map(dock).collect(),
             duration: self.duration,
             start_causes: self.start_causes.into_owned(),
             bond_causes: self.bond_causes.into_owned(),
+        }
+    }
+}
+
+impl<'a> RobotJson<'a> {
+    fn of(robot: &'a Assembly, names: &RobotNames) -> RobotJson<'a> {
+        let module = |(index, module): (usize, &ModuleInstance)| ModuleJson {
+            name: module.name.clone(),
+            kind: module.kind,
+            kind_name: names.module_type(index),
+        };
+        let port = |p: PortRef| PortJson { module: p.module, port: p.port, name: names.port(p) };
+        let bond = |(index, bond): (usize, &Bond)| BondJson {
+            name: names.bond(index),
+            a: port(bond.a),
+            b: port(bond.b),
+            turn: bond.turn,
+        };
+        RobotJson {
+            name: Cow::Borrowed(&robot.name),
+            modules: robot.modules.iter().enumerate().map(module).collect(),
+            joints: names.joints().to_vec(),
+            bonds: robot.bonds.iter().enumerate().map(bond).collect(),
+            base: robot.base,
+            base_name: names.module(robot.base),
+            closed: robot.closed,
+        }
+    }
+
+    fn into_assembly(self, library: &Arc<Library>) -> Assembly {
+        let port = |p: PortJson| PortRef { module: p.module, port: p.port };
+        let bond = |bond: BondJson| Bond { a: port(bond.a), b: port(bond.b), turn: bond.turn };
+        let module = |module: ModuleJson| ModuleInstance { name: module.name, kind: module.kind };
+        Assembly {
+            name: self.name.into_owned(),
+            library: library.clone(),
+            modules: self.modules.into_iter().map(module).collect(),
+            bonds: self.bonds.into_iter().map(bond).collect(),
+            base: self.base,
+            closed: self.closed,
         }
     }
 }

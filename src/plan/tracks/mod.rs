@@ -3,6 +3,7 @@
 mod join;
 mod json;
 mod motion;
+mod names;
 mod remap;
 mod reversal;
 mod slice;
@@ -13,5 +14,6 @@ pub use join::TOL_JOIN_JOINT;
 pub(super) use join::fitted;
 pub(super) use json::TracksJson;
 pub use motion::{Dock, DockKind, Segment, Track, Tracks};
+pub(super) use names::RobotNames;
 pub use remap::Remap;
 pub use timeline::timeline;

@@ -10,7 +10,9 @@ use serde::{Deserialize, Serialize};
 /// Joint motions over time, and which bonds hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
+    /// The robot, with every bond that exists at some time.
     pub robot: Assembly,
+    /// The pose before the first motion; which bonds hold.
     pub start: State,
     /// At most one a joint, in order of joint. A joint without a track keeps its start position.
     pub tracks: Vec<Track>,
@@ -20,6 +22,7 @@ pub struct Tracks {
     pub duration: f64,
     /// Who set the start pose: (joint, cause), and the bond at an index: (bond, cause).
     pub start_causes: Vec<(JointId, CauseId)>,
+    /// Who connected which bond: (index of the bond, cause).
     pub bond_causes: Vec<(usize, CauseId)>,
 }
 
@@ -28,7 +31,9 @@ pub struct Tracks {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Track {
+    /// The joint that moves.
     pub joint: JointId,
+    /// In order of time.
     pub segments: Vec<Segment>,
 }
 
@@ -43,13 +48,16 @@ pub struct Segment {
     pub end: f64,
     /// Positions (rad or m), degree = number - 1; 2 to 16 of them.
     pub control: Vec<f64>,
+    /// The command of the source that this comes from.
     pub cause: CauseId,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DockKind {
+    /// The bond begins to hold.
     Dock,
+    /// The bond ceases to hold.
     Undock,
 }
 
@@ -59,9 +67,11 @@ pub enum DockKind {
 pub struct Dock {
     /// Seconds.
     pub time: f64,
+    /// Whether it begins or ceases to hold.
     pub kind: DockKind,
     /// Index in the assembly's bonds.
     pub bond: usize,
+    /// The command of the source that this comes from.
     pub cause: CauseId,
 }
 

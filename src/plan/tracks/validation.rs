@@ -104,7 +104,7 @@ fn cause(id: CauseId, causes: usize) -> Result<(), PlanFault> {
 }
 
 /// Checks the references of an assembly, and that its modules have names of their own.
-fn robot(robot: &Assembly) -> Result<(), PlanFault> {
+pub(super) fn robot(robot: &Assembly) -> Result<(), PlanFault> {
     need_index(robot.base, robot.modules.len(), "module")?;
     let mut names = BTreeSet::new();
     for module in &robot.modules {

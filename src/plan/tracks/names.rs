@@ -1,0 +1,61 @@
+//! The names of what indices stand for in a robot, as plan files state them beside the indices.
+
+use super::validation;
+use crate::plan::validation::library::references;
+use crate::robot::{Assembly, JointId, PortRef};
+
+/// The names of the modules, joints, ports and bonds of an assembly. What an index stands for that
+/// points nowhere has the empty name; so has everything where the assembly itself is not well formed.
+pub(in crate::plan) struct RobotNames<'a> {
+    robot: Option<&'a Assembly>,
+    joints: Vec<String>,
+}
+
+impl<'a> RobotNames<'a> {
+    pub(in crate::plan) fn of(robot: &'a Assembly) -> RobotNames<'a> {
+        let well_formed = references(&robot.library).and_then(|()| validation::robot(robot)).is_ok();
+        let robot = Some(robot).filter(|_| well_formed);
+        let joints = robot.map_or_else(Vec::new, |robot| {
+            robot.joints().map(|owner| robot.joint_name(owner)).collect::<Vec<_>>()
+        });
+        RobotNames { robot, joints }
+    }
+
+    /// Returns the names of all joints in the order of their ids.
+    pub(in crate::plan) fn joints(&self) -> &[String] {
+        &self.joints
+    }
+
+    pub(in crate::plan) fn joint(&self, joint: JointId) -> String {
+        self.joints.get(joint.0 as usize).cloned().unwrap_or_default()
+    }
+
+    pub(in crate::plan) fn module(&self, module: usize) -> String {
+        let module = self.robot.and_then(|robot| robot.modules.get(module));
+        module.map_or_else(String::new, |module| module.name.clone())
+    }
+
+    /// Returns the name of the type of a module.
+    pub(in crate::plan) fn module_type(&self, module: usize) -> String {
+        let robot = self.robot.filter(|robot| module < robot.modules.len());
+        robot.map_or_else(String::new, |robot| robot.module_type(module).name.clone())
+    }
+
+    pub(in crate::plan) fn port(&self, port: PortRef) -> String {
+        let known = |robot: &&Assembly| {
+            port.module < robot.modules.len() && port.port < robot.module_type(port.module).ports.len()
+        };
+        self.robot.filter(known).map_or_else(String::new, |robot| robot.port_name(port))
+    }
+
+    /// Returns the names of the two ports of a bond.
+    pub(in crate::plan) fn ends(&self, bond: usize) -> [String; 2] {
+        let bond = self.robot.and_then(|robot| robot.bonds.get(bond));
+        bond.map_or_else(Default::default, |bond| [self.port(bond.a), self.port(bond.b)])
+    }
+
+    /// Returns the name of a bond: those of its ports, as its hinge is named.
+    pub(in crate::plan) fn bond(&self, bond: usize) -> String {
+        self.ends(bond).join(" -- ")
+    }
+}
