@@ -3,12 +3,13 @@
 //! `cargo bench --bench fold`
 
 use modl::geometry::Vec3;
+use modl::planners::fold::Observer;
 use modl::planners::fold::branch_and_bound::{self, Proof, optimum};
 use modl::planners::fold::enumerate::{self, census};
 use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::objective::{Conventions, Minimise, Objective};
 use modl::planners::fold::simulation::Count;
-use modl::planners::fold::sweep_collision::meeting;
+use modl::planners::fold::sweep_collision::first_collision;
 use modl::planners::fold::{Target, Weights, energy_order, local_search, steps, work_order};
 use std::time::Instant;
 
@@ -66,7 +67,8 @@ fn main() {
     let target = target(&truth["shapes"]["icosahedron"]);
     let start = Instant::now();
     let all = enumerate::Settings { root: None, spectrum: false, budget: u64::MAX };
-    let found = census(&target, &Weights::uniform(&target, MASS), &all).expect("few faces");
+    let found =
+        census(&target, &Weights::uniform(&target, MASS), &all, &Observer::none()).expect("few faces");
     println!("\nicosahedron: {} layouts with 20 roots enumerated in {:?}", found.layouts, start.elapsed());
     dynamics(&truth);
 }
@@ -101,7 +103,7 @@ fn dynamics(truth: &serde_json::Value) {
             std::hint::black_box(simulated.leaves_first(&layout));
         });
         let look = time(&mut || {
-            std::hint::black_box(meeting(&target, &layout, &steps, 0.02));
+            std::hint::black_box(first_collision(&target, &layout, &steps, 0.02));
         });
         let order = time(&mut || {
             energy_order::least_energy(&target, &layout, &masses, Inertia::Lamina);
@@ -114,7 +116,13 @@ fn dynamics(truth: &serde_json::Value) {
             prefilter: closed.prefilter(100_000_000),
         };
         let start = Instant::now();
-        let found = local_search::survey(&target, &closed.weights, &all, &mut |layout| closed.value(layout));
+        let found = local_search::survey(
+            &target,
+            &closed.weights,
+            &all,
+            &mut |layout| closed.value(layout),
+            &Observer::none(),
+        );
         let survey = start.elapsed();
         let ending = if found.complete { "proved" } else { "open" };
         println!("| {name} | {by_form:?} | {by_steps:?} | {look:?} | {order:?} | {survey:?}, {ending} |");

@@ -21,7 +21,7 @@ impl Interpreter<'_> {
             Value::Record(record) => match &**record {
                 Record::Plan(planned) => self.portrait_plan(planned)?,
                 Record::Layout(planned) => match &planned.folded {
-                    Some(folded) => shape::pattern(&folded.pattern),
+                    Some(folded) => shape::pattern(folded),
                     None => self.show(value),
                 },
                 _ => self.show(value),

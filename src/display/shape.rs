@@ -2,7 +2,7 @@
 
 use super::pretty::counted;
 use crate::interpret::cells::Cells;
-use crate::natives::folding::FlatPattern;
+use crate::planners::fold::Report;
 use crate::planners::fold::pattern::Pattern;
 
 /// What is larger is only counted.
@@ -40,7 +40,7 @@ pub fn cells(cells: &Cells) -> String {
 const PITCH: usize = 4;
 
 /// A pattern of equal triangles: each with its number between its sides, rows as they lie.
-pub fn pattern(pattern: &FlatPattern) -> String {
+pub fn pattern(pattern: &Report) -> String {
     let count = counted(pattern.target.faces.len(), "panel");
     let flat = Pattern::of(&pattern.target, &pattern.layout);
     let Some(places) = flat.cells else {

@@ -81,7 +81,7 @@ impl Interpreter<'_> {
                 format!("a frame of {} nodes and {} struts", nodes.len(), struts.len())
             }
             Record::Layout(planned) => {
-                let panels = planned.folded.as_ref().map_or(0, |folded| folded.pattern.target.faces.len());
+                let panels = planned.folded.as_ref().map_or(0, |folded| folded.target.faces.len());
                 format!("a flat pattern of {panels} panels")
             }
             Record::Orders(sample) => {

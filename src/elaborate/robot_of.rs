@@ -142,7 +142,7 @@ impl Interpreter<'_> {
     }
 
     /// The module types and connectors of a robot, and the type of each module.
-    fn library_of(&mut self, design: &Rc<Design>) -> Eval<Option<(Library, Vec<usize>)>> {
+    pub(crate) fn library_of(&mut self, design: &Rc<Design>) -> Eval<Option<(Library, Vec<usize>)>> {
         let mut types: Vec<Rc<Design>> = Vec::new();
         let mut kinds = Vec::new();
         for index in 0..design.module_count() {

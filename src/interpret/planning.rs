@@ -9,14 +9,12 @@ use super::value::{Behavior, Value};
 use crate::behavior::{self, Problem, Scheduled};
 use crate::elaborate::robot_of::Robot;
 use crate::geometry::Vec3;
-use crate::natives::folding::Folded;
-use crate::natives::refold::Refolded;
 use crate::natives::squeeze::Squeezed;
 use crate::natives::truss::Trussed;
 use crate::plan::{
     Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
 };
-use crate::planners::tosnake;
+use crate::planners::{fold, refold, tosnake};
 use crate::robot::{JointId, Library, State};
 use crate::source::{Span, code};
 use std::cell::{OnceCell, RefCell};
@@ -38,9 +36,9 @@ pub struct Planned {
     /// What `squeeze` says of it.
     pub squeezed: Option<Squeezed>,
     /// What `fold` says of it.
-    pub folded: Option<Folded>,
+    pub folded: Option<fold::Report>,
     /// What `refold` says of it.
-    pub refolded: Option<Refolded>,
+    pub refolded: Option<refold::Report>,
     /// What `tosnake` and `reconfigure` say of it.
     pub unwound: Option<tosnake::Report>,
     /// What `morph` or `locomote` says of it.
@@ -96,11 +94,11 @@ impl Planned {
         Planned { squeezed: Some(squeezed), ..self }
     }
 
-    pub fn with_folded(self, folded: Folded) -> Planned {
+    pub fn with_folded(self, folded: fold::Report) -> Planned {
         Planned { folded: Some(folded), ..self }
     }
 
-    pub fn with_refolded(self, refolded: Refolded) -> Planned {
+    pub fn with_refolded(self, refolded: refold::Report) -> Planned {
         Planned { refolded: Some(refolded), ..self }
     }
 

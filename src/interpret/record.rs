@@ -88,7 +88,7 @@ impl Interpreter<'_> {
                     },
                 },
                 Record::Layout(planned) => match &planned.folded {
-                    Some(folded) => layout_field(&folded.pattern, field.as_str()),
+                    Some(folded) => layout_field(folded, field.as_str()),
                     None => Value::Unknown,
                 },
                 Record::Orders(sample) => sample_field(sample, field.as_str()),

@@ -1,56 +1,61 @@
-//! What the faces of a shape are made of: panels that are all alike, or panels made to measure.
+//! The panels that the faces of a shape are made of: all alike, or made to measure.
 
-use super::fold_panel::{Panel, TOL_SIDE, alike, unfoldable};
+use super::fold_surface::unfoldable;
 use crate::elaborate::instance::params_of;
 use crate::interpret::call::{Args, Call};
-use crate::interpret::design::Design;
+use crate::interpret::design::{ConfigDesign, Design, DesignKind, FlatModule};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
-use crate::planners::fold::Target;
-use crate::planners::fold::sweep_collision::Solids;
+use crate::planners::fold::{Panel, Panels, TOLERANCES, Target, equal_sides};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
+use std::cell::Cell;
 use std::rc::Rc;
+use std::sync::Arc;
 
-/// The parameter that says a panel's sides.
+/// The parameter that states a panel's sides.
 const SIDES: &str = "sides";
 
-/// Faces whose sides differ by less than this part of the longest get the same panel: rounding.
-const TOL_ALIKE: f64 = 1e-9;
+/// A module that is a panel.
+#[derive(Clone)]
+pub struct PanelDesign {
+    pub design: Rc<Design>,
+    pub panel: Panel,
+}
 
 /// The module in an argument, and the panels that were made of it.
 pub struct Supply<'c> {
     call: &'c Call<'c>,
-    /// Which argument it is.
+    /// The argument.
     module: usize,
     design: Rc<Design>,
-    /// Which parameter its sides are; `None` where all panels are alike.
+    /// The index of the parameter that states the sides; `None` where all panels are alike.
     sides: Option<usize>,
-    made: Vec<Rc<Panel>>,
+    made: Vec<Rc<PanelDesign>>,
 }
 
 impl<'c> Supply<'c> {
-    /// The module in argument `index`. One with a parameter `sides` is made to measure.
-    pub fn of(interpreter: &mut Interpreter, call: &'c Call, index: usize) -> Eval<Supply<'c>> {
-        let design = call.instance(index)?.design.clone();
-        let panel = Panel::of(interpreter, call, index, &design)?;
+    /// Reads the module in an argument. One with a parameter `sides` is made to measure.
+    pub fn of(interpreter: &mut Interpreter, call: &'c Call<'c>, module: usize) -> Eval<Supply<'c>> {
+        let design = call.instance(module)?.design.clone();
+        let panel = panel_of(interpreter, call, module, &design)?;
         let params = params_of(&interpreter.program.def(design.def).kind).unwrap_or_default();
         let sides = params.iter().position(|param| param.name.as_str() == SIDES);
-        let mut supply = Supply { call, module: index, design, sides, made: Vec::new() };
+        let mut supply = Supply { call, module, design, sides, made: Vec::new() };
         match sides {
             Some(sides) => supply.check_unstated(interpreter, sides)?,
-            None if panel.is_equilateral() => supply.made.push(Rc::new(panel)),
+            None if panel.panel.is_equilateral() => supply.made.push(Rc::new(panel)),
             None => {
                 let why = "no triangular panel: its edges are of unequal lengths, and it has no parameter \
                            `sides` that says them";
-                return Err(call.refuse(index, why));
+                return Err(call.refuse(module, why));
             }
         }
         Ok(supply)
     }
 
-    /// Sides that a panel gets from its face are not stated.
+    /// Refuses stated sides: a panel gets those of its face.
     fn check_unstated(&self, interpreter: &mut Interpreter, sides: usize) -> Eval<()> {
         let usual = interpreter.default_design(self.design.def)?;
         let stated =
@@ -62,32 +67,33 @@ impl<'c> Supply<'c> {
         Err(self.call.refuse(self.module, why))
     }
 
-    /// The panel of a face of the shape in argument `shape`.
+    /// Returns the panel of a face of the shape in argument `shape`.
     pub fn panel(
         &mut self,
         interpreter: &mut Interpreter,
         shape: usize,
         target: &Target,
         face: usize,
-    ) -> Eval<Rc<Panel>> {
+    ) -> Eval<Rc<PanelDesign>> {
         let Some(sides) = self.sides else {
             let panel = self.made[0].clone();
-            self.check_side(shape, target, face, &panel)?;
+            self.check_side(shape, target, face, &panel.panel)?;
             return Ok(panel);
         };
         let wanted = target.side_lengths(face);
-        if let Some(panel) = self.made.iter().find(|panel| alike(panel.sides, wanted, TOL_ALIKE)) {
-            return Ok(panel.clone());
+        let same = |made: &&Rc<PanelDesign>| equal_sides(made.panel.sides, wanted, TOLERANCES.same_panel);
+        if let Some(made) = self.made.iter().find(same) {
+            return Ok(made.clone());
         }
         let panel = Rc::new(self.to_measure(interpreter, shape, sides, face, wanted)?);
         self.made.push(panel.clone());
         Ok(panel)
     }
 
-    /// A face as panels of one size have it.
+    /// Refuses a face whose sides are not those of panels of one size.
     pub fn check_side(&self, shape: usize, target: &Target, face: usize, panel: &Panel) -> Eval<()> {
         let wanted = panel.sides[0];
-        target.check_sides_of(face, wanted, TOL_SIDE * wanted).map_err(|why| {
+        target.check_sides_of(face, wanted, TOLERANCES.side * wanted).map_err(|why| {
             let said = unfoldable(self.call, shape, &why).label(self.call.at(self.module), "these panels");
             let other = match self.sides {
                 None => "`fold` makes `Panel` of `std.mori` to measure for each face",
@@ -97,7 +103,7 @@ impl<'c> Supply<'c> {
         })
     }
 
-    /// The module with the sides of a face.
+    /// Makes the module with the sides of a face.
     fn to_measure(
         &self,
         interpreter: &mut Interpreter,
@@ -105,7 +111,7 @@ impl<'c> Supply<'c> {
         sides: usize,
         face: usize,
         wanted: [f64; 3],
-    ) -> Eval<Panel> {
+    ) -> Eval<PanelDesign> {
         let mut values: Vec<Option<Value>> = self.design.args.iter().cloned().map(Some).collect();
         let lengths = wanted.map(|side| Value::Quantity(side, Dimension::LENGTH));
         values[sides] = Some(Value::list(lengths.to_vec()));
@@ -130,7 +136,7 @@ impl<'c> Supply<'c> {
         };
         let design = match made {
             Ok(Some(design)) if !design.broken.get() && found.is_empty() => design,
-            // Asked for again, it says again what is wrong.
+            // Forgotten, so that it says again what is wrong when it is asked for again.
             Ok(Some(design)) => {
                 interpreter.designs[design.def.0 as usize].retain(|known| !Rc::ptr_eq(known, &design));
                 return Err(refuse(said(found)));
@@ -138,72 +144,104 @@ impl<'c> Supply<'c> {
             Ok(None) | Err(Stop::Fault(_)) => return Err(refuse(said(found))),
             Err(halt) => return Err(halt),
         };
-        let panel = Panel::of(interpreter, call, self.module, &design)?;
-        if !alike(panel.sides, wanted, TOL_SIDE) {
+        let panel = panel_of(interpreter, call, self.module, &design)?;
+        if !equal_sides(panel.panel.sides, wanted, TOLERANCES.side) {
             return Err(refuse("the module does not keep to its parameter `sides`".into()));
         }
         Ok(panel)
     }
 }
 
-/// What each face is made of.
-pub struct Panels {
-    /// By face.
-    pub designs: Vec<Rc<Design>>,
-    /// By face, kg.
-    pub masses: Vec<f64>,
-    /// By face, m.
-    pub thickness: Vec<f64>,
-    pub solids: Solids,
-    /// What holds of every panel: the least that hinges can do, the greatest thickness.
-    pub weakest: Panel,
+/// Reads a design as a panel; `key`: the argument that it came from.
+fn panel_of(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    key: usize,
+    design: &Rc<Design>,
+) -> Eval<PanelDesign> {
+    let no_panel = |why: &str| call.refuse(key, format!("no triangular panel: {why}"));
+    if design.module().is_none() {
+        return Err(no_panel("a module is wanted"));
+    }
+    let Some(robot) = interpreter.robot_of(design)? else {
+        return Err(no_panel("its module is not sound"));
+    };
+    let panel = Panel::of(&robot.assembly.library, 0).map_err(|why| no_panel(&why.to_string()))?;
+    Ok(PanelDesign { design: design.clone(), panel })
 }
 
-impl Panels {
+/// The panels of all faces, as designs and as numbers.
+pub struct Sheet {
     /// By face.
-    pub fn of(panels: &[Rc<Panel>]) -> Panels {
-        Panels {
-            designs: panels.iter().map(|panel| panel.design.clone()).collect(),
-            masses: panels.iter().map(|panel| panel.mass).collect(),
-            thickness: panels.iter().map(|panel| panel.thickness).collect(),
-            solids: Solids {
-                parts: panels.iter().map(|panel| panel.parts.clone()).collect(),
-                touch: panels.iter().map(|panel| panel.touch).fold(0.0, f64::max),
-            },
-            weakest: panels.iter().fold((*panels[0]).clone(), |weakest, panel| weakest.weaker(panel)),
-        }
+    pub designs: Vec<Rc<Design>>,
+    /// What the planner computes with.
+    pub panels: Panels,
+}
+
+impl Sheet {
+    /// Collects the module types of panels, by face; `key`: the argument that they came from.
+    pub fn of(
+        interpreter: &mut Interpreter,
+        call: &Call,
+        key: usize,
+        designs: Vec<Rc<Design>>,
+    ) -> Eval<Sheet> {
+        let no_panel = |why: &str| call.refuse(key, format!("no triangular panel: {why}"));
+        let all = unjoined(&designs);
+        let Some((library, kinds)) = interpreter.library_of(&all)? else {
+            return Err(no_panel("its module is not sound"));
+        };
+        let panels = Panels::new(Arc::new(library), kinds).map_err(|why| no_panel(&why.to_string()))?;
+        Ok(Sheet { designs, panels })
     }
 }
 
-/// What the faces of the shape in argument `shape` are made of: those listed in argument `listed` of the
-/// module in argument `passive`, which has no motors, so that the hinge between two of them is none.
+/// Returns the configuration of panels, by face, without bonds and without a base.
+pub fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
+    let name = |face: usize| -> Rc<str> { format!("panel[{face}]").into() };
+    let panels = designs.iter().enumerate();
+    let modules = panels.map(|(face, panel)| FlatModule { name: name(face), design: panel.clone() });
+    Rc::new(Design {
+        def: designs[0].def,
+        name: format!("{}[{}]", designs[0].name, designs.len()),
+        args: Vec::new(),
+        kind: DesignKind::Config(ConfigDesign::of_modules(modules.collect())),
+        broken: Cell::new(false),
+    })
+}
+
+/// Reads the panels of the shape in argument `shape`: the faces listed in argument `listed` are made of the
+/// module in argument `passive`, which has no motors, so that two of them share no hinge.
 pub fn panels(
     interpreter: &mut Interpreter,
     supply: &mut Supply,
     [shape, listed, passive]: [usize; 3],
     target: Target,
-) -> Eval<(Panels, Target)> {
+) -> Eval<(Sheet, Target)> {
     let call = supply.call;
     let faces = 0..target.faces.len();
     let mut panels =
         faces.map(|face| supply.panel(interpreter, shape, &target, face)).collect::<Eval<Vec<_>>>()?;
     let list = call.list(listed)?.clone();
-    if list.is_empty() {
-        return Ok((Panels::of(&panels), target));
+    let mut target = target;
+    if !list.is_empty() {
+        if call.is_missing(passive) {
+            return Err(call.refuse(listed, "of what are they? `passive_module` says it"));
+        }
+        let mut light = Supply::of(interpreter, call, passive)?;
+        let mut driven = vec![true; panels.len()];
+        for value in list.iter() {
+            let Value::Int(face) = value else { continue };
+            let Some(face) = usize::try_from(*face).ok().filter(|face| *face < panels.len()) else {
+                return Err(
+                    call.refuse(listed, format!("there is no face {face}: there are {}", panels.len()))
+                );
+            };
+            driven[face] = false;
+            panels[face] = light.panel(interpreter, shape, &target, face)?;
+        }
+        target = target.driven(&driven).map_err(|why| -> Stop { unfoldable(call, listed, &why).into() })?;
     }
-    if call.is_missing(passive) {
-        return Err(call.refuse(listed, "of what are they? `passive_module` says it"));
-    }
-    let mut light = Supply::of(interpreter, call, passive)?;
-    let mut driven = vec![true; panels.len()];
-    for value in list.iter() {
-        let Value::Int(face) = value else { continue };
-        let Some(face) = usize::try_from(*face).ok().filter(|face| *face < panels.len()) else {
-            return Err(call.refuse(listed, format!("there is no face {face}: there are {}", panels.len())));
-        };
-        driven[face] = false;
-        panels[face] = light.panel(interpreter, shape, &target, face)?;
-    }
-    let target = target.driven(&driven).map_err(|why| -> Stop { unfoldable(call, listed, &why).into() })?;
-    Ok((Panels::of(&panels), target))
+    let designs = panels.iter().map(|panel| panel.design.clone()).collect();
+    Ok((Sheet::of(interpreter, call, supply.module, designs)?, target))
 }

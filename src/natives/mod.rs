@@ -5,15 +5,11 @@
 
 mod action;
 mod family;
-pub mod fold;
-pub mod fold_clear;
-pub mod fold_method;
-pub mod fold_options;
-pub mod fold_orders;
-pub mod fold_panel;
-pub mod fold_plan;
-pub mod fold_sheet;
-pub mod fold_supply;
+mod fold;
+mod fold_design;
+mod fold_refusal;
+mod fold_supply;
+mod fold_surface;
 pub mod folding;
 mod list;
 mod math;

@@ -1,6 +1,5 @@
 //! `save`: files in formats of others, by the end of their names.
 
-use super::folding::Folded;
 use super::plan::{output_path, write_output};
 use super::rofi;
 use super::{Native, on_run};
@@ -10,7 +9,7 @@ use crate::interpret::planning::Planned;
 use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
-use crate::planners::fold::Net;
+use crate::planners::fold::{Net, Report};
 use crate::view::{Crease, CreasePattern, fold_file};
 
 pub const TABLE: &[Native] = &[on_run("save", 2, save)];
@@ -43,8 +42,8 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-fn creases(planned: &Planned, folded: &Folded) -> CreasePattern {
-    let (target, layout) = (&folded.pattern.target, &folded.pattern.layout);
+fn creases(planned: &Planned, folded: &Report) -> CreasePattern {
+    let (target, layout) = (&folded.target, &folded.layout);
     let net = Net::of(target, layout);
     let step = |face: usize| folded.steps.iter().position(|step| step.contains(&face)).map(|i| i + 1);
     let edges = net.edges.iter().map(|edge| Crease {

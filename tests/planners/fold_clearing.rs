@@ -8,7 +8,9 @@ use modl::planners::fold::enumerate;
 use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::pattern::Pattern;
 use modl::planners::fold::strip_layouts::StripSearch;
-use modl::planners::fold::sweep_collision::{Solids, SweepCheck, meeting, panel_pose, target_collisions};
+use modl::planners::fold::sweep_collision::{
+    Solids, SweepCheck, first_collision, panel_pose, target_collisions,
+};
 use modl::planners::fold::{Layout, Target, Weights, steps};
 use std::f64::consts::TAU;
 
@@ -65,17 +67,17 @@ fn tori_are_cut_into_strips() {
             target: &target,
             weights: &weights,
             solids: &solids,
-            must: &[],
+            required: &[],
             roots: &roots,
             cheap: &[],
             seed: 0,
-            left: 400_000_000,
+            states_left: 400_000_000,
         };
         let found = clearing.layouts();
         assert!(!found.is_empty(), "{around} by {across}");
         for layout in &found {
             assert_eq!(Pattern::of(&target, layout).overlaps(), Vec::<[usize; 2]>::new());
-            assert_eq!(meeting(&target, layout, &steps::leaves_first(layout), 0.015), None);
+            assert_eq!(first_collision(&target, layout, &steps::leaves_first(layout), 0.015), None);
         }
         let energies: Vec<f64> = found.iter().map(|layout| layout.energy(&weights)).collect();
         assert!(energies.is_sorted(), "{energies:?}");
@@ -91,8 +93,8 @@ fn all_that_meet_and_the_first_that_meet() {
     enumerate::each(&target, 400, |hinges| {
         let layout = Layout::of_hinges(&target, hinges, 0).expect("a tree");
         let steps = steps::leaves_first(&layout);
-        let all = SweepCheck::thin(&target, &layout, 0.02).meetings(&steps, 24, usize::MAX);
-        let first = meeting(&target, &layout, &steps, 0.02);
+        let all = SweepCheck::thin(&target, &layout, 0.02).collisions(&steps, 24, usize::MAX);
+        let first = first_collision(&target, &layout, &steps, 0.02);
         assert_eq!(first.is_none(), all.is_empty());
         if let Some(first) = first {
             let [a, b] = first.faces;

@@ -9,7 +9,7 @@ use modl::planners::fold::collision_free_order::OrderSearch;
 use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::kinematics::poses_at;
 use modl::planners::fold::simulation::quintic;
-use modl::planners::fold::sweep_collision::{Collision, Solids, meeting};
+use modl::planners::fold::sweep_collision::{Collision, Solids, first_collision};
 use modl::planners::fold::{Layout, Target, Weights, enumerate, steps};
 use modl::source::Diagnostic;
 use serde_json::Value;
@@ -19,7 +19,7 @@ use std::fmt::Write;
 const SHRUNK: f64 = 1e-3;
 
 fn meets(target: &Target, layout: &Layout, steps: &[Vec<usize>]) -> Option<Collision> {
-    meeting(target, layout, steps, SHRUNK)
+    first_collision(target, layout, steps, SHRUNK)
 }
 
 /// Whether an edge of one triangle goes through the inside of another.
@@ -241,7 +241,7 @@ fn refused_steps_are_avoided() {
     let mut passages = OrderSearch::new(&target, &layout, &solids, None, 100);
     let mut seen = Vec::new();
     while let Some(order) = passages.order(&[1, 2, 3]) {
-        passages.refuse(&order, 0);
+        passages.forbid(&order, 0);
         seen.push(order[0]);
     }
     seen.sort_unstable();

@@ -2,10 +2,11 @@
 //! motors, hinges too thick to close.
 
 use crate::planners::fold::{MASS, TRUTH, index, near, number, pairs, permutations, shaken, target};
+use modl::planners::fold::Observer;
 use modl::planners::fold::branch_and_bound::{Decision, NoLayout};
 use modl::planners::fold::heuristic::{Measure, preferred};
 use modl::planners::fold::inertia::{Body, Inertia};
-use modl::planners::fold::local_search::{Settings, Survey, survey};
+use modl::planners::fold::local_search::{Measured, Settings, survey};
 use modl::planners::fold::objective::{Conventions, Minimise, Objective};
 use modl::planners::fold::random_orders::sample;
 use modl::planners::fold::simulation::{Circumstances, Count, simulate};
@@ -23,10 +24,10 @@ fn objective(target: &Target, conventions: Conventions, minimise: Minimise) -> O
     Objective::new(target, vec![MASS; target.faces.len()], conventions, minimise)
 }
 
-fn surveyed(objective: &Objective, target: &Target, root: Option<usize>, budget: u64) -> Survey {
+fn surveyed(objective: &Objective, target: &Target, root: Option<usize>, budget: u64) -> Measured {
     let roots = root.map_or_else(|| (0..target.faces.len()).collect(), |root| vec![root]);
     let settings = Settings { roots, flat: false, budget, keep: 4, prefilter: None };
-    survey(target, &objective.weights, &settings, &mut |layout| objective.value(layout))
+    survey(target, &objective.weights, &settings, &mut |layout| objective.value(layout), &Observer::none())
 }
 
 /// Sums over sets of faces find the same layouts, ties and least values as measuring each.
@@ -48,10 +49,16 @@ fn a_glance_leaves_out_nothing_that_is_good() {
                 .and_then(|n| n.parse::<usize>().ok())
                 .expect("a number"),
         );
-        let glanced = survey(&target, &objective.weights, &settings, &mut |layout| {
-            made += 1;
-            objective.value(layout)
-        });
+        let glanced = survey(
+            &target,
+            &objective.weights,
+            &settings,
+            &mut |layout| {
+                made += 1;
+                objective.value(layout)
+            },
+            &Observer::none(),
+        );
         assert!(glanced.complete && measured.complete, "{name}");
         assert_eq!(glanced.best, measured.best, "{name}");
         assert_eq!((glanced.ties, &glanced.roots), (measured.ties, &measured.roots), "{name}");
@@ -87,7 +94,14 @@ fn random_orders_are_worse_as_often_as_another_program_found() {
         for (reference, rate) in
             [(energy(&faces(&sampled["order"])), "rate_MI_own_nograv"), (leaves, "rate_leaf_own")]
         {
-            let found = sample(&layout, 1000, 7, reference, |steps| objective.effort(&layout, steps).energy);
+            let found = sample(
+                &layout,
+                1000,
+                7,
+                reference,
+                |steps| objective.effort(&layout, steps).energy,
+                &Observer::none(),
+            );
             let wanted = number(&sampled[rate]);
             // Both rates are of a thousand: four standard deviations of their difference.
             let spread = 4.0 * libm::sqrt(2.0 * wanted * (1.0 - wanted) / 1000.0) + 2e-3;
@@ -97,7 +111,7 @@ fn random_orders_are_worse_as_often_as_another_program_found() {
         }
         let loads = vec![MASS * 9.8; masses.len()];
         let work = |steps: &[Vec<usize>]| work_order::work(&target, &layout, &loads, &steps.concat());
-        let found = sample(&layout, 1000, 7, number(&sampled["cost"]), work);
+        let found = sample(&layout, 1000, 7, number(&sampled["cost"]), work, &Observer::none());
         assert!(near(found.mean, number(&sampled["random_cost_mean"]), 0.01), "{}", sampled["name"]);
         assert!((found.worse as f64 / 1000.0 - number(&sampled["frac_random_cost_gt"])).abs() < 0.07);
     }
@@ -113,7 +127,8 @@ fn random_orders_under_gravity_are_worse_as_often() {
     let under = Conventions { inertia: Inertia::Point, count: Count::All, gravity: 9.8, step: 0.22 };
     let objective = objective(&target, under, Minimise::Energy);
     let leaves = objective.leaves_first(&layout).energy;
-    let found = sample(&layout, 300, 3, leaves, |steps| objective.effort(&layout, steps).energy);
+    let found =
+        sample(&layout, 300, 3, leaves, |steps| objective.effort(&layout, steps).energy, &Observer::none());
     let rate = found.worse as f64 / 300.0;
     assert!((rate - number(&sampled["rate_leaf_allgrav"])).abs() < 0.11, "{rate}");
 }

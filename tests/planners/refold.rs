@@ -7,6 +7,7 @@ use modl::geometry::Part;
 use modl::geometry::{Pose, Vec3};
 use modl::interpret::Mode;
 use modl::plan::{Body, DockKind, Plan, Tracks};
+use modl::planners::fold::Observer;
 use modl::planners::fold::pattern::{Pattern, lattice_corners};
 use modl::planners::fold::sweep_collision::Solids;
 use modl::planners::fold::{Target, enumerate};
@@ -24,7 +25,7 @@ fn sheets(from: &Target, to: &Target) -> Result<Found, NoRefolding> {
     };
     let plate = Part::points(&[corner(-60.0), corner(60.0), corner(180.0), Vec3::new(0.0, 0.0, 1e-5)]);
     let solids = Solids { parts: vec![vec![plate]; from.faces.len()], touch: 1e-5 };
-    modl::planners::refold::sheets::sheets(from, to, &solids, &SETTINGS, |_| 0.0)
+    modl::planners::refold::sheets::sheets(from, to, &solids, &SETTINGS, |_| 0.0, &Observer::none())
 }
 
 fn run(from: &str, to: &str, rest: &str) -> Ran {

@@ -1,74 +1,67 @@
-//! The layout of least energy, with proof: branch and bound over the arcs into faces.
+//! Branch and bound for the layout (rooted spanning tree of the faces) of least energy.
 //!
-//! The bound of a node is that of [`routes`](super::shortest_paths): each face takes its own cheapest path
-//! over the arcs still allowed. Where the paths form a tree, it is the node's best layout. Else the
-//! bound is raised by prices ([`lagrange`](super::lagrangian)), and the face into which paths disagree
-//! most is entered across one side in each child: the children are disjoint and complete. Where the
-//! pattern may not overlap, a tree whose pattern does is split along the path between two overlapping
-//! faces: any layout with all of the path's arcs overlaps, so the children leave out the first arc;
-//! keep it and leave out the second; and so on.
+//! The bound of a node is the sum of shortest paths ([`shortest_paths`](super::shortest_paths)) over the arcs
+//! that the node allows. Where the paths form a tree, it is the node's best layout. Else the bound is raised
+//! by Lagrangian relaxation ([`lagrangian`](super::lagrangian)), and the node is branched on the face into
+//! which the paths disagree the most: it is entered across one side in each child, so the children are
+//! disjoint and complete. Where patterns may not overlap, a tree whose pattern overlaps is branched along the
+//! path between two overlapping faces: any layout with all arcs of the path overlaps, so child k keeps the
+//! first k arcs and leaves out the next.
 //!
-//! All roots are searched together, always the node of least bound next, so that the gap at the end
-//! of a budget is as small as it can be. Roots that are equal by symmetry are searched once.
+//! All roots share one queue, in which the node of least bound comes first (best-first search), so that the
+//! gap at the end of a budget is as small as it can be. Roots that are equal by symmetry are searched once.
 //!
-//! Equal costs are told apart by a tiny addition for every hinge, or symmetric targets would be
-//! searched for ever. The proof holds up to what the additions come to, [`SLACK`] of the energy.
+//! Costs are perturbed by a tiny addition for every hinge, since symmetric targets with their ties would not
+//! end. The proof holds up to the sum of the additions, `TOLERANCES.perturbation` of the energy.
 
 use super::edge_exchange;
-use super::lagrangian::{self, Effort, Lagrangian, Multipliers};
+use super::lagrangian::{self, AscentLimits, Lagrangian, Multipliers};
 use super::layout::Layout;
+use super::observer::Observer;
 use super::pattern::Pattern;
 use super::shortest_paths::{self, Allowed, Arc, ShortestPaths};
 use super::symmetry;
 use super::tabu_unfolding;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
-/// Part of the energy that the additions may come to in all.
-pub const SLACK: f64 = 1e-9;
+/// The greatest size of the queue of open nodes, bytes.
+const QUEUE_BYTES_MAX: usize = 1 << 29;
 
-/// Layouts within this part of the least energy are equally good.
-pub const TOL_TIE: f64 = 1e-9;
-
-/// A bound this near to the best energy, as part of it, is rounding away from it.
-const TOL_BOUND: f64 = 1e-12;
-
-/// What may wait at one time, bytes.
-const HELD_MAX: usize = 1 << 29;
-
-/// What a node takes for each face, bytes: a path shared with its parent, a cost, uses, arcs.
+/// The size of a node by its faces, bytes: a path shared with its parent, a cost, uses, arcs.
 const FACE_BYTES: usize = 48;
 
-/// Rounds of one ascent.
+/// Rounds of one subgradient ascent.
 const ROUNDS: usize = 6;
 
-/// An ascent that closed less than this part of the gap is the last before branching.
+/// The least part of the gap that an ascent has to close for another one to follow before branching.
 const WORTHWHILE: f64 = 0.05;
 
-/// Steps of an ascent that begins where another ended are longer by this.
+/// The first step of an ascent is the last step of its parent's ascent divided by this.
 const RESUMED: f64 = 0.5;
 
-/// An ascent whose steps are shorter has converged.
+/// The step length, as a part of the gap, below which an ascent has converged.
 const LENGTH_MIN: f64 = 0.01;
 
-/// The part of the steps that are left which may go into one search for a layout that lies flat: one by this.
+/// The remaining budget divided by this is the budget of one tabu search for a layout that lies flat.
 const FLATTENING: u64 = 4;
 
-/// What is searched and how long.
+/// The options of a search for the optimum.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// `None`: the best of all.
+    /// The root of the layout; `None`: the best of all roots.
     pub root: Option<usize>,
-    /// Whether patterns that overlap in the plane are left out.
+    /// Whether layouts whose patterns overlap in the plane are left out.
     pub flat: bool,
-    /// Layouts with more hinges on a path from the root are left out.
+    /// The greatest number of hinges on a path from the root; `None`: any number.
     pub height: Option<usize>,
-    /// Faces settled on paths, exchanges weighed, and nodes, in all.
+    /// The greatest number of search steps: faces settled on paths, exchanges weighed, and nodes.
     pub budget: u64,
-    /// Another seed, another choice among layouts that tie.
+    /// The seed of the perturbations, which choose among layouts that tie.
     pub seed: u64,
 }
 
@@ -78,71 +71,83 @@ impl Default for Settings {
     }
 }
 
+/// How far the proof of an optimum reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
-    /// No layout costs less than this one by more than [`SLACK`] of its energy.
+    /// No layout costs less than this one by more than `TOLERANCES.perturbation` of its energy.
     Optimal,
-    /// The budget ended the search; the gap to the bound is open.
+    /// The budget ended the search, and the gap to the bound is open.
     Open,
 }
 
-/// What was found.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Optimum {
+    /// The best layout found.
     pub layout: Layout,
-    /// N·m for steps of one second.
+    /// Its energy, N·m for steps of one second.
     pub energy: f64,
-    /// No layout among those asked for costs less.
+    /// The lower bound on the energy of all layouts asked for, in the same unit.
     pub bound: f64,
+    /// How far the proof reaches.
     pub proof: Proof,
-    /// Roots that reach the energy, to [`TOL_TIE`] of it, in order; those found before the budget
-    /// ended.
+    /// The roots that reach the energy up to ties, in order; those found before the budget ended.
     pub roots: Vec<usize>,
-    /// Branchings.
+    /// The number of branchings.
     pub nodes: u64,
 }
 
 /// Why there is no optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLayout {
-    /// Every layout overlaps in the plane, is too high, or was refused.
+    /// Every layout overlaps in the plane, is too high, or was refused by the caller.
     AllOverlap,
-    /// The budget ended, or the search was stopped, before any layout was found that does.
+    /// The budget ended, or the search was stopped, before a layout was found.
     Budget,
 }
 
-/// What is said of a layout that might be the answer.
+/// The caller's decision about a layout that might be the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
+    /// The layout is the answer.
     Accept,
-    /// The next best is sought.
+    /// The search goes on to the next best.
     Refuse,
-    /// Enough was asked: the search ends here.
+    /// The search ends here, without another layout.
     Stop,
 }
 
-/// The layout of least energy.
+/// Returns the layout of least energy.
+///
+/// # Errors
+/// [`NoLayout`] where no layout lies flat or is low enough, or none was found within the budget.
 pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Result<Optimum, NoLayout> {
-    search(target, weights, settings, None)
+    search(target, weights, settings, None, &Observer::none())
 }
 
-/// The layout of least energy among those that are accepted: layouts are asked for in order of their
-/// energy. (Where the budget ends before one is accepted, a last one is asked for that need not be
-/// the next.)
+/// Returns the layout of least energy among those that `accepts` accepts; it decides about layouts in order of
+/// their energy. Where the budget ends before one is accepted, it decides about a last one, which need not be
+/// the next.
+///
+/// # Errors
+/// [`NoLayout`] where every layout was refused, or none was accepted within the budget.
 pub fn optimum_among(
     target: &Target,
     weights: &Weights,
     settings: &Settings,
     accepts: &mut dyn FnMut(&Layout) -> Decision,
 ) -> Result<Optimum, NoLayout> {
-    search(target, weights, settings, Some(accepts))
+    search(target, weights, settings, Some(accepts), &Observer::none())
 }
 
-fn search<'a>(
+/// Runs the search; without `accepts` the first layout that fits the settings is accepted. An observer that ends
+/// the search ends its budget.
+pub(crate) fn search<'a>(
     target: &Target,
     weights: &Weights,
     settings: &Settings,
     accepts: Option<&'a mut (dyn FnMut(&Layout) -> Decision + 'a)>,
+    observer: &Observer,
 ) -> Result<Optimum, NoLayout> {
     let n = target.faces.len();
     let plain = ShortestPaths::new(target, weights);
@@ -155,13 +160,13 @@ fn search<'a>(
         None => (0..n).filter(|face| equals[*face] == *face).collect(),
     };
     let least = asked.iter().map(|root| plain.bound(*root)).fold(f64::INFINITY, f64::min);
-    // Where nothing costs anything, any addition will do.
-    let slack = if least > 0.0 { SLACK * least } else { SLACK };
-    let raised = raised(target, weights, slack, settings.seed);
+    // Where nothing costs anything, any perturbation will do.
+    let slack = if least > 0.0 { TOLERANCES.perturbation * least } else { TOLERANCES.perturbation };
+    let perturbed = perturbed(target, weights, slack, settings.seed);
     let mut search = Search {
         target,
         weights,
-        raised: &raised,
+        perturbed: &perturbed,
         flat: settings.flat,
         seed: settings.seed,
         without_overlaps: false,
@@ -172,18 +177,19 @@ fn search<'a>(
         best: None,
         reached: vec![f64::INFINITY; n],
         aims: vec![f64::INFINITY; n],
-        waiting: BinaryHeap::new(),
-        held: 0,
-        open: f64::INFINITY,
+        open_nodes: BinaryHeap::new(),
+        queue_bytes: 0,
+        open_bound: f64::INFINITY,
         nodes: 0,
-        left: settings.budget,
+        budget_left: settings.budget,
+        observer,
     };
     for root in asked {
         search.push(Node { root, bound: plain.bound(root), number: 0, ways: None });
     }
-    let mut routes = ShortestPaths::new(target, &raised);
+    let mut routes = ShortestPaths::new(target, &perturbed);
     routes.longest = search.height;
-    let mut bounds = Bounds { routes, lagrange: None };
+    let mut bounds = Bounds { routes, relaxation: None };
     search.run(&mut bounds);
     let equals: Vec<Option<usize>> = match settings.root {
         Some(root) => (0..n).map(|face| (face == root).then_some(root)).collect(),
@@ -192,42 +198,43 @@ fn search<'a>(
     search.finish(&equals)
 }
 
-/// The weights with an addition for every hinge; no layout's additions come to more than the slack,
-/// for it has fewer pairs of a face and a hinge above it than the square of its faces.
-fn raised(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weights {
+/// Returns the weights perturbed by an addition for every hinge. The additions of one layout come to no more
+/// than `slack`, since it has fewer pairs of a face and a hinge above it than the square of its faces.
+fn perturbed(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weights {
     let n = target.faces.len();
     let step = slack / (n * n) as f64;
     let extra: Vec<f64> = (0..target.hinges.len()).map(|hinge| step * fraction(hinge, seed)).collect();
-    weights.raised(&extra)
+    weights.perturbed(&extra)
 }
 
-struct Search<'s, 'a> {
+struct Search<'s, 'a, 'o> {
     target: &'s Target,
     weights: &'s Weights,
-    /// With the additions.
-    raised: &'s Weights,
+    /// The weights with their perturbations.
+    perturbed: &'s Weights,
     flat: bool,
     seed: u64,
-    /// Whether a layout that lies flat was looked for by exchanges.
+    /// Whether the tabu search for a layout that lies flat was run.
     without_overlaps: bool,
-    /// The most hinges on a path.
+    /// The greatest number of hinges on a path.
     height: usize,
     accepts: Option<&'a mut (dyn FnMut(&Layout) -> Decision + 'a)>,
     stopped: bool,
-    /// The most that the additions come to in one layout, N·m.
+    /// The greatest sum of perturbations in one layout, N·m.
     slack: f64,
     best: Option<Found>,
-    /// By root: least energy found there, with the additions.
+    /// By root: the least perturbed energy found there.
     reached: Vec<f64>,
-    /// By root: about what its best layout costs, were it to lie flat.
+    /// By root: an estimate of the energy of its best layout, flat or not, for Polyak's step.
     aims: Vec<f64>,
-    waiting: BinaryHeap<Node>,
-    /// What the waiting nodes take, bytes.
-    held: usize,
-    /// Least bound of what was left unsearched.
-    open: f64,
+    open_nodes: BinaryHeap<Node>,
+    /// The size of the open nodes, bytes.
+    queue_bytes: usize,
+    /// The least bound of the nodes that were left unsearched.
+    open_bound: f64,
     nodes: u64,
-    left: u64,
+    budget_left: u64,
+    observer: &'s Observer<'o>,
 }
 
 struct Found {
@@ -239,25 +246,25 @@ struct Node {
     root: usize,
     bound: f64,
     number: u64,
-    /// `None`: nothing is known yet but the bound.
-    ways: Option<Ways>,
+    /// The paths of the node; `None` while only its bound is known.
+    ways: Option<NodePaths>,
 }
 
-/// What is known of a node.
-struct Ways {
+/// The relaxed solution of a node.
+struct NodePaths {
     allowed: Allowed,
     paths: Vec<Rc<[Arc]>>,
     costs: Vec<f64>,
-    prices: Rc<Multipliers>,
-    /// Of the next step of an ascent.
+    multipliers: Rc<Multipliers>,
+    /// The length of the next step of an ascent, as a part of the gap.
     length: f64,
     /// Whether another ascent may raise the bound further.
     rising: bool,
-    /// How often paths entered each face across each of its sides at the end of the last ascent.
+    /// By face and side: the number of paths that entered there at the end of the last ascent.
     uses: Vec<[u32; 3]>,
 }
 
-/// The least bound is the greatest; of equal ones the newest, then the first root's.
+/// The node of least bound is the greatest; of equal ones the newest, then that of the first root.
 impl Ord for Node {
     fn cmp(&self, other: &Node) -> Ordering {
         let newest = self.number.cmp(&other.number);
@@ -276,46 +283,50 @@ impl PartialEq for Node {
 }
 impl Eq for Node {}
 
-/// What computes bounds.
+/// The computation of bounds.
 struct Bounds<'s> {
     routes: ShortestPaths<'s>,
-    /// Made when it is first needed.
-    lagrange: Option<Lagrangian<'s>>,
+    /// The relaxation, made when it is first needed.
+    relaxation: Option<Lagrangian<'s>>,
 }
 
-impl<'s> Search<'s, '_> {
+impl<'s> Search<'s, '_, '_> {
     fn run(&mut self, bounds: &mut Bounds<'s>) {
-        while let Some(node) = self.waiting.pop() {
+        while let Some(node) = self.open_nodes.pop() {
             let least = self.best.as_ref().map(|best| best.energy);
-            let (nodes, wait) = (self.nodes, self.waiting.len());
+            let (nodes, queued) = (self.nodes, self.open_nodes.len());
             crate::interrupt::progress_checkpoint(|| {
-                super::progress_text::searched(nodes, wait, least, node.bound)
+                super::progress_text::searched(nodes, queued, least, node.bound)
             });
-            self.held -= node.size();
+            self.queue_bytes -= node.size();
             if node.bound >= self.cutoff(node.root) {
                 continue;
             }
-            if self.left == 0 || self.held > HELD_MAX || self.stopped {
-                self.open = self.open.min(node.bound);
+            if self.budget_left == 0
+                || self.queue_bytes > QUEUE_BYTES_MAX
+                || self.stopped
+                || !self.observer.should_continue()
+            {
+                self.open_bound = self.open_bound.min(node.bound);
                 if self.best.is_none() && !self.stopped {
                     self.start(node.root);
                 }
                 return;
             }
-            self.left -= 1;
-            self.look(bounds, node);
+            self.budget_left -= 1;
+            self.expand(bounds, node);
         }
     }
 
     fn push(&mut self, node: Node) {
         if node.bound < self.cutoff(node.root) {
-            self.held += node.size();
-            self.waiting.push(node);
+            self.queue_bytes += node.size();
+            self.open_nodes.push(node);
         }
     }
 
-    /// One step further with a node: paths, then a better bound, then its children or its answer.
-    fn look(&mut self, bounds: &mut Bounds<'s>, node: Node) {
+    /// Expands a node by one step: shortest paths, then a better bound, then its children or its answer.
+    fn expand(&mut self, bounds: &mut Bounds<'s>, node: Node) {
         let Node { root, bound, ways, .. } = node;
         let Some(mut ways) = ways else {
             let Some(ways) = self.first(&mut bounds.routes, root) else { return };
@@ -325,8 +336,8 @@ impl<'s> Search<'s, '_> {
         match shortest_paths::disputed(root, &shortest_paths::uses(self.target, &ways.paths)) {
             None => self.settle(bounds, root, bound, ways),
             Some(_) if ways.rising => {
-                let raised = self.rise(bounds, root, bound, &mut ways);
-                if let Some(bound) = raised {
+                let better = self.ascend(bounds, root, bound, &mut ways);
+                if let Some(bound) = better {
                     self.push(Node { root, bound, number: self.nodes, ways: Some(ways) });
                 }
             }
@@ -338,25 +349,33 @@ impl<'s> Search<'s, '_> {
         }
     }
 
-    /// Raises the bound by prices; the new one, or `None` where nothing below the cutoff is left.
-    fn rise(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: &mut Ways) -> Option<f64> {
+    /// Raises the bound by Lagrangian relaxation. Returns the new one, or `None` where nothing below the cutoff
+    /// is left.
+    fn ascend(
+        &mut self,
+        bounds: &mut Bounds<'s>,
+        root: usize,
+        bound: f64,
+        ways: &mut NodePaths,
+    ) -> Option<f64> {
         if self.aims[root].is_infinite() {
             self.start(root);
         }
         let cutoff = self.cutoff(root);
         let aim = if cutoff.is_finite() { cutoff } else { self.aims[root].max(bound) };
-        let (target, raised) = (self.target, self.raised);
-        let lagrange = bounds.lagrange.get_or_insert_with(|| Lagrangian::new(target, raised));
-        let (mut left, mut allowed) = (self.left, ways.allowed.clone());
-        let effort = Effort { cutoff, aim, rounds: ROUNDS, length: ways.length };
-        let found = lagrange.ascend(root, &mut allowed, &ways.prices, effort, &mut left, |chosen, steps| {
-            let layout = Layout::of_hinges(target, &lagrangian::mended(target, root, chosen), root);
-            let layout = layout.expect("what was mended is a tree");
-            self.consider(edge_exchange::improved(target, self.weights, layout, steps));
-            self.cutoff(root)
-        });
-        self.left = left;
-        ways.prices = found.prices.into();
+        let (target, perturbed) = (self.target, self.perturbed);
+        let relaxation = bounds.relaxation.get_or_insert_with(|| Lagrangian::new(target, perturbed));
+        let (mut left, mut allowed) = (self.budget_left, ways.allowed.clone());
+        let limits = AscentLimits { cutoff, aim, rounds: ROUNDS, length: ways.length };
+        let found =
+            relaxation.ascend(root, &mut allowed, &ways.multipliers, limits, &mut left, |chosen, steps| {
+                let layout = Layout::of_hinges(target, &lagrangian::repaired(target, root, chosen), root);
+                let layout = layout.expect("what was repaired is a tree");
+                self.consider(edge_exchange::improved(target, self.weights, layout, steps));
+                self.cutoff(root)
+            });
+        self.budget_left = left;
+        ways.multipliers = found.multipliers.into();
         ways.uses = found.uses;
         // A child begins with steps that are not yet as short as its parent's last.
         ways.length = (found.length / RESUMED).min(1.0);
@@ -370,8 +389,8 @@ impl<'s> Search<'s, '_> {
         Some(bound.max(ways.costs.iter().sum()))
     }
 
-    /// Paths that agree are the node's best layout, if it may lie as it does.
-    fn settle(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: Ways) {
+    /// Handles a node whose paths form a tree: it is the node's best layout, unless its pattern overlaps.
+    fn settle(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: NodePaths) {
         let layout = shortest_paths::tree(self.target, root, &ways.paths);
         if let Some(path) = self.flat.then(|| overlapping_path(self.target, &layout)).flatten() {
             return self.without_path(bounds, root, bound, &ways, &path);
@@ -381,16 +400,17 @@ impl<'s> Search<'s, '_> {
             Decision::Accept => {}
             // All other layouts of the node lack one of its arcs.
             Decision::Refuse => self.without_path(bounds, root, bound, &ways, &arcs),
-            Decision::Stop => self.open = self.open.min(bound),
+            Decision::Stop => self.open_bound = self.open_bound.min(bound),
         }
     }
 
+    /// Branches on a face: one child for each side across which it may be entered.
     fn enter_across_each(
         &mut self,
         bounds: &mut Bounds<'s>,
         root: usize,
         bound: f64,
-        ways: &Ways,
+        ways: &NodePaths,
         face: usize,
     ) {
         self.nodes += 1;
@@ -401,7 +421,15 @@ impl<'s> Search<'s, '_> {
         }
     }
 
-    fn without_path(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, ways: &Ways, path: &[Arc]) {
+    /// Branches on a path: child k keeps the first k arcs and leaves out the next.
+    fn without_path(
+        &mut self,
+        bounds: &mut Bounds<'s>,
+        root: usize,
+        bound: f64,
+        ways: &NodePaths,
+        path: &[Arc],
+    ) {
         self.nodes += 1;
         let mut allowed = ways.allowed.clone();
         for &an_arc in path {
@@ -413,12 +441,20 @@ impl<'s> Search<'s, '_> {
         }
     }
 
-    fn child(&mut self, bounds: &mut Bounds<'s>, root: usize, bound: f64, parent: &Ways, allowed: Allowed) {
-        let mut ways = Ways {
+    /// Queues the child of a node with fewer arcs, if every face can still be reached.
+    fn child(
+        &mut self,
+        bounds: &mut Bounds<'s>,
+        root: usize,
+        bound: f64,
+        parent: &NodePaths,
+        allowed: Allowed,
+    ) {
+        let mut ways = NodePaths {
             allowed: Vec::new(),
             paths: parent.paths.clone(),
             costs: parent.costs.clone(),
-            prices: parent.prices.clone(),
+            multipliers: parent.multipliers.clone(),
             length: parent.length,
             rising: true,
             uses: Vec::new(),
@@ -429,13 +465,13 @@ impl<'s> Search<'s, '_> {
         }
     }
 
-    /// Puts a node under other arcs: only paths that lost one are sought anew. `false` where a face
+    /// Restricts a node to fewer arcs: only paths that lost an arc are searched again. Returns false where a face
     /// can't be reached any more.
     fn reroute(
         &mut self,
         routes: &mut ShortestPaths,
         root: usize,
-        ways: &mut Ways,
+        ways: &mut NodePaths,
         allowed: Allowed,
     ) -> bool {
         for face in 0..ways.paths.len() {
@@ -444,7 +480,7 @@ impl<'s> Search<'s, '_> {
                 allowed[entered] & (1 << side) == 0
             });
             if lost {
-                self.left = self.left.saturating_sub(ways.paths[face].len() as u64);
+                self.budget_left = self.budget_left.saturating_sub(ways.paths[face].len() as u64);
                 let Some((cost, path)) = routes.route(root, face, &allowed) else { return false };
                 (ways.costs[face], ways.paths[face]) = (cost, path);
             }
@@ -453,19 +489,22 @@ impl<'s> Search<'s, '_> {
         true
     }
 
-    /// Under the raised weights: what reaches this is no better than what is known.
+    /// Returns the perturbed energy from which on a layout is no better than what is known.
     fn cutoff(&self, root: usize) -> f64 {
-        let tie = self.best.as_ref().map_or(f64::INFINITY, |best| best.energy * (1.0 + TOL_TIE) + self.slack);
-        tie.min(self.reached[root] * (1.0 - TOL_BOUND))
+        let tie = self
+            .best
+            .as_ref()
+            .map_or(f64::INFINITY, |best| best.energy * (1.0 + TOLERANCES.tie) + self.slack);
+        tie.min(self.reached[root] * (1.0 - TOLERANCES.bound))
     }
 
-    /// A layout to begin with, by growth and exchange.
+    /// Primal heuristic: a greedy tree, improved by exchanges, to begin with.
     fn start(&mut self, root: usize) {
         let grown = edge_exchange::grown(self.target, self.weights, root);
-        let mut first = edge_exchange::improved(self.target, self.weights, grown, &mut self.left);
+        let mut first = edge_exchange::improved(self.target, self.weights, grown, &mut self.budget_left);
         if let Some(best) = &self.best {
             let rerooted = best.layout.rerooted(self.target, root);
-            let other = edge_exchange::improved(self.target, self.weights, rerooted, &mut self.left);
+            let other = edge_exchange::improved(self.target, self.weights, rerooted, &mut self.budget_left);
             if other.energy(self.weights) < first.energy(self.weights) {
                 first = other;
             }
@@ -473,14 +512,14 @@ impl<'s> Search<'s, '_> {
         if self.flat {
             first = self.flat_start(first);
         }
-        if self.accepts.is_some() && (self.left == 0 || self.held > HELD_MAX) {
+        if self.accepts.is_some() && (self.budget_left == 0 || self.queue_bytes > QUEUE_BYTES_MAX) {
             self.offer(first);
         } else {
             self.consider(first);
         }
     }
 
-    /// The same for layouts that lie flat: from the best one, if there is one yet.
+    /// The same for layouts that lie flat: from the best layout, or by tabu search as long as there is none.
     fn flat_start(&mut self, first: Layout) -> Layout {
         let (target, weights) = (self.target, self.weights);
         let is_flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
@@ -489,30 +528,31 @@ impl<'s> Search<'s, '_> {
         }
         if let Some(best) = &self.best {
             let rerooted = best.layout.rerooted(target, first.root);
-            return edge_exchange::improved_where(target, weights, rerooted, &mut self.left, &is_flat);
+            return edge_exchange::improved_where(target, weights, rerooted, &mut self.budget_left, &is_flat);
         }
-        // The budget goes on to the proof, whatever comes of this.
-        let mut part = self.left / FLATTENING;
+        // Only a part of the budget: the rest is for the proof.
+        let mut part = self.budget_left / FLATTENING;
         let granted = part;
         let flat = tabu_unfolding::without_overlaps(target, weights, first.clone(), self.seed, &mut part);
-        self.left -= granted - part;
+        self.budget_left -= granted - part;
         flat.unwrap_or(first)
     }
 
-    /// A layout that need not be the next best: where each is asked for, it is only something to aim
-    /// at.
+    /// Takes a layout of the primal heuristic, which need not be the next best: where the caller decides, it
+    /// only improves the estimate of the optimum.
     fn consider(&mut self, layout: Layout) {
         let root = layout.root;
-        self.aims[root] = self.aims[root].min(layout.energy(self.raised));
+        self.aims[root] = self.aims[root].min(layout.energy(self.perturbed));
         if self.accepts.is_none() {
             self.offer(layout);
         }
     }
 
-    /// Takes a layout for the best where it is better, and lies flat if it has to.
+    /// Makes a layout the incumbent where it is better, lies flat if it has to, and the caller accepts it.
     fn offer(&mut self, layout: Layout) -> Decision {
-        let (energy, raised, root) = (layout.energy(self.weights), layout.energy(self.raised), layout.root);
-        if raised >= self.reached[root]
+        let (energy, perturbed, root) =
+            (layout.energy(self.weights), layout.energy(self.perturbed), layout.root);
+        if perturbed >= self.reached[root]
             || self.height < self.target.faces.len() && layout.heights()[root] > self.height
             || self.flat && !Pattern::of(self.target, &layout).overlaps().is_empty()
         {
@@ -523,24 +563,24 @@ impl<'s> Search<'s, '_> {
         if word != Decision::Accept {
             return word;
         }
-        self.reached[root] = raised;
-        if self.best.as_ref().is_none_or(|best| energy < best.energy * (1.0 - TOL_TIE)) {
+        self.reached[root] = perturbed;
+        if self.best.as_ref().is_none_or(|best| energy < best.energy * (1.0 - TOLERANCES.tie)) {
             self.best = Some(Found { layout, energy });
         }
         word
     }
 
-    fn first(&mut self, routes: &mut ShortestPaths, root: usize) -> Option<Ways> {
+    fn first(&mut self, routes: &mut ShortestPaths, root: usize) -> Option<NodePaths> {
         let n = self.target.faces.len();
         let mut allowed: Allowed = vec![0; n];
         for (face, sides) in self.target.sides.iter().enumerate().filter(|(face, _)| *face != root) {
             allowed[face] = (0..3).filter(|&k| sides[k].is_some()).map(|k| 1 << k).sum();
         }
-        let mut ways = Ways {
+        let mut ways = NodePaths {
             allowed,
             paths: vec![Rc::from([]); n],
             costs: vec![0.0; n],
-            prices: Rc::from([]),
+            multipliers: Rc::from([]),
             length: 1.0,
             rising: true,
             uses: Vec::new(),
@@ -551,31 +591,31 @@ impl<'s> Search<'s, '_> {
         Some(ways)
     }
 
-    /// `equals`: by face, the root that was searched in its place, if any.
+    /// Returns the result; `equals`: by face, the root that was searched in its place, if any.
     fn finish(self, equals: &[Option<usize>]) -> Result<Optimum, NoLayout> {
-        let closed = self.open.is_infinite();
+        let closed = self.open_bound.is_infinite();
         let Some(best) = self.best else {
             return Err(if closed { NoLayout::AllOverlap } else { NoLayout::Budget });
         };
-        let tie = best.energy * (1.0 + TOL_TIE) + self.slack;
+        let tie = best.energy * (1.0 + TOLERANCES.tie) + self.slack;
         let reaches = |root: &usize| equals[*root].is_some_and(|searched| self.reached[searched] <= tie);
         let roots = (0..equals.len()).filter(reaches).collect();
-        // The additions make bounds greater, by at most the slack.
-        let bound = (self.open.min(best.energy * (1.0 - TOL_BOUND)) - self.slack).max(0.0);
+        // Perturbations make bounds greater, by at most the slack.
+        let bound = (self.open_bound.min(best.energy * (1.0 - TOLERANCES.bound)) - self.slack).max(0.0);
         let proof = if closed { Proof::Optimal } else { Proof::Open };
         Ok(Optimum { layout: best.layout, energy: best.energy, bound, proof, roots, nodes: self.nodes })
     }
 }
 
 impl Node {
-    /// About what it takes, bytes.
+    /// Returns about its size, bytes.
     fn size(&self) -> usize {
         let Some(ways) = &self.ways else { return 0 };
-        FACE_BYTES * ways.paths.len() + size_of_val(&*ways.prices)
+        FACE_BYTES * ways.paths.len() + size_of_val(&*ways.multipliers)
     }
 }
 
-/// A number in (0, 1] for every hinge, without pattern: two rounds of SplitMix64.
+/// Returns a pseudorandom number in (0, 1] for a hinge: two rounds of SplitMix64.
 fn fraction(hinge: usize, seed: u64) -> f64 {
     let mixed = [hinge as u64 + 1, seed].into_iter().fold(0, |state: u64, word| {
         let x = (state ^ word).wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -586,7 +626,8 @@ fn fraction(hinge: usize, seed: u64) -> f64 {
     ((mixed >> 32) as f64 + 1.0) / (1u64 << 32) as f64
 }
 
-/// The arcs of the shortest path in the tree between two faces that overlap in the plane.
+/// Returns the arcs of the shortest path in the tree between two faces that overlap in the plane; `None` where
+/// none do.
 fn overlapping_path(target: &Target, layout: &Layout) -> Option<Vec<Arc>> {
     let pairs = Pattern::of(target, layout).overlaps();
     let paths = pairs.iter().map(|&[a, b]| edge_exchange::path(layout, a, b));

@@ -1,9 +1,9 @@
-//! An order of folding in which no panels meet, where the usual orders have none.
+//! Depth-first search for a collision-free order of folding, where the usual orders collide.
 //!
-//! The folding is undone, one hinge after the other, back to the flat pattern: a search in depth over
-//! the sets of hinges that are still folded, with those that led nowhere remembered. Most panels are
+//! The folding is undone, one hinge after the other, back to the flat pattern: a depth-first search over
+//! the sets of hinges that are still folded, with dead ends remembered. Most panels are
 //! in each other's way when they are folded, so it is there that choices matter. Of the hinges that can
-//! be opened that one goes first which a wished order folds last. What was found is put into steps
+//! be opened that one goes first which a preferred order folds last. What was found is put into steps
 //! again: a hinge folds with the one before it where neither carries the other and nothing meets.
 
 use super::layout::Layout;
@@ -14,49 +14,49 @@ use crate::interrupt;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One step: the hinges that have folded before it, and the face whose hinge folds in it.
-type Turn = (Vec<bool>, usize);
+type FoldStep = (Vec<bool>, usize);
 
-/// A search in one layout. What the judge refused can be told it; then it finds another way.
+/// The search in one layout. Steps that the judge refused can be forbidden; then it finds another order.
 pub struct OrderSearch<'t> {
     layout: &'t Layout,
     target: &'t Target,
-    look: SweepCheck<'t>,
-    burden: Option<&'t LoadLimits>,
-    free: BTreeMap<Turn, bool>,
-    refused: BTreeSet<Turn>,
-    /// Steps that may still be looked at.
-    pub left: usize,
-    /// The least overload that stood against a step, and the face on whose hinge it is, N·m.
+    check: SweepCheck<'t>,
+    limits: Option<&'t LoadLimits>,
+    free: BTreeMap<FoldStep, bool>,
+    forbidden: BTreeSet<FoldStep>,
+    /// The number of steps that may still be sampled.
+    pub samples_left: usize,
+    /// The least overload that stood against a step, N·m, and the face on whose hinge it is.
     pub overload: Option<(f64, usize)>,
 }
 
 impl<'t> OrderSearch<'t> {
-    /// `looks`: steps that are looked at at most.
+    /// Sets up the search; `limits`: under gravity; `samples`: the greatest number of steps that are sampled.
     pub fn new(
         target: &'t Target,
         layout: &'t Layout,
         solids: &Solids,
-        burden: Option<&'t LoadLimits>,
-        looks: usize,
+        limits: Option<&'t LoadLimits>,
+        samples: usize,
     ) -> OrderSearch<'t> {
-        let (free, refused) = (BTreeMap::new(), BTreeSet::new());
-        let look = SweepCheck::thick(target, layout, solids);
-        OrderSearch { layout, target, look, burden, free, refused, left: looks, overload: None }
+        let (free, forbidden) = (BTreeMap::new(), BTreeSet::new());
+        let check = SweepCheck::thick(target, layout, solids);
+        OrderSearch { layout, target, check, limits, free, forbidden, samples_left: samples, overload: None }
     }
 
-    /// All faces but the root in an order in which each can fold. `wished`: such an order, to which it
+    /// All faces but the root in an order in which each can fold. `preferred`: such an order, to which it
     /// is to be like.
-    pub fn order(&mut self, wished: &[usize]) -> Option<Vec<usize>> {
+    pub fn order(&mut self, preferred: &[usize]) -> Option<Vec<usize>> {
         let mut folded = vec![true; self.layout.parent.len()];
         folded[self.layout.root] = false;
         let mut dead: BTreeSet<Vec<bool>> = BTreeSet::new();
-        // Opened so far; for each depth how many of the wished were tried.
+        // Opened so far; for each depth how many of the preferred were tried.
         let mut opened: Vec<usize> = Vec::new();
         let mut tried = vec![0];
-        while opened.len() < wished.len() {
+        while opened.len() < preferred.len() {
             interrupt::checkpoint();
             let next = tried.last_mut().expect("one for each depth");
-            let Some(&face) = wished.iter().rev().nth(*next) else {
+            let Some(&face) = preferred.iter().rev().nth(*next) else {
                 dead.insert(folded.clone());
                 tried.pop();
                 folded[opened.pop()?] = true;
@@ -78,7 +78,8 @@ impl<'t> OrderSearch<'t> {
         Some(opened)
     }
 
-    /// The order in steps.
+    /// Lays an order into steps: a hinge folds with the one before it where neither carries the other and nothing
+    /// collides.
     pub fn steps(&self, order: &[usize]) -> Vec<Vec<usize>> {
         let mut folded = vec![false; self.layout.parent.len()];
         let mut steps: Vec<Vec<usize>> = Vec::new();
@@ -97,7 +98,7 @@ impl<'t> OrderSearch<'t> {
         steps
     }
 
-    /// Whether nothing is seen to stand against these steps.
+    /// Returns whether no sample of these steps shows a collision or a violated limit.
     pub fn is_collision_free(&self, steps: &[Vec<usize>]) -> bool {
         let mut folded = vec![false; self.layout.parent.len()];
         steps.iter().all(|step| {
@@ -107,24 +108,24 @@ impl<'t> OrderSearch<'t> {
         })
     }
 
-    /// A step of an order that was found is not to be taken any more.
-    pub fn refuse(&mut self, order: &[usize], step: usize) {
+    /// Forbids a step of an order that was found.
+    pub fn forbid(&mut self, order: &[usize], step: usize) {
         let mut folded = vec![false; self.layout.parent.len()];
         order[..step].iter().for_each(|face| folded[*face] = true);
-        self.refused.insert((folded, order[step]));
+        self.forbidden.insert((folded, order[step]));
     }
 
-    /// `None` where no more may be looked at.
+    /// Returns whether a hinge can be opened; `None` where no more may be sampled.
     fn is_free(&mut self, folded: &[bool], face: usize) -> Option<bool> {
         let turn = (folded.to_vec(), face);
-        if self.refused.contains(&turn) {
+        if self.forbidden.contains(&turn) {
             return Some(false);
         }
         if let Some(&known) = self.free.get(&turn) {
             return Some(known);
         }
-        self.left = self.left.checked_sub(1)?;
-        if let Some(Violation::Overload { face, torque }) = self.obstacle(folded, &[face])
+        self.samples_left = self.samples_left.checked_sub(1)?;
+        if let Some(Violation::Overload { face, torque }) = self.violation(folded, &[face])
             && self.overload.is_none_or(|(least, _)| torque < least)
         {
             self.overload = Some((torque, face));
@@ -134,11 +135,11 @@ impl<'t> OrderSearch<'t> {
         Some(is_free)
     }
 
-    fn obstacle(&self, folded: &[bool], moving: &[usize]) -> Option<Violation> {
-        self.burden?.obstacle(self.target, self.layout, folded, moving)
+    fn violation(&self, folded: &[bool], moving: &[usize]) -> Option<Violation> {
+        self.limits?.violation(self.target, self.layout, folded, moving)
     }
 
     fn passes(&self, folded: &[bool], moving: &[usize]) -> bool {
-        self.obstacle(folded, moving).is_none() && self.look.during(folded, moving).is_none()
+        self.violation(folded, moving).is_none() && self.check.pair_during(folded, moving).is_none()
     }
 }

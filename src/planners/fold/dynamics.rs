@@ -11,20 +11,23 @@ use super::layout::Layout;
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
-/// How the hinge of a face stands and moves: rad, rad/s, rad/s². An angle of 0 is level.
+/// Position, speed and acceleration of the hinge of a face. An angle of 0 is level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hinging {
+    /// rad
     pub angle: f64,
+    /// rad/s
     pub speed: f64,
+    /// rad/s²
     pub acceleration: f64,
 }
 
-/// The faces of a layout as bodies on hinges.
+/// The tree of a layout as rigid bodies on hinges.
 pub struct Dynamics<'t> {
     target: &'t Target,
     layout: &'t Layout,
     bodies: &'t [Body],
-    /// What pulls on everything, m/s².
+    /// The gravity vector in the frame of the target, m/s².
     gravity: Vec3,
     faces: Vec<Moving>,
 }
@@ -61,13 +64,13 @@ const AT_REST: Moving = Moving {
 };
 
 impl<'t> Dynamics<'t> {
-    /// `bodies`: of every face. `gravity`: m/s², in the frame of the target.
+    /// Sets up the dynamics; `bodies`: by face; `gravity`: the vector in the frame of the target, m/s².
     pub fn new(target: &'t Target, layout: &'t Layout, bodies: &'t [Body], gravity: Vec3) -> Dynamics<'t> {
         Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
     }
 
-    /// The torques of all hinges, N·m, by face; the root has none. Positive ones turn towards positive
-    /// angles.
+    /// Inverse dynamics by the recursive Newton-Euler algorithm: writes the torques of all hinges, N·m, by face; the
+    /// root has none. Positive torques turn towards positive angles.
     pub fn torques(&mut self, hinging: impl Fn(usize) -> Hinging, torques: &mut [f64]) {
         self.outwards(hinging);
         for &face in self.layout.order[1..].iter().rev() {
@@ -80,6 +83,7 @@ impl<'t> Dynamics<'t> {
         torques[self.layout.root] = 0.0;
     }
 
+    /// Outward recursion: poses, velocities, accelerations, and the net force and moment of each body.
     fn outwards(&mut self, hinging: impl Fn(usize) -> Hinging) {
         let layout = self.layout;
         // Pulled upwards, everything weighs.

@@ -1,19 +1,18 @@
-//! Good layouts without proof: greedy growth, then exchange of hinges.
+//! Good layouts without proof: greedy growth, then local search by edge exchange (one hinge for another on the
+//! cycle that it closes).
 
 use super::layout::Layout;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
-/// An exchange has to gain this part of the energy, or rounding would go round in circles.
-const GAIN_MIN: f64 = 1e-11;
-
-/// Exchanges that gain, of which the best that is allowed is made.
+/// Exchanges that gain of which the best one that is allowed is made.
 const TRIED_MAX: usize = 256;
 
-/// So many sums take about as long as one exchange that is weighed.
+/// Sums that take about as long as one exchange that is weighed.
 const SUMS: usize = 64;
 
-/// A tree grown from the root: always the face is added whose path costs it least.
+/// Returns a greedy tree grown from the root: always the face is added whose path costs it the least.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let n = target.faces.len();
     // By face: the hinges between it and the root, once it belongs to the tree.
@@ -44,13 +43,13 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("every face was added by one hinge")
 }
 
-/// Exchanges a hinge that folds for one that doesn't as long as that helps. `steps`, counted down: how
-/// many exchanges may be weighed, and for each that is made the sums that it takes anew.
+/// Improves a layout by exchanges of a hinge that folds for one that does not, as long as that helps (steepest
+/// descent). `steps` counts down the exchanges weighed and the sums that each exchange made takes anew.
 pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut u64) -> Layout {
     improved_where(target, weights, layout, steps, &|_| true)
 }
 
-/// The same by exchanges that lead to layouts which are allowed.
+/// Improves a layout by exchanges that lead to layouts which are allowed.
 pub fn improved_where(
     target: &Target,
     weights: &Weights,
@@ -61,15 +60,15 @@ pub fn improved_where(
     improved_by(target, weights, layout, steps, &Rules { fits: &|_, _| true, allowed })
 }
 
-/// What is asked of exchanges beside that they help.
+/// The conditions on exchanges beside that they help.
 pub struct Rules<'r> {
-    /// Asked of all: of a layout, whether the first hinge may be exchanged for the second.
+    /// Asked of every exchange: of a layout, whether the first hinge may be exchanged for the second.
     pub fits: &'r dyn Fn(&Layout, [usize; 2]) -> bool,
-    /// Asked of some that help the most: whether the layout that they lead to is allowed.
+    /// Asked of the exchanges that help the most: whether the layout that they lead to is allowed.
     pub allowed: &'r dyn Fn(&Layout) -> bool,
 }
 
-/// The same by exchanges that keep to the rules.
+/// Improves a layout by exchanges that keep to the rules.
 pub fn improved_by(
     target: &Target,
     weights: &Weights,
@@ -77,7 +76,7 @@ pub fn improved_by(
     steps: &mut u64,
     rules: &Rules,
 ) -> Layout {
-    let gain = layout.energy(weights) * GAIN_MIN;
+    let gain = layout.energy(weights) * TOLERANCES.gain;
     while let Some(better) = exchange(target, weights, &layout, gain, steps, rules) {
         crate::interrupt::checkpoint();
         layout = better;
@@ -85,7 +84,7 @@ pub fn improved_by(
     layout
 }
 
-/// What the branches of a layout cost, so that an exchange is weighed without making its layout.
+/// The costs of the branches of a layout, by which an exchange is weighed without making its layout.
 struct Branches {
     hinges: usize,
     faces: usize,
@@ -126,7 +125,7 @@ impl Branches {
     }
 }
 
-/// The best single exchange that is allowed, if one gains more than `gain`.
+/// Returns the layout of the best single exchange that is allowed; `None` if none gains more than `gain`.
 ///
 /// One more hinge between a and b closes a cycle; on a's side of it, some face c loses the hinge to
 /// its parent, and the branch below c hangs from b by its face a. Outside the branch nothing changes.
@@ -172,7 +171,7 @@ fn exchange(
     better.iter().take(TRIED_MAX).map(exchanged).find(|layout| (rules.allowed)(layout))
 }
 
-/// The faces from `a` up to where its way to the root meets that of `b`, without that face.
+/// Collects the faces from `a` up to where its path to the root meets that of `b`, without that face.
 fn side_of_cycle(layout: &Layout, depths: &[usize], a: usize, b: usize, way: &mut Vec<usize>) {
     way.clear();
     let (mut x, mut y) = (a, b);
@@ -186,7 +185,7 @@ fn side_of_cycle(layout: &Layout, depths: &[usize], a: usize, b: usize, way: &mu
     }
 }
 
-/// The hinges of the tree between two faces.
+/// Returns the hinges of the tree between two faces.
 pub fn path(layout: &Layout, a: usize, b: usize) -> Vec<usize> {
     let up = |mut face: usize| {
         let mut way = Vec::new();

@@ -1,4 +1,4 @@
-//! The order of folding of least energy: mean torques of the moving joints, without gravity.
+//! Dynamic programme for the order of folding of least energy: mean torques of the moving joints, without gravity.
 //!
 //! What hinge a spends on face m depends only on which hinges between them have folded before, so on
 //! the order of m's own path. Going down the tree, each face is put into every place of its
@@ -11,11 +11,11 @@ use super::target::Target;
 use super::weights::QUINTIC;
 use crate::geometry::{Pose, Vec3};
 
-/// Trees up to this height are searched: the work grows with the factorial of it.
+/// The greatest height of a tree that is searched: the work grows with its factorial.
 pub const HEIGHT_MAX: usize = 8;
 
-/// An order of all faces but the root, and its energy (N·m for steps of one second). `None` for trees
-/// that are higher than [`HEIGHT_MAX`].
+/// Returns an order of all faces but the root of least energy, and that energy (N·m for steps of one second);
+/// `None` for trees that are higher than [`HEIGHT_MAX`]. `masses`: by face, kg.
 pub fn least_energy(
     target: &Target,
     layout: &Layout,
@@ -39,13 +39,13 @@ pub fn least_energy(
     Some(all)
 }
 
-/// The energy of an order, N·m for steps of one second.
+/// Returns the energy of an order, N·m for steps of one second; `masses`: by face, kg.
 pub fn energy(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, order: &[usize]) -> f64 {
     means(target, layout, masses, inertia, order).iter().sum()
 }
 
-/// By face: the mean torque of its hinge while it folds, computed step by step from the places of all
-/// faces; N·m for steps of one second.
+/// Returns by face the mean torque of its hinge while it folds, computed step by step from the poses of all
+/// faces; N·m for steps of one second. `masses`: by face, kg.
 pub fn means(
     target: &Target,
     layout: &Layout,

@@ -1,52 +1,54 @@
-//! Every layout, one after the other; none is held.
+//! Enumeration of every layout (spanning tree), one after the other; none is stored.
 //!
 //! Hinges are taken in order: one is kept, then left out where the faces still hang together without
 //! it. So every branch ends in a layout. Energies of a layout for all its roots come from one of
 //! them: when the root crosses a hinge, the faces before it are carried by the hinge and those behind
 //! it no longer are.
 
-use super::branch_and_bound::TOL_TIE;
 use super::layout::Layout;
+use super::observer::Observer;
 use super::progress_text;
 use super::spanning_trees;
 use super::spectrum::Spectrum;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::Weights;
-use crate::interrupt;
 
-/// Sets of faces are bits of a word.
+/// The greatest number of faces: sets of faces are bits of a word.
 pub const FACES_MAX: usize = 64;
 
-/// Sums over sets of faces are looked up by so many faces at a time.
+/// The number of faces whose sums are looked up at a time.
 const CHUNK: usize = 8;
 
-/// What enumeration found.
+/// The result of an enumeration.
 #[derive(Clone, Debug)]
 pub struct Census {
-    /// How many layouts were seen.
+    /// The number of layouts visited.
     pub layouts: u64,
     /// Whether that is all of them; else the budget ended it.
     pub complete: bool,
     /// A layout of least energy, hung up at its best root; the first found.
     pub best: Layout,
-    /// N·m for steps of one second.
+    /// The least energy, N·m for steps of one second.
     pub least: f64,
+    /// The greatest energy, N·m for steps of one second.
     pub greatest: f64,
-    /// Pairs of layout and root with the least energy, to a part of 1e-9.
+    /// The number of pairs of layout and root with the least energy, up to ties.
     pub ties: u64,
     /// By root: the least energy.
     pub by_root: Vec<f64>,
+    /// The energies that occur, if they were asked for.
     pub spectrum: Option<Spectrum>,
 }
 
-/// What is enumerated and how far.
+/// The options of an enumeration.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// `None`: all.
+    /// The root; `None`: all roots.
     pub root: Option<usize>,
-    /// Whether to tell how often each energy occurs.
+    /// Whether to count how often each energy occurs.
     pub spectrum: bool,
-    /// Layouts.
+    /// The greatest number of layouts.
     pub budget: u64,
 }
 
@@ -54,8 +56,16 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyFaces;
 
-/// Looks at every layout with every root.
-pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result<Census, TooManyFaces> {
+/// Computes the energy of every layout with every root.
+///
+/// # Errors
+/// [`TooManyFaces`] for targets of more than 64 faces.
+pub fn census(
+    target: &Target,
+    weights: &Weights,
+    settings: &Settings,
+    observer: &Observer,
+) -> Result<Census, TooManyFaces> {
     let sums = Sums::new(target, weights);
     let n = target.faces.len();
     let mut energies = vec![0.0; n];
@@ -68,7 +78,7 @@ pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result
     let walked = each(target, settings.budget, |hinges| {
         visited += 1;
         let least = best.as_ref().map(|(least, ..)| *least);
-        interrupt::progress_checkpoint(|| progress_text::counted(visited, &all, "layouts", least));
+        observer.report(|| progress_text::counted(visited, &all, "layouts", least));
         tree.hang(hinges);
         tree.energies(&sums, &mut energies);
         for (root, &energy) in energies.iter().enumerate() {
@@ -78,8 +88,8 @@ pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result
             by_root[root] = by_root[root].min(energy);
             greatest = f64::max(greatest, energy);
             match &mut best {
-                Some((least, ..)) if energy > *least * (1.0 + TOL_TIE) => {}
-                Some((least, ..)) if energy >= *least * (1.0 - TOL_TIE) => ties += 1,
+                Some((least, ..)) if energy > *least * (1.0 + TOLERANCES.tie) => {}
+                Some((least, ..)) if energy >= *least * (1.0 - TOLERANCES.tie) => ties += 1,
                 _ => {
                     best = Some((energy, hinges.to_vec(), root));
                     ties = 1;
@@ -105,14 +115,19 @@ pub fn census(target: &Target, weights: &Weights, settings: &Settings) -> Result
     })
 }
 
-/// How far an enumeration went.
+/// The extent of an enumeration.
 #[derive(Clone, Copy, Debug)]
 pub struct Traversal {
+    /// The number of layouts visited.
     pub layouts: u64,
+    /// Whether that is all of them.
     pub complete: bool,
 }
 
-/// Hands the hinges of every layout to `visit`, at most `budget` of them, at least one.
+/// Hands the hinges of every layout to `visit`, at most `budget` layouts, at least one.
+///
+/// # Errors
+/// [`TooManyFaces`] for targets of more than 64 faces.
 pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result<Traversal, TooManyFaces> {
     let n = target.faces.len();
     if n > FACES_MAX {
@@ -193,7 +208,7 @@ impl<V: FnMut(&[usize])> Walk<'_, V> {
         self.kept.truncate(mark);
     }
 
-    /// Whether hinges from `next` on join two groups.
+    /// Returns whether hinges from `next` on join two groups.
     fn reaches(&self, next: usize, a: usize, b: usize, groups: &[u64; FACES_MAX]) -> bool {
         let neighbours = &self.suffix[next];
         let (mut seen, mut fresh) = (groups[a], groups[a]);
@@ -253,14 +268,14 @@ impl Sums {
     }
 }
 
-/// The greatest mean torque of layouts with the leaves first, without making them.
+/// The greatest mean torque of layouts with the leaves first, computed without making them.
 pub struct Peaks<'t> {
     sums: Sums,
     tree: Tree<'t>,
 }
 
 impl<'t> Peaks<'t> {
-    /// `None` where the target has more than [`FACES_MAX`] faces.
+    /// Sets up the sums; `None` where the target has more than [`FACES_MAX`] faces.
     pub fn new(target: &'t Target, weights: &Weights) -> Option<Peaks<'t>> {
         let few = target.faces.len() <= FACES_MAX;
         few.then(|| Peaks { sums: Sums::new(target, weights), tree: Tree::new(target) })
@@ -271,7 +286,8 @@ impl<'t> Peaks<'t> {
         self.tree.hang(hinges);
     }
 
-    /// Of the layout that was taken up last, with a root: N·m for steps of one second.
+    /// Returns the greatest mean torque of the layout that was taken up last, with a root: N·m for steps of one
+    /// second.
     pub fn greatest(&self, root: usize) -> f64 {
         let below = &self.tree.below;
         let carried = |&(face, _, hinge): &(usize, usize, usize)| {

@@ -1,5 +1,5 @@
-//! What gravity asks of every hinge for every face that it carries, with the leaves folded first: bounds
-//! for what is simulated.
+//! Lower bounds on energy and peak torque under gravity, with the leaves folded first: what gravity asks of every
+//! hinge for every face that it carries.
 //!
 //! When a hinge folds, all above it is level, and what it carries has its final form: one rigid body that
 //! turns about an axis at rest. Its torque is `J q̈ + G(q)`. Over the step the mean of `J q̈` is 0, for the
@@ -23,14 +23,12 @@
 use super::kinematics::about;
 use super::simulation::quintic;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 
-/// Places of the step over which a cosine is averaged, by the midpoints; the sum is exact to far below
-/// [`ROUNDING`], for the law is smooth and flat at both ends.
+/// The number of places of a step over which a cosine is averaged, by the midpoints; the sum is exact to far below
+/// the tolerance, for the law is smooth and flat at both ends.
 const PLACES: usize = 256;
-
-/// What bounds are lowered by: part of themselves.
-const ROUNDING: f64 = 1e-7;
 
 /// The torque of gravity by arc and face, N·m.
 pub struct GravityBounds {
@@ -50,7 +48,7 @@ struct Arc {
 }
 
 impl GravityBounds {
-    /// `masses`: by face, kg; `gravity`: m/s².
+    /// Computes the torques of a target; `masses`: by face, kg; `gravity`: m/s².
     pub fn new(target: &Target, masses: &[f64], gravity: f64) -> GravityBounds {
         let mut arcs = Vec::with_capacity(2 * target.hinges.len());
         for hinge in &target.hinges {
@@ -76,15 +74,15 @@ impl GravityBounds {
         GravityBounds { faces: masses.len(), arcs }
     }
 
-    /// By root: no layout has hinges whose mean torques come to less. The torque of each hinge may be
+    /// Returns by root the lower bound on the sum of mean torques, N·m. The torque of each hinge may be
     /// counted with either sign: as it turns, or about its axis.
     pub fn energies(&self) -> Vec<f64> {
         let both = [self.sums(|arc| arc.sense), self.sums(|_| 1.0)];
         let greater = |root: usize| both.iter().map(|sums| sums[root]).fold(0.0, f64::max);
-        (0..self.faces).map(|root| greater(root) * (1.0 - ROUNDING)).collect()
+        (0..self.faces).map(|root| greater(root) * (1.0 - TOLERANCES.gravity_bound)).collect()
     }
 
-    /// By root: the cheapest walks to all faces, with the torques' signs as given.
+    /// Bellman-Ford: by root, the cheapest walks to all faces, with the torques' signs as given.
     fn sums(&self, sign: impl Fn(&Arc) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; self.faces];
         for face in 0..self.faces {
@@ -106,7 +104,8 @@ impl GravityBounds {
         sums
     }
 
-    /// No layout with this root has a lower peak: its hinges carry all other faces among them.
+    /// Returns the lower bound on the peak torque of layouts with this root, N·m: its hinges carry all other faces
+    /// among them.
     pub fn peak(&self, root: usize) -> f64 {
         let around: Vec<&Arc> = self.arcs.iter().filter(|arc| arc.above == root).collect();
         let mut greatest: f64 = 0.0;
@@ -116,11 +115,11 @@ impl GravityBounds {
             let others = (0..self.faces).filter(|face| *face != root);
             greatest = greatest.max(others.map(least).sum::<f64>() / around.len().max(1) as f64);
         }
-        greatest * (1.0 - ROUNDING)
+        greatest * (1.0 - TOLERANCES.gravity_bound)
     }
 }
 
-/// The mean over a step of cos(φ (s - 1/2)).
+/// Returns the mean over a step of cos(φ (s - 1/2)).
 fn mean_cosine(angle: f64) -> f64 {
     let place = |i: usize| (i as f64 + 0.5) / PLACES as f64;
     let cosine = |i: usize| libm::cos(angle * (quintic(place(i), 1.0).angle - 0.5));

@@ -1,17 +1,20 @@
-//! On which faces a shape can lie while it is folded: the root lies on the ground with its outside down, and
+//! The faces on which a shape can lie while it is folded: the root lies on the ground with its outside down, and
 //! nothing may reach below it.
 
 use super::target::Target;
 
-/// A face that reaches below another, and how far, m.
+/// A face that reaches below the ground plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protrusion {
+    /// The face.
     pub face: usize,
+    /// The depth of its lowest corner, m.
     pub depth: f64,
 }
 
-/// What of the target reaches deepest below the plane of a face, if it is deeper than `depth`, m.
-pub fn below(target: &Target, root: usize, depth: f64) -> Option<Protrusion> {
+/// Returns the face that reaches the deepest below the plane of `root`; `None` where none reaches deeper than
+/// `depth`, m.
+pub fn deepest_protrusion(target: &Target, root: usize, depth: f64) -> Option<Protrusion> {
     let (down, ground) = (target.normal(root), target.centroid(root));
     let of = |face: usize| {
         let depth =

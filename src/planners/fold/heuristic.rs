@@ -1,13 +1,11 @@
-//! The paper's measure of a layout (MII, Theorem 1): cheaper than simulating it, and kept for
-//! comparison; the closed form of [`weights`](super::weights) is exact and no dearer.
+//! The paper's heuristic measure of a layout (MII, Theorem 1), cheaper than a simulation and kept for
+//! comparison: the closed form of [`weights`](super::weights) is exact and no dearer.
 
 use super::enumerate::{self, TooManyFaces, Traversal};
 use super::kinematics::poses;
 use super::layout::Layout;
 use super::target::Target;
-
-/// Layouts whose measures differ by less than this part are equally good.
-const TOL_TIE: f64 = 1e-9;
+use super::tolerances::TOLERANCES;
 
 /// The constants of Theorem 1 (Table 5).
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +23,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// For panels of a mass (kg) and side (m).
+    /// Returns the constants for panels of a mass (kg) and side (m).
     pub fn of_panels(mass: f64, side: f64) -> Measure {
         Measure {
             inertia: 6.15e-11,
@@ -66,18 +64,23 @@ impl Measure {
     }
 }
 
-/// The layouts that the measure prefers.
+/// The result of a search by the measure.
 #[derive(Clone, Debug)]
 pub struct Preferred {
-    /// The first of them.
+    /// The first of the preferred layouts.
     pub layout: Layout,
+    /// Its measure.
     pub measure: f64,
-    /// How many are equally good, with any of the roots asked for.
+    /// The number of pairs of a layout and a root asked for that are equally good.
     pub ties: u64,
+    /// The extent of the enumeration.
     pub walked: Traversal,
 }
 
-/// The layout that the measure prefers, among all with the root asked for, or any.
+/// Searches the layout that the measure prefers, among all with the root asked for, or any; `budget`: layouts.
+///
+/// # Errors
+/// [`TooManyFaces`] for targets of more than 64 faces.
 pub fn preferred(
     target: &Target,
     measure: &Measure,
@@ -92,8 +95,8 @@ pub fn preferred(
             let layout = Layout::of_hinges(target, hinges, root).expect("only trees are enumerated");
             let value = measure.of(target, &layout);
             match &best {
-                Some((least, _)) if value > least * (1.0 + TOL_TIE) => {}
-                Some((least, _)) if value >= least * (1.0 - TOL_TIE) => ties += 1,
+                Some((least, _)) if value > least * (1.0 + TOLERANCES.tie) => {}
+                Some((least, _)) if value >= least * (1.0 - TOLERANCES.tie) => ties += 1,
                 _ => {
                     best = Some((value, layout));
                     ties = 1;

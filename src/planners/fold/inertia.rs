@@ -1,10 +1,10 @@
-//! What a panel weighs, and what that is spread over.
+//! Rigid-body inertia of triangular panels.
 
 use super::target::Target;
 use crate::geometry::Vec3;
 use nalgebra::Matrix3;
 
-/// What a panel's mass is spread over.
+/// The model of how a panel's mass is spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Inertia {
     /// Evenly over the triangle, without thickness.
@@ -18,35 +18,36 @@ pub enum Inertia {
 /// A panel as a rigid body, in its place in the target.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
-    /// kg
+    /// The mass, kg.
     pub mass: f64,
-    /// Centre of mass, m.
+    /// The centre of mass in the frame of the target, m.
     pub centre: Vec3,
-    /// About the centre of mass, kg·m².
+    /// The inertia tensor about the centre of mass, in the axes of the target, kg·m².
     pub inertia: Matrix3<f64>,
 }
 
 impl Body {
+    /// Computes the body of a panel from its corners (m) and mass (kg).
     pub fn of_panel(corners: &[Vec3; 3], mass: f64, inertia: Inertia) -> Body {
         let centre = corners.iter().sum::<Vec3>() / 3.0;
         let second = second_moment(&corners.map(|c| c - centre), inertia) * mass;
         Body { mass, centre, inertia: Matrix3::identity() * second.trace() - second }
     }
 
-    /// All panels of a target; `masses`: of each face, kg.
+    /// Computes the bodies of all panels of a target; `masses`: by face, kg.
     pub fn of_target(target: &Target, masses: &[f64], inertia: Inertia) -> Vec<Body> {
         let body = |(face, &mass): (usize, &f64)| Body::of_panel(&target.corners(face), mass, inertia);
         masses.iter().enumerate().map(body).collect()
     }
 }
 
-/// Moment of inertia (kg·m²) of a triangle about the line through `point` along the unit `axis`.
+/// Returns the moment of inertia (kg·m²) of a triangle about the line through `point` along the unit `axis`.
 pub fn moment_about(corners: &[Vec3; 3], mass: f64, inertia: Inertia, point: &Vec3, axis: &Vec3) -> f64 {
     let second = second_moment(&corners.map(|c| c - point), inertia);
     mass * (second.trace() - axis.dot(&(second * axis)))
 }
 
-/// `∫ v vᵀ` over the panel by its mass, for corners seen from the point that it is about, m².
+/// Returns the second moment `∫ v vᵀ` over the panel by its mass, for corners relative to the reference point, m².
 fn second_moment(corners: &[Vec3; 3], inertia: Inertia) -> Matrix3<f64> {
     let sum: Vec3 = corners.iter().sum();
     if inertia == Inertia::Point {

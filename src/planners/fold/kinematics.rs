@@ -1,11 +1,11 @@
-//! Where the faces are while some of the hinges have folded.
+//! Forward kinematics of a layout: the poses of the faces by the angles of the hinges.
 
 use super::layout::Layout;
 use super::target::Target;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
 
-/// The displacement of every face from its place in the target, with the root in its place, when
+/// Returns the displacement of every face from its place in the target, with the root in its place, when
 /// the hinges of the faces for which `folded` holds have folded and the others are level.
 ///
 /// A child's displacement is its parent's, after a turn about the target's line of the hinge by the
@@ -17,7 +17,7 @@ pub fn poses(target: &Target, layout: &Layout, folded: impl Fn(usize) -> bool) -
     })
 }
 
-/// The same with the hinge of every face at an angle, rad: 0 is level.
+/// Returns the displacements with the hinge of every face at an angle, rad: 0 is level.
 pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Pose> {
     let mut poses = vec![Pose::identity(); target.faces.len()];
     for &face in &layout.order[1..] {
@@ -30,7 +30,7 @@ pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) 
     poses
 }
 
-/// A turn about a line through a point, rad.
+/// Returns the rotation about the line through a point (m) along a unit axis, by an angle (rad).
 pub fn about(point: &Vec3, axis: Vec3, angle: f64) -> Pose {
     shifted(*point) * turned(axis, angle) * shifted(-point)
 }

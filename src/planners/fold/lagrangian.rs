@@ -1,71 +1,70 @@
-//! A stronger bound than that of [`routes`](super::shortest_paths): paths pay for entering a face otherwise
-//! than the others do.
+//! Lagrangian relaxation of the choice of one tree for all faces: a stronger lower bound than that of
+//! [`shortest_paths`](super::shortest_paths), raised by subgradient ascent.
 //!
 //! Let y_a say whether a layout enters a face across arc a, and x_a^j whether the path to face j uses
-//! it. A layout is a choice of one arc into each face with x_a^j ≤ y_a. These inequalities are given up
-//! for prices λ_a^j ≥ 0: whoever uses an arc pays, and a face that chooses an arc is paid what its
-//! users pay. For every set of prices
+//! it. A layout is a choice of one arc into each face with x_a^j ≤ y_a. These inequalities are dualised with
+//! multipliers λ_a^j ≥ 0: a path that uses an arc pays its multiplier, and the face that chooses the arc is paid
+//! the multipliers of all its users. For all multipliers
 //!
 //! ```text
-//! L(λ) = Σ_v min over arcs a into v of ( cost of v's cheapest path that ends with a, prices included
+//! L(λ) = Σ_v min over arcs a into v of ( cost of v's cheapest path that ends with a, multipliers included
 //!                                         - Σ_j λ_a^j )
 //! ```
 //!
-//! is a bound: at a layout, payments cancel. (Face v's own last arc needs no price: it is its choice.)
-//! Multipliers are raised where a path uses an arc that was not chosen and lowered where a chosen arc is
-//! not used: a subgradient of L, with Polyak's step. The greatest L is the bound of the linear
-//! programme of flows.
+//! is a lower bound, since payments cancel at a layout. (Face v's own last arc needs no multiplier: it is its
+//! choice.) A subgradient of L is 1 where a path uses an arc that was not chosen and -1 where a chosen arc is not
+//! used; steps have Polyak's length. The greatest L is the bound of the linear programme of multicommodity flows.
 
-use super::shortest_paths::{self, Allowed, Arc, Waiting};
+use super::shortest_paths::{self, Allowed, Arc, QueueEntry};
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 use std::collections::BinaryHeap;
 
-/// Rounds without progress after which steps get shorter.
+/// Rounds without progress after which steps are shortened.
 const PATIENCE: usize = 30;
 
-/// How much shorter, and from where on it is not worth going on.
+/// The factor by which steps are shortened.
 const SHORTER: f64 = 0.7;
+
+/// The step length, as a part of the gap, at which an ascent ends.
 const STEP_MIN: f64 = 1e-3;
 
-/// Progress by less than this part of the gap is none.
-const PROGRESS: f64 = 1e-4;
+/// The least progress of a round, as a part of the gap.
+const PROGRESS_MIN: f64 = 1e-4;
 
-/// An arc is given up when it would cost this much more than what is asked for, as a part of it: what
-/// rounding may add up to.
-const TOL_GIVEN_UP: f64 = 1e-11;
-
-/// So many sums over the table of prices take about as long as settling a face on a path.
+/// Sums over the table of multipliers that take about as long as settling a face on a path.
 const SUMS: usize = 64;
 
-/// Multipliers that are not zero: place in the table and price.
+/// The multipliers that are not zero: place in the table and value, N·m for steps of one second.
 pub type Multipliers = [(u32, f64)];
 
-/// The bound of one node of a search, and what was learnt.
+/// The result of an ascent.
 pub struct Ascent {
-    /// No layout over the arcs allowed costs less; infinite where there is none.
+    /// The lower bound for all layouts over the arcs allowed; infinite where there is none.
     pub bound: f64,
-    /// The prices of that bound.
-    pub prices: Vec<(u32, f64)>,
-    /// How often paths entered each face across each of its sides, in the last round.
+    /// The multipliers of that bound.
+    pub multipliers: Vec<(u32, f64)>,
+    /// By face and side: the number of paths that entered there in the last round.
     pub uses: Vec<[u32; 3]>,
-    /// Of the last step, as a part of the gap.
+    /// The length of the last step, as a part of the gap.
     pub length: f64,
 }
 
-/// How far to go.
+/// The limits of an ascent.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// A bound of at least this is enough, and arcs that only dearer layouts use are given up.
+pub struct AscentLimits {
+    /// The bound at which the ascent ends; arcs that only dearer layouts use are removed.
     pub cutoff: f64,
-    /// About what the best layout costs.
+    /// An estimate of the optimum, for Polyak's step.
     pub aim: f64,
+    /// The greatest number of rounds.
     pub rounds: usize,
-    /// Of the first step, as a part of the gap.
+    /// The length of the first step, as a part of the gap.
     pub length: f64,
 }
 
-/// Room for computing bounds of one target under its weights.
+/// The relaxation of one target under its weights, with its working memory.
 pub struct Lagrangian<'t> {
     target: &'t Target,
     faces: usize,
@@ -74,20 +73,21 @@ pub struct Lagrangian<'t> {
     out: Vec<Vec<(usize, usize)>>,
     /// By arc: the face from which it comes.
     tail: Vec<usize>,
-    /// By face, then by arc: cost, and price.
+    /// By face, then by arc: the cost, and the multiplier.
     costs: Vec<f64>,
-    prices: Vec<f64>,
-    /// By face: cost of its cheapest path across each of its sides, prices included.
+    multipliers: Vec<f64>,
+    /// By face: cost of its cheapest path across each of its sides, multipliers included.
     reached: Vec<[f64; 3]>,
     /// By goal, then by face: the arc by which the goal's path enters.
     entered: Vec<Arc>,
     distance: Vec<f64>,
-    queue: BinaryHeap<Waiting>,
+    queue: BinaryHeap<QueueEntry>,
     /// By face: the arc that was chosen.
     chosen: Vec<usize>,
 }
 
 impl<'t> Lagrangian<'t> {
+    /// Sets up the relaxation with all multipliers zero.
     pub fn new(target: &'t Target, weights: &Weights) -> Lagrangian<'t> {
         let faces = target.faces.len();
         let arcs = 3 * faces;
@@ -112,7 +112,7 @@ impl<'t> Lagrangian<'t> {
             out,
             tail,
             costs,
-            prices: vec![0.0; faces * arcs],
+            multipliers: vec![0.0; faces * arcs],
             reached: vec![[f64::INFINITY; 3]; faces],
             entered: vec![Arc::MAX; faces * faces],
             distance: vec![0.0; faces],
@@ -121,45 +121,49 @@ impl<'t> Lagrangian<'t> {
         }
     }
 
-    /// Raises the bound of the layouts with this root over the arcs allowed, beginning with given
-    /// prices. Arcs that no layout below the cutoff uses are taken from `allowed`. `steps` counts down the
-    /// faces settled on the way, and sums over prices; at zero the ascent ends. `layouts` is handed the arcs chosen into
-    /// each face, now and then, which may nearly be a layout.
+    /// Subgradient ascent: raises the bound of the layouts with this root over the arcs allowed, from given
+    /// multipliers. Arcs that no layout below the cutoff uses are removed from `allowed` (fixing by reduced
+    /// costs). `steps` counts down the faces settled on paths and the sums over multipliers; at zero the ascent
+    /// ends. `layouts` gets the arcs chosen into each face every few rounds, which are nearly a layout, and
+    /// returns the cutoff from then on.
     pub fn ascend(
         &mut self,
         root: usize,
         allowed: &mut Allowed,
-        prices: &Multipliers,
-        effort: Effort,
+        multipliers: &Multipliers,
+        limits: AscentLimits,
         steps: &mut u64,
         mut layouts: impl FnMut(&[usize], &mut u64) -> f64,
     ) -> Ascent {
-        self.prices.fill(0.0);
-        prices.iter().for_each(|&(at, price)| self.prices[at as usize] = price);
-        let Effort { mut cutoff, mut aim, rounds, mut length } = effort;
+        self.multipliers.fill(0.0);
+        multipliers.iter().for_each(|&(at, multiplier)| self.multipliers[at as usize] = multiplier);
+        let AscentLimits { mut cutoff, mut aim, rounds, mut length } = limits;
         let mut best = f64::NEG_INFINITY;
-        let mut best_prices: Vec<(u32, f64)> = prices.to_vec();
+        let mut best_multipliers: Vec<(u32, f64)> = multipliers.to_vec();
         let mut stale = 0;
         let mut moved = vec![true; self.faces];
         for round in 0..rounds {
             crate::interrupt::checkpoint();
+            // Shortest paths to the faces whose multipliers changed.
             for goal in (0..self.faces).filter(|goal| *goal != root) {
                 if std::mem::replace(&mut moved[goal], false) {
                     self.reach(root, goal, allowed, steps);
                 }
             }
+            // The bound: each face chooses the arc into it.
             let paid = self.paid();
-            *steps = steps.saturating_sub((self.prices.len() / SUMS) as u64);
+            *steps = steps.saturating_sub((self.multipliers.len() / SUMS) as u64);
             let Some(bound) = self.choose(root, allowed, &paid) else {
                 best = f64::INFINITY;
                 break;
             };
-            stale = if bound > best + PROGRESS * (aim - best).abs() { 0 } else { stale + 1 };
+            stale = if bound > best + PROGRESS_MIN * (aim - best).abs() { 0 } else { stale + 1 };
             if bound > best {
                 best = bound;
-                best_prices.clear();
-                best_prices.extend(self.prices_now());
+                best_multipliers.clear();
+                best_multipliers.extend(self.nonzero());
             }
+            // Lagrangian heuristic: a layout near the choices.
             if round % LAYOUTS_EVERY == LAYOUTS_EVERY - 1 || round == 0 {
                 let found = layouts(&self.chosen, steps);
                 (cutoff, aim) = (cutoff.min(found), aim.min(found));
@@ -167,7 +171,8 @@ impl<'t> Lagrangian<'t> {
             if best >= cutoff || *steps == 0 {
                 break;
             }
-            if self.give_up(root, allowed, &paid, bound, cutoff) {
+            // Fixing by reduced costs, then a step along the subgradient.
+            if self.remove_arcs(root, allowed, &paid, bound, cutoff) {
                 moved.fill(true);
             }
             if stale > PATIENCE {
@@ -178,26 +183,26 @@ impl<'t> Lagrangian<'t> {
             }
         }
         let uses = self.uses(root);
-        Ascent { bound: best, prices: best_prices, uses, length }
+        Ascent { bound: best, multipliers: best_multipliers, uses, length }
     }
 
-    fn prices_now(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let paid = self.prices.iter().enumerate().filter(|(_, price)| **price > 0.0);
-        paid.map(|(at, price)| (u32::try_from(at).expect("targets have few faces"), *price))
+    fn nonzero(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let paid = self.multipliers.iter().enumerate().filter(|(_, multiplier)| **multiplier > 0.0);
+        paid.map(|(at, multiplier)| (u32::try_from(at).expect("targets have few faces"), *multiplier))
     }
 
-    /// The cheapest paths from the root to the sides of a face.
+    /// Dijkstra's algorithm from the root to the sides of a face, multipliers included.
     fn reach(&mut self, root: usize, goal: usize, allowed: &[u8], steps: &mut u64) {
         let costs = &self.costs[goal * self.arcs..][..self.arcs];
-        let prices = &self.prices[goal * self.arcs..][..self.arcs];
+        let multipliers = &self.multipliers[goal * self.arcs..][..self.arcs];
         let entered = &mut self.entered[goal * self.faces..][..self.faces];
         let mut found = [f64::INFINITY; 3];
         let mut sides_left = allowed[goal].count_ones();
         self.distance.fill(f64::INFINITY);
         self.distance[root] = 0.0;
         self.queue.clear();
-        self.queue.push(Waiting { cost: 0.0, face: root });
-        while let Some(Waiting { cost, face }) = self.queue.pop() {
+        self.queue.push(QueueEntry { cost: 0.0, face: root });
+        while let Some(QueueEntry { cost, face }) = self.queue.pop() {
             if cost > self.distance[face] {
                 continue;
             }
@@ -211,11 +216,11 @@ impl<'t> Lagrangian<'t> {
                     sides_left -= 1;
                     continue;
                 }
-                let further = cost + costs[arc] + prices[arc];
+                let further = cost + costs[arc] + multipliers[arc];
                 if further < self.distance[other] {
                     self.distance[other] = further;
                     entered[other] = arc as Arc;
-                    self.queue.push(Waiting { cost: further, face: other });
+                    self.queue.push(QueueEntry { cost: further, face: other });
                 }
             }
             if sides_left == 0 {
@@ -225,21 +230,22 @@ impl<'t> Lagrangian<'t> {
         self.reached[goal] = found;
     }
 
-    /// By arc: what its users pay.
+    /// By arc: the sum of its users' multipliers.
     fn paid(&self) -> Vec<f64> {
         let mut paid = vec![0.0; self.arcs];
-        for row in self.prices.chunks_exact(self.arcs) {
-            paid.iter_mut().zip(row).for_each(|(sum, price)| *sum += price);
+        for row in self.multipliers.chunks_exact(self.arcs) {
+            paid.iter_mut().zip(row).for_each(|(sum, multiplier)| *sum += multiplier);
         }
         paid
     }
 
-    /// What entering a face across an arc costs in all.
+    /// Returns the reduced cost of entering a face across an arc.
     fn value(&self, arc: usize, paid: &[f64]) -> f64 {
         self.reached[arc / 3][arc % 3] - paid[arc]
     }
 
-    /// Every face chooses; the bound, or `None` where a face can't be entered.
+    /// Lets every face choose the arc of least reduced cost. Returns the bound, or `None` where a face can't be
+    /// entered.
     fn choose(&mut self, root: usize, allowed: &[u8], paid: &[f64]) -> Option<f64> {
         let mut sum = 0.0;
         for face in (0..self.faces).filter(|face| *face != root) {
@@ -251,10 +257,10 @@ impl<'t> Lagrangian<'t> {
         sum.is_finite().then_some(sum)
     }
 
-    /// Takes away arcs that only layouts at or above the cutoff use, and the way back across an arc
-    /// that is the only one left into a face. Whether there were any.
-    fn give_up(&self, root: usize, allowed: &mut Allowed, paid: &[f64], bound: f64, cutoff: f64) -> bool {
-        let limit = cutoff * (1.0 + TOL_GIVEN_UP);
+    /// Removes arcs that only layouts at or above the cutoff use (fixing by reduced costs), and the arc back
+    /// across one that is the only one left into a face. Returns whether there were any.
+    fn remove_arcs(&self, root: usize, allowed: &mut Allowed, paid: &[f64], bound: f64, cutoff: f64) -> bool {
+        let limit = cutoff * (1.0 + TOLERANCES.fixing);
         let mut any = false;
         for face in (0..self.faces).filter(|face| *face != root) {
             let least = self.value(self.chosen[face], paid);
@@ -276,7 +282,7 @@ impl<'t> Lagrangian<'t> {
         any
     }
 
-    /// Hands the arcs of a goal's path to `visit`, without its last.
+    /// Visits the arcs of a goal's path but its last.
     fn along(&self, root: usize, goal: usize, mut visit: impl FnMut(usize)) {
         let mut at = self.tail[self.chosen[goal]];
         while at != root {
@@ -286,8 +292,8 @@ impl<'t> Lagrangian<'t> {
         }
     }
 
-    /// A step along the subgradient by which the bound would rise by `rise` if it were linear. Notes
-    /// whose prices changed; `false` where the subgradient is zero.
+    /// Takes a step along the subgradient by which the bound would rise by `rise` if it were linear. Marks the
+    /// faces whose multipliers changed; returns false where the subgradient is zero.
     fn step(&mut self, root: usize, rise: f64, moved: &mut [bool]) -> bool {
         let (mut up, mut down) = (Vec::new(), Vec::new());
         let mut used = vec![usize::MAX; self.arcs];
@@ -301,7 +307,7 @@ impl<'t> Lagrangian<'t> {
             });
             for face in (0..self.faces).filter(|face| *face != root && *face != goal) {
                 let arc = self.chosen[face];
-                if used[arc] != goal && self.prices[row + arc] > 0.0 {
+                if used[arc] != goal && self.multipliers[row + arc] > 0.0 {
                     down.push((goal, row + arc));
                 }
             }
@@ -309,16 +315,17 @@ impl<'t> Lagrangian<'t> {
         let count = up.len() + down.len();
         let by = rise / count as f64;
         for &(goal, at) in &up {
-            self.prices[at] += by;
+            self.multipliers[at] += by;
             moved[goal] = true;
         }
         for &(goal, at) in &down {
-            self.prices[at] = (self.prices[at] - by).max(0.0);
+            self.multipliers[at] = (self.multipliers[at] - by).max(0.0);
             moved[goal] = true;
         }
         count > 0 && by > 0.0
     }
 
+    /// By face and side: the number of paths that enter there.
     fn uses(&self, root: usize) -> Vec<[u32; 3]> {
         let mut uses = vec![[0; 3]; self.faces];
         if self.chosen.iter().enumerate().any(|(face, arc)| face != root && *arc == usize::MAX) {
@@ -333,12 +340,12 @@ impl<'t> Lagrangian<'t> {
     }
 }
 
-/// Rounds between two layouts that are tried.
+/// Rounds between two calls of the Lagrangian heuristic.
 const LAYOUTS_EVERY: usize = 20;
 
-/// A layout from one arc into each face: what hangs together with the root stays as it is, what runs
-/// in circles is joined to it across the first hinge that does.
-pub fn mended(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
+/// Lagrangian heuristic: returns the hinges of a layout made of one arc into each face. What is connected to
+/// the root stays as it is; cycles are joined to it across the first hinge that leads there.
+pub fn repaired(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
     let n = target.faces.len();
     let hinge_of = |arc: usize| target.sides[arc / 3][arc % 3].expect("arcs lead across hinges");
     let mut followers: Vec<Vec<usize>> = vec![Vec::new(); n];

@@ -1,11 +1,12 @@
-//! Layouts: spanning trees of a target's faces, hung up at a root.
+//! Layouts: rooted spanning trees of a target's faces.
 
 use super::target::Target;
 use super::weights::Weights;
 
-/// A rooted spanning tree.
+/// A layout: a spanning tree of the faces of a target, hung up at a root. Its edges are the hinges that fold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
+    /// The face that stays where it is.
     pub root: usize,
     /// By face: the hinge to its parent; `None` for the root.
     pub hinge: Vec<Option<usize>>,
@@ -15,9 +16,10 @@ pub struct Layout {
     pub order: Vec<usize>,
 }
 
-/// Where a face hangs on its parent.
+/// The hinge between a face and its parent, seen from both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Across {
+    /// The parent.
     pub parent: usize,
     /// The parent's side at the hinge.
     pub parent_side: usize,
@@ -26,7 +28,7 @@ pub struct Across {
 }
 
 impl Layout {
-    /// From the hinges that fold. `None` where they are no spanning tree.
+    /// Builds a layout from the hinges that fold; `None` where they are no spanning tree.
     pub fn of_hinges(target: &Target, hinges: &[usize], root: usize) -> Option<Layout> {
         let n = target.faces.len();
         if hinges.len() + 1 != n {
@@ -52,39 +54,44 @@ impl Layout {
         (layout.order.len() == n).then_some(layout)
     }
 
-    /// From pairs of neighbouring faces.
+    /// Builds a layout from pairs of neighbouring faces; `None` where they are no spanning tree of hinges.
     pub fn of_pairs(target: &Target, pairs: &[[usize; 2]], root: usize) -> Option<Layout> {
         let hinges: Option<Vec<usize>> = pairs.iter().map(|&[a, b]| target.hinge_between(a, b)).collect();
         Layout::of_hinges(target, &hinges?, root)
     }
 
-    /// The hinge of a face, from both sides; no root has one.
+    /// Returns the hinge of a face that is not the root, seen from both sides.
     pub fn across(&self, target: &Target, face: usize) -> Across {
         let hinge = &target.hinges[self.hinge[face].expect("only the root has none")];
         let parent = self.parent[face];
         Across { parent, parent_side: hinge.side_of(parent), side: hinge.side_of(face) }
     }
 
-    /// The hinges that fold, in order of number.
+    /// Returns the fold angle of the hinge to a face's parent, rad; 0 for the root.
+    pub fn angle(&self, target: &Target, face: usize) -> f64 {
+        self.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle)
+    }
+
+    /// Returns the hinges that fold, in order of number.
     pub fn hinges(&self) -> Vec<usize> {
         let mut hinges: Vec<usize> = self.hinge.iter().copied().flatten().collect();
         hinges.sort_unstable();
         hinges
     }
 
-    /// With one hinge in another's place, which closes a cycle with it.
+    /// Returns the layout with `added` in place of `dropped`, which lies on the cycle that `added` closes.
     pub fn exchanged(&self, target: &Target, dropped: usize, added: usize) -> Layout {
         let hinges: Vec<usize> =
             self.hinges().into_iter().map(|hinge| if hinge == dropped { added } else { hinge }).collect();
         Layout::of_hinges(target, &hinges, self.root).expect("it joins the two parts")
     }
 
-    /// The same tree hung up at another face.
+    /// Returns the same tree hung up at another face.
     pub fn rerooted(&self, target: &Target, root: usize) -> Layout {
         Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")
     }
 
-    /// The paper's energy with the leaves folded first, N·m for steps of one second.
+    /// Returns the paper's energy (Eq. 5) with the leaves folded first, N·m for steps of one second.
     pub fn energy(&self, weights: &Weights) -> f64 {
         let mut sum = 0.0;
         for &face in &self.order {
@@ -97,7 +104,7 @@ impl Layout {
         sum
     }
 
-    /// Hinges between the face and the root.
+    /// Returns by face the number of hinges between it and the root.
     pub fn depths(&self) -> Vec<usize> {
         let mut depths = vec![0; self.parent.len()];
         for &face in &self.order[1..] {
@@ -106,7 +113,7 @@ impl Layout {
         depths
     }
 
-    /// Hinges between the face and the farthest leaf below it; 0 for a leaf.
+    /// Returns by face the number of hinges between it and the farthest leaf below it; 0 for a leaf.
     pub fn heights(&self) -> Vec<usize> {
         let mut heights = vec![0; self.parent.len()];
         for &face in self.order[1..].iter().rev() {
@@ -116,12 +123,12 @@ impl Layout {
         heights
     }
 
-    /// Whether one of two faces is on the other's path from the root, or they are the same.
+    /// Returns whether one of two faces is on the other's path from the root, or they are the same.
     pub fn comparable(&self, a: usize, b: usize) -> bool {
         self.is_above(a, b) || self.is_above(b, a)
     }
 
-    /// Whether `a` is on the path from the root to `b`, ends included.
+    /// Returns whether `a` is on the path from the root to `b`, ends included.
     pub fn is_above(&self, a: usize, b: usize) -> bool {
         let mut at = b;
         loop {
@@ -135,7 +142,7 @@ impl Layout {
         }
     }
 
-    /// The children of every face, in order of number.
+    /// Returns the children of every face, in order of number.
     pub fn children(&self) -> Vec<Vec<usize>> {
         let mut children = vec![Vec::new(); self.parent.len()];
         for (face, &parent) in self.parent.iter().enumerate() {

@@ -1,20 +1,20 @@
-//! Functions on an interval as sums of Legendre polynomials: the mean and the peak of their absolute
-//! value. What is folded moves by analytic laws, for which few terms come to the last digits.
+//! Legendre series of functions on an interval, by Gauss-Legendre quadrature: mean and peak of their absolute
+//! value. Torques follow analytic laws of motion, for which few terms reach the last digits.
 
 use std::f64::consts::PI;
 
-/// Terms, and points at which a function is asked.
+/// The number of terms, and of points at which a function is sampled.
 pub const TERMS: usize = 20;
 
 /// Places at which signs are compared: more changes between two of them are missed.
-const LOOKS: usize = 48;
+const SIGN_SAMPLES: usize = 48;
 
-/// Halvings and sections of an interval: to the last digits.
+/// Bisections and ternary sections of an interval: to the last digits.
 const SECTIONS: usize = 50;
 
-/// Gauss's points and weights, with the polynomials there.
+/// The points and weights of Gauss-Legendre quadrature, with the polynomials there.
 pub struct Rule {
-    /// In -1..1.
+    /// The points in -1..1.
     pub points: [f64; TERMS],
     /// By term, then by point: what a value contributes to the term.
     terms: [[f64; TERMS]; TERMS],
@@ -43,24 +43,25 @@ impl Default for Rule {
     }
 }
 
-/// A function on -1..1.
+/// A function on -1..1, by the coefficients of its Legendre polynomials.
 #[derive(Clone, Copy, Debug)]
 pub struct Series([f64; TERMS]);
 
 impl Rule {
-    /// The function with these values at the points.
+    /// Returns the series of the function with these values at the points.
     pub fn series(&self, values: &[f64; TERMS]) -> Series {
         Series(self.terms.map(|term| term.iter().zip(values).map(|(t, v)| t * v).sum()))
     }
 }
 
 impl Series {
+    /// Returns the value at a place in -1..1.
     pub fn at(&self, x: f64) -> f64 {
         let p = polynomials::<TERMS>(x);
         self.0.iter().zip(&p).map(|(c, p)| c * p).sum()
     }
 
-    /// The integral from -1 to x.
+    /// Returns the integral from -1 to x.
     fn integral(&self, x: f64) -> f64 {
         let p = polynomials::<{ TERMS + 1 }>(x);
         // The integral of P_k is (P_{k+1} - P_{k-1}) / (2k + 1), which is zero at -1.
@@ -68,22 +69,22 @@ impl Series {
         self.0[0] * (x + 1.0) + higher.sum::<f64>()
     }
 
-    /// Mean and greatest of the absolute value.
+    /// Returns mean and peak of the absolute value, parted at the roots.
     pub fn size(&self) -> Size {
-        let place = |i: usize| 2.0 * i as f64 / LOOKS as f64 - 1.0;
-        let values: [f64; LOOKS + 1] = std::array::from_fn(|i| self.at(place(i)));
+        let place = |i: usize| 2.0 * i as f64 / SIGN_SAMPLES as f64 - 1.0;
+        let values: [f64; SIGN_SAMPLES + 1] = std::array::from_fn(|i| self.at(place(i)));
         let (mut sum, mut from) = (0.0, 0.0);
         let mut peak = 0.0_f64;
-        for i in 0..=LOOKS {
+        for i in 0..=SIGN_SAMPLES {
             peak = peak.max(values[i].abs());
-            if i < LOOKS && values[i] * values[i + 1] < 0.0 {
+            if i < SIGN_SAMPLES && values[i] * values[i + 1] < 0.0 {
                 let to = self.integral(self.root(place(i), place(i + 1)));
                 sum += (to - from).abs();
                 from = to;
             }
         }
         sum += (self.integral(1.0) - from).abs();
-        for i in 1..LOOKS {
+        for i in 1..SIGN_SAMPLES {
             let [before, here, after] = [values[i - 1], values[i], values[i + 1]].map(f64::abs);
             // Only where the top may be higher than what was seen.
             let rise = (here - before).max(here - after);
@@ -113,14 +114,16 @@ impl Series {
     }
 }
 
-/// Of the absolute value of a function.
+/// Mean and peak of the absolute value of a function, in its own unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Size {
+    /// The mean.
     pub mean: f64,
+    /// The peak.
     pub peak: f64,
 }
 
-/// The first N Legendre polynomials at a place.
+/// Returns the first N Legendre polynomials at a place.
 fn polynomials<const N: usize>(x: f64) -> [f64; N] {
     let mut p = [1.0; N];
     p[1] = x;

@@ -1,44 +1,52 @@
-//! What the ground and the motors let pass, in samples: a quick look like that for
-//! [meetings](super::sweep_collision), under gravity. It is mild where it can't know: what touches the ground
-//! somewhere but at its own hinge counts as carried by it.
+//! Ground contact and static hinge torques under gravity, sampled over a step like
+//! [collisions](super::sweep_collision). The check is permissive: what touches the ground somewhere but at its own
+//! hinge counts as carried by the ground.
 
 use super::kinematics::poses_at;
 use super::layout::Layout;
 use super::simulation::quintic;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
 
-/// States of each step that are looked at.
+/// States of each step that are sampled.
 const SAMPLES: usize = 12;
 
-/// Touches nearer than this part of a side to the line of a hinge are at it.
-const TOL_LINE: f64 = 0.05;
-
-/// What pulls, and what the hinges hold. The root lies on the ground with its outside down.
+/// The loads of the faces and the limits of ground and hinges. The root lies on the ground with its outside down.
 #[derive(Clone, Debug)]
 pub struct LoadLimits {
-    /// By face, N.
+    /// By face: its weight, N.
     pub weights: Vec<f64>,
-    /// N·m; infinite where no limit is stated.
+    /// The torque that a hinge holds, N·m; infinite where no limit is stated.
     pub torque: f64,
-    /// Corners that are so far under the root's level are in the ground, m.
+    /// The depth under the root's level at which a corner is in the ground, m.
     pub depth: f64,
-    /// Corners that are not so far over it touch the ground, m.
+    /// The height over it below which a corner touches the ground, m.
     pub touch: f64,
 }
 
-/// What stands against a step.
+/// A violated limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Violation {
-    /// A face is so far below the ground, m.
-    Ground { face: usize, depth: f64 },
-    /// The hinge of a face holds this much, N·m.
-    Overload { face: usize, torque: f64 },
+    /// A face reaches below the ground.
+    Ground {
+        /// The face.
+        face: usize,
+        /// The depth of its lowest corner, m.
+        depth: f64,
+    },
+    /// The hinge of a face is overloaded.
+    Overload {
+        /// The face below the hinge.
+        face: usize,
+        /// The torque that it would have to hold, N·m.
+        torque: f64,
+    },
 }
 
 impl LoadLimits {
-    /// What stands against a step first. `folded`: the hinges that have folded before.
-    pub fn obstacle(
+    /// Returns the first violation in a step; `folded`: by face, whether its hinge has folded before.
+    pub fn violation(
         &self,
         target: &Target,
         layout: &Layout,
@@ -53,12 +61,12 @@ impl LoadLimits {
                 false if moving.contains(&face) => full(face) * part,
                 false => 0.0,
             });
-            self.wrong(target, layout, &poses)
+            self.violation_at(target, layout, &poses)
         })
     }
 
-    /// What is wrong with a state.
-    fn wrong(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Violation> {
+    /// Returns the violation of one state.
+    fn violation_at(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Violation> {
         crate::interrupt::checkpoint();
         let up = -target.normal(layout.root);
         let level = up.dot(&target.centroid(layout.root));
@@ -86,7 +94,8 @@ impl LoadLimits {
                 torque += axis.dot(&(middle - point).cross(&(-up * self.weights[below])));
                 rests |= corners[below].iter().any(|p| {
                     let away = p - point;
-                    height(p) < self.touch && (away - axis * axis.dot(&away)).norm() > TOL_LINE * side
+                    height(p) < self.touch
+                        && (away - axis * axis.dot(&away)).norm() > TOLERANCES.hinge_line * side
                 });
             }
             if !rests && torque.abs() > self.torque {

@@ -1,76 +1,78 @@
-//! The best layouts under a measure that has to be computed for each: all are looked at where they
-//! are few, else good ones are improved by exchanges.
+//! The best layouts under an objective that has to be computed for each: enumeration where they are few, else
+//! local search by edge exchange from several starts. A bound prefilter skips layouts that can't be among the
+//! best.
 
 use super::edge_exchange;
 use super::enumerate::{self, Peaks};
 use super::layout::Layout;
+use super::observer::Observer;
 use super::pattern::Pattern;
 use super::progress_text;
 use super::shortest_paths::ShortestPaths;
 use super::spanning_trees;
 use super::symmetry;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 use crate::interrupt;
 use crate::units::number;
 use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
-/// Layouts whose values differ by less than this part are equally good.
-pub const TOL_TIE: f64 = 1e-9;
-
-/// Roots from which good layouts are improved.
+/// Roots from which local search starts.
 const STARTS: usize = 8;
 
-/// Exchanges that are weighed by energy alone for each of them.
+/// Exchanges that are weighed by energy alone for each start.
 const EXCHANGES: u64 = 1_000_000;
 
-/// What is looked at and how far.
+/// The options of a search.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Faces that may be the root.
+    /// The faces that may be the root.
     pub roots: Vec<usize>,
-    /// Whether patterns that overlap in the plane are left out.
+    /// Whether layouts whose patterns overlap in the plane are left out.
     pub flat: bool,
-    /// Pairs of a layout and a root that are measured.
+    /// The greatest number of pairs of a layout and a root that are measured.
     pub budget: u64,
-    /// How many of the best are kept.
+    /// The number of layouts that are kept, the best first.
     pub keep: usize,
+    /// The prefilter, where the objective has one.
     pub prefilter: Option<BoundPrefilter>,
 }
 
-/// Where the first value is the greatest mean torque of the closed form, sums over sets of faces tell it, and
-/// most layouts need not be made.
+/// A prefilter for objectives whose first value is the greatest mean torque of the closed form: sums over sets of
+/// faces give it, so that most layouts need not be made.
 #[derive(Clone, Copy, Debug)]
 pub struct BoundPrefilter {
-    /// The first value by the greatest mean torque for steps of one second.
+    /// The ratio of the first value to the greatest mean torque for steps of one second.
     pub scale: f64,
-    /// Pairs of a layout and a root that may be looked at so, instead of measured.
+    /// The greatest number of pairs of a layout and a root that pass the prefilter.
     pub budget: u64,
 }
 
-/// What was found.
+/// The result of a search.
 #[derive(Clone, Debug)]
-pub struct Survey {
-    /// With their values, the best first.
+pub struct Measured {
+    /// The best layouts with their values, the best first.
     pub best: Vec<(Layout, [f64; 2])>,
-    /// How many pairs of a layout and a root are as good as the first.
+    /// The number of pairs of a layout and a root that are as good as the first.
     pub ties: u64,
-    /// Roots with which the first's value is reached, in order.
+    /// The roots with which the first's value is reached, in order.
     pub roots: Vec<usize>,
-    /// The least first value of all, also of those that overlap.
+    /// The least first value of all layouts, also of those that overlap.
     pub least: f64,
-    /// Whether every pair was looked at.
+    /// Whether every pair was visited.
     pub complete: bool,
 }
 
-/// Values are compared by their first number, then by their second; less is better.
+/// Searches the layouts of least value: values are compared by their first number, then by their second.
 pub fn survey(
     target: &Target,
     weights: &Weights,
     settings: &Settings,
     value: &mut dyn FnMut(&Layout) -> [f64; 2],
-) -> Survey {
+    observer: &Observer,
+) -> Measured {
     let n = target.faces.len();
     // What holds for one root holds for those that are equal to it by symmetry.
     let equals = if settings.roots.len() == 1 { (0..n).collect() } else { symmetry::orbits(target, weights) };
@@ -87,7 +89,7 @@ pub fn survey(
         let (mut visited, all) = (0u64, spanning_trees::layouts(target));
         let walked = enumerate::each(target, u64::MAX, |hinges| {
             visited += 1;
-            interrupt::progress_checkpoint(|| progress_text::counted(visited, &all, "layouts", None));
+            observer.report(|| progress_text::counted(visited, &all, "layouts", None));
             if let Some((_, peaks)) = &mut prefilter {
                 peaks.hang(hinges);
             }
@@ -110,10 +112,10 @@ pub fn survey(
     let asked = settings.roots.iter().copied();
     let roots = asked.clone().filter(|root| ties[equals[*root]] > 0).collect();
     let ties = asked.map(|root| ties[equals[root]]).sum();
-    Survey { best, ties, roots, least, complete }
+    Measured { best, ties, roots, least, complete }
 }
 
-/// From the roots that promise most, the best grown layout first: exchanges as long as they help.
+/// Local search from greedy trees at the roots of least bound, the best tree first: exchanges as long as they help.
 fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn FnMut(&Layout) -> [f64; 2]) {
     let (target, mut left) = (kept.target, kept.settings.budget);
     let bounds = ShortestPaths::new(target, weights);
@@ -140,7 +142,7 @@ fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn 
     }
 }
 
-/// The first exchange of a hinge that helps.
+/// Returns the layout of the first exchange that helps, with its value.
 fn exchanged(
     target: &Target,
     layout: &Layout,
@@ -170,7 +172,7 @@ fn exchanged(
     None
 }
 
-/// The best so far.
+/// The best layouts so far.
 struct Kept<'s> {
     target: &'s Target,
     settings: &'s Settings,
@@ -181,7 +183,7 @@ struct Kept<'s> {
 }
 
 impl Kept<'_> {
-    /// Whether a layout with this first value changes nothing: so many are better that it is not kept.
+    /// Returns whether a layout with this first value changes nothing: enough better ones are kept.
     fn is_full_of_less_than(&self, value: f64) -> bool {
         let last = self.best.last().filter(|_| self.best.len() >= self.settings.keep.max(1));
         last.is_some_and(|(_, last)| compare(value, last[0]).is_gt())
@@ -213,11 +215,11 @@ impl Kept<'_> {
     }
 }
 
-/// With numbers that are nearly equal taken for equal.
+/// Compares values; numbers within the tolerance are equal.
 fn order(a: &[f64; 2], b: &[f64; 2]) -> Ordering {
     compare(a[0], b[0]).then(compare(a[1], b[1]))
 }
 
 fn compare(a: f64, b: f64) -> Ordering {
-    if (a - b).abs() <= TOL_TIE * a.abs().max(b.abs()) { Ordering::Equal } else { a.total_cmp(&b) }
+    if (a - b).abs() <= TOLERANCES.tie * a.abs().max(b.abs()) { Ordering::Equal } else { a.total_cmp(&b) }
 }

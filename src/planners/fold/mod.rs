@@ -8,7 +8,9 @@
 //! inverse square of the step's time.
 #![allow(non_snake_case)]
 
+mod observer;
 mod progress_text;
+mod tolerances;
 
 pub mod inertia;
 pub mod layout;
@@ -52,9 +54,35 @@ pub mod strip_layouts;
 pub mod sweep_collision;
 pub mod thickness;
 
+mod panel;
+mod plate;
+pub(crate) mod sheet;
+
+mod evaluation;
+pub(crate) mod judgement;
+mod plan;
+mod proposals;
+mod refusal;
+mod reordering;
+mod report;
+mod settings;
+mod task;
+
 pub use branch_and_bound::{Optimum, Proof};
 pub use layout::Layout;
 pub use net::Net;
+pub use objective::{Conventions, Effort, Minimise};
+pub use observer::Observer;
+pub use panel::{NotAPanel, Panel, Panels, equal_sides};
+pub use plan::plan;
+pub use plate::Plate;
+pub use random_orders::Sample;
+pub use refusal::{BestPattern, NoFolding, Refusal, Rejection, TorqueNeed};
+pub use report::Report;
+pub use settings::{MassModel, Method, Problem, Sequence, Settings};
+pub use sheet::{NoHinge, Sheet};
+pub use simulation::Count;
 pub use target::{Hinge, Target};
+pub use tolerances::{TOLERANCES, Tolerances};
 pub use unfoldable::Unfoldable;
 pub use weights::Weights;

@@ -9,9 +9,10 @@ use super::pattern::{Pattern, Point};
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
+/// A cut net: a topological disk of triangles.
 #[derive(Clone, Debug)]
 pub struct Net {
-    /// m; the root's first corner is the origin, its first side goes along x.
+    /// The vertices, m; the root's first corner is the origin, its first side goes along x.
     pub vertices: Vec<Point>,
     /// By vertex: a face with which it moves, and the face's corner that it is.
     owners: Vec<(usize, usize)>,
@@ -21,19 +22,21 @@ pub struct Net {
     pub edges: Vec<Edge>,
 }
 
+/// An edge of the net.
 #[derive(Clone, Debug)]
 pub struct Edge {
-    /// In the direction in which its first face runs along it.
+    /// Its ends, in the direction in which its first face runs along it.
     pub vertices: [usize; 2],
     /// The face on its left, and for a hinge that on its right.
     pub faces: Vec<usize>,
-    /// Fold angle of a hinge that folds, rad; `None` for outline.
+    /// The fold angle of a hinge that folds, rad; `None` for outline.
     pub angle: Option<f64>,
     /// The edge of the outline that meets this one in the target.
     pub glued: Option<usize>,
 }
 
 impl Net {
+    /// Cuts the net of a layout.
     pub fn of(target: &Target, layout: &Layout) -> Net {
         let pattern = Pattern::of(target, layout);
         let n = target.faces.len();
@@ -83,8 +86,8 @@ impl Net {
         }
     }
 
-    /// Where the vertices are with every hinge at an angle (rad, by the face that it carries), in the
-    /// frame of the flat net: the root stays as it lies there.
+    /// Returns the vertices (m) with every hinge at an angle (rad, by the face that it carries), in the frame of the
+    /// flat net: the root stays as it lies there.
     pub fn vertices_at(&self, target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Vec3> {
         let X_TF = poses_at(target, layout, angle);
         let [a, b, _] = target.corners(layout.root);

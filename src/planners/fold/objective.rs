@@ -1,5 +1,4 @@
-//! What a folding is judged by: the paper's energy under stated conventions, its peak torque, or its
-//! steps.
+//! The objective of a folding: the paper's energy under stated conventions, its peak torque, or its steps.
 //!
 //! With the leaves first, no gravity, and only the joints that move counted, energy and peak have the
 //! closed form of [`weights`](super::weights). Under any other convention they are simulated.
@@ -16,65 +15,79 @@ use super::target::Target;
 use super::weights::{QUINTIC, Weights};
 use crate::geometry::Vec3;
 
-/// Greatest slope of the quintic law, and greatest acceleration over one unit in one second.
+/// The peak speed of the quintic law over one unit in one second.
 const QUINTIC_SPEED: f64 = QUINTIC / 2.0;
+
+/// The peak acceleration of the quintic law over one unit in one second: 10/√3.
 const QUINTIC_ACCELERATION: f64 = 5.773_502_691_896_258;
 
-/// Faces of layouts that are measured, by sums over sets of faces, by the closed form, and by simulation: some
-/// seconds.
+/// Faces, summed over layouts, that are measured by sums over sets of faces: some seconds.
 const SUMMED_MAX: u64 = 400_000_000;
+
+/// The same for the closed form.
 const CLOSED_MAX: u64 = 10_000_000;
+
+/// The same for simulation.
 const SIMULATED_MAX: u64 = 40_000;
 
-/// What is to be small.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The quantity to minimise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Minimise {
+    /// The sum of mean torques (Eq. 5).
+    #[default]
     Energy,
+    /// The greatest torque of a hinge.
     PeakTorque,
-    /// The steps, then the energy.
+    /// The number of steps, then the energy.
     Steps,
 }
 
-/// What the paper leaves open, or leaves out.
+/// The conventions of measuring that the paper leaves open, or leaves out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conventions {
+    /// How the mass of a panel is spread.
     pub inertia: Inertia,
+    /// The joints whose torques count.
     pub count: Count,
-    /// m/s² towards the ground on which the root lies with its outside down; 0 without.
+    /// Gravity, m/s², towards the ground on which the root lies with its outside down; 0 without.
     pub gravity: f64,
-    /// Time of a step, s.
+    /// The time of a step, s.
     pub step: f64,
 }
 
 impl Conventions {
-    /// Whether a hinge's torque in its own step is all there is, and grows with what it carries only.
-    pub fn separate(&self) -> bool {
+    /// Returns whether only a hinge's torque in its own step counts, and depends on what it carries alone: then
+    /// energy and peak have a closed form.
+    pub fn is_separable(&self) -> bool {
         self.gravity == 0.0 && self.count == Count::Moving
     }
 }
 
-/// What a folding takes.
+/// The energy and the peak torque of a folding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Eq. 5, N·m.
+    /// The energy (Eq. 5), N·m.
     pub energy: f64,
-    /// N·m
+    /// The peak torque of a hinge, N·m.
     pub peak: f64,
 }
 
-/// A target with what its panels weigh, and what is asked of its foldings.
+/// The objective on the layouts and orders of a target.
 pub struct Objective<'t> {
     target: &'t Target,
     /// By face, kg.
     masses: Vec<f64>,
+    /// The conventions of measuring.
     pub conventions: Conventions,
+    /// The quantity to minimise.
     pub minimise: Minimise,
     bodies: Vec<Body>,
-    /// Of the closed form, for steps of one second.
+    /// The weights of the closed form, for steps of one second.
     pub weights: Weights,
 }
 
 impl<'t> Objective<'t> {
+    /// Sets up the objective of a target; `masses`: by face, kg.
     pub fn new(
         target: &'t Target,
         masses: Vec<f64>,
@@ -86,26 +99,26 @@ impl<'t> Objective<'t> {
         Objective { target, masses, conventions, minimise, bodies, weights }
     }
 
-    /// Whether proof needs no look at every layout: energies add up over faces.
-    pub fn adds_up(&self) -> bool {
-        self.conventions.separate() && self.minimise != Minimise::PeakTorque
+    /// Returns whether the objective is a sum over faces of what their own paths cost, as branch and bound needs.
+    pub fn is_sum_over_faces(&self) -> bool {
+        self.conventions.is_separable() && self.minimise != Minimise::PeakTorque
     }
 
-    /// Whether what is to be small is the greatest of sums over sets of faces.
-    pub fn peaks_add_up(&self) -> bool {
-        self.conventions.separate() && self.minimise == Minimise::PeakTorque
+    /// Returns whether the objective is the greatest of sums over sets of faces.
+    pub fn is_greatest_sum(&self) -> bool {
+        self.conventions.is_separable() && self.minimise == Minimise::PeakTorque
     }
 
-    /// How many layouts with roots may be looked at where it is.
+    /// Returns the bound prefilter for such an objective: how many layouts with roots it may visit.
     pub fn prefilter(&self, budget: u64) -> Option<BoundPrefilter> {
         let most = budget.min(SUMMED_MAX / self.masses.len() as u64);
-        self.peaks_add_up().then(|| BoundPrefilter { scale: self.peak_by_mean(), budget: most })
+        self.is_greatest_sum().then(|| BoundPrefilter { scale: self.peak_by_mean(), budget: most })
     }
 
-    /// What folding in these steps takes.
+    /// Returns the energy and peak torque of a layout that folds in these steps.
     pub fn effort(&self, layout: &Layout, steps: &[Vec<usize>]) -> Effort {
         let Conventions { inertia, count, gravity, step } = self.conventions;
-        if self.conventions.separate() {
+        if self.conventions.is_separable() {
             let order = steps.concat();
             let means = energy_order::means(self.target, layout, &self.masses, inertia, &order);
             return closed(means.into_iter(), step);
@@ -114,15 +127,15 @@ impl<'t> Objective<'t> {
         Effort { energy: torques.energy(count, steps), peak: torques.peak(count, steps) }
     }
 
-    /// The same with the leaves first.
+    /// Returns the energy and peak torque of a layout that folds with the leaves first.
     pub fn leaves_first(&self, layout: &Layout) -> Effort {
-        if self.conventions.separate() {
+        if self.conventions.is_separable() {
             return closed(peak_torque::carried(layout, &self.weights).into_iter(), self.conventions.step);
         }
         self.effort(layout, &super::steps::leaves_first(layout))
     }
 
-    /// What is to be small of a layout, the first first; with the leaves first.
+    /// Returns the minimised quantity of a layout that folds with the leaves first, and the one that decides ties.
     pub fn value(&self, layout: &Layout) -> [f64; 2] {
         let steps = layout.heights()[layout.root] as f64;
         let Effort { energy, peak } = self.leaves_first(layout);
@@ -133,14 +146,14 @@ impl<'t> Objective<'t> {
         }
     }
 
-    /// How many layouts with roots may be measured: fewer where each is simulated.
+    /// Returns the number of layouts with roots that may be measured: fewer where each is simulated.
     pub fn measures_max(&self) -> u64 {
         let faces = self.masses.len() as u64;
-        if self.conventions.separate() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }
+        if self.conventions.is_separable() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }
     }
 
-    /// What no layout with one of these roots undercuts with the leaves first: peak torque where that is to
-    /// be small, else energy; N·m.
+    /// Returns the lower bound for layouts with these roots, leaves first: on the peak torque where that is
+    /// minimised, else on the energy; N·m.
     pub fn lower_bound(&self, roots: &[usize]) -> f64 {
         let routes = ShortestPaths::new(self.target, &self.weights);
         let gravity = self.conventions.gravity;
@@ -157,12 +170,12 @@ impl<'t> Objective<'t> {
         bounds.fold(f64::INFINITY, f64::min)
     }
 
-    /// Peaks of the closed form by mean torques for steps of one second.
+    /// Returns the ratio of a peak of the closed form to the mean torque for steps of one second.
     pub fn peak_by_mean(&self) -> f64 {
         QUINTIC_ACCELERATION / QUINTIC / (self.conventions.step * self.conventions.step)
     }
 
-    /// The same for one root, without what gravity asks of each hinge.
+    /// Returns the bound for one root, without what gravity asks of each hinge.
     fn bound(&self, routes: &ShortestPaths, root: usize) -> f64 {
         let by_square = 1.0 / (self.conventions.step * self.conventions.step);
         let lifted = self.lifted(root);
@@ -182,13 +195,13 @@ impl<'t> Objective<'t> {
         }
     }
 
-    /// No layout folds in fewer steps.
+    /// Returns the least number of steps of any layout with this root, or with any.
     pub fn fewest_steps(&self, root: Option<usize>) -> usize {
         let roots = root.map_or(0..self.masses.len(), |root| root..root + 1);
         roots.map(|root| self.radius(root)).min().unwrap_or(0)
     }
 
-    /// How many hinges lie between the root and the face farthest from it.
+    /// Returns the number of hinges between the root and the face farthest from it, by breadth-first search.
     fn radius(&self, root: usize) -> usize {
         let mut depths = vec![usize::MAX; self.masses.len()];
         depths[root] = 0;
@@ -206,7 +219,7 @@ impl<'t> Objective<'t> {
         last
     }
 
-    /// The work that no folding undercuts: what all panels gain over the ground, J.
+    /// Returns the work that every folding does: what all panels gain over the ground, J.
     fn lifted(&self, root: usize) -> f64 {
         let (up, ground) = (-self.target.normal(root), self.target.centroid(root));
         let height = |face: usize| -> f64 { up.dot(&Vec3::from(self.target.centroid(face) - ground)) };
@@ -214,7 +227,7 @@ impl<'t> Objective<'t> {
         (moment * self.conventions.gravity).abs()
     }
 
-    /// A mean torque that some hinge reaches in every layout, N·m for steps of one second: every face
+    /// Returns a mean torque that some hinge reaches in every layout, N·m for steps of one second: every face
     /// is carried by its own hinge, and all faces by the root's ([`peak`]).
     fn heaviest(&self, root: usize) -> f64 {
         let faces = 0..self.masses.len();

@@ -1,41 +1,38 @@
-//! The flat pattern of a layout in the plane, and whether faces of it overlap.
+//! The flat pattern of a layout in the plane, and its overlaps.
 
 use super::layout::{Across, Layout};
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use robust::{Coord, orient2d};
 
-/// Sides are equal where they differ by less than this part.
-const TOL_EQUAL: f64 = 1e-6;
-
-/// Triangles of unequal sides overlap where no line parts them by all but this part of a side.
-const TOL_OVERLAP: f64 = 1e-9;
-
+/// A point of the plane, m.
 pub type Point = [f64; 2];
 
 /// Faces laid side by side in the plane, the root with its first corner at the origin and its first
 /// side along x; counterclockwise as seen from outside.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// By face, m.
+    /// By face: its corners, m.
     pub corners: Vec<[Point; 3]>,
     /// Where all sides are equal: by face, the cell of the triangular lattice, as the sum of its
     /// corners.
     pub cells: Option<Vec<[i64; 2]>>,
 }
 
-/// Whether all sides are of one length.
+/// Returns whether all sides are of one length.
 pub fn has_equal_sides(target: &Target) -> bool {
     let [a, b, _] = target.corners(0);
     let side = (b - a).norm();
-    target.check_sides(side, TOL_EQUAL * side).is_ok()
+    target.check_sides(side, TOLERANCES.equal_sides * side).is_ok()
 }
 
 impl Pattern {
+    /// Lays out a layout.
     pub fn of(target: &Target, layout: &Layout) -> Pattern {
         if has_equal_sides(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
     }
 
-    /// Pairs of faces that overlap, each with the lower number first, in order.
+    /// Returns the pairs of faces that overlap, each with the lower number first, in order.
     pub fn overlaps(&self) -> Vec<[usize; 2]> {
         match &self.cells {
             Some(cells) => same_cells(cells),
@@ -83,7 +80,7 @@ fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {
     found
 }
 
-/// Corners of all faces in whole numbers of the lattice's two steps. Exact: a face's free corner is
+/// Returns the corners of all faces in whole numbers of the lattice's two steps. Exact: a face's free corner is
 /// the mirror image of its parent's, `a + b - c`.
 pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
     let mut corners = vec![[[0, 0]; 3]; target.faces.len()];
@@ -133,19 +130,19 @@ fn in_plane(target: &Target, layout: &Layout) -> Pattern {
     Pattern { corners, cells: None }
 }
 
-/// Whether the insides of two counterclockwise triangles meet: no side of either parts them.
+/// Returns whether the interiors of two counterclockwise triangles meet: no side of either parts them.
 fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
     !parts(a, b) && !parts(b, a)
 }
 
-/// Whether the line through a side of `a` has all of `b` on its outer side. Where a corner lies is
+/// Returns whether the line through a side of `a` has all of `b` on its outer side. Where a corner lies is
 /// computed without rounding; the tolerance is for the rounding of the corners themselves.
 fn parts(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let coordinate = |[x, y]: Point| Coord { x, y };
     (0..3).any(|k| {
         let (p, q) = (a[k], a[(k + 1) % 3]);
         let [dx, dy] = [q[0] - p[0], q[1] - p[1]];
-        let tol = TOL_OVERLAP * (dx * dx + dy * dy);
+        let tol = TOLERANCES.overlap * (dx * dx + dy * dy);
         b.iter().all(|&x| orient2d(coordinate(p), coordinate(q), coordinate(x)) <= tol)
     })
 }

@@ -1,7 +1,8 @@
-//! The least peak torque, with proof: with the leaves first, no gravity, and moving joints counted, every
+//! Branch and bound for the least peak torque: with the leaves first, no gravity, and moving joints counted, every
 //! hinge's torque grows with what it carries, so the hinges at the root carry the most.
 //!
-//! They carry all other faces among them. What goes to which is decided by branch and bound: faces in order
+//! They carry all other faces among them. The partition of the faces is searched by branch and bound, with the
+//! bound of a Lagrangian relaxation: faces in order
 //! of their distance from the root, each to one of the root's hinges. For any shares `λ_r ≥ 0` that sum to 1
 //! the greatest load is at least
 //!
@@ -16,24 +17,22 @@
 use super::layout::Layout;
 use super::pattern::Pattern;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 use crate::interrupt;
 
-/// Divisions that are no better than the best by more than this part of it are not looked at.
-const TOL: f64 = 1e-9;
-
-/// Rounds in which shares are bettered.
+/// Rounds of the multiplicative-weights ascent over shares.
 const ROUNDS: usize = 400;
 
-/// What was found for one root.
+/// The result for one root.
 pub struct Least {
-    /// The best layout that was met and lies flat, with its greatest mean torque.
+    /// The best layout found that lies flat, with its greatest mean torque, N·m for steps of one second.
     pub layout: Option<(Layout, f64)>,
-    /// No layout with this root has a lower one; N·m for steps of one second.
+    /// The lower bound for layouts with this root, N·m for steps of one second.
     pub bound: f64,
 }
 
-/// The least of the greatest mean torques, below `known`. `steps`, counted down: faces that are dealt.
+/// Searches the least greatest mean torque below `known`; `steps` counts down the faces that are assigned.
 pub fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps: &mut u64) -> Least {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
@@ -61,12 +60,12 @@ pub fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps:
     let relaxed = deal.rest[0];
     deal.next(steps);
     // What was passed over is no better than the cutoff; an end before all was seen leaves the first bound.
-    let bound = if deal.ended { relaxed.min(deal.cutoff) } else { deal.cutoff } * (1.0 - TOL);
+    let bound = if deal.ended { relaxed.min(deal.cutoff) } else { deal.cutoff } * (1.0 - TOLERANCES.tie);
     Least { layout: deal.best, bound }
 }
 
-/// No layout with this root has a lower greatest mean torque: what shares alone tell, N·m for steps of one
-/// second.
+/// Returns the lower bound on the greatest mean torque of layouts with this root that shares alone give, N·m for
+/// steps of one second.
 pub fn relaxed(target: &Target, weights: &Weights, root: usize) -> f64 {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
@@ -74,16 +73,16 @@ pub fn relaxed(target: &Target, weights: &Weights, root: usize) -> f64 {
         return 0.0;
     }
     let share = shares(weights, &around, &faces);
-    faces.iter().map(|face| cheapest(weights, &around, &share, *face)).sum::<f64>() * (1.0 - TOL)
+    faces.iter().map(|face| cheapest(weights, &around, &share, *face)).sum::<f64>() * (1.0 - TOLERANCES.tie)
 }
 
-/// What a face adds to the bound wherever it goes.
+/// Returns what a face adds to the bound wherever it goes.
 fn cheapest(weights: &Weights, around: &[(usize, usize)], share: &[f64], face: usize) -> f64 {
     let of = |((hinge, _), share): (&(usize, usize), &f64)| share * weights.at(*hinge, face);
     around.iter().zip(share).map(of).fold(f64::INFINITY, f64::min)
 }
 
-/// The other faces, the nearest to the root first.
+/// Returns the other faces, the nearest to the root first.
 fn by_distance(target: &Target, root: usize) -> Vec<usize> {
     let mut order = vec![root];
     let mut seen = vec![false; target.faces.len()];
@@ -100,8 +99,8 @@ fn by_distance(target: &Target, root: usize) -> Vec<usize> {
     order.split_off(1)
 }
 
-/// Shares of the root's hinges for which the bound is great: the load that each has where every face goes
-/// to the cheapest is taken into account step by step.
+/// Returns shares of the root's hinges for which the bound is great, by multiplicative weights: shares grow with
+/// the load that a hinge has where every face goes to the cheapest.
 fn shares(weights: &Weights, around: &[(usize, usize)], faces: &[usize]) -> Vec<f64> {
     let count = around.len();
     let mut share = vec![1.0 / count as f64; count];
@@ -171,7 +170,7 @@ impl PartitionSearch<'_> {
             let load = self.loads[r];
             self.loads[r] += self.weights.at(self.around[r].0, face);
             let dealt: f64 = self.loads.iter().zip(&self.share).map(|(load, share)| load * share).sum();
-            let limit = self.cutoff * (1.0 - TOL);
+            let limit = self.cutoff * (1.0 - TOLERANCES.tie);
             if self.loads[r] < limit && dealt + self.rest[at + 1] < limit {
                 self.dealt.push(r);
                 self.next(steps);
@@ -184,7 +183,7 @@ impl PartitionSearch<'_> {
         }
     }
 
-    /// Whether a neighbour of a face goes to a hinge, or may still go.
+    /// Returns whether a neighbour of a face goes to a hinge, or may still go.
     fn is_reached(&self, at: usize, face: usize, r: usize) -> bool {
         self.target.around(face).any(|(_, other)| {
             other != self.root
@@ -243,7 +242,7 @@ impl PartitionSearch<'_> {
     }
 }
 
-/// By face: the mean torque of its hinge with the leaves first, N·m for steps of one second.
+/// Returns by face the mean torque of its hinge with the leaves first, N·m for steps of one second.
 pub fn carried(layout: &Layout, weights: &Weights) -> Vec<f64> {
     let mut sums = vec![0.0; layout.parent.len()];
     for &face in &layout.order {

@@ -1,4 +1,4 @@
-//! How far a search for a folding is, in words.
+//! The text of progress reports.
 
 use crate::units::{Dimension, quantity};
 

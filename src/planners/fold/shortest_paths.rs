@@ -1,4 +1,4 @@
-//! The cheapest way from the root to each face for itself: the lower bound.
+//! Shortest paths from the root to each face by itself: the lower bound of branch and bound.
 //!
 //! A layout's energy is a sum over faces of what their own path costs for them. Without the demand
 //! that the paths be one tree, each face takes its cheapest path: no layout costs less.
@@ -16,15 +16,17 @@ pub type Arc = u32;
 /// The sides across which each face may be entered, as bits.
 pub type Allowed = Vec<u8>;
 
+/// Returns the arc into a face across a side.
 pub fn arc(face: usize, side: usize) -> Arc {
     (3 * face + side) as Arc
 }
 
+/// Returns the face that an arc enters, and the side.
 pub fn head(arc: Arc) -> (usize, usize) {
     (arc as usize / 3, arc as usize % 3)
 }
 
-/// Demands an arc: the face is entered by it alone, and it is not gone back.
+/// Keeps an arc: its face is entered by it alone, and the arc back is removed.
 pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     let (face, side) = head(an_arc);
     allowed[face] = 1 << side;
@@ -32,7 +34,7 @@ pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     allowed[back] &= !(1 << side);
 }
 
-/// How often paths enter each face across each of its sides.
+/// Returns by face and side the number of paths that enter there.
 pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     let mut uses = vec![[0u32; 3]; target.faces.len()];
     for &an_arc in paths.iter().flat_map(|path| path.iter()) {
@@ -42,7 +44,8 @@ pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     uses
 }
 
-/// The face into which most paths differ from the commonest way; `None` where all agree.
+/// Returns the face into which the most paths differ from the commonest arc, on which a node is branched; `None`
+/// where all agree.
 pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
     let dissent = |face: &usize| {
         let u = uses[*face];
@@ -53,7 +56,7 @@ pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
     faces.rev().max_by_key(dissent).filter(|face| dissent(face) > 0)
 }
 
-/// The tree that paths form which agree.
+/// Returns the layout that paths form which agree.
 pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     let arcs = paths.iter().filter_map(|path| path.first());
     let hinge = |a: &Arc| {
@@ -64,7 +67,7 @@ pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("paths that agree form a tree")
 }
 
-/// Cheapest paths of one target under its weights.
+/// Shortest paths of one target under its weights.
 pub struct ShortestPaths<'t> {
     target: &'t Target,
     weights: &'t Weights,
@@ -72,37 +75,40 @@ pub struct ShortestPaths<'t> {
     toward: Vec<Vec<f64>>,
     distance: Vec<f64>,
     entered: Vec<Arc>,
-    queue: BinaryHeap<Waiting>,
-    /// Paths of more hinges are none.
+    queue: BinaryHeap<QueueEntry>,
+    /// The greatest number of hinges on a path.
     pub longest: usize,
 }
 
-/// A face with the least that a path through it costs; the cheapest is the greatest.
-pub struct Waiting {
+/// An entry of the queue of Dijkstra's algorithm; the cheapest is the greatest.
+pub struct QueueEntry {
+    /// The least cost of a path through the face.
     pub cost: f64,
+    /// The face.
     pub face: usize,
 }
 
-impl Ord for Waiting {
-    fn cmp(&self, other: &Waiting) -> Ordering {
+impl Ord for QueueEntry {
+    fn cmp(&self, other: &QueueEntry) -> Ordering {
         other.cost.total_cmp(&self.cost).then(other.face.cmp(&self.face))
     }
 }
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Waiting) -> Option<Ordering> {
+impl PartialOrd for QueueEntry {
+    fn partial_cmp(&self, other: &QueueEntry) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Waiting) -> bool {
+impl PartialEq for QueueEntry {
+    fn eq(&self, other: &QueueEntry) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
-impl Eq for Waiting {}
+impl Eq for QueueEntry {}
 
 const UNREACHED: Arc = Arc::MAX;
 
 impl<'t> ShortestPaths<'t> {
+    /// Computes the costs of all shortest paths without restriction, which guide A*.
     pub fn new(target: &'t Target, weights: &'t Weights) -> ShortestPaths<'t> {
         let n = target.faces.len();
         let mut routes = ShortestPaths {
@@ -115,25 +121,25 @@ impl<'t> ShortestPaths<'t> {
             longest: usize::MAX,
         };
         for face in 0..n {
-            routes.spread(face);
+            routes.dijkstra(face);
             routes.toward[face] = routes.distance.clone();
         }
         routes
     }
 
-    /// What no layout with this root undercuts, N·m.
+    /// Returns the lower bound for layouts with this root: the sum of all shortest paths, N·m.
     pub fn bound(&self, root: usize) -> f64 {
         self.toward.iter().map(|toward| toward[root]).sum()
     }
 
-    /// Costs for `goal` from everywhere; paths cost the same in both directions.
-    fn spread(&mut self, goal: usize) {
+    /// Dijkstra's algorithm: costs for `goal` from everywhere; paths cost the same in both directions.
+    fn dijkstra(&mut self, goal: usize) {
         crate::interrupt::checkpoint();
         self.distance.fill(f64::INFINITY);
         self.distance[goal] = 0.0;
         self.queue.clear();
-        self.queue.push(Waiting { cost: 0.0, face: goal });
-        while let Some(Waiting { cost, face }) = self.queue.pop() {
+        self.queue.push(QueueEntry { cost: 0.0, face: goal });
+        while let Some(QueueEntry { cost, face }) = self.queue.pop() {
             if cost > self.distance[face] {
                 continue;
             }
@@ -141,14 +147,14 @@ impl<'t> ShortestPaths<'t> {
                 let further = cost + self.weights.at(hinge, goal);
                 if further < self.distance[other] {
                     self.distance[other] = further;
-                    self.queue.push(Waiting { cost: further, face: other });
+                    self.queue.push(QueueEntry { cost: further, face: other });
                 }
             }
         }
     }
 
-    /// The cheapest path from the root to `goal` over allowed arcs, with its cost; `None` where there
-    /// is none. Guided by the costs without restriction (A*).
+    /// A*: returns the cheapest path from the root to `goal` over allowed arcs, with its cost; `None` where there
+    /// is none. The heuristic is the cost without restriction.
     pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         if self.longest < self.toward.len() {
             return self.route_in_layers(root, goal, allowed);
@@ -158,8 +164,8 @@ impl<'t> ShortestPaths<'t> {
         self.distance[root] = 0.0;
         self.entered[root] = UNREACHED;
         self.queue.clear();
-        self.queue.push(Waiting { cost: ahead[root], face: root });
-        while let Some(Waiting { cost, face }) = self.queue.pop() {
+        self.queue.push(QueueEntry { cost: ahead[root], face: root });
+        while let Some(QueueEntry { cost, face }) = self.queue.pop() {
             if face == goal {
                 return Some((self.distance[goal], self.path_to(root, goal)));
             }
@@ -177,14 +183,14 @@ impl<'t> ShortestPaths<'t> {
                 if further < self.distance[other] {
                     self.distance[other] = further;
                     self.entered[other] = arc(other, side);
-                    self.queue.push(Waiting { cost: further + ahead[other], face: other });
+                    self.queue.push(QueueEntry { cost: further + ahead[other], face: other });
                 }
             }
         }
         None
     }
 
-    /// The same with at most as many hinges as may be: one more of them in each round.
+    /// Bellman-Ford: the same with at most `longest` hinges, one more of them in each round.
     fn route_in_layers(&self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         let mut costs = vec![f64::INFINITY; self.toward.len()];
         costs[root] = 0.0;
@@ -231,14 +237,14 @@ impl<'t> ShortestPaths<'t> {
     }
 }
 
-/// The face from which an arc comes.
+/// Returns the face from which an arc comes.
 pub fn tail(target: &Target, arc: Arc) -> usize {
     let (face, side) = head(arc);
     let hinge = target.sides[face][side].expect("arcs lead across hinges");
     target.hinges[hinge].other(face)
 }
 
-/// The arc across the same hinge the other way.
+/// Returns the arc across the same hinge the other way.
 pub fn reversed(target: &Target, an_arc: Arc) -> Arc {
     let (face, side) = head(an_arc);
     let hinge = &target.hinges[target.sides[face][side].expect("arcs lead across hinges")];

@@ -1,4 +1,4 @@
-//! Folding, simulated: the torque of every hinge in every step. This is the paper's Alg. 1; where the
+//! Simulation of a folding by inverse dynamics: the torque of every hinge in every step. This is the paper's Alg. 1; where the
 //! closed form of [`weights`](super::weights) holds, both agree.
 
 use super::dynamics::{Dynamics, Hinging};
@@ -8,12 +8,12 @@ use super::legendre::{Rule, Series, Size, TERMS};
 use super::target::Target;
 use crate::geometry::Vec3;
 
-/// What folds how fast under what.
+/// The time of steps and the gravity of a simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Circumstances {
-    /// Time of a step, s.
+    /// The time of a step, s.
     pub step: f64,
-    /// m/s², along the root's outward normal: the root lies on the ground with its outside down.
+    /// Gravity, m/s², along the root's outward normal: the root lies on the ground with its outside down.
     pub gravity: f64,
 }
 
@@ -24,19 +24,21 @@ pub struct Torques {
     pub steps: Vec<Vec<Size>>,
 }
 
-/// Whose torques count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The joints whose torques count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Count {
     /// Those of the joints that move: the others are locked.
+    #[default]
     Moving,
-    /// Those of all.
+    /// Those of all joints.
     All,
 }
 
-/// Each step is looked at in two halves: between them the acceleration changes its sign.
+/// The middles of the two halves of a step, which are integrated apart: between them the acceleration changes its
+/// sign.
 const HALVES: [f64; 2] = [0.25, 0.75];
 
-/// Simulates folding in steps: in each, the hinges of these faces go from level to folded by the
+/// Simulates a folding in steps: in each, the hinges of these faces go from level to folded by the
 /// quintic law, and all others are locked.
 pub fn simulate(
     target: &Target,
@@ -86,7 +88,7 @@ pub fn simulate(
     Torques { steps: all }
 }
 
-/// The quintic law over one unit: place, speed and acceleration after a part of the time.
+/// Returns position, speed and acceleration of the quintic law over one unit after a part `x` of the time (s).
 pub fn quintic(x: f64, time: f64) -> Hinging {
     Hinging {
         angle: x * x * x * (10.0 - 15.0 * x + 6.0 * x * x),
@@ -96,12 +98,12 @@ pub fn quintic(x: f64, time: f64) -> Hinging {
 }
 
 impl Torques {
-    /// Eq. 5: the sum of mean torques, N·m. `steps`: those that were simulated.
+    /// Returns the energy (Eq. 5), the sum of mean torques, N·m; `steps`: those that were simulated.
     pub fn energy(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.mean).sum()
     }
 
-    /// The greatest torque, N·m.
+    /// Returns the greatest torque, N·m; `steps`: those that were simulated.
     pub fn peak(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.peak).fold(0.0, f64::max)
     }

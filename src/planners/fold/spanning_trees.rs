@@ -1,10 +1,10 @@
-//! How many layouts a target has: Kirchhoff's theorem in whole numbers.
+//! The number of layouts of a target: Kirchhoff's matrix-tree theorem in whole numbers.
 
 use super::target::Target;
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-/// The number of spanning trees of the faces. By elimination without fractions (Bareiss): every
+/// Returns the number of spanning trees of the faces, by elimination without fractions (Bareiss): every
 /// division is exact.
 pub fn layouts(target: &Target) -> BigInt {
     let n = target.faces.len() - 1;

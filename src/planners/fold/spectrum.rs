@@ -1,31 +1,30 @@
-//! Energies that occur, and how often.
+//! The spectrum of energies: which occur, and how often.
 
+use super::tolerances::TOLERANCES;
 use std::collections::BTreeMap;
 
-/// Energies nearer than this, as part of the unit, are one.
-const TOL_EQUAL: f64 = 1e-9;
-
-/// Fineness of the first sorting, as part of the unit.
+/// The width of a counting bin, as a part of the unit.
 const GRAIN: f64 = 1e-11;
 
-/// More different energies are not told apart; their sum of counts is still kept.
+/// The greatest number of bins; further energies are counted together.
 const DIFFERENT_MAX: usize = 4_000_000;
 
-/// Counts of energies, held as steps of a small part of a unit.
+/// Counts of energies in narrow bins.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
     unit: f64,
     counts: BTreeMap<u64, u64>,
-    /// Energies not told apart.
+    /// The number of energies that got no bin.
     pub uncounted: u64,
 }
 
 impl Spectrum {
-    /// `unit`: a positive energy of the order of those that will come.
+    /// Makes an empty spectrum; `unit`: a positive energy of the order of those that will come.
     pub fn new(unit: f64) -> Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }
 
+    /// Counts an energy.
     pub fn add(&mut self, energy: f64) {
         let key = (energy / (self.unit * GRAIN)).round() as u64;
         if let Some(count) = self.counts.get_mut(&key) {
@@ -37,9 +36,9 @@ impl Spectrum {
         }
     }
 
-    /// Energies with how often each occurs, in order.
+    /// Returns the energies with how often each occurs, in order; those nearer than a tie are one.
     pub fn levels(&self) -> Vec<(f64, u64)> {
-        let apart = (TOL_EQUAL / GRAIN) as u64;
+        let apart = (TOLERANCES.tie / GRAIN) as u64;
         let mut levels: Vec<(f64, u64)> = Vec::new();
         let mut last = None;
         for (&key, &count) in &self.counts {

@@ -1,15 +1,15 @@
-//! Which hinges fold at the same time.
+//! Steps of a folding: hinges that fold at the same time.
 
 use super::layout::Layout;
 
-/// Alg. 2: the leaves first, then what has become a leaf. One list of faces for each step; there are
-/// as many as the tree is high.
+/// Returns the leaves-first order (Alg. 2): the leaves, then what has become a leaf. One list of faces for each
+/// step; there are as many as the tree is high.
 pub fn leaves_first(layout: &Layout) -> Vec<Vec<usize>> {
     let heights = layout.heights();
     layered(layout, |face| heights[face])
 }
 
-/// The other way round: the root's children first. As many steps.
+/// Returns the root-first order: the root's children, then theirs. As many steps.
 pub fn root_first(layout: &Layout) -> Vec<Vec<usize>> {
     let depths = layout.depths();
     layered(layout, |face| depths[face] - 1)
@@ -27,7 +27,7 @@ fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
     steps
 }
 
-/// An order of faces in as few steps as keep its cost: a face folds one step after the last of those
+/// Lays an order of faces into as few steps as keep its cost: a face folds one step after the last of those
 /// before it on its own path.
 ///
 /// This is what Alg. 3 is for; as printed it puts all faces into one step, loses the last, and may

@@ -1,37 +1,42 @@
-//! Whether panels meet on the way, in samples: a quick look that keeps the judge from plans that it
-//! would reject. Panels are triangles without thickness, or solids. What it lets through is not proved.
+//! Sampled sweep collision check of panels in motion: it spares the judge plans that he would reject. Panels are
+//! triangles without thickness (separating axes), or solids. What passes is not proved.
 
 use super::kinematics::poses_at;
 use super::layout::Layout;
 use super::simulation::quintic;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use crate::geometry::distance::signed_distance_within;
 use crate::geometry::pose::shifted;
 use crate::geometry::{Part, Pose, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-/// States of each step that are looked at.
+/// States of each step that are sampled.
 const SAMPLES: usize = 24;
-
-/// An axis shorter than this part of the square of a side is rounding.
-const TOL_AXIS: f64 = 1e-9;
 
 type Triangle = [Vec3; 3];
 
-/// Two faces that meet, and the step in which they first do.
+/// Two panels that collide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Collision {
+    /// The first step in which they do, from 0.
     pub step: usize,
+    /// Their faces.
     pub faces: [usize; 2],
 }
 
-/// The first meeting while a layout is folded in steps. `shrunk`: by which part triangles are made
-/// smaller, so that those do not meet which share an edge.
-pub fn meeting(target: &Target, layout: &Layout, steps: &[Vec<usize>], shrunk: f64) -> Option<Collision> {
+/// Returns the first collision of thin panels while a layout is folded in steps; `shrunk`: the part by which
+/// triangles are shrunk, so that neighbours do not collide.
+pub fn first_collision(
+    target: &Target,
+    layout: &Layout,
+    steps: &[Vec<usize>],
+    shrunk: f64,
+) -> Option<Collision> {
     let look = SweepCheck::thin(target, layout, shrunk);
     let mut folded = vec![false; target.faces.len()];
     steps.iter().enumerate().find_map(|(step, moving)| {
-        let found = look.during(&folded, moving).map(|faces| Collision { step, faces });
+        let found = look.pair_during(&folded, moving).map(|faces| Collision { step, faces });
         moving.iter().for_each(|face| folded[*face] = true);
         found
     })
@@ -41,12 +46,13 @@ pub fn meeting(target: &Target, layout: &Layout, steps: &[Vec<usize>], shrunk: f
 /// with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {
+    /// By face: its convex parts.
     pub parts: Vec<Vec<Part>>,
-    /// How deep two of them may be in each other, m.
+    /// The depth to which two panels may enter each other, m.
     pub touch: f64,
 }
 
-/// Pairs of panels that meet in the target itself, unless they hang together by a hinge.
+/// Returns the pairs of panels that penetrate each other in the target itself.
 pub fn target_collisions(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
     let parts = placed(target, solids);
     let reach = reach(target, &parts);
@@ -76,7 +82,7 @@ fn reach(target: &Target, parts: &[Vec<Part>]) -> Vec<f64> {
     parts.iter().enumerate().map(of_face).collect()
 }
 
-/// A look at the panels of one layout.
+/// The collision check of one layout.
 pub struct SweepCheck<'t> {
     target: &'t Target,
     layout: &'t Layout,
@@ -92,7 +98,7 @@ enum Form {
 }
 
 impl<'t> SweepCheck<'t> {
-    /// Triangles that are made smaller by a part.
+    /// Sets up the check for triangles that are shrunk by a part.
     pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> SweepCheck<'t> {
         let smaller = |face: usize| {
             let middle = target.centroid(face);
@@ -106,16 +112,16 @@ impl<'t> SweepCheck<'t> {
         SweepCheck { target, layout, form: Form::Triangles(small), reach }
     }
 
-    /// Panels as they are.
+    /// Sets up the check for panels with thickness.
     pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> SweepCheck<'t> {
         let parts = placed(target, solids);
         let reach = reach(target, &parts);
         SweepCheck { target, layout, form: Form::Solids(Solids { parts, touch: solids.touch }), reach }
     }
 
-    /// Two faces that meet while some hinges fold at the same time, none above another; `folded`: the
-    /// hinges that have folded before.
-    pub fn during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
+    /// Returns two faces that collide while the hinges of `moving` fold at the same time, none above another;
+    /// `folded`: by face, whether its hinge has folded before.
+    pub fn pair_during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
         let against = moving_against(self.layout, moving);
         (1..=SAMPLES).find_map(|sample| {
             let state = self.state(folded, moving, sample as f64 / SAMPLES as f64);
@@ -123,9 +129,9 @@ impl<'t> SweepCheck<'t> {
         })
     }
 
-    /// The pairs of faces that meet while the layout is folded in steps, in order; not all of them where they
-    /// are more than `most`. `samples`: states of each step that are looked at.
-    pub fn meetings(&self, steps: &[Vec<usize>], samples: usize, most: usize) -> Vec<[usize; 2]> {
+    /// Returns the pairs of faces that collide while the layout is folded in steps, in order; not all of them where
+    /// they are more than `most`. `samples`: states of each step.
+    pub fn collisions(&self, steps: &[Vec<usize>], samples: usize, most: usize) -> Vec<[usize; 2]> {
         let mut folded = vec![false; self.reach.len()];
         let mut met: Vec<[usize; 2]> = Vec::new();
         for moving in steps {
@@ -145,7 +151,7 @@ impl<'t> SweepCheck<'t> {
         met
     }
 
-    /// Where the faces are when a part of the time of a step is over.
+    /// Returns the state when a part of the time of a step is over.
     fn state(&self, folded: &[bool], moving: &[usize], time: f64) -> State {
         crate::interrupt::checkpoint();
         let SweepCheck { target, layout, .. } = self;
@@ -189,7 +195,7 @@ struct State {
 }
 
 impl Solids {
-    /// Whether two panels meet; `X_AB`: from the frame in which the second's parts are to the first's.
+    /// Returns whether two panels penetrate each other; `X_AB`: from the frame in which the second's parts are to the first's.
     pub fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
         let meet =
             |p: &Part, q: &Part| signed_distance_within(p, q, X_AB, None, -self.touch).distance < -self.touch;
@@ -202,7 +208,7 @@ fn place(target: &Target, face: usize) -> Pose {
     panel_pose(&target.corners(face), &target.normal(face))
 }
 
-/// The frame of a panel with these corners and this outward normal.
+/// Returns the panel frame of a triangle with these corners (m) and this outward unit normal.
 pub fn panel_pose(corners: &Triangle, z: &Vec3) -> Pose {
     let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     let x = ((corners[0] + corners[1]) / 2.0 - middle).normalize();
@@ -225,7 +231,7 @@ fn moving_against(layout: &Layout, moving: &[usize]) -> Vec<[usize; 2]> {
     pairs.filter(|&[a, b]| carried[a] != carried[b]).collect()
 }
 
-/// Whether a plane across some axis has two triangles on its two sides.
+/// Separating axis test: returns whether a plane across some axis separates two triangles.
 fn parted(a: &Triangle, b: &Triangle) -> bool {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (of_a, of_b) = (edges(a), edges(b));
@@ -236,7 +242,7 @@ fn parted(a: &Triangle, b: &Triangle) -> bool {
             (d[0].min(d[1]).min(d[2]), d[0].max(d[1]).max(d[2]))
         };
         let ((low_a, high_a), (low_b, high_b)) = (range(a), range(b));
-        axis.norm() > TOL_AXIS * scale && (high_a < low_b || high_b < low_a)
+        axis.norm() > TOLERANCES.axis * scale && (high_a < low_b || high_b < low_a)
     };
     let area = normal_a.norm().max(normal_b.norm());
     // Those of triangles in one plane as well.

@@ -1,13 +1,10 @@
-//! Roots that are equal by symmetry: what holds for one face holds for every face of its orbit.
+//! Orbits of faces under the isometries of a target: what holds for one root holds for all of its orbit.
 
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
-/// Lengths and weights that differ by less than this part, and angles by less than this (rad), are
-/// equal. Far below the part of the energy to which optima are proved.
-const TOL_EQUAL: f64 = 1e-10;
-
-/// By face: the first face to which an isometry of the target, mirrors included, carries it. Only
+/// Returns by face the first face to which an isometry of the target, mirrors included, carries it. Only
 /// isometries that keep every weight count.
 pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     let n = target.faces.len();
@@ -51,7 +48,7 @@ fn lengths(target: &Target, face: usize) -> [f64; 3] {
 }
 
 fn equal(a: f64, b: f64) -> bool {
-    (a - b).abs() <= TOL_EQUAL * (a.abs() + b.abs() + f64::MIN_POSITIVE)
+    (a - b).abs() <= TOLERANCES.symmetry * (a.abs() + b.abs() + f64::MIN_POSITIVE)
 }
 
 /// A face with the number of its side that is the image of side 0, and whether sides are counted
@@ -63,7 +60,7 @@ fn side(image: Image, k: usize) -> usize {
     if mirrored { (turn + 3 - k) % 3 } else { (turn + k) % 3 }
 }
 
-/// Where faces and hinges go when face 0 goes to the given image; `None` where that is no isometry.
+/// Returns the images of faces and hinges when face 0 goes to the given image; `None` where that is no isometry.
 fn isometry(target: &Target, lengths: &[[f64; 3]], image: Image) -> Option<(Vec<usize>, Vec<usize>)> {
     let n = target.faces.len();
     let mut images: Vec<Option<Image>> = vec![None; n];
@@ -83,7 +80,7 @@ fn isometry(target: &Target, lengths: &[[f64; 3]], image: Image) -> Option<(Vec<
                 _ => return None,
             };
             let turned = target.hinges[from].angle - target.hinges[goal].angle;
-            if turned.abs() > TOL_EQUAL {
+            if turned.abs() > TOLERANCES.symmetry {
                 return None;
             }
             hinges[from] = goal;
@@ -105,7 +102,7 @@ fn isometry(target: &Target, lengths: &[[f64; 3]], image: Image) -> Option<(Vec<
     Some((images.into_iter().map(|i| i.expect("the target is connected").0).collect(), hinges))
 }
 
-/// The face across a side, with the number that the side has there.
+/// Returns the face across a side, with the number that the side has there.
 fn across(target: &Target, hinge: usize, face: usize, side: usize) -> (usize, usize) {
     let hinge = &target.hinges[hinge];
     let own = usize::from(!(hinge.faces[0] == face && hinge.sides[0] == side));
@@ -114,9 +111,8 @@ fn across(target: &Target, hinge: usize, face: usize, side: usize) -> (usize, us
 
 fn keeps(weights: &Weights, faces: &[usize], hinges: &[usize], scale: f64) -> bool {
     hinges.iter().enumerate().all(|(hinge, &to)| {
-        faces
-            .iter()
-            .enumerate()
-            .all(|(face, &goal)| (weights.at(hinge, face) - weights.at(to, goal)).abs() <= TOL_EQUAL * scale)
+        faces.iter().enumerate().all(|(face, &goal)| {
+            (weights.at(hinge, face) - weights.at(to, goal)).abs() <= TOLERANCES.symmetry * scale
+        })
     })
 }

@@ -1,9 +1,9 @@
-//! Layouts that lie flat, made of layouts that overlap: exchanges of one hinge for another that part what
-//! overlaps, and then those that cost less and keep it flat. Nothing is proved.
+//! Tabu search for layouts that lie flat, from layouts that overlap: exchanges of one hinge for another that
+//! separate overlapping faces, and then those that cost less and keep the pattern flat. Nothing is proved.
 //!
 //! One of the hinges between two faces that overlap is given up, and the two parts of the sheet are joined
 //! elsewhere. Of some such exchanges that is made which leaves the fewest overlaps, then costs the least;
-//! also where that is more than before, or the search would stay in the first hollow. What was given up a
+//! also where that is more than before, or the search would stay in the first local minimum. What was given up a
 //! short while ago does not come back (a tabu list, as "Tabu Unfolder" by Zawallich and Pajarola has it).
 
 use super::edge_exchange;
@@ -13,19 +13,19 @@ use super::target::Target;
 use super::weights::Weights;
 use crate::planners::random::SplitMix64;
 
-/// Exchanges that are looked at before one is made.
-const LOOKS: usize = 24;
+/// Exchanges that are sampled before the best is made.
+const EXCHANGES_SAMPLED: usize = 24;
 
-/// A hinge that was given up stays out for so many exchanges.
+/// The number of exchanges for which a hinge that was given up stays tabu.
 const TABU: usize = 12;
 
-/// So many pairs of faces are looked at in the time of one step.
+/// Pairs of faces that are tested in the time of one step.
 const PAIRS: usize = 64;
 
-/// Exchanges per face, after which the search is given up.
+/// Exchanges per face after which the search ends.
 const MOVES: usize = 24;
 
-/// A layout that lies flat. `steps`, counted down: how long it may be looked for.
+/// Searches a layout that lies flat; `steps` counts down the steps of the search. `None` where none was found.
 pub fn without_overlaps(
     target: &Target,
     weights: &Weights,
@@ -45,7 +45,7 @@ pub fn without_overlaps(
         };
         let between = edge_exchange::path(&now, a, b);
         let mut best: Option<((usize, f64), Layout, usize)> = None;
-        for _ in 0..LOOKS {
+        for _ in 0..EXCHANGES_SAMPLED {
             *steps = steps.checked_sub((n * n / PAIRS + n) as u64)?;
             let Some((next, dropped)) = parting.exchange(&now, &between, round) else { continue };
             let worth = (Pattern::of(target, &next).overlaps().len(), next.energy(weights));
@@ -61,7 +61,7 @@ pub fn without_overlaps(
     None
 }
 
-/// Exchanges at random between two faces that are in each other's way, in rounds.
+/// Random exchanges of hinges between two faces that overlap or collide, with a tabu list.
 pub struct TabuExchange<'t> {
     target: &'t Target,
     rng: SplitMix64,
@@ -70,17 +70,18 @@ pub struct TabuExchange<'t> {
 }
 
 impl<'t> TabuExchange<'t> {
+    /// Makes an empty tabu list.
     pub fn new(target: &'t Target, seed: u64) -> TabuExchange<'t> {
         TabuExchange { target, rng: SplitMix64(seed), out_until: vec![0; target.hinges.len()] }
     }
 
-    /// One of the pairs, if there are any.
+    /// Returns a random pair; `None` where there is none.
     pub fn one_of(&mut self, pairs: &[[usize; 2]]) -> Option<[usize; 2]> {
         pairs.get(self.rng.below(pairs.len().max(1))).copied()
     }
 
-    /// A layout without one of these hinges, and which: another that may come back joins the two parts, if one
-    /// does.
+    /// Returns a layout without one of these hinges, and which: another hinge that is not tabu joins the two parts.
+    /// `None` where no such hinge does.
     pub fn exchange(&mut self, now: &Layout, between: &[usize], round: usize) -> Option<(Layout, usize)> {
         let dropped = between[self.rng.below(between.len())];
         let mut ways = joining(self.target, now, dropped);
@@ -92,12 +93,13 @@ impl<'t> TabuExchange<'t> {
         Some((now.exchanged(self.target, dropped, added), dropped))
     }
 
+    /// Makes a hinge tabu from a round on.
     pub fn give_up(&mut self, hinge: usize, round: usize) {
         self.out_until[hinge] = round + TABU;
     }
 }
 
-/// The hinges between the two parts into which a layout falls without one of its own.
+/// Returns the hinges between the two parts into which a layout falls without one of its own.
 fn joining(target: &Target, layout: &Layout, without: usize) -> Vec<usize> {
     let mut below = vec![false; layout.parent.len()];
     for &face in &layout.order[1..] {

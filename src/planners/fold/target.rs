@@ -1,38 +1,34 @@
 //! The target: a triangle mesh that was checked, with the hinges between its faces.
 
+use super::tolerances::TOLERANCES;
 use super::unfoldable::Unfoldable;
 use crate::geometry::Vec3;
 use crate::geometry::soundness::SIZE_MAX;
 use std::collections::BTreeMap;
 
-/// More faces are refused: the count of layouts is by elimination, cubic in the faces.
+/// The greatest number of faces: the count of layouts is by elimination, cubic in the faces.
 pub const FACES_MAX: usize = 400;
-
-/// A face whose height is below this part of its longest side has no area.
-const TOL_FLAT: f64 = 1e-9;
-
-/// Two faces whose fold is nearer than this to half a turn lie on each other, rad.
-const TOL_BACK_TO_BACK: f64 = 1e-6;
 
 /// A mesh that can be folded: manifold, oriented, connected, without degenerate faces. It may have a
 /// boundary.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// m
+    /// The corners of all faces, m.
     pub vertices: Vec<Vec3>,
-    /// Counterclockwise seen from outside.
+    /// By face: its corners among the vertices, counterclockwise seen from outside.
     pub faces: Vec<[usize; 3]>,
-    /// The dual graph's edges, in order of the first face's number, then of its side.
+    /// The edges of the dual graph, in order of the first face's number, then of its side.
     pub hinges: Vec<Hinge>,
     /// The hinge at each side of each face; side `k` runs from corner `k` to the next.
     pub sides: Vec<[Option<usize>; 3]>,
 }
 
-/// A common edge of two faces.
+/// A common edge of two faces, at which they can fold.
 #[derive(Clone, Copy, Debug)]
 pub struct Hinge {
+    /// The two faces.
     pub faces: [usize; 2],
-    /// Which side of each face it is.
+    /// The number of the side of each face that it is.
     pub sides: [usize; 2],
     /// Signed fold angle, rad: 0 where the faces are level, positive where the edge is convex. It is
     /// π less the interior dihedral angle.
@@ -46,24 +42,27 @@ pub struct Hinge {
 }
 
 impl Hinge {
-    /// The face across from one of the two.
+    /// Returns the face across from one of the two.
     pub fn other(&self, face: usize) -> usize {
         if self.faces[0] == face { self.faces[1] } else { self.faces[0] }
     }
 
-    /// Which side of a face of the two it is.
+    /// Returns the number of the side of one of the two faces that it is.
     pub fn side_of(&self, face: usize) -> usize {
         self.sides[usize::from(self.faces[1] == face)]
     }
 
-    /// The axis about which a positive turn folds the face across from `parent`.
+    /// Returns the unit axis about which a positive turn folds the face across from `parent`.
     pub fn axis_from(&self, parent: usize) -> Vec3 {
         if self.faces[0] == parent { self.axis } else { -self.axis }
     }
 }
 
 impl Target {
-    /// Checks a mesh of faces given by their corners.
+    /// Checks a mesh given by vertices (m) and faces by their corners, counterclockwise from outside.
+    ///
+    /// # Errors
+    /// The first reason found why the mesh does not fold from one sheet.
     pub fn new(vertices: Vec<Vec3>, faces: &[Vec<usize>]) -> Result<Target, Unfoldable> {
         if faces.is_empty() {
             return Err(Unfoldable::Empty);
@@ -90,12 +89,18 @@ impl Target {
         Ok(target)
     }
 
-    /// Refuses a target with a side that is off the wanted length by more than `tol`, m.
+    /// Checks that all sides have the wanted length, to `tol`, m.
+    ///
+    /// # Errors
+    /// [`Unfoldable::UnequalSides`] for the first that has not.
     pub fn check_sides(&self, wanted: f64, tol: f64) -> Result<(), Unfoldable> {
         (0..self.faces.len()).try_for_each(|face| self.check_sides_of(face, wanted, tol))
     }
 
-    /// The same for one face.
+    /// Checks that the sides of one face have the wanted length, to `tol`, m.
+    ///
+    /// # Errors
+    /// [`Unfoldable::UnequalSides`] for the first that has not.
     pub fn check_sides_of(&self, face: usize, wanted: f64, tol: f64) -> Result<(), Unfoldable> {
         match self.side_lengths(face).into_iter().find(|side| (side - wanted).abs() > tol) {
             Some(side) => Err(Unfoldable::UnequalSides { face, side, wanted }),
@@ -103,14 +108,17 @@ impl Target {
         }
     }
 
-    /// Of a face, m.
+    /// Returns the lengths of a face's sides, m.
     pub fn side_lengths(&self, face: usize) -> [f64; 3] {
         let corners = self.corners(face);
         [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
     }
 
-    /// Without the hinges between two faces of which neither has motors. `driven`: by face, whether it
-    /// has.
+    /// Returns the target without the hinges between two faces of which neither has motors; `driven`: by face,
+    /// whether it has.
+    ///
+    /// # Errors
+    /// [`Unfoldable::Undriven`] where the rest is not in one piece.
     pub fn driven(mut self, driven: &[bool]) -> Result<Target, Unfoldable> {
         self.hinges.retain(|hinge| hinge.faces.iter().any(|face| driven[*face]));
         self.sides = sides(&self.hinges, self.faces.len());
@@ -121,28 +129,29 @@ impl Target {
         Ok(self)
     }
 
-    /// Corners of a face, m.
+    /// Returns the corners of a face, m.
     pub fn corners(&self, face: usize) -> [Vec3; 3] {
         self.faces[face].map(|v| self.vertices[v])
     }
 
+    /// Returns the centroid of a face, m.
     pub fn centroid(&self, face: usize) -> Vec3 {
         let [a, b, c] = self.corners(face);
         (a + b + c) / 3.0
     }
 
-    /// Outward unit normal.
+    /// Returns the outward unit normal of a face.
     pub fn normal(&self, face: usize) -> Vec3 {
         let [a, b, c] = self.corners(face);
         (b - a).cross(&(c - a)).normalize()
     }
 
-    /// The hinges of a face with the faces across them.
+    /// Returns the hinges of a face with the faces across them, in order of its sides.
     pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))
     }
 
-    /// The hinge between two faces. Of several, the first.
+    /// Returns the hinge between two faces; of several the first, `None` where there is none.
     pub fn hinge_between(&self, a: usize, b: usize) -> Option<usize> {
         self.around(a).find(|(_, other)| *other == b).map(|(hinge, _)| hinge)
     }
@@ -170,7 +179,7 @@ fn degenerate(vertices: &[Vec3], triangle: [usize; 3]) -> bool {
     let longest = [b - a, c - b, a - c].iter().map(Vec3::norm).fold(0.0, f64::max);
     let area = (b - a).cross(&(c - a)).norm();
     // Written so that a number that is none fails, too.
-    !(area > TOL_FLAT * longest * longest && longest.is_finite())
+    !(area > TOLERANCES.flat_face * longest * longest && longest.is_finite())
 }
 
 type Hinges = (Vec<Hinge>, Vec<[Option<usize>; 3]>);
@@ -224,7 +233,7 @@ fn hinge(vertices: &[Vec3], faces: &[[usize; 3]], p: Side, c: Side) -> Result<Hi
     let axis = (vertices[next] - point).normalize();
     let (n_p, n_c) = (normal(p.0), normal(c.0));
     let angle = libm::atan2(axis.dot(&n_p.cross(&n_c)), n_p.dot(&n_c));
-    if angle.abs() > std::f64::consts::PI - TOL_BACK_TO_BACK {
+    if angle.abs() > std::f64::consts::PI - TOLERANCES.back_to_back {
         return Err(Unfoldable::FoldedFlat { faces: both });
     }
     Ok(Hinge { faces: both, sides: [p.1, c.1], angle, point, axis })

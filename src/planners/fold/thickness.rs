@@ -1,4 +1,4 @@
-//! How far thick panels close (Eq. 1 and 2).
+//! The fold angles that thick panels can close (Eq. 1 and 2).
 //!
 //! Two panels of thickness d on a hinge of radius r can't come nearer to each other than the angle ϑ
 //! with `sin(ϑ/2) = (d/2)/r`: a hinge with a fold angle beyond π - ϑ does not close. (Eq. 2 forbids
@@ -7,18 +7,17 @@
 
 use super::layout::Layout;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use std::f64::consts::PI;
 
-/// A fold angle this much beyond the limit is rounding, rad.
-const TOL_ANGLE: f64 = 1e-9;
-
-/// The least angle between two panels, rad; π where the hinge is so thin that they do not turn.
+/// Returns the least angle between two panels of a thickness on hinges of a radius (m), rad; π where the hinge is
+/// so thin that they do not turn.
 pub fn least_opening(thickness: f64, radius: f64) -> f64 {
     2.0 * libm::asin((thickness / 2.0 / radius).clamp(0.0, 1.0))
 }
 
-/// The faces of a layout whose hinge does not close, in order.
+/// Returns the faces of a layout whose hinges do not close to `opening` (rad), in order.
 pub fn too_thick(target: &Target, layout: &Layout, opening: f64) -> Vec<usize> {
     let angle = |face: &usize| layout.hinge[*face].map_or(0.0, |hinge| target.hinges[hinge].angle.abs());
-    (0..target.faces.len()).filter(|face| angle(face) > PI - opening + TOL_ANGLE).collect()
+    (0..target.faces.len()).filter(|face| angle(face) > PI - opening + TOLERANCES.closing).collect()
 }

@@ -1,58 +1,74 @@
-//! What makes a mesh impossible to fold from one sheet.
+//! The reasons why a mesh can't be folded from one sheet.
 
 use std::fmt;
 
-/// Why a mesh is no target. Faces are numbered as in the mesh.
+/// The reason why a mesh is no target. Faces are numbered as in the mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfoldable {
+    /// The mesh has no faces.
     Empty,
+    /// The mesh has more faces than can be planned.
     TooLarge {
+        /// The number of faces.
         faces: usize,
+        /// The greatest number of faces.
         limit: usize,
     },
     /// A face with another number of corners than three.
     NotTriangle {
+        /// The face.
         face: usize,
+        /// The number of its corners.
         corners: usize,
     },
     /// A face of no area, or that names a vertex that there isn't, or one twice.
     Degenerate {
+        /// The face.
         face: usize,
     },
     /// A face with a corner farther from the origin than anything may be.
     TooFar {
+        /// The face.
         face: usize,
     },
     /// An edge at which more than two faces meet.
     NonManifold {
+        /// All faces at the edge.
         faces: Vec<usize>,
     },
     /// Two faces that run along their common edge in the same direction.
     Orientation {
+        /// The two faces.
         faces: [usize; 2],
     },
     /// Two faces with the same corners, back to back.
     FoldedFlat {
+        /// The two faces.
         faces: [usize; 2],
     },
     /// Faces that no chain of hinges joins.
     Disconnected {
+        /// One face of two pieces each.
         faces: [usize; 2],
     },
     /// Faces that no chain of hinges joins of which each has a face with motors.
     Undriven {
+        /// One face of two pieces each.
         faces: [usize; 2],
     },
     /// A side of another length (m) than all panels have.
     UnequalSides {
+        /// The face.
         face: usize,
+        /// The length of its side, m.
         side: f64,
+        /// The length of the panels' sides, m.
         wanted: f64,
     },
 }
 
 impl Unfoldable {
-    /// How to mend it.
+    /// Returns a hint how to mend the mesh.
     pub fn remedy(&self) -> &'static str {
         match self {
             Unfoldable::Empty => "a target has at least one triangle",

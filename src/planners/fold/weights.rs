@@ -1,4 +1,4 @@
-//! What a hinge costs for every face that it carries.
+//! The cost of every hinge for every face that it carries, in closed form.
 //!
 //! With the leaves folded first (Alg. 2), what a hinge moves already has its final form and nothing
 //! else moves with it: one rigid body about a fixed axis. With the quintic motion of a step of one
@@ -13,7 +13,7 @@ use super::target::Target;
 /// `∫ |s''|` of the quintic `10x³ - 15x⁴ + 6x⁵` over 0..1: twice its greatest slope.
 pub const QUINTIC: f64 = 3.75;
 
-/// Cost of every hinge for every face, N·m for a step of one second.
+/// The cost of every hinge for every face, N·m for a step of one second.
 #[derive(Clone, Debug)]
 pub struct Weights {
     faces: usize,
@@ -22,7 +22,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// `masses`: of each face, kg.
+    /// Computes the weights of a target; `masses`: by face, kg.
     pub fn new(target: &Target, masses: &[f64], inertia: Inertia) -> Weights {
         let faces = target.faces.len();
         let mut table = Vec::with_capacity(faces * target.hinges.len());
@@ -36,29 +36,29 @@ impl Weights {
         Weights { faces, table }
     }
 
-    /// All panels of the same mass, spread evenly.
+    /// Computes the weights for panels of one mass (kg), spread evenly.
     pub fn uniform(target: &Target, mass: f64) -> Weights {
         Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)
     }
 
-    /// What hinge `hinge` spends on carrying `face`.
+    /// Returns the cost of `hinge` for carrying `face`.
     #[inline]
     pub fn at(&self, hinge: usize, face: usize) -> f64 {
         self.table[hinge * self.faces + face]
     }
 
-    /// By face.
+    /// Returns the costs of a hinge, by face.
     pub fn of_hinge(&self, hinge: usize) -> &[f64] {
         &self.table[hinge * self.faces..][..self.faces]
     }
 
-    /// The largest weight: the scale for tolerances.
+    /// Returns the greatest weight, the scale for tolerances.
     pub fn greatest(&self) -> f64 {
         self.table.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The same with `extra[hinge]` added for every face.
-    pub fn raised(&self, extra: &[f64]) -> Weights {
+    /// Returns the weights with `extra[hinge]` added for every face.
+    pub(crate) fn perturbed(&self, extra: &[f64]) -> Weights {
         let table = self.table.iter().enumerate().map(|(i, w)| w + extra[i / self.faces]).collect();
         Weights { faces: self.faces, table }
     }

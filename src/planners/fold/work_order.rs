@@ -1,4 +1,4 @@
-//! The order of folding that lifts and lowers the least (Eq. 15 to 17), exactly.
+//! Dynamic programme for the order of folding that lifts and lowers the least (Eq. 15 to 17).
 //!
 //! The root lies on the ground with its outside down. To fold hinge i when the set F has folded
 //! costs `|PE(F + i) - PE(F)|`. Branches of the root move independently; within a branch every subset
@@ -10,29 +10,27 @@ use super::kinematics::about;
 use super::layout::Layout;
 use super::steps;
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use crate::geometry::Pose;
 
-/// Hinges of a branch up to which all subsets are looked at.
+/// The greatest number of hinges of a branch whose subsets are all visited.
 pub const BRANCH_MAX: usize = 18;
-
-/// An order is as good as the bound within this part.
-const TOL_EQUAL: f64 = 1e-12;
 
 /// An order of folding, one hinge after the other.
 #[derive(Clone, Debug)]
 pub struct Lifting {
-    /// Faces, the one that folds first first.
+    /// All faces but the root in order of folding.
     pub order: Vec<usize>,
     /// The work of Eq. 17, J.
     pub work: f64,
-    /// No order of this layout takes less, J.
+    /// The lower bound on the work of all orders of the layout, J.
     pub bound: f64,
     /// Whether no order takes less work than this one: always, unless a branch has more than
     /// [`BRANCH_MAX`] hinges.
     pub optimal: bool,
 }
 
-/// The order of least work. `weights`: of each face, N.
+/// Returns the order of least work; `weights`: by face, N.
 pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> Lifting {
     let mut all = Lifting { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {
@@ -46,7 +44,8 @@ pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> Lifting 
     all
 }
 
-/// No order of this layout takes less, J: by branch of the root, what it gains or loses in all.
+/// Returns the lower bound on the work of all orders of a layout, J: the potential energy that each branch of the
+/// root gains or loses; `weights`: by face, N.
 pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
     let flat = super::kinematics::poses(target, layout, |_| false);
     let gain = |face: usize| {
@@ -61,8 +60,8 @@ pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
     branches.into_iter().map(of_branch).sum()
 }
 
-/// The work of Eq. 17 for an order of all faces but the root, J. Computed step by step from the
-/// places of all faces.
+/// Returns the work of Eq. 17 for an order of all faces but the root, J, computed step by step from the poses of
+/// all faces; `weights`: by face, N.
 pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) -> f64 {
     let mut folded = vec![false; target.faces.len()];
     let mut height = potential(target, layout, weights, &folded);
@@ -76,14 +75,14 @@ pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) 
     sum
 }
 
-/// Potential energy over the root's plane, J.
+/// Returns the potential energy over the root's plane, J.
 fn potential(target: &Target, layout: &Layout, weights: &[f64], folded: &[bool]) -> f64 {
     let poses = super::kinematics::poses(target, layout, |face| folded[face]);
     let faces = 0..target.faces.len();
     faces.map(|face| weights[face] * height(target, layout, face, &poses[face])).sum()
 }
 
-/// Height of a face's centroid over the root's plane, m: against the root's outward normal.
+/// Returns the height of a face's centroid over the root's plane, m: against the root's outward normal.
 fn height(target: &Target, layout: &Layout, face: usize, pose: &Pose) -> f64 {
     let centroid = pose * nalgebra::Point3::from(target.centroid(face));
     target.normal(layout.root).dot(&(target.centroid(layout.root) - centroid.coords))
@@ -136,7 +135,7 @@ impl Branch {
     }
 
     fn least(&self) -> Lifting {
-        let reached = |work: f64| work <= self.bound * (1.0 + TOL_EQUAL) + f64::MIN_POSITIVE;
+        let reached = |work: f64| work <= self.bound * (1.0 + TOLERANCES.work) + f64::MIN_POSITIVE;
         let best = self.known.iter().min_by(|a, b| a.1.total_cmp(&b.1)).expect("there are two");
         if reached(self.known[0].1) || self.potentials.is_empty() {
             let (order, work) = if reached(self.known[0].1) { &self.known[0] } else { best };
@@ -145,12 +144,12 @@ impl Branch {
         }
         let (order, work) = self.programme();
         // Of equal orders one with the fewest steps: leaves first or root first, as the tree is high.
-        let known = self.known.iter().find(|known| known.1 <= work * (1.0 + TOL_EQUAL));
+        let known = self.known.iter().find(|known| known.1 <= work * (1.0 + TOLERANCES.work));
         let order = known.map_or(order, |known| known.0.clone());
         Lifting { order, work, bound: work, optimal: true }
     }
 
-    /// Over all subsets of the branch.
+    /// Dynamic programme over all subsets of the branch.
     fn programme(&self) -> (Vec<usize>, f64) {
         let bits = self.faces.len();
         let energies: Vec<f64> = (0..1usize << bits).map(|set| self.energy(set)).collect();

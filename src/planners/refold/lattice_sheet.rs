@@ -1,5 +1,5 @@
-//! Panels lying on the triangular lattice, joined as a tree, and what moves them: fans about a point
-//! that close on one side and open on another.
+//! A sheet of panels on the triangular lattice, joined as a tree, and its moves: fans about a point that close on
+//! one side and open on another.
 //!
 //! Three to five panels that follow each other about a point close to a regular corner when all hinges
 //! between them fold by the same angle: those of the tetrahedron, the octahedron, the icosahedron. Then
@@ -15,38 +15,40 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A point of the lattice, in whole numbers of its two steps.
 pub type Point = [i64; 2];
 
-/// Those of a panel, counterclockwise: its side k runs from corner k to the next.
+/// The corners of a panel, counterclockwise: its side k runs from corner k to the next.
 pub type Corners = [Point; 3];
 
-/// A side of a panel.
+/// A side of a panel: the panel and the number of the side.
 pub type Side = (usize, usize);
 
-/// States of a stroke that are looked at on either way.
+/// States of a stroke that are sampled on either way.
 const SAMPLES: usize = 12;
 
-/// Fewer panels do not close, and more need not.
+/// The numbers of panels of a fan: fewer do not close, and more need not fold.
 const FAN: [usize; 3] = [3, 4, 5];
 
-/// A connection changes, with what folds for it.
+/// A change of one connection, with what folds for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
     /// Connections that fold by the angle before the change, and open again after it; the one that is
     /// undone does not open, and the one that is made does.
     pub fold: Vec<[Side; 2]>,
-    /// rad; 0 where nothing folds.
+    /// The angle, rad; 0 where nothing folds.
     pub angle: f64,
+    /// The connection that is made.
     pub make: [Side; 2],
+    /// The connection that is undone.
     pub cut: [Side; 2],
-    /// Panels that then lie somewhere else.
+    /// The panels that then lie somewhere else, with their corners.
     pub moved: Vec<(usize, Corners)>,
 }
 
-/// The sum of the corners is a name for the cell.
+/// Returns the name of a cell, the sum of its corners.
 pub fn cell(corners: &Corners) -> Point {
     [0, 1].map(|k| corners.iter().map(|c| c[k]).sum())
 }
 
-/// The cell across side `k`, its first side the common one.
+/// Returns the cell across side `k`, its first side the common one.
 pub fn across(corners: &Corners, k: usize) -> Corners {
     let (a, b, c) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
     [b, a, [a[0] + b[0] - c[0], a[1] + b[1] - c[1]]]
@@ -59,28 +61,30 @@ fn turned(point: Point, about: Point, sixths: usize) -> Point {
     [about[0] + i, about[1] + j]
 }
 
-/// A connection, whichever of its sides is named first.
+/// Returns a connection, whichever of its sides is named first.
 pub fn bond(a: Side, b: Side) -> [Side; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// Panels in the plane.
+/// A sheet of panels in the plane.
 #[derive(Clone, Debug)]
-pub struct Plane {
-    /// By panel.
+pub struct LatticeSheet {
+    /// By panel: its corners.
     pub corners: Vec<Corners>,
+    /// The panel on each cell.
     pub cells: BTreeMap<Point, usize>,
-    /// Connections: a tree.
+    /// The connections: a tree.
     pub bonds: BTreeSet<[Side; 2]>,
 }
 
-impl Plane {
-    pub fn new(corners: Vec<Corners>, bonds: BTreeSet<[Side; 2]>) -> Plane {
+impl LatticeSheet {
+    /// Makes a sheet of panels on different cells, joined as a tree.
+    pub fn new(corners: Vec<Corners>, bonds: BTreeSet<[Side; 2]>) -> LatticeSheet {
         let cells = corners.iter().enumerate().map(|(panel, corners)| (cell(corners), panel)).collect();
-        Plane { corners, cells, bonds }
+        LatticeSheet { corners, cells, bonds }
     }
 
-    /// The side that lies at a side of a panel.
+    /// Returns the side that lies at a side of a panel, if a panel does.
     pub fn beside(&self, (panel, side): Side) -> Option<Side> {
         let ahead = across(&self.corners[panel], side);
         let other = *self.cells.get(&cell(&ahead))?;
@@ -88,7 +92,7 @@ impl Plane {
         Some((other, side))
     }
 
-    /// What hangs on a panel: its sides that are joined, each with the other.
+    /// Returns the sides of a panel that are joined, each with the side that it is joined to.
     pub fn joined(&self, panel: usize) -> impl Iterator<Item = (Side, Side)> + '_ {
         (0..3).filter_map(move |side| {
             let other = self.beside((panel, side))?;
@@ -96,7 +100,7 @@ impl Plane {
         })
     }
 
-    /// The connections between two panels.
+    /// Returns the connections on the path between two panels.
     pub fn path(&self, from: usize, to: usize) -> Vec<[Side; 2]> {
         let mut before: Vec<Option<(usize, [Side; 2])>> = vec![None; self.corners.len()];
         let mut queue = std::collections::VecDeque::from([from]);
@@ -150,8 +154,8 @@ impl Plane {
         part
     }
 
-    /// Every stroke that folds something and ends flat; where it parts the sheet, either side may be
-    /// the one that stays.
+    /// Returns every stroke that folds a fan and ends flat; where it divides the sheet, either part may be the one
+    /// that stays.
     pub fn pivots(&self) -> Vec<Stroke> {
         let mut found = Vec::new();
         for panel in 0..self.corners.len() {
@@ -191,21 +195,22 @@ impl Plane {
         }
     }
 
-    /// Neighbours that are not joined.
+    /// Returns the neighbouring sides that are not joined.
     pub fn open(&self) -> Vec<[Side; 2]> {
         let sides = (0..self.corners.len()).flat_map(|panel| (0..3).map(move |side| (panel, side)));
         let pairs = sides.filter_map(|own| Some([own, self.beside(own)?]));
         pairs.filter(|[a, b]| a < b && !self.bonds.contains(&[*a, *b])).collect()
     }
 
-    /// The change of a connection between panels that lie side by side: made, and one of those undone
-    /// that are then in a ring; `worth`: which to keep, the greatest the longest.
+    /// Returns the stroke that joins panels that lie side by side and undoes one of the connections of the ring that
+    /// this closes: that of least `worth`.
     pub fn change(&self, make: [Side; 2], worth: impl Fn(&[Side; 2]) -> usize) -> Stroke {
         let ring = self.path(make[0].0, make[1].0);
         let cut = ring.into_iter().min_by_key(|bond| worth(bond)).expect("a tree joins any two");
         Stroke { fold: Vec::new(), angle: 0.0, make, cut, moved: Vec::new() }
     }
 
+    /// Carries out a stroke.
     pub fn apply(&mut self, stroke: &Stroke) {
         self.bonds.remove(&stroke.cut);
         self.bonds.insert(stroke.make);
@@ -218,7 +223,7 @@ impl Plane {
         }
     }
 
-    /// Whether no panels meet on the way, in samples. `side`: of the panels, m.
+    /// Returns whether no sample of a stroke shows a collision; `side`: the side of the panels, m.
     pub fn is_free(&self, stroke: &Stroke, solids: &Solids, side: f64) -> bool {
         if stroke.fold.is_empty() {
             return true;
@@ -290,8 +295,8 @@ fn onward(corner: usize) -> usize {
     (corner + 2) % 3
 }
 
-/// By how much the hinges of so many panels about a point fold until the fan is closed, rad: those of
-/// the tetrahedron, the octahedron, the icosahedron.
+/// Returns the angle by which the hinges of a fan of panels fold until it is closed, rad: that of the tetrahedron,
+/// the octahedron, the icosahedron.
 fn closing(panels: usize) -> f64 {
     libm::acos(match panels {
         3 => -1.0 / 3.0,

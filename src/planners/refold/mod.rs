@@ -1,6 +1,11 @@
-//! Refolding: from one shape to another through a flat sheet that unfolds from the first and folds into the
-//! second, with few changes of connections in the plane.
+//! Refolding: from one shape to another of the same panels, through a flat sheet that unfolds from the first and
+//! folds into the second, with few changes of connections in the plane.
+#![allow(non_snake_case)]
 
 pub mod lattice_sheet;
 pub mod rearrangement;
 pub mod sheets;
+
+mod plan;
+
+pub use plan::{Problem, Refusal, Report, Settings, plan};

@@ -1,63 +1,65 @@
-//! From one sheet to another in the plane: a search for a short series of strokes.
+//! Best-first search for a short series of strokes from one sheet to another in the plane.
 //!
 //! Panels are alike, so a state is the cells that are covered and the pairs of them that are joined.
 //! Every stroke makes one connection, so as many are needed as the state lacks of those that are
 //! wanted. To this is added how far the panels that lie elsewhere are from the cells that are still
 //! free, and what is best by both is looked at next: the series that is found need not be the shortest.
 
-use super::lattice_sheet::{Plane, Point, Side, Stroke, cell};
+use super::lattice_sheet::{LatticeSheet, Point, Side, Stroke, cell};
 use crate::planners::fold::sweep_collision::Solids;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// What a panel's way to its cell counts, by the steps of the lattice: more, and the search goes
-/// straighter.
-const FARNESS: i64 = 2;
+/// The weight of a panel's distance to its cell (steps of the lattice): with more the search is greedier.
+const DISTANCE_WEIGHT: i64 = 2;
 
-/// The sheet that is wanted.
+/// The sheet at the end.
 #[derive(Clone, Debug)]
 pub struct Goal {
+    /// The cells that it covers.
     pub cells: BTreeSet<Point>,
-    /// Pairs of cells that are joined, the lesser first: a tree.
+    /// The pairs of cells that are joined, the lesser first: a tree.
     pub bonds: BTreeSet<[Point; 2]>,
 }
 
-/// What panels are, to see whether they meet.
+/// The panels, for collision samples.
 #[derive(Clone, Copy)]
 pub struct Panels<'p> {
+    /// Their collision parts.
     pub solids: &'p Solids,
-    /// m
+    /// The length of their sides, m.
     pub side: f64,
 }
 
+/// Returns two cells, the lesser first.
 pub fn pair(a: Point, b: Point) -> [Point; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
 /// A state that was reached.
 struct Node {
-    plane: Plane,
+    plane: LatticeSheet,
     /// The state before, and what led on.
     from: Option<(usize, Stroke)>,
     strokes: i64,
 }
 
-/// Changes one sheet into the other, in fewer strokes than `most`; `steps`: states that are gone on
-/// from. Strokes and the sheet after them.
+/// Searches strokes that change one sheet into the other, fewer than `most`; `steps`: the greatest number of states
+/// that are expanded. Returns the strokes and the sheet after them.
 pub fn rearranged(
-    start: &Plane,
+    start: &LatticeSheet,
     goal: &Goal,
     panels: Panels,
     most: usize,
     steps: usize,
-) -> Option<(Vec<Stroke>, Plane)> {
+) -> Option<(Vec<Stroke>, LatticeSheet)> {
     let mut nodes = vec![Node { plane: start.clone(), from: None, strokes: 0 }];
     let mut queue = BinaryHeap::from([Reverse((0, 0))]);
     let mut known = BTreeSet::from([state(start)]);
     for _ in 0..steps {
         crate::interrupt::checkpoint();
         let Reverse((_, at)) = queue.pop()?;
-        // Looked at as late as that, for most are never gone on from.
+        // Lazy evaluation: most states are never expanded.
         if !is_free(&mut nodes, at, panels) {
             continue;
         }
@@ -73,7 +75,7 @@ pub fn rearranged(
             if strokes as usize + 1 + lacking >= most || !known.insert(state(&next)) {
                 continue;
             }
-            let value = strokes + 1 + lacking as i64 + FARNESS * farness(&next, goal);
+            let value = strokes + 1 + lacking as i64 + DISTANCE_WEIGHT * distance(&next, goal);
             queue.push(Reverse((value, nodes.len())));
             nodes.push(Node { plane: next, from: Some((at, stroke)), strokes: strokes + 1 });
         }
@@ -91,7 +93,7 @@ fn is_free(nodes: &mut [Node], at: usize, Panels { solids, side }: Panels) -> bo
     is_free
 }
 
-fn series(mut nodes: Vec<Node>, end: usize) -> (Vec<Stroke>, Plane) {
+fn series(mut nodes: Vec<Node>, end: usize) -> (Vec<Stroke>, LatticeSheet) {
     let mut strokes = Vec::new();
     let mut at = end;
     while let Some((before, stroke)) = nodes[at].from.take() {
@@ -102,26 +104,26 @@ fn series(mut nodes: Vec<Node>, end: usize) -> (Vec<Stroke>, Plane) {
     (strokes, nodes.swap_remove(end).plane)
 }
 
-fn joined(plane: &Plane, bond: &[Side; 2]) -> [Point; 2] {
+fn joined(plane: &LatticeSheet, bond: &[Side; 2]) -> [Point; 2] {
     let [a, b] = bond.map(|side| cell(&plane.corners[side.0]));
     pair(a, b)
 }
 
-fn state(plane: &Plane) -> Vec<[Point; 2]> {
+fn state(plane: &LatticeSheet) -> Vec<[Point; 2]> {
     let mut bonds: Vec<[Point; 2]> = plane.bonds.iter().map(|bond| joined(plane, bond)).collect();
     bonds.sort_unstable();
     bonds
 }
 
-/// Connections that are still to be made.
-fn lacking(plane: &Plane, goal: &Goal) -> usize {
+/// Returns the number of connections that are still to be made.
+fn lacking(plane: &LatticeSheet, goal: &Goal) -> usize {
     let has = plane.bonds.iter().filter(|bond| goal.bonds.contains(&joined(plane, bond))).count();
     goal.bonds.len() - has
 }
 
-/// How far panels on cells that are not wanted are from wanted cells that are free, and the other way
+/// Returns the distance of panels on cells that are not wanted from wanted cells that are free, and the other way
 /// round: the greater sum, in steps from a cell to the next but one.
-fn farness(plane: &Plane, goal: &Goal) -> i64 {
+fn distance(plane: &LatticeSheet, goal: &Goal) -> i64 {
     let stray: Vec<Point> = plane.cells.keys().filter(|cell| !goal.cells.contains(*cell)).copied().collect();
     let free: Vec<Point> =
         goal.cells.iter().filter(|cell| !plane.cells.contains_key(*cell)).copied().collect();
@@ -139,7 +141,7 @@ fn steps(a: Point, b: Point) -> i64 {
 }
 
 /// What can be done: a wanted connection at once, where there is one.
-fn strokes_of(plane: &Plane, goal: &Goal) -> Vec<Stroke> {
+fn strokes_of(plane: &LatticeSheet, goal: &Goal) -> Vec<Stroke> {
     let worth = |bond: &[Side; 2]| usize::from(goal.bonds.contains(&joined(plane, bond)));
     let open = plane.open();
     if let Some(make) = open.iter().find(|make| worth(make) > 0) {

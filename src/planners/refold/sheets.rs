@@ -1,5 +1,5 @@
-//! From one shape to another through a flat sheet that unfolds from the first and folds into the
-//! second, with as few changes of connections in the plane as are found.
+//! Randomised search for sheets that unfold from one shape and fold into another with few changes of connections,
+//! and the lower bound on these changes.
 //!
 //! Two layouts share a sheet where their patterns cover the same cells of the triangular lattice:
 //! then no panel moves while connections change. The sheet grows cell by cell. A new cell is joined to
@@ -9,15 +9,16 @@
 //! panels [walk](super::rearrange) from the one sheet to the other. Growth begins anew with other choices
 //! among equals as long as the budget lasts.
 
-use super::lattice_sheet::{Corners, Plane, Point as Cell, Stroke, across, bond, cell};
+use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};
 use super::rearrangement::{Goal, Panels, pair, rearranged};
+use crate::planners::fold::Observer;
 use crate::planners::fold::layout::Layout;
 use crate::planners::fold::sweep_collision::Solids;
 use crate::planners::fold::target::Target;
 use crate::planners::random::SplitMix64;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How often growth that is stuck takes panels away before it begins anew.
+/// How often growth that is stuck takes panels away before it starts again.
 const RETREATS: usize = 200;
 
 /// Pairs of sheets that are tried, those first that have the most in common.
@@ -27,22 +28,23 @@ const TRIED: usize = 24;
 const STEPS_MAX: usize = 400;
 const STEPS_IN_ALL_MAX: usize = 100_000;
 
-/// Two layouts, and how the sheet of the one becomes that of the other.
+/// Two layouts, and the strokes by which the sheet of the one becomes that of the other.
 #[derive(Clone, Debug)]
 pub struct Refolding {
     /// Panels are numbered as the faces of the first shape. Both hang at the same panel.
     pub from: Layout,
+    /// The layout of the second shape.
     pub to: Layout,
     /// By panel: the face of the second shape that it becomes.
     pub becomes: Vec<usize>,
     /// By panel: its side k becomes the second shape's side (k + turn) mod 3.
     pub turns: Vec<usize>,
-    /// One after the other, each undoes a connection and makes one.
+    /// The strokes in order; each makes a connection and undoes one.
     pub strokes: Vec<Stroke>,
 }
 
 impl Refolding {
-    /// Both layouts hung up at another panel.
+    /// Returns the same sheets with both layouts hung up at another panel.
     pub fn rerooted(&self, from: &Target, to: &Target, panel: usize) -> Refolding {
         Refolding {
             from: self.from.rerooted(from, panel),
@@ -51,54 +53,58 @@ impl Refolding {
         }
     }
 
-    /// The side of a panel that becomes a side of its face of the second shape.
+    /// Returns the side of a panel that becomes a side of its face of the second shape.
     pub fn side(&self, panel: usize, side: usize) -> usize {
         (side + 3 - self.turns[panel]) % 3
     }
 }
 
-/// What was found.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// The fewest changes first, then what the order says that was asked for; all different.
+    /// The sheets found, all different: the fewest changes first, then the least cost.
     pub best: Vec<Refolding>,
-    /// No sheet needs fewer changes.
+    /// The lower bound on the number of changes.
     pub bound: usize,
 }
 
-/// How long to search.
+/// The options of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Cells weighed in all; half of it goes into the bound.
+    /// The greatest number of cells weighed; half of it goes into the bound.
     pub budget: u64,
+    /// The seed of choices among equals.
     pub seed: u64,
-    /// Sheets that are kept.
+    /// The number of sheets that are kept.
     pub kept: usize,
 }
 
-/// Why nothing was found.
+/// The reason why no sheet was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRefolding {
     /// The shapes have different numbers of faces.
     Counts,
-    /// No way between sheets of the two was found.
+    /// No series of strokes between sheets of the two was found.
     Budget {
-        /// Panels on cells that only one of the two nearest sheets covers, and connections that only one
-        /// has; `None` where no two sheets were found.
+        /// The number of cells and connections that only one of the two nearest sheets has; `None` where no two sheets were found.
         apart: Option<usize>,
-        /// No way needs fewer changes.
+        /// The lower bound on the number of changes.
         bound: usize,
     },
 }
 
-/// Sheets that unfold from `from` and sheets that fold into `to`, with what lies between. `cost` orders
-/// those with equally many changes. `solids`: by panel.
+/// Searches sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders those
+/// with equally many changes; `solids`: by panel.
+///
+/// # Errors
+/// [`NoRefolding`] where the shapes differ in their number of faces, or no sheet was found.
 pub fn sheets(
     from: &Target,
     to: &Target,
     solids: &Solids,
     settings: &Settings,
     cost: impl Fn(&Refolding) -> f64,
+    observer: &Observer,
 ) -> Result<Found, NoRefolding> {
     let n = from.faces.len();
     if n != to.faces.len() {
@@ -107,7 +113,7 @@ pub fn sheets(
     let mut left = settings.budget / 2;
     let mut random = Random(SplitMix64(settings.seed));
     let mut pairs: Vec<(usize, Pair)> = Vec::new();
-    while left > 0 {
+    while left > 0 && observer.should_continue() {
         crate::interrupt::checkpoint();
         let mut sheet = Sheet::new(from, to);
         sheet.begin(random.below(n), random.below(n), random.below(3));
@@ -190,7 +196,7 @@ impl Pair {
             let [a, b] = [0, 1].map(|end| (hinge.faces[end], hinge.sides[end]));
             bond(a, b)
         });
-        let start = Plane::new(self.from.corners.clone(), bonds.collect());
+        let start = LatticeSheet::new(self.from.corners.clone(), bonds.collect());
         let goal = Goal { cells: self.to.cells(), bonds: self.to.joined(to).collect() };
         let (strokes, end) = rearranged(&start, &goal, panels, most, STEPS_MAX)?;
         let faces: BTreeMap<Cell, usize> =

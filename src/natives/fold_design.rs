@@ -1,0 +1,66 @@
+//! Panels joined by the hinges of a layout, as a configuration of the language.
+
+use crate::elaborate::robot_of::Robot;
+use crate::geometry::Pose;
+use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule};
+use crate::planners::fold::{Layout, Panels, Sheet, Target};
+use crate::robot::Kinematics;
+use crate::source::Span;
+use std::cell::Cell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// A layout with the designs of its panels, by face.
+pub struct Joined<'t> {
+    pub target: &'t Target,
+    pub layout: &'t Layout,
+    pub designs: &'t [Rc<Design>],
+    /// The call that joins them.
+    pub span: Span,
+}
+
+impl Joined<'_> {
+    /// Returns the configuration and its robot, whose own state is the folded one.
+    pub fn design(&self, panels: &Panels) -> (Rc<Design>, Rc<Robot>) {
+        let sheet = Sheet::new(self.target, panels, self.layout).expect("the planner joined it");
+        let start = sheet.folded(self.target, self.layout);
+        let assembly = sheet.assembly;
+        let kinematics = Kinematics::new(&assembly, &start.bonds, assembly.base);
+        let mut poses = vec![Pose::identity(); kinematics.link_count()];
+        kinematics.link_poses(&start.joints, &Pose::identity(), &mut poses);
+        let robot = Rc::new(Robot { assembly: Arc::new(assembly), start, kinematics, poses });
+        let design = self.joined();
+        let config = design.config().expect("made as a configuration");
+        assert!(config.robot.set(Some(robot.clone())).is_ok(), "it was just made");
+        (design, robot)
+    }
+
+    fn joined(&self) -> Rc<Design> {
+        let name = |face: usize| -> Rc<str> { format!("panel[{face}]").into() };
+        let panels = self.designs.iter().enumerate();
+        let modules = panels.map(|(face, panel)| FlatModule { name: name(face), design: panel.clone() });
+        let config = ConfigDesign::of_modules(modules.collect());
+        for &face in &self.layout.order[1..] {
+            let across = self.layout.across(self.target, face);
+            config.add_bond(BondRecord {
+                a: (across.parent, across.parent_side),
+                b: (face, across.side),
+                turn: 0,
+                span: self.span,
+                ends: (self.span, self.span),
+                instance: "".into(),
+            });
+        }
+        config.base.set(Some(self.layout.root));
+        config.complete.set(true);
+        let panel = &self.designs[self.layout.root];
+        Rc::new(Design {
+            // Of its panels: no declaration of its own stands behind it.
+            def: panel.def,
+            name: format!("{}[{}]", panel.name, self.designs.len()),
+            args: Vec::new(),
+            kind: DesignKind::Config(config),
+            broken: Cell::new(false),
+        })
+    }
+}

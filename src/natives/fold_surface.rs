@@ -1,0 +1,40 @@
+//! The surface that `fold` and `refold` are given.
+
+use crate::geometry::{Placed, Shape, Vec3};
+use crate::interpret::call::Call;
+use crate::interpret::stop::Eval;
+use crate::interpret::value::Value;
+use crate::planners::fold::{Target, Unfoldable};
+use crate::source::{Diagnostic, code};
+
+/// Reads the shape in an argument.
+///
+/// # Errors
+/// A fault where it is no surface of triangles, or one that does not fold.
+pub fn target(call: &Call, key: usize) -> Eval<Target> {
+    let (vertices, faces) = surface(call, key)?;
+    Target::new(vertices, &faces).map_err(|why| unfoldable(call, key, &why).into())
+}
+
+/// Returns the diagnostic for a shape in an argument that does not fold.
+pub fn unfoldable(call: &Call, key: usize, why: &Unfoldable) -> Diagnostic {
+    Diagnostic::error(code::UNFOLDABLE, why.to_string())
+        .label(call.at(key), "does not fold")
+        .hint(why.remedy())
+}
+
+/// Reads the vertices (m) and faces of a mesh, or of a shape that was read from a file as it is.
+fn surface(call: &Call, key: usize) -> Eval<(Vec<Vec3>, Vec<Vec<usize>>)> {
+    match call.arg(key) {
+        Value::Mesh(mesh) => return Ok((mesh.vertices.clone(), mesh.faces.clone())),
+        Value::Shape(solid) => {
+            if let [Placed { pose, shape: Shape::Mesh { vertices, triangles, .. } }] = &solid.parts[..] {
+                let place = |p: &Vec3| pose.transform_point(&(*p).into()).coords;
+                let corners = |t: &[u32; 3]| t.iter().map(|corner| *corner as usize).collect();
+                return Ok((vertices.iter().map(place).collect(), triangles.iter().map(corners).collect()));
+            }
+        }
+        _ => {}
+    }
+    Err(call.refuse(key, "a surface of triangles is wanted: a mesh, or a shape from a mesh file"))
+}

@@ -1,0 +1,169 @@
+//! Best-first search for a layout that the judge lets through in the order that the settings ask for.
+
+use super::Proof;
+use super::branch_and_bound::{self, Decision};
+use super::layout::Layout;
+use super::proposals::Proposals;
+use super::refusal::{Refusal, Rejection};
+use super::settings::Sequence;
+use super::steps;
+use super::strip_layouts::StripSearch;
+use super::sweep_collision::{Collision, first_collision};
+use super::task::{Outcome, Task};
+
+/// Panels that are put before the judge, summed over layouts; but at least [`LAYOUTS_MIN`] layouts.
+const JUDGED_PANELS_MAX: usize = 1_600;
+
+/// Pairs of panels that are sampled for collisions, summed over layouts; but at least [`LAYOUTS_MIN`] layouts.
+const SAMPLED_PAIRS_MAX: usize = 400_000;
+
+/// Layouts that are evaluated at least.
+const LAYOUTS_MIN: usize = 8;
+
+/// Thin panels are shrunk by this part in collision samples, so that nothing is refused that the judge may let
+/// through.
+const SHRINKAGE: f64 = 0.02;
+
+/// Layouts of strips that are put before the judge.
+const STRIP_LAYOUTS_MAX: usize = 8;
+
+/// States of pairs of panels that the search for layouts of strips samples.
+const STRIP_STATES_MAX: usize = 1_500_000_000;
+
+/// Layouts that were evaluated, one after the other.
+#[derive(Default)]
+pub struct Candidates {
+    /// Those that the judge let through.
+    accepted: Vec<Outcome>,
+    /// Why the first was refused.
+    pub first: Option<Rejection>,
+    /// The number of layouts sampled for collisions.
+    sampled: usize,
+    /// The number of layouts put before the judge.
+    judged: usize,
+}
+
+impl Task<'_> {
+    /// Returns the best layout that the judge lets through in the order asked for, with whether it is proved
+    /// that no better one passes.
+    ///
+    /// # Errors
+    /// What holds for every layout, as [`Task::judged`] says.
+    pub fn best_accepted(
+        &self,
+        candidates: &mut Candidates,
+        found: &Proposals,
+    ) -> Result<Option<(Outcome, bool)>, Refusal> {
+        let is_proved = found.proved && self.settings.sequence == Sequence::LeavesFirst;
+        for (place, layout) in found.layouts.iter().enumerate() {
+            match self.evaluate(candidates, layout)? {
+                Decision::Accept => {
+                    let is_proved = is_proved && (found.listed || place == 0);
+                    return Ok(Some((candidates.accepted.remove(0), is_proved)));
+                }
+                Decision::Refuse => {}
+                Decision::Stop => break,
+            }
+        }
+        let next = self.next_best(candidates, found)?;
+        Ok(next.map(|(outcome, proved)| (outcome, is_proved && proved)))
+    }
+
+    /// Branch and bound over layouts in order of their energy until one is accepted, with whether it is proved
+    /// that none before it can be.
+    fn next_best(
+        &self,
+        candidates: &mut Candidates,
+        found: &Proposals,
+    ) -> Result<Option<(Outcome, bool)>, Refusal> {
+        let Some(settings) = found.next_best() else { return Ok(None) };
+        let refused: Vec<Vec<usize>> = found.layouts.iter().map(Layout::hinges).collect();
+        let mut fault = None;
+        let mut decide = |layout: &Layout| {
+            if refused.contains(&layout.hinges()) && layout.root == found.layouts[0].root {
+                return Decision::Refuse;
+            }
+            self.evaluate(candidates, layout).unwrap_or_else(|refusal| {
+                fault = Some(refusal);
+                Decision::Stop
+            })
+        };
+        let weights = &self.objective.weights;
+        let best =
+            branch_and_bound::search(self.target, weights, &settings, Some(&mut decide), self.observer);
+        if let Some(refusal) = fault {
+            return Err(refusal);
+        }
+        let Ok(best) = best else { return Ok(None) };
+        let accepted = std::mem::take(&mut candidates.accepted).into_iter();
+        let outcome = accepted.into_iter().find(|outcome| outcome.layout == best.layout);
+        Ok(outcome.map(|outcome| (outcome, best.proof == Proof::Optimal)))
+    }
+
+    /// Evaluates a layout in the order asked for: collision samples of thin panels spare the judge those that
+    /// he would refuse; what they let pass, he decides.
+    fn evaluate(&self, candidates: &mut Candidates, layout: &Layout) -> Result<Decision, Refusal> {
+        let steps = self.steps(layout)?;
+        let faces = self.target.faces.len();
+        let [sampled_max, judged_max] = [SAMPLED_PAIRS_MAX / (faces * faces), JUDGED_PANELS_MAX / faces]
+            .map(|most| most.max(LAYOUTS_MIN));
+        if candidates.sampled == sampled_max || candidates.judged == judged_max {
+            return Ok(Decision::Stop);
+        }
+        if candidates.judged > 0 && !self.observer.should_continue() {
+            return Ok(Decision::Stop);
+        }
+        candidates.sampled += 1;
+        // A given layout is refused in the judge's words.
+        let samples = self.problem.hinges.is_none();
+        let collision = samples.then(|| first_collision(self.target, layout, &steps, SHRINKAGE)).flatten();
+        if let Some(Collision { step, faces }) = collision {
+            candidates.first.get_or_insert(Rejection::Meet { faces, step });
+            return Ok(Decision::Refuse);
+        }
+        candidates.judged += 1;
+        Ok(match self.judged(layout, &steps)? {
+            Ok(solution) => {
+                candidates.accepted.push(Outcome { solution, layout: layout.clone(), steps });
+                Decision::Accept
+            }
+            Err(failure) => {
+                candidates.first.get_or_insert(Rejection::Judged(failure));
+                Decision::Refuse
+            }
+        })
+    }
+
+    /// Returns a layout of strips that was made so that it folds with the leaves first and nothing in the way.
+    ///
+    /// # Errors
+    /// What holds for every layout, as [`Task::judged`] says.
+    pub fn of_strips(&self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
+        if self.problem.hinges.is_some() || !self.observer.should_continue() {
+            return Ok(None);
+        }
+        let mut search = StripSearch {
+            target: self.target,
+            weights: &self.objective.weights,
+            solids: &self.panels.solids,
+            required: &self.required,
+            roots: &self.roots,
+            cheap: &found.layouts,
+            seed: self.settings.seed,
+            states_left: STRIP_STATES_MAX,
+        };
+        for layout in search.layouts().into_iter().take(STRIP_LAYOUTS_MAX) {
+            let steps = steps::leaves_first(&layout);
+            if let Ok(solution) = self.judged(&layout, &steps)? {
+                return Ok(Some(Outcome { solution, layout, steps }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Returns the outcome with the lesser value of two.
+    pub fn lesser(&self, a: Option<Outcome>, b: Option<Outcome>) -> Option<Outcome> {
+        let value = |outcome: &Outcome| self.value(&outcome.layout, &outcome.steps);
+        a.into_iter().chain(b).min_by(|a, b| value(a).total_cmp(&value(b)))
+    }
+}

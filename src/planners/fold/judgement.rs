@@ -1,0 +1,95 @@
+//! A folding program before the judge.
+
+use crate::behavior::{self, Scheduled};
+use crate::interrupt;
+use crate::plan::{self, Body, Cause, CauseId, Failure, Node, Plan, Provenance, Verdict, World, WorldFrom};
+use crate::planners::Solution;
+use crate::robot::{Assembly, State};
+use std::sync::Arc;
+
+/// A program of a robot, with what it is judged under.
+pub struct Motion {
+    /// The robot that moves.
+    pub robot: Assembly,
+    /// Its state at the beginning.
+    pub start: State,
+    /// All its actions have cause 0.
+    pub program: Arc<Node>,
+    /// The world that the plan assumes.
+    pub world: World,
+    /// The options of the judge.
+    pub judge: plan::Settings,
+}
+
+/// A motion that the judge lets through.
+pub struct Judged {
+    /// The number of actions of the program.
+    pub actions: u64,
+    /// What the judge says.
+    pub verdict: Verdict,
+}
+
+/// Why a motion is none.
+pub enum Fault {
+    /// It can't be scheduled.
+    Schedule(behavior::Refusal),
+    /// A stated duration is shorter than the limits of a joint allow.
+    TooFast,
+    /// The judge refuses it; his first failure.
+    Refused(Box<Failure>),
+}
+
+/// Schedules a motion and puts its plan before the judge.
+///
+/// # Errors
+/// The first [`Fault`] that is found.
+pub fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
+    let Motion { robot, start, program, world, judge } = motion;
+    let (name, bonds) = (robot.name.clone(), robot.bonds.len());
+    let problem = behavior::Problem {
+        robot,
+        start,
+        program,
+        start_causes: Vec::new(),
+        bond_causes: (0..bonds).map(|bond| (bond, CauseId(0))).collect(),
+        settings: behavior::Settings::default(),
+    };
+    let Scheduled { tracks, program, exemptions, nominal, actions, issues } =
+        behavior::schedule(problem).map_err(Fault::Schedule)?;
+    if !issues.is_empty() {
+        return Err(Fault::TooFast);
+    }
+    interrupt::start_task(format!("verifying {name}"));
+    let plan = Plan {
+        provenance: Provenance::default(),
+        worlds: vec![WorldFrom { from: 0.0, world }],
+        settings: judge,
+        library: tracks.robot.library.clone(),
+        body: Body::Tracks(tracks),
+        program: Some(program),
+        nominal,
+        causes: vec![call()],
+        exemptions,
+        verdict: None,
+    };
+    let verdict = plan::verify::verify(&plan);
+    if !verdict.ok() {
+        let first = verdict.failures.into_iter().reduce(|a, b| if b.time < a.time { b } else { a });
+        let unjudged = || Failure::form("the plan can't be judged".to_owned());
+        return Err(Fault::Refused(Box::new(first.unwrap_or_else(unjudged))));
+    }
+    let Plan { body, program, .. } = plan;
+    Ok(Solution { body, program, report: Judged { actions, verdict } })
+}
+
+/// Returns the only cause of such a plan: the call of the planner, wherever that is.
+fn call() -> Cause {
+    Cause {
+        file: String::new(),
+        line: 1,
+        column: 1,
+        text: String::new(),
+        instance: String::new(),
+        caller: None,
+    }
+}

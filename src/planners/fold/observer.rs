@@ -1,0 +1,39 @@
+//! The observer of one planning call, shared by the searches that the call is made of.
+
+use crate::planners::Progress;
+use std::cell::{Cell, RefCell};
+
+/// Hands reports of all searches to one [`Progress`], and remembers that it ended the call.
+pub struct Observer<'p> {
+    progress: RefCell<Option<&'p mut dyn Progress>>,
+    ended: Cell<bool>,
+}
+
+impl<'p> Observer<'p> {
+    /// An observer that hands everything on.
+    pub fn new(progress: &'p mut dyn Progress) -> Observer<'p> {
+        Observer { progress: RefCell::new(Some(progress)), ended: Cell::new(false) }
+    }
+
+    /// An observer that ignores reports and never ends a search.
+    pub fn none() -> Observer<'static> {
+        Observer { progress: RefCell::new(None), ended: Cell::new(false) }
+    }
+
+    /// Hands on how far a search is; `how_far` is called only if somebody reads it.
+    pub fn report(&self, how_far: impl Fn() -> String) {
+        if let Some(progress) = &mut *self.progress.borrow_mut() {
+            progress.report(&how_far);
+        }
+    }
+
+    /// Returns false once the search has to end with the best solution so far; it stays false.
+    pub fn should_continue(&self) -> bool {
+        let goes_on = match &mut *self.progress.borrow_mut() {
+            Some(progress) => progress.should_continue(),
+            None => true,
+        };
+        self.ended.set(self.ended.get() || !goes_on);
+        !self.ended.get()
+    }
+}

@@ -1,0 +1,218 @@
+//! Panels: triangular modules with a hinge at each edge, in numbers.
+
+use super::sweep_collision::Solids;
+use super::tolerances::TOLERANCES;
+use crate::behavior::law;
+use crate::geometry::{Part, Pose, Solid, Vec3};
+use crate::plan::Profile;
+use crate::robot::{Library, Link, Port};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use std::fmt;
+use std::sync::Arc;
+
+/// Steps are as long as the slowest hinge needs, rounded up to a multiple of this, s.
+const STEP_GRAIN: f64 = 0.01;
+
+/// The time of a step whose hinges have no limits of speed and acceleration, s.
+const STEP_UNLIMITED: f64 = 1.0;
+
+/// The geometry, mass and limits of one triangular panel.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// The mass, kg.
+    pub mass: f64,
+    /// The lengths of the sides from port 0 on, counterclockwise seen from the front, m.
+    pub sides: [f64; 3],
+    /// The thickness of the uniform plate with the same second moment across itself, m.
+    pub thickness: f64,
+    /// The greatest speed and acceleration of the hinges at its edges, rad/s and rad/s².
+    pub able: law::Ability,
+    /// The torque that its hinges hold, N·m; `None` where no limit is stated.
+    pub torque: Option<f64>,
+    /// The depth to which a panel may enter another panel or the ground before that is a collision, m.
+    pub touch: f64,
+    /// The distance below which a panel touches the ground, m.
+    pub contact: f64,
+    /// Its convex collision parts, in the panel frame of [`Solids`].
+    pub parts: Vec<Part>,
+}
+
+/// The reason why a module type is no panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotAPanel {
+    /// It does not have three ports.
+    Ports,
+    /// It does not have exactly one link.
+    Links,
+    /// Its ports are not at the middles of the edges of a triangle, facing outwards.
+    PortPoses,
+    /// The connector of its ports has no hinge.
+    NoHinge,
+    /// Its collision shape is no solid.
+    Shape,
+}
+
+impl fmt::Display for NotAPanel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            NotAPanel::Ports => "it needs one port for each edge",
+            NotAPanel::Links => "it has more than one link",
+            NotAPanel::PortPoses => {
+                "its ports are not at the middles of its edges, facing outwards, counterclockwise, \
+                 with `up` to its front"
+            }
+            NotAPanel::NoHinge => "its edges have no hinge",
+            NotAPanel::Shape => "its shape is not sound",
+        })
+    }
+}
+
+impl std::error::Error for NotAPanel {}
+
+impl Panel {
+    /// Reads module type `kind` of a library as a panel.
+    ///
+    /// # Errors
+    /// The first property that a panel has and this module has not.
+    pub fn of(library: &Library, kind: usize) -> Result<Panel, NotAPanel> {
+        let module = &library.modules[kind];
+        let [a, b, c] = &module.ports[..] else { return Err(NotAPanel::Ports) };
+        let [link] = &module.links[..] else { return Err(NotAPanel::Links) };
+        let sides = sides(&[a, b, c]).ok_or(NotAPanel::PortPoses)?;
+        let hinge = library.connectors[a.connector].hinge.as_ref().ok_or(NotAPanel::NoHinge)?;
+        let solid = Solid::new(&link.collides).map_err(|_| NotAPanel::Shape)?;
+        let panel_of_link = frame(a, b, c).inverse();
+        Ok(Panel {
+            mass: link.mass,
+            sides,
+            thickness: thickness(link, a.pose.rotation * Vec3::z()),
+            able: law::Ability { speed: hinge.limits.speed, acceleration: hinge.limits.acceleration },
+            torque: hinge.limits.effort,
+            touch: module.touch,
+            contact: module.contact,
+            parts: solid.parts.iter().map(|part| part.moved(&panel_of_link)).collect(),
+        })
+    }
+
+    /// Returns whether its three sides are equal up to rounding.
+    pub fn is_equilateral(&self) -> bool {
+        equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
+    }
+
+    /// Returns the panel with the weaker limits and the greater thickness of the two: what holds for it holds
+    /// for both. Mass, sides and parts stay its own.
+    pub fn weaker(self, other: &Panel) -> Panel {
+        let least = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::min);
+        let able = law::Ability {
+            speed: least(self.able.speed, other.able.speed),
+            acceleration: least(self.able.acceleration, other.able.acceleration),
+        };
+        Panel {
+            able,
+            torque: least(self.torque, other.torque),
+            thickness: self.thickness.max(other.thickness),
+            touch: self.touch.max(other.touch),
+            ..self
+        }
+    }
+
+    /// Returns the least time in which a hinge folds by `angle` (rad) from rest to rest under the quintic law,
+    /// rounded up to a multiple of 10 ms; 1 s where no limit bounds it. In s.
+    pub fn step_time(&self, angle: f64) -> f64 {
+        match law::least(Profile::Smooth, angle, self.able) {
+            Some(least) if least > 0.0 => (least / STEP_GRAIN).ceil() * STEP_GRAIN,
+            Some(_) | None => STEP_UNLIMITED,
+        }
+    }
+}
+
+/// Returns whether two triples of sides differ by at most `tol` times the longest side of the first.
+pub fn equal_sides(a: [f64; 3], b: [f64; 3], tol: f64) -> bool {
+    let longest = a.into_iter().fold(0.0, f64::max);
+    a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tol * longest)
+}
+
+/// Returns the side lengths of a triangle with these ports at the middles of its sides, facing outwards with
+/// their z axes to the front, counterclockwise from there; `None` where the ports are not so.
+fn sides(ports: &[&Port; 3]) -> Option<[f64; 3]> {
+    let middle = ports.map(|port| port.pose.translation.vector);
+    let front = ports[0].pose.rotation * Vec3::z();
+    let mut sides = [0.0; 3];
+    for k in 0..3 {
+        // The segment between the middles of two sides is half the third side, in its direction.
+        let half = middle[(k + 2) % 3] - middle[(k + 1) % 3];
+        sides[k] = 2.0 * half.norm();
+        let out = -half.cross(&front) / half.norm();
+        let turn = &ports[k].pose.rotation;
+        let off = (turn * Vec3::x() - out).norm().max((turn * Vec3::z() - front).norm());
+        if off.is_nan() || off > TOLERANCES.side {
+            return None;
+        }
+    }
+    Some(sides)
+}
+
+/// Returns the panel frame in the frame of its link: the origin is the centroid, x points to the middle of
+/// side 0, z along the normal.
+fn frame(a: &Port, b: &Port, c: &Port) -> Pose {
+    let [p, q, r] = [a, b, c].map(|port| port.pose.translation.vector);
+    let middle = (p + q + r) / 3.0;
+    let (x, z) = ((p - middle).normalize(), a.pose.rotation * Vec3::z());
+    let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
+    Pose::from_parts(middle.into(), UnitQuaternion::from_rotation_matrix(&turn))
+}
+
+/// Returns the thickness d of a uniform plate whose second moment along `normal` is that of the link: d²/12 of
+/// its mass.
+fn thickness(link: &Link, normal: Vec3) -> f64 {
+    let [xx, yy, zz, xy, xz, yz] = link.inertia;
+    let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let across = inertia.trace() / 2.0 - normal.dot(&(inertia * normal));
+    libm::sqrt((12.0 * across / link.mass).max(0.0))
+}
+
+/// The panels of a sheet, one for each face of the target: face k is panel k.
+#[derive(Clone, Debug)]
+pub struct Panels {
+    /// The module types and connectors that the panels are made of.
+    pub library: Arc<Library>,
+    /// By face: the index of its module type in the library.
+    pub kinds: Vec<usize>,
+    /// By face: its mass, kg.
+    pub masses: Vec<f64>,
+    /// By face: its thickness, m.
+    pub thickness: Vec<f64>,
+    /// By face: its collision parts.
+    pub solids: Solids,
+    /// The first face's panel with the weakest limits and the greatest thickness of all.
+    pub weakest: Panel,
+}
+
+impl Panels {
+    /// Reads the panels of all faces; `kinds` names the module type of each face and must not be empty.
+    ///
+    /// # Errors
+    /// The reason why a module type that is used is no panel.
+    pub fn new(library: Arc<Library>, kinds: Vec<usize>) -> Result<Panels, NotAPanel> {
+        let mut known: Vec<Option<Panel>> = vec![None; library.modules.len()];
+        for &kind in &kinds {
+            if known[kind].is_none() {
+                known[kind] = Some(Panel::of(&library, kind)?);
+            }
+        }
+        let panel = |kind: &usize| known[*kind].as_ref().expect("all that are used were read");
+        let panels: Vec<&Panel> = kinds.iter().map(panel).collect();
+        let first = panels.first().expect("a target has faces");
+        Ok(Panels {
+            masses: panels.iter().map(|panel| panel.mass).collect(),
+            thickness: panels.iter().map(|panel| panel.thickness).collect(),
+            solids: Solids {
+                parts: panels.iter().map(|panel| panel.parts.clone()).collect(),
+                touch: panels.iter().map(|panel| panel.touch).fold(0.0, f64::max),
+            },
+            weakest: panels.iter().fold((*first).clone(), |weakest, panel| weakest.weaker(panel)),
+            library,
+            kinds,
+        })
+    }
+}

@@ -1,0 +1,131 @@
+//! The entry of the planner: from a problem to a folding that the judge lets through.
+
+use super::evaluation::Candidates;
+use super::objective::Minimise;
+use super::observer::Observer;
+use super::proposals::Proposals;
+use super::refusal::{BestPattern, NoFolding, Refusal, Rejection};
+use super::reordering::Reordering;
+use super::report::Report;
+use super::settings::{Problem, Settings};
+use super::task::{Outcome, Task};
+use super::{spanning_trees, steps, thickness, work_order};
+use crate::interrupt;
+use crate::planners::{Progress, Solution};
+
+/// Plans the folding of a sheet of panels into a target, for the least energy (or peak torque, or steps), and
+/// lets the judge decide about every layout in order of that quantity.
+///
+/// Where the judge refuses the order that the settings ask for, layouts made of strips and other orders are
+/// tried, and the lesser of what they find is the answer: then `report.optimal` is false. All actions of the
+/// program have cause 0.
+///
+/// # Errors
+/// A [`Refusal`]: settings that do not go together, a shape that does not fold, a search that ended without an
+/// answer.
+///
+/// # Example
+/// A tetrahedron with edges of 80 mm, of uniform bevelled plates:
+///
+/// ```
+/// use modl::geometry::Vec3;
+/// use modl::planners::{NoProgress, fold};
+///
+/// let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+/// let vertices = corners.map(|p| Vec3::from(p) * (0.08 / 8.0_f64.sqrt())).to_vec();
+/// let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]].map(|face| face.to_vec());
+/// let target = fold::Target::new(vertices, &faces)?;
+/// let panels = fold::Plate::default().panels(&target)?;
+///
+/// let problem = fold::Problem::new(target, panels);
+/// let solution = fold::plan(&problem, &fold::Settings::default(), &mut NoProgress)?;
+/// let report = &solution.report;
+/// assert!(report.optimal && report.verdict.ok());
+/// assert_eq!(report.layouts, 16.into());
+/// assert_eq!(report.steps, [[1, 2, 3]]);
+/// assert!(solution.body.duration() > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn plan(
+    problem: &Problem,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    let observer = Observer::new(progress);
+    let task = Task::new(problem, settings, &observer)?;
+    interrupt::start_task(format!("folding {} panels", task.target.faces.len()));
+    // Layouts in order of their value, until the judge accepts one in the order asked for.
+    let found = task.proposals()?;
+    let mut candidates = Candidates::default();
+    if let Some((outcome, is_optimal)) = task.best_accepted(&mut candidates, &found)? {
+        return Ok(answer(&task, outcome, &found, is_optimal));
+    }
+    if problem.hinges.is_some() {
+        return Err(given(candidates.first));
+    }
+    // Layouts made so that nothing is in the way, and other orders.
+    let strips = task.of_strips(&found)?;
+    let mut reordering = Reordering::new(&task);
+    let reordered = reordering.first(&found)?;
+    if let Some(outcome) = task.lesser(strips, reordered) {
+        return Ok(answer(&task, outcome, &found, false));
+    }
+    Err(Refusal::NoFolding(Box::new(NoFolding {
+        first: candidates.first,
+        best: best_pattern(&task, &found),
+        need: reordering.torque_need(&found)?,
+        torque: task.panels.weakest.torque,
+        is_under_gravity: problem.gravity != 0.0,
+    })))
+}
+
+fn given(first: Option<Rejection>) -> Refusal {
+    // Nothing but the observer ends an evaluation before its first layout was judged.
+    first.map_or(Refusal::NothingFlat, Refusal::GivenLayout)
+}
+
+/// Returns what is known of the layout that would have been the answer.
+fn best_pattern(task: &Task, found: &Proposals) -> BestPattern {
+    let layout = &found.layouts[0];
+    let effort = task.objective.effort(layout, &steps::leaves_first(layout));
+    let minimise = task.settings.minimise;
+    let reached = match minimise {
+        Minimise::PeakTorque => effort.peak,
+        Minimise::Energy | Minimise::Steps => effort.energy,
+    };
+    let gap = if found.proved { 0.0 } else { (1.0 - found.bound / reached).max(0.0) };
+    BestPattern { minimise, reached, bound: found.bound, gap }
+}
+
+/// Returns the solution of an accepted outcome, with its report.
+fn answer(task: &Task, outcome: Outcome, found: &Proposals, optimal: bool) -> Solution<Report> {
+    let Outcome { solution, layout, steps } = outcome;
+    let Task { target, objective, panels, problem, settings, .. } = task;
+    let loads = task.loads();
+    let value = task.value(&layout, &steps);
+    let opening =
+        settings.hinge_radius.map(|radius| thickness::least_opening(panels.weakest.thickness, radius));
+    let report = Report {
+        layouts: spanning_trees::layouts(target),
+        effort: objective.effort(&layout, &steps),
+        bound: found.bound,
+        fewest_steps: objective.fewest_steps(problem.root),
+        price: if found.least > 0.0 { value / found.least } else { 1.0 },
+        optimal,
+        ties: found.ties.clone(),
+        tied: found.tied,
+        lifting: work_order::work(target, &layout, &loads, &steps.concat()),
+        lifting_bound: work_order::bound(target, &layout, &loads),
+        too_thick: opening.map_or_else(Vec::new, |opening| thickness::too_thick(target, &layout, opening)),
+        masses: panels.masses.clone(),
+        conventions: task.conventions,
+        minimise: settings.minimise,
+        world: task.world(),
+        actions: solution.report.actions,
+        verdict: solution.report.verdict,
+        target: (*target).clone(),
+        layout,
+        steps,
+    };
+    Solution { body: solution.body, program: solution.program, report }
+}

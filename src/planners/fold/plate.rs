@@ -1,0 +1,138 @@
+//! Panels for callers without a module library: bevelled plates made to measure for each face.
+
+use super::inertia::{Body, Inertia};
+use super::panel::{NotAPanel, Panels, equal_sides};
+use super::target::Target;
+use super::tolerances::TOLERANCES;
+use crate::geometry::{Placed, Pose, Shape, Vec3};
+use crate::robot::{Connector, Hinge, Library, Limits, Link, ModuleType, Port};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// The coefficient of friction of a plate against the ground.
+const FRICTION: f64 = 0.5;
+
+/// The depth to which plates may enter each other, m.
+const TOUCH: f64 = 1e-4;
+
+/// The distance below which a plate touches the ground, m.
+const CONTACT: f64 = 1e-3;
+
+/// A uniform plate with motors in its edges. The edges are bevelled by 30° on both sides, so that two plates
+/// close up to 60° between them.
+#[derive(Clone, Copy, Debug)]
+pub struct Plate {
+    /// The thickness, m.
+    pub thickness: f64,
+    /// The distance by which the plate ends inside the edges, so that plates side by side do not meet, m.
+    pub gap: f64,
+    /// The mass of the motors, whatever the size of the plate, kg.
+    pub motors: f64,
+    /// The mass of the plate by its area, kg/m².
+    pub density: f64,
+    /// The limits of the hinges at its edges: rad, rad/s, N·m.
+    pub limits: Limits,
+}
+
+impl Default for Plate {
+    /// The plate of the origami paper: 6 mm thick, 18 g of motors, 8 g of plate for an equilateral triangle with
+    /// sides of 80 mm; hinges with 90°/s and 0.1 N·m.
+    fn default() -> Plate {
+        let limits =
+            Limits { range: Some((-PI, PI)), speed: Some(PI / 2.0), acceleration: None, effort: Some(0.1) };
+        Plate { thickness: 0.006, gap: 1e-4, motors: 0.018, density: 2.886_751_345_948_129, limits }
+    }
+}
+
+impl Plate {
+    /// Makes a panel to measure for each face of a target; faces with equal sides share a module type.
+    ///
+    /// # Errors
+    /// [`NotAPanel::Shape`] where a face is too small for the thickness, so that the bevels meet.
+    pub fn panels(&self, target: &Target) -> Result<Panels, NotAPanel> {
+        let mut sides: Vec<[f64; 3]> = Vec::new();
+        let mut kinds = Vec::with_capacity(target.faces.len());
+        for face in 0..target.faces.len() {
+            let wanted = target.side_lengths(face);
+            let known = sides.iter().position(|made| equal_sides(*made, wanted, TOLERANCES.same_panel));
+            kinds.push(known.unwrap_or_else(|| {
+                sides.push(wanted);
+                sides.len() - 1
+            }));
+        }
+        let modules = sides.iter().map(|sides| self.module(*sides)).collect::<Result<Vec<_>, _>>()?;
+        let edge = Connector {
+            name: "Edge".into(),
+            mates: vec![0],
+            turns: 1,
+            holds_force: None,
+            holds_moment: None,
+            capture: None,
+            hinge: Some(Hinge { axis: Vec3::y(), limits: self.limits }),
+        };
+        let library = Library { connectors: vec![edge], modules, cells: Vec::new(), struts: Vec::new() };
+        Panels::new(Arc::new(library), kinds)
+    }
+
+    /// Makes the module type of a plate with these sides (m), drawn about the centroid with its front up.
+    fn module(&self, [a, b, c]: [f64; 3]) -> Result<ModuleType, NotAPanel> {
+        // The first side along x, the third corner above it.
+        let foot = (a * a + c * c - b * b) / (2.0 * a);
+        let top = libm::sqrt((c * c - foot * foot).max(0.0));
+        let middle = Vec3::new((a + foot) / 3.0, top / 3.0, 0.0);
+        let corners = [Vec3::zeros(), Vec3::new(a, 0.0, 0.0), Vec3::new(foot, top, 0.0)].map(|p| p - middle);
+        // The incircle, about which the outline is shrunk; the bevel ends at half the thickness.
+        let radius = a * top / (a + b + c);
+        let centre = (corners[0] * b + corners[1] * c + corners[2] * a) / (a + b + c);
+        let inside = radius - self.gap;
+        let outside = inside - self.thickness / 2.0 * libm::sqrt(3.0);
+        if outside.is_nan() || outside <= 0.0 {
+            return Err(NotAPanel::Shape);
+        }
+        let shrunk = |to: f64| corners.map(|corner| centre + (corner - centre) * (to / radius));
+        let level = |z: f64| shrunk(outside).map(|corner| corner + Vec3::new(0.0, 0.0, z));
+        let half = self.thickness / 2.0;
+        let points = [shrunk(inside), level(-half), level(half)].concat();
+        let shape = vec![Placed { pose: Pose::identity(), shape: Shape::Hull { points } }];
+        let body = Body::of_panel(
+            &corners,
+            self.motors + self.density * a * top / 2.0,
+            Inertia::Prism(self.thickness),
+        );
+        let i = &body.inertia;
+        let link = Link {
+            name: "panel".into(),
+            pose: Pose::identity(),
+            shape: shape.clone(),
+            collides: shape,
+            mass: body.mass,
+            com: body.centre,
+            inertia: [i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]],
+            friction: FRICTION,
+        };
+        let port = |k: usize| {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            let along = (to - from).normalize();
+            let out = Vec3::new(along.y, -along.x, 0.0);
+            let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
+                out,
+                Vec3::z().cross(&out),
+                Vec3::z(),
+            ]));
+            let pose =
+                Pose::from_parts(((from + to) / 2.0).into(), UnitQuaternion::from_rotation_matrix(&turn));
+            Port { name: format!("edge[{k}]"), link: 0, pose, connector: 0 }
+        };
+        Ok(ModuleType {
+            name: "Plate".into(),
+            links: vec![link],
+            joints: Vec::new(),
+            ports: (0..3).map(port).collect(),
+            motors: Vec::new(),
+            touching: Vec::new(),
+            touch: TOUCH,
+            contact: CONTACT,
+        })
+    }
+}

@@ -1,0 +1,239 @@
+//! Layouts that are proposed to the judge, by the method that the objective allows.
+
+use super::Proof;
+use super::branch_and_bound::{self, NoLayout, Optimum};
+use super::enumerate::{self, TooManyFaces};
+use super::heuristic::{self, Measure};
+use super::layout::Layout;
+use super::local_search::{self, Measured};
+use super::objective::Minimise;
+use super::peak_torque;
+use super::refusal::Refusal;
+use super::settings::Method;
+use super::task::Task;
+use super::tolerances::TOLERANCES;
+
+/// Layouts that are kept for the judge where every layout is measured.
+const KEPT: usize = 4096;
+
+/// The search for the next best layout gets the budget divided by this, so that something is left for other
+/// ways where none of the first layouts is let through.
+const NEXT_BEST: u64 = 4;
+
+/// Layouts that may be the answer, with what is known about them.
+pub struct Proposals {
+    /// The best first; none that was passed over is better than those that follow.
+    pub layouts: Vec<Layout>,
+    /// The settings of a search for the next best; `None` where there is no such search.
+    pub next: Option<branch_and_bound::Settings>,
+    /// The lower bound for all layouts, leaves first: on the peak torque where that is minimised, else on the
+    /// energy; N·m.
+    pub bound: f64,
+    /// The least value of any layout, also of those whose patterns overlap.
+    pub least: f64,
+    /// Whether it is proved that no layout that lies flat is better than the first.
+    pub proved: bool,
+    /// Whether the list is complete: no layout that lies flat is left out before its last.
+    pub listed: bool,
+    /// The roots that are equally good.
+    pub ties: Vec<usize>,
+    /// The number of pairs of a layout and a root that are known to be equally good.
+    pub tied: u64,
+}
+
+impl Proposals {
+    /// Returns the settings of the search for the next best layout, with its part of the budget.
+    pub fn next_best(&self) -> Option<branch_and_bound::Settings> {
+        self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
+    }
+}
+
+impl Task<'_> {
+    /// Searches layouts by the method of the settings; a layout that the problem gives is the only one.
+    ///
+    /// # Errors
+    /// There is no layout that lies flat, or none was found within the budget, or the method does not reach.
+    pub fn proposals(&self) -> Result<Proposals, Refusal> {
+        if let Some(pairs) = &self.problem.hinges {
+            return self.given(pairs);
+        }
+        match self.settings.method {
+            Method::Enumerate => self.enumerated(),
+            Method::Heuristic => self.preferred(),
+            Method::Exact if self.objective.is_sum_over_faces() => self.proved(),
+            Method::Exact => Ok(self.measured()?.0),
+        }
+    }
+
+    /// Returns a value for steps of the call's time from one for steps of one second.
+    fn scaled(&self, energy: f64) -> f64 {
+        energy / (self.conventions.step * self.conventions.step)
+    }
+
+    /// Branch and bound: the layout of least energy; or of the fewest steps, and then the least energy.
+    fn proved(&self) -> Result<Proposals, Refusal> {
+        let (root, minimise) = (self.problem.root, self.settings.minimise);
+        let plain = branch_and_bound::Settings {
+            root,
+            flat: true,
+            height: None,
+            budget: self.settings.budget,
+            seed: self.settings.seed,
+        };
+        let fewest = self.objective.fewest_steps(root);
+        let mut settings = plain;
+        let found = match minimise {
+            Minimise::Steps => (fewest..self.target.faces.len()).find_map(|height| {
+                settings = branch_and_bound::Settings { height: Some(height), ..plain };
+                match self.optimum(&settings) {
+                    Err(NoLayout::AllOverlap) => None,
+                    found => Some(found),
+                }
+            }),
+            Minimise::Energy | Minimise::PeakTorque => Some(self.optimum(&plain)),
+        };
+        let found = found.unwrap_or(Err(NoLayout::AllOverlap)).map_err(refusal)?;
+        let least = match minimise {
+            Minimise::Steps => fewest as f64,
+            Minimise::Energy | Minimise::PeakTorque => {
+                let free = branch_and_bound::Settings { flat: false, ..plain };
+                let free = self.optimum(&free).map_err(refusal)?;
+                self.scaled(free.energy.min(found.energy))
+            }
+        };
+        Ok(Proposals {
+            bound: self.scaled(found.bound),
+            least,
+            proved: found.proof == Proof::Optimal,
+            listed: false,
+            next: Some(settings),
+            tied: found.roots.len() as u64,
+            ties: found.roots,
+            layouts: vec![found.layout],
+        })
+    }
+
+    fn optimum(&self, settings: &branch_and_bound::Settings) -> Result<Optimum, NoLayout> {
+        branch_and_bound::search(self.target, &self.objective.weights, settings, None, self.observer)
+    }
+
+    /// Enumeration of every layout with every root.
+    fn enumerated(&self) -> Result<Proposals, Refusal> {
+        if !self.objective.is_sum_over_faces() || self.settings.minimise == Minimise::Steps {
+            let (found, limit) = self.measured()?;
+            return if found.proved { Ok(found) } else { Err(Refusal::TooManyLayouts { limit }) };
+        }
+        let asked =
+            enumerate::Settings { root: self.problem.root, spectrum: false, budget: self.settings.budget };
+        let weights = &self.objective.weights;
+        let all = enumerate::census(self.target, weights, &asked, self.observer).map_err(too_many)?;
+        let tie = all.least * (1.0 + TOLERANCES.tie);
+        let ties = (0..all.by_root.len()).filter(|root| all.by_root[*root] <= tie).collect();
+        let least = self.scaled(all.least);
+        if !all.complete {
+            return Ok(self.unproved(vec![all.best], least, ties, all.ties));
+        }
+        // The best of all may overlap: the best that lies flat costs no less.
+        let flat = self.proved()?;
+        Ok(Proposals { least, ties, tied: all.ties, ..flat })
+    }
+
+    /// The layout that the problem gives as pairs of faces, with its best roots.
+    fn given(&self, pairs: &[[usize; 2]]) -> Result<Proposals, Refusal> {
+        let faces = self.target.faces.len();
+        let hinge = |pair: &[usize; 2]| {
+            let [a, b] = *pair;
+            let known = a.max(b) < faces;
+            let hinge = known.then(|| self.target.hinge_between(a, b)).flatten();
+            hinge.ok_or(Refusal::NoSuchHinge { faces: *pair })
+        };
+        let hinges = pairs.iter().map(hinge).collect::<Result<Vec<usize>, _>>()?;
+        let of_root = |root: usize| Layout::of_hinges(self.target, &hinges, root);
+        let layouts: Option<Vec<Layout>> = self.roots.iter().copied().map(of_root).collect();
+        let layouts = layouts.ok_or(Refusal::NotSpanning { hinges: hinges.len(), faces })?;
+        let values: Vec<f64> = layouts.iter().map(|layout| self.objective.value(layout)[0]).collect();
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let reaches = |(layout, value): (&Layout, &f64)| {
+            (*value <= least * (1.0 + TOLERANCES.tie)).then_some(layout.root)
+        };
+        let ties: Vec<usize> = layouts.iter().zip(&values).filter_map(reaches).collect();
+        let best = layouts.into_iter().filter(|layout| ties.contains(&layout.root)).collect();
+        let tied = ties.len() as u64;
+        Ok(self.unproved(best, least, ties, tied))
+    }
+
+    /// Every layout measured where they are few, else local search; with the number of pairs of a layout and a
+    /// root up to which all are measured.
+    fn measured(&self) -> Result<(Proposals, u64), Refusal> {
+        let budget = self.settings.budget.min(self.objective.measures_max());
+        let prefilter = self.objective.prefilter(self.settings.budget);
+        let settings =
+            local_search::Settings { roots: self.roots.clone(), flat: true, budget, keep: KEPT, prefilter };
+        let budget = prefilter.map_or(budget, |prefilter| prefilter.budget);
+        let weights = &self.objective.weights;
+        let mut value = |layout: &Layout| self.objective.value(layout);
+        let found = local_search::survey(self.target, weights, &settings, &mut value, self.observer);
+        let Measured { best, ties, roots, least, complete } = found;
+        let Some((_, first)) = best.first() else {
+            return Err(if complete { Refusal::AllOverlap } else { Refusal::NothingFlat });
+        };
+        let is_measured = complete && self.settings.minimise != Minimise::Steps;
+        let bound = if is_measured { first[0] } else { self.objective.lower_bound(&self.roots) };
+        let first = first[0];
+        let layouts = best.into_iter().map(|(layout, _)| layout).collect();
+        let (proved, listed) = (complete, complete);
+        let found = Proposals { layouts, next: None, bound, least, proved, listed, ties: roots, tied: ties };
+        let by_parts = self.objective.is_greatest_sum();
+        Ok((if by_parts && !complete { self.of_least_peak(found, first) } else { found }, budget))
+    }
+
+    /// Adds a proof of the least peak torque, as far as the budget reaches: `first` is that of the first
+    /// layout.
+    fn of_least_peak(&self, mut found: Proposals, first: f64) -> Proposals {
+        let scale = self.objective.peak_by_mean();
+        let (target, weights) = (self.target, &self.objective.weights);
+        let (mut budget_left, mut best, mut bound) = (self.settings.budget, first / scale, f64::INFINITY);
+        for &root in &self.roots {
+            let least = peak_torque::least(target, weights, root, best, &mut budget_left);
+            bound = bound.min(least.bound);
+            if let Some((layout, reached)) = least.layout.filter(|(_, reached)| *reached < best) {
+                best = reached;
+                found.ties = vec![root];
+                found.tied = 1;
+                found.layouts.insert(0, layout);
+            }
+        }
+        found.least = found.least.min(best * scale);
+        found.bound = (bound * scale).max(found.bound).min(best * scale);
+        found.proved = bound >= best * (1.0 - TOLERANCES.tie);
+        found
+    }
+
+    /// The layout that the paper's measure prefers.
+    fn preferred(&self) -> Result<Proposals, Refusal> {
+        let panel = &self.panels.weakest;
+        let measure = Measure::of_panels(panel.mass, panel.sides[0]);
+        let found = heuristic::preferred(self.target, &measure, self.problem.root, self.settings.budget)
+            .map_err(too_many)?;
+        let least = self.objective.value(&found.layout)[0];
+        let ties = vec![found.layout.root];
+        Ok(self.unproved(vec![found.layout], least, ties, found.ties))
+    }
+
+    /// Layouts of which nothing is proved but the lower bound for all.
+    fn unproved(&self, layouts: Vec<Layout>, least: f64, ties: Vec<usize>, tied: u64) -> Proposals {
+        let bound = self.objective.lower_bound(&self.roots);
+        Proposals { layouts, next: None, bound, least, proved: false, listed: false, ties, tied }
+    }
+}
+
+fn refusal(why: NoLayout) -> Refusal {
+    match why {
+        NoLayout::AllOverlap => Refusal::AllOverlap,
+        NoLayout::Budget => Refusal::NothingFlat,
+    }
+}
+
+fn too_many(TooManyFaces: TooManyFaces) -> Refusal {
+    Refusal::TooManyFaces { limit: enumerate::FACES_MAX }
+}

@@ -1,0 +1,216 @@
+//! The reasons for which [`plan`](super::plan()) finds no folding.
+
+use super::energy_order;
+use super::ground_faces::Protrusion;
+use super::objective::Minimise;
+use crate::behavior;
+use crate::plan::Failure;
+use crate::units::{Dimension, quantity};
+use std::fmt;
+
+/// Why there is no plan. Faces are numbered as in the mesh; each message names what is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// The root is no face of the target.
+    NoSuchRoot {
+        /// The number of faces.
+        faces: usize,
+    },
+    /// The shape reaches below the ground on which its root would lie.
+    OffGround {
+        /// Whether the problem names the root; else no face can be the root.
+        is_root_given: bool,
+        /// The root, or the first face that was tried as the root.
+        root: usize,
+        /// The face that reaches below the ground, and how far.
+        protrusion: Protrusion,
+    },
+    /// The heuristic does not measure what the settings ask for.
+    HeuristicObjective,
+    /// The heuristic is for panels of equal mass.
+    HeuristicMasses,
+    /// The heuristic is for panels of equal sides.
+    HeuristicSides,
+    /// The order of least energy is defined for moving joints without gravity only.
+    SequenceUnderGravity,
+    /// The order of least energy is searched in trees up to a height only.
+    SequenceTooHigh,
+    /// Two panels that share no edge penetrate each other in the folded shape.
+    Interpenetrating {
+        /// The two panels.
+        faces: [usize; 2],
+    },
+    /// Edges that only hinges close run around a ring of panels.
+    ClosedRing {
+        /// The last two panels of the ring.
+        faces: [usize; 2],
+    },
+    /// The pattern of every layout overlaps itself in the plane.
+    AllOverlap,
+    /// The budget ended before a pattern was found that does not overlap.
+    NothingFlat,
+    /// The target has too many faces for enumeration.
+    TooManyFaces {
+        /// The greatest number of faces.
+        limit: usize,
+    },
+    /// The target has too many pairs of a layout and a root for enumeration.
+    TooManyLayouts {
+        /// The greatest number of pairs.
+        limit: u64,
+    },
+    /// Two faces of the given layout share no hinge.
+    NoSuchHinge {
+        /// The two faces.
+        faces: [usize; 2],
+    },
+    /// The given hinges are no spanning tree of the faces.
+    NotSpanning {
+        /// The number of hinges given.
+        hinges: usize,
+        /// The number of faces.
+        faces: usize,
+    },
+    /// The connectors of panels that are joined have no hinge.
+    NoHinge,
+    /// The time of a step is shorter than the limits of the hinges allow.
+    StepTooShort {
+        /// The least time that is long enough, s.
+        least: f64,
+    },
+    /// The folding program can't be scheduled.
+    Schedule(behavior::Refusal),
+    /// The judge refuses the given layout.
+    GivenLayout(Rejection),
+    /// The judge refuses every layout and order that was found.
+    NoFolding(Box<NoFolding>),
+}
+
+/// What is known where no folding passes the judge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoFolding {
+    /// Why the first layout was refused; `None` where none was evaluated.
+    pub first: Option<Rejection>,
+    /// What the best flat pattern would have taken.
+    pub best: BestPattern,
+    /// The torque of hinges under which an order was found, where gravity binds.
+    pub need: Option<TorqueNeed>,
+    /// The torque that the hinges hold, N·m; `None` where no limit is stated.
+    pub torque: Option<f64>,
+    /// Whether the problem has gravity.
+    pub is_under_gravity: bool,
+}
+
+/// Why a layout was refused.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Rejection {
+    /// Two thin panels meet in a step, as the collision samples show.
+    Meet {
+        /// The two panels.
+        faces: [usize; 2],
+        /// The step, from 0.
+        step: usize,
+    },
+    /// The judge's first failure.
+    Judged(Failure),
+}
+
+/// The cost of a layout that lies flat, with the leaves folded first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BestPattern {
+    /// The quantity that was minimised.
+    pub minimise: Minimise,
+    /// Its peak torque where that is minimised, else its energy, N·m.
+    pub reached: f64,
+    /// The lower bound for all layouts, N·m.
+    pub bound: f64,
+    /// The gap that the proof leaves, as a part of `reached`.
+    pub gap: f64,
+}
+
+/// The least torque limit under which an order was found, and the hinge that needs it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueNeed {
+    /// N·m
+    pub torque: f64,
+    /// The panels on the hinge.
+    pub faces: [usize; 2],
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Rejection::Meet { faces: [a, b], step } => {
+                write!(f, "panels {a} and {b} meet in step {}", step + 1)
+            }
+            Rejection::Judged(failure) => {
+                write!(f, "at {}: {}", quantity(failure.time, Dimension::TIME), failure.message)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::NoSuchRoot { faces } => write!(f, "there is no such face: there are {faces}"),
+            Refusal::OffGround { is_root_given, root, protrusion } => {
+                let (face, depth) = (protrusion.face, quantity(protrusion.depth, Dimension::LENGTH));
+                if *is_root_given {
+                    write!(f, "face {face} reaches {depth} below face {root}, which would lie on the ground")
+                } else {
+                    write!(
+                        f,
+                        "whichever face lies on the ground, others reach below it: below face {root} face \
+                         {face} does by {depth}"
+                    )
+                }
+            }
+            Refusal::HeuristicObjective => {
+                f.write_str("the heuristic estimates energies of moving joints without gravity, nothing else")
+            }
+            Refusal::HeuristicMasses => f.write_str("the heuristic takes all panels for equally heavy"),
+            Refusal::HeuristicSides => f.write_str("the heuristic takes all panels for equal"),
+            Refusal::SequenceUnderGravity => f.write_str(
+                "this order is found for moving joints without gravity only; `least_work` knows gravity",
+            ),
+            Refusal::SequenceTooHigh => {
+                let limit = energy_order::HEIGHT_MAX;
+                write!(f, "this order is sought in layouts of at most {limit} hinges on a path")
+            }
+            Refusal::Interpenetrating { faces: [a, b] } => {
+                write!(f, "in the folded shape panels {a} and {b} are in each other")
+            }
+            Refusal::ClosedRing { faces: [a, b] } => write!(
+                f,
+                "around a ring of panels, {a} and {b} of it, edges close farther than the thickness leaves \
+                 room: only hinges do, and one edge of a ring is none"
+            ),
+            Refusal::AllOverlap => f.write_str("every flat pattern of this shape overlaps itself"),
+            Refusal::NothingFlat => {
+                f.write_str("the budget ended before any pattern was found that does not overlap")
+            }
+            Refusal::TooManyFaces { limit } => {
+                write!(f, "shapes of more than {limit} faces have too many layouts to look at each")
+            }
+            Refusal::TooManyLayouts { limit } => write!(
+                f,
+                "shapes of more than {limit} layouts with roots have too many layouts to look at each"
+            ),
+            Refusal::NoSuchHinge { faces: [a, b] } => write!(f, "faces {a} and {b} share no hinge"),
+            Refusal::NotSpanning { hinges, faces } => {
+                write!(f, "{hinges} hinges that join not all {faces} faces")
+            }
+            Refusal::NoHinge => f.write_str("no triangular panel: its edges have no hinge"),
+            Refusal::StepTooShort { .. } => f.write_str("the hinges can't fold as fast as that"),
+            Refusal::Schedule(refusal) => refusal.reason.fmt(f),
+            Refusal::GivenLayout(why) => write!(f, "this layout does not fold so: {why}"),
+            Refusal::NoFolding(found) => {
+                f.write_str("no order of folding was found that the judge lets through: ")?;
+                found.first.as_ref().map_or(Ok(()), |why| why.fmt(f))
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

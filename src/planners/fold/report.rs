@@ -1,0 +1,77 @@
+//! The figures of a folding beside its motion.
+
+use super::layout::Layout;
+use super::objective::{Conventions, Effort, Minimise, Objective};
+use super::observer::Observer;
+use super::random_orders::{self, Sample};
+use super::target::Target;
+use crate::plan::{Verdict, World};
+use crate::planners::Progress;
+use num_bigint::BigInt;
+
+/// What the planner found out about its folding.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The target, as the problem states it.
+    pub target: Target,
+    /// The layout that folds, hung up at its root.
+    pub layout: Layout,
+    /// The number of layouts of the target (Kirchhoff's theorem).
+    pub layouts: BigInt,
+    /// The order of folding: the faces whose hinges fold at the same time, step by step.
+    pub steps: Vec<Vec<usize>>,
+    /// The energy and the peak torque of the folding, N·m.
+    pub effort: Effort,
+    /// The lower bound for all layouts with the leaves folded first: on the peak torque where that is
+    /// minimised, else on the energy, N·m.
+    pub bound: f64,
+    /// The least number of steps of any folding.
+    pub fewest_steps: usize,
+    /// Whether it is proved that no folding that lies flat and passes the judge is better, leaves first.
+    pub optimal: bool,
+    /// The minimised quantity by the least value of any layout, 1 where nothing was given up.
+    pub price: f64,
+    /// The roots that are as good as the root of the layout, in order.
+    pub ties: Vec<usize>,
+    /// The number of pairs of a layout and a root that are known to be as good.
+    pub tied: u64,
+    /// The work against gravity (Eq. 17) in the order of the folding, J.
+    pub lifting: f64,
+    /// The lower bound on that work for all orders of the layout, J.
+    pub lifting_bound: f64,
+    /// The faces whose hinges do not close (Eq. 1), where a hinge radius was given.
+    pub too_thick: Vec<usize>,
+    /// By face: its mass, kg.
+    pub masses: Vec<f64>,
+    /// The conventions under which the folding was measured.
+    pub conventions: Conventions,
+    /// The quantity that was minimised.
+    pub minimise: Minimise,
+    /// The world that the plan assumes: weightless, or the root held on the ground.
+    pub world: World,
+    /// The number of actions of the program.
+    pub actions: u64,
+    /// The verdict of the judge, which let the plan pass.
+    pub verdict: Verdict,
+}
+
+impl Report {
+    /// Returns the gap between what was found and the bound, as a part of what was found; 0 where the folding
+    /// is optimal. Another order than leaves first may undercut the bound, and then the gap is 0, too.
+    pub fn gap(&self) -> f64 {
+        let found = match self.minimise {
+            Minimise::PeakTorque => self.effort.peak,
+            Minimise::Energy | Minimise::Steps => self.effort.energy,
+        };
+        if self.optimal || found <= 0.0 { 0.0 } else { (1.0 - self.bound / found).max(0.0) }
+    }
+
+    /// Compares the energy of the folding with that of `orders` random orders of the same layout, under the
+    /// same conventions (Sec. 5.3.2 of the paper).
+    pub fn random_orders(&self, orders: u64, seed: u64, progress: &mut dyn Progress) -> Sample {
+        let objective = Objective::new(&self.target, self.masses.clone(), self.conventions, self.minimise);
+        let energy = |steps: &[Vec<usize>]| objective.effort(&self.layout, steps).energy;
+        let observer = Observer::new(progress);
+        random_orders::sample(&self.layout, orders, seed, self.effort.energy, energy, &observer)
+    }
+}

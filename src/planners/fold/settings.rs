@@ -1,0 +1,131 @@
+//! The problem and the settings of [`plan`](super::plan()).
+
+use super::inertia::Inertia;
+use super::objective::{Conventions, Minimise};
+use super::panel::Panels;
+use super::simulation::Count;
+use super::target::Target;
+use crate::plan;
+
+/// What is to be folded of what, and under which gravity.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The surface, in m.
+    pub target: Target,
+    /// The panel of each face.
+    pub panels: Panels,
+    /// The face that stays where it is; `None` lets the planner choose.
+    pub root: Option<usize>,
+    /// Gravity towards the ground on which the root lies with its outside down, m/s²; 0 without gravity and
+    /// ground.
+    pub gravity: f64,
+    /// The layout as pairs of faces that share a hinge; `None` lets the planner choose.
+    pub hinges: Option<Vec<[usize; 2]>>,
+}
+
+impl Problem {
+    /// A problem without gravity whose root and layout the planner chooses.
+    pub fn new(target: Target, panels: Panels) -> Problem {
+        Problem { target, panels, root: None, gravity: 0.0, hinges: None }
+    }
+}
+
+/// The way in which layouts are searched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// Branch and bound where the objective is a sum over faces, else enumeration of few layouts or local
+    /// search among many.
+    #[default]
+    Exact,
+    /// The layout that the paper's own measure prefers (Theorem 1).
+    Heuristic,
+    /// Every layout, one after the other.
+    Enumerate,
+}
+
+/// The order in which the hinges of a layout fold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sequence {
+    /// Leaves first (the paper's Alg. 2): as many steps as the tree is high.
+    #[default]
+    LeavesFirst,
+    /// The root's children first; as many steps.
+    RootFirst,
+    /// The order that lifts and lowers the least (Eq. 15 to 17).
+    LeastWork,
+    /// The order of least energy for the layout.
+    LeastEnergy,
+}
+
+/// The model of how the mass of a panel is spread.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MassModel {
+    /// Uniform triangles without thickness.
+    #[default]
+    Lamina,
+    /// Uniform triangles with the panels' thickness.
+    Prism,
+    /// All mass in the centroid, to which the paper's numbers amount.
+    Point,
+}
+
+/// The options of a search. The defaults are those of the function `fold` of the language.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// The way in which layouts are searched.
+    pub method: Method,
+    /// The quantity to minimise.
+    pub minimise: Minimise,
+    /// The order of folding that is tried first.
+    pub sequence: Sequence,
+    /// The time of each step, s; `None`: as long as the widest hinge needs.
+    pub step: Option<f64>,
+    /// How the mass of a panel is spread.
+    pub inertia: MassModel,
+    /// The joints whose torques count.
+    pub count: Count,
+    /// The radius of the hinges, m, for the report of panels that are too thick; `None` leaves it out.
+    pub hinge_radius: Option<f64>,
+    /// The seed of choices among equals.
+    pub seed: u64,
+    /// The greatest number of search steps: faces settled on paths, layouts measured, exchanges weighed.
+    /// 100 million take 5 to 8 s.
+    pub budget: u64,
+    /// The options of the judge before which every plan goes.
+    pub judge: plan::Settings,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            method: Method::Exact,
+            minimise: Minimise::Energy,
+            sequence: Sequence::LeavesFirst,
+            step: None,
+            inertia: MassModel::Lamina,
+            count: Count::Moving,
+            hinge_radius: None,
+            seed: 0,
+            budget: 100_000_000,
+            judge: plan::Settings::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The conventions under which foldings of a problem are measured.
+    pub(crate) fn conventions(&self, problem: &Problem) -> Conventions {
+        let panel = &problem.panels.weakest;
+        let widest = problem.target.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max);
+        Conventions {
+            inertia: match self.inertia {
+                MassModel::Lamina => Inertia::Lamina,
+                MassModel::Prism => Inertia::Prism(panel.thickness),
+                MassModel::Point => Inertia::Point,
+            },
+            count: self.count,
+            gravity: problem.gravity,
+            step: self.step.unwrap_or_else(|| panel.step_time(widest)),
+        }
+    }
+}

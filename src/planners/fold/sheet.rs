@@ -1,0 +1,95 @@
+//! Panels joined as a layout says: the assembly that folds, its program, and its plan before the judge.
+
+use super::layout::Layout;
+use super::panel::Panels;
+use super::target::Target;
+use crate::geometry::Pose;
+use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as MoveTarget};
+use crate::robot::{Assembly, Bond, JointId, Kinematics, ModuleInstance, PortRef, State};
+use std::sync::Arc;
+
+/// A layout as an assembly of panels.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// Panel k stands for face k; bond i joins face `layout.order[i + 1]` to its parent.
+    pub assembly: Assembly,
+    /// By bond: the joint of its hinge.
+    pub joints: Vec<JointId>,
+    /// All panels level, the root's panel at the origin.
+    pub flat: State,
+}
+
+/// The connectors of the panels have no hinge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoHinge;
+
+impl Sheet {
+    /// Joins the panels of a target by the hinges of a layout.
+    ///
+    /// # Errors
+    /// [`NoHinge`] where a bond of the layout has no hinge.
+    pub fn new(target: &Target, panels: &Panels, layout: &Layout) -> Result<Sheet, NoHinge> {
+        let name = &panels.library.modules[panels.kinds[layout.root]].name;
+        let module =
+            |(face, kind): (usize, &usize)| ModuleInstance { name: format!("panel[{face}]"), kind: *kind };
+        let bond = |face: &usize| {
+            let across = layout.across(target, *face);
+            let a = PortRef { module: across.parent, port: across.parent_side };
+            Bond { a, b: PortRef { module: *face, port: across.side }, turn: 0 }
+        };
+        let assembly = Assembly {
+            name: format!("{name}[{}]", panels.kinds.len()),
+            library: panels.library.clone(),
+            modules: panels.kinds.iter().enumerate().map(module).collect(),
+            bonds: layout.order[1..].iter().map(bond).collect(),
+            base: layout.root,
+            closed: false,
+        };
+        let holds = vec![true; assembly.bonds.len()];
+        let kinematics = Kinematics::new(&assembly, &holds, assembly.base);
+        let joint = |bond: usize| kinematics.hinge(bond).map(|joint| JointId(joint as u32)).ok_or(NoHinge);
+        let joints = (0..assembly.bonds.len()).map(joint).collect::<Result<Vec<_>, _>>()?;
+        let flat =
+            State { joints: vec![0.0; assembly.joints().count()], bonds: holds, base: Pose::identity() };
+        Ok(Sheet { assembly, joints, flat })
+    }
+
+    /// Returns the state in which every hinge is at its fold angle and the root's panel at the origin.
+    pub fn folded(&self, target: &Target, layout: &Layout) -> State {
+        let mut state = self.flat.clone();
+        for (joint, face) in self.joints.iter().zip(&layout.order[1..]) {
+            state.joints[joint.0 as usize] = layout.angle(target, *face);
+        }
+        state
+    }
+
+    /// Returns the joint of the hinge between a face and its parent; no root has one.
+    pub fn joint(&self, layout: &Layout, face: usize) -> JointId {
+        let place = layout.order.iter().position(|f| *f == face).expect("the order names every face");
+        self.joints[place - 1]
+    }
+
+    /// Returns the program that folds the sheet in steps of `time` seconds: the hinges of the faces of a step
+    /// move at the same time. Hinges that stay level get no action, steps without motion are left out.
+    pub fn program(&self, target: &Target, layout: &Layout, order: &[Vec<usize>], time: f64) -> Arc<Node> {
+        let moving = |faces: &Vec<usize>| -> Vec<Arc<Node>> {
+            let angles = faces.iter().map(|face| (*face, layout.angle(target, *face)));
+            let bent = angles.filter(|(_, angle)| *angle != 0.0);
+            bent.map(|(face, angle)| Arc::new(turn(self.joint(layout, face), angle, time))).collect()
+        };
+        let steps = order.iter().map(moving).filter(|moves| !moves.is_empty());
+        Arc::new(Node::Series(steps.map(|moves| Arc::new(Node::Parallel(moves))).collect()))
+    }
+}
+
+/// Returns the action that moves a joint to a position (rad) in a time (s) by the quintic law.
+pub(crate) fn turn(joint: JointId, to: f64, time: f64) -> Node {
+    let target = MoveTarget::To(to);
+    action(Command::Move { joint, target, duration: Some(time), profile: Profile::Smooth })
+}
+
+/// Returns a command as an action of cause 0 that waits for nothing.
+pub(crate) fn action(command: Command) -> Node {
+    let otherwise = Otherwise::Proceed;
+    Node::Action(Action { command, until: None, timeout: None, otherwise, cause: CauseId(0) })
+}

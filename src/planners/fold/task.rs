@@ -1,0 +1,210 @@
+//! A planning call with what follows from its problem before any layout is searched: conventions, roots, costs,
+//! and hinges that every layout needs.
+
+use super::energy_order;
+use super::ground_faces::deepest_protrusion;
+use super::judgement::{self, Fault, Judged, Motion};
+use super::layout::Layout;
+use super::objective::{Conventions, Minimise, Objective};
+use super::observer::Observer;
+use super::panel::Panels;
+use super::pattern::has_equal_sides;
+use super::refusal::Refusal;
+use super::settings::{Method, Problem, Sequence, Settings};
+use super::sheet::Sheet;
+use super::steps;
+use super::strip_layouts::Pieces;
+use super::sweep_collision;
+use super::target::Target;
+use super::tolerances::TOLERANCES;
+use super::work_order;
+use crate::geometry::pose::{shifted, turned};
+use crate::geometry::{Pose, Vec3};
+use crate::plan::{Failure, Ground, World};
+use crate::planners::Solution;
+
+/// Standard gravity, in which the weights of panels are stated also where the problem has no gravity, m/s².
+const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// A planning call at work.
+pub struct Task<'p> {
+    pub problem: &'p Problem,
+    pub settings: &'p Settings,
+    pub observer: &'p Observer<'p>,
+    pub target: &'p Target,
+    pub panels: &'p Panels,
+    pub conventions: Conventions,
+    /// The faces that may be the root.
+    pub roots: Vec<usize>,
+    pub objective: Objective<'p>,
+    /// The hinges without which panels penetrate each other in the target; no cycle.
+    pub required: Vec<usize>,
+}
+
+/// A layout with an order that the judge lets through.
+pub struct Outcome {
+    pub solution: Solution<Judged>,
+    pub layout: Layout,
+    pub steps: Vec<Vec<usize>>,
+}
+
+impl<'p> Task<'p> {
+    /// Checks a problem and its settings.
+    ///
+    /// # Errors
+    /// What does not go together, and shapes that no layout folds.
+    pub fn new(
+        problem: &'p Problem,
+        settings: &'p Settings,
+        observer: &'p Observer<'p>,
+    ) -> Result<Task<'p>, Refusal> {
+        let (target, panels) = (&problem.target, &problem.panels);
+        let conventions = settings.conventions(problem);
+        let roots = roots(problem)?;
+        compatible(problem, settings, &conventions)?;
+        let required = required_hinges(target, panels)?;
+        let objective = Objective::new(target, panels.masses.clone(), conventions, settings.minimise);
+        Ok(Task { problem, settings, observer, target, panels, conventions, roots, objective, required })
+    }
+
+    /// By face: its weight under standard gravity, N.
+    pub fn loads(&self) -> Vec<f64> {
+        self.panels.masses.iter().map(|mass| mass * STANDARD_GRAVITY).collect()
+    }
+
+    /// Returns the order of a layout that the settings ask for, in steps.
+    ///
+    /// # Errors
+    /// [`Refusal::SequenceTooHigh`] for the order of least energy in a high tree.
+    pub fn steps(&self, layout: &Layout) -> Result<Vec<Vec<usize>>, Refusal> {
+        Ok(match self.settings.sequence {
+            Sequence::LeavesFirst => steps::leaves_first(layout),
+            Sequence::RootFirst => steps::root_first(layout),
+            Sequence::LeastWork => {
+                steps::of_order(layout, &work_order::least_work(self.target, layout, &self.loads()).order)
+            }
+            Sequence::LeastEnergy => {
+                let inertia = self.conventions.inertia;
+                let masses = &self.panels.masses;
+                let least = energy_order::least_energy(self.target, layout, masses, inertia);
+                let (order, _) = least.ok_or(Refusal::SequenceTooHigh)?;
+                steps::of_order(layout, &order)
+            }
+        })
+    }
+
+    /// Returns the minimised quantity of a layout that folds in these steps.
+    pub fn value(&self, layout: &Layout, steps: &[Vec<usize>]) -> f64 {
+        let effort = self.objective.effort(layout, steps);
+        match self.settings.minimise {
+            Minimise::Energy => effort.energy,
+            Minimise::PeakTorque => effort.peak,
+            Minimise::Steps => steps.len() as f64,
+        }
+    }
+
+    /// Returns the world of the plan: weightless, or with the root held on the ground.
+    pub fn world(&self) -> World {
+        if self.problem.gravity == 0.0 {
+            return World::FREE;
+        }
+        World { gravity: self.problem.gravity, ground: Ground::Fixed, friction: 1.0 }
+    }
+
+    /// Returns the pose of the root's panel in the world: with its outside down on the ground, if there is one.
+    fn base(&self, root: usize) -> Pose {
+        if self.problem.gravity == 0.0 {
+            return Pose::identity();
+        }
+        let thickness = self.panels.thickness[root];
+        shifted(Vec3::new(0.0, 0.0, thickness / 2.0)) * turned(Vec3::x(), std::f64::consts::PI)
+    }
+
+    /// Puts a layout that folds in these steps before the judge; the inner error is his first failure.
+    ///
+    /// # Errors
+    /// What holds for every layout: no hinges, steps that are too short, a program that can't be scheduled.
+    pub fn judged(
+        &self,
+        layout: &Layout,
+        order: &[Vec<usize>],
+    ) -> Result<Result<Solution<Judged>, Failure>, Refusal> {
+        let sheet = Sheet::new(self.target, self.panels, layout).map_err(|_| Refusal::NoHinge)?;
+        let program = sheet.program(self.target, layout, order, self.conventions.step);
+        let motion = Motion {
+            robot: sheet.assembly,
+            start: crate::robot::State { base: self.base(layout.root), ..sheet.flat },
+            program,
+            world: self.world(),
+            judge: self.settings.judge,
+        };
+        match judgement::judged(motion) {
+            Ok(solution) => Ok(Ok(solution)),
+            Err(Fault::Refused(failure)) => Ok(Err(*failure)),
+            Err(Fault::Schedule(refusal)) => Err(Refusal::Schedule(refusal)),
+            Err(Fault::TooFast) => Err(Refusal::StepTooShort { least: self.least_step() }),
+        }
+    }
+
+    /// Returns the least time of a step that every hinge of the target can keep, s.
+    fn least_step(&self) -> f64 {
+        let widest = self.target.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max);
+        self.panels.weakest.step_time(widest)
+    }
+}
+
+/// Returns the faces that may be the root: the given one, else all faces below whose plane the shape does not
+/// reach farther than a panel is thick.
+fn roots(problem: &Problem) -> Result<Vec<usize>, Refusal> {
+    let target = &problem.target;
+    let faces = target.faces.len();
+    if problem.root.is_some_and(|root| root >= faces) {
+        return Err(Refusal::NoSuchRoot { faces });
+    }
+    let depth = if problem.gravity == 0.0 { f64::INFINITY } else { problem.panels.weakest.thickness };
+    let asked: Vec<usize> = problem.root.map_or_else(|| (0..faces).collect(), |root| vec![root]);
+    let lies = |root: &usize| deepest_protrusion(target, *root, depth).is_none();
+    let roots: Vec<usize> = asked.iter().copied().filter(lies).collect();
+    let (true, Some(&root)) = (roots.is_empty(), asked.first()) else { return Ok(roots) };
+    let Some(protrusion) = deepest_protrusion(target, root, depth) else { return Ok(roots) };
+    Err(Refusal::OffGround { is_root_given: problem.root.is_some(), root, protrusion })
+}
+
+/// Refuses settings that do not go together.
+fn compatible(problem: &Problem, settings: &Settings, conventions: &Conventions) -> Result<(), Refusal> {
+    let separable = conventions.is_separable();
+    if settings.method == Method::Heuristic {
+        if !(separable && settings.minimise == Minimise::Energy) {
+            return Err(Refusal::HeuristicObjective);
+        }
+        let masses = &problem.panels.masses;
+        if masses.iter().any(|mass| (mass - masses[0]).abs() > TOLERANCES.mass * masses[0]) {
+            return Err(Refusal::HeuristicMasses);
+        }
+        if !has_equal_sides(&problem.target) {
+            return Err(Refusal::HeuristicSides);
+        }
+    }
+    if settings.sequence == Sequence::LeastEnergy && !separable {
+        return Err(Refusal::SequenceUnderGravity);
+    }
+    Ok(())
+}
+
+/// Returns the hinges without which panels penetrate each other in the target, since they close farther than
+/// their thickness leaves room.
+///
+/// # Errors
+/// Panels that share no edge penetrate each other, or the hinges close a ring, so that no layout has them all.
+fn required_hinges(target: &Target, panels: &Panels) -> Result<Vec<usize>, Refusal> {
+    let mut hinges = Vec::new();
+    let mut pieces = Pieces::new(target.faces.len());
+    for faces @ [a, b] in sweep_collision::target_collisions(target, &panels.solids) {
+        let hinge = target.hinge_between(a, b).ok_or(Refusal::Interpenetrating { faces })?;
+        if !pieces.join(faces) {
+            return Err(Refusal::ClosedRing { faces });
+        }
+        hinges.push(hinge);
+    }
+    Ok(hinges)
+}

@@ -1,0 +1,77 @@
+//! The tolerances of folding, all in one place.
+
+/// The tolerances that the planner computes with.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerances {
+    /// Sides of a face and of its panel, and directions of ports and edges, differ by less than this part:
+    /// rounding in files and in the language.
+    pub side: f64,
+    /// Faces whose sides differ by less than this part of the longest share a type of panel: rounding of
+    /// double arithmetic.
+    pub same_panel: f64,
+    /// Masses that differ by less than this part are equal: what [`Tolerances::side`] lets pass.
+    pub mass: f64,
+    /// The least height of a face as a part of its longest side; lower ones have no area.
+    pub flat_face: f64,
+    /// Two faces whose fold angle is nearer than this to half a turn lie on each other, rad.
+    pub back_to_back: f64,
+    /// Lengths, weights (as a part) and angles (rad) that differ by less are equal by symmetry: far below the
+    /// part of the energy to which optima are proved.
+    pub symmetry: f64,
+    /// All sides are of one length where they differ by less than this part: the pattern then lies on the
+    /// triangular lattice.
+    pub equal_sides: f64,
+    /// Triangles of unequal sides overlap where no line separates all but this part of a side: the rounding
+    /// of corners that were laid side by side.
+    pub overlap: f64,
+    /// A separating axis shorter than this part of the square of a side is rounding.
+    pub axis: f64,
+    /// The part of the energy that perturbations of costs may come to in all; proofs hold up to it.
+    pub perturbation: f64,
+    /// Layouts whose values differ by less than this part are equally good.
+    pub tie: f64,
+    /// A bound this near to the best energy, as a part of it, is rounding away from it.
+    pub bound: f64,
+    /// Arcs are removed where they would cost this much more than the cutoff, as a part of it: what rounding
+    /// may add up to.
+    pub fixing: f64,
+    /// The least gain of an exchange of hinges, as a part of the energy: less is rounding, which would go
+    /// round in circles.
+    pub gain: f64,
+    /// The part by which bounds under gravity are lowered: rounding and the quadrature over a step.
+    pub gravity_bound: f64,
+    /// Orders whose work differs by less than this part are equally good: rounding of sums.
+    pub work: f64,
+    /// A fold angle beyond the limit of thick panels by less than this is rounding, rad.
+    pub closing: f64,
+    /// A hinge that folds less than this is level, rad.
+    pub level: f64,
+    /// Worths of hinges that differ by less are equal, so that rounding does not choose among trees.
+    pub worth: f64,
+    /// Corners nearer to the line of a hinge than this part of a side rest on the hinge itself.
+    pub hinge_line: f64,
+}
+
+/// The tolerances with which every search of this planner computes.
+pub const TOLERANCES: Tolerances = Tolerances {
+    side: 1e-6,
+    same_panel: 1e-9,
+    mass: 1e-5,
+    flat_face: 1e-9,
+    back_to_back: 1e-6,
+    symmetry: 1e-10,
+    equal_sides: 1e-6,
+    overlap: 1e-9,
+    axis: 1e-9,
+    perturbation: 1e-9,
+    tie: 1e-9,
+    bound: 1e-12,
+    fixing: 1e-11,
+    gain: 1e-11,
+    gravity_bound: 1e-7,
+    work: 1e-12,
+    closing: 1e-9,
+    level: 1e-6,
+    worth: 1e-6,
+    hinge_line: 0.05,
+};
