@@ -12,14 +12,13 @@ mod trusses;
 
 use modl::geometry::pose::shifted;
 use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3};
-use modl::planners::truss::goal::Goal;
-use modl::planners::truss::locomote::{End, Travel, Wish, locomote};
-use modl::planners::truss::locomotion::Aim;
-use modl::planners::truss::morph::{self, morph};
-use modl::planners::truss::roll::rested;
+use modl::planners::locomote::{End, Objective, Settings, Travel, follow_path};
+use modl::planners::morph::{self, Descent, Target, descend};
+use modl::planners::truss::roll::settled;
 use modl::planners::truss::{Structure, Surroundings};
+use modl::planners::{NoProgress, Progress};
 use std::time::{Duration, Instant};
-use trusses::{actuator, along, cube, ell, robot};
+use trusses::{actuator, cube, ell, robot, stepping};
 
 /// The allocator that the tool has.
 #[global_allocator]
@@ -41,10 +40,10 @@ fn main() {
     println!("|---|---|---|---|");
     let corners = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
     for aim in [
-        Aim::Springs,
-        Aim::Lengths { still: 1.0 },
-        Aim::Restoring { still: 1.0 },
-        Aim::Fewest { still: 1e-3 },
+        Objective::Springs,
+        Objective::Lengths { damping: 1.0 },
+        Objective::Restoring { damping: 1.0 },
+        Objective::Fewest { damping: 1e-3 },
     ] {
         let (travel, time) = travelled(&truss, &start, &corners, aim, usize::MAX);
         println!(
@@ -56,7 +55,7 @@ fn main() {
     }
     for (name, goal, steps) in [("cube", cube(), 150), ("cube", cube(), 300), ("L", ell(), 300)] {
         let (found, made, time) = morphed(&truss, &start, &goal, steps);
-        let (there, back) = (found.distance.there, found.distance.back);
+        let (there, back) = (found.distance.target_to_surface, found.distance.surface_to_target);
         println!("| {name} | {steps} | {:.2} | {there:.5}, {back:.5} |", each(time, made));
     }
     println!();
@@ -64,12 +63,12 @@ fn main() {
     println!("|---|---|---|---|---|");
     for divisions in DIVISIONS.into_iter().filter(|d| *d <= most) {
         let (truss, start) = octet(divisions);
-        let (travel, time) = travelled(&truss, &start, &[[50.0, 0.0]], Aim::Springs, 10);
-        let walk = each(time, travel.steps);
+        let (travel, time) = travelled(&truss, &start, &[[50.0, 0.0]], Objective::Springs, 10);
+        let rollout = each(time, travel.steps);
         let target = cube().moved(|p| p * (divisions as f64 / 4.0));
         let (_, made, time) = morphed(&truss, &start, &target, 10);
         let (nodes, struts) = (truss.nodes, truss.struts.len());
-        println!("| {divisions} | {nodes} | {struts} | {walk:.1} | {:.1} |", each(time, made));
+        println!("| {divisions} | {nodes} | {struts} | {rollout:.1} | {:.1} |", each(time, made));
     }
 }
 
@@ -77,33 +76,41 @@ fn travelled(
     truss: &Structure,
     start: &[Vec3],
     corners: &[[f64; 2]],
-    aim: Aim,
+    aim: Objective,
     steps_max: usize,
 ) -> (Travel, Duration) {
-    let from = truss.centre(start);
-    let path = corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect();
-    let wish = along(path, aim, steps_max);
+    let from = truss.centre_of_mass(start);
+    let path: Vec<[f64; 2]> = corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect();
+    let settings = stepping(aim, steps_max);
     let clock = Instant::now();
-    let travel = locomote(truss, start, &wish, &|_| true);
+    let travel = follow_path(truss, start, &path, &settings, &mut NoProgress);
     (travel, clock.elapsed())
 }
 
-fn morphed(truss: &Structure, start: &[Vec3], goal: &Goal, steps: usize) -> (morph::Morph, usize, Duration) {
-    let wish = morph::Wish { steps_max: steps, tolerance: 0.0, orientations: 0, seed: 0 };
-    let made = std::cell::Cell::new(0);
-    let clock = Instant::now();
-    let going = |step: usize, _: &_| {
-        made.set(step + 1);
+/// Counts the steps begun.
+struct Counted(usize);
+
+impl Progress for Counted {
+    fn report(&mut self, _how_far: &dyn Fn() -> String) {}
+
+    fn should_continue(&mut self) -> bool {
+        self.0 += 1;
         true
-    };
-    let found = morph(truss, start, goal, &wish, &going).expect("it has a surface");
-    (found, made.get(), clock.elapsed())
+    }
+}
+
+fn morphed(truss: &Structure, start: &[Vec3], goal: &Target, steps: usize) -> (Descent, usize, Duration) {
+    let settings = morph::Settings { steps_max: steps, tolerance: 0.0, ..morph::Settings::default() };
+    let mut made = Counted(0);
+    let clock = Instant::now();
+    let found = descend(truss, start, goal, &settings, &mut made).expect("it has a surface");
+    (found, made.0, clock.elapsed())
 }
 
 /// The robot with nothing around, before gates of some widths, and on hills of some heights.
 fn around() {
     let (truss, start) = robot();
-    let from = truss.centre(&start);
+    let from = truss.centre_of_mass(&start);
     println!("| | ends | steps | rolls | nodes put down | slid, all nodes | plan, s | ms a step |");
     println!("|---|---|---|---|---|---|---|---|");
     let s = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
@@ -118,7 +125,7 @@ fn around() {
             let shape = Shape::Box { size: Vec3::new(1.0, 8.0, 6.0) };
             Solid::new(&[Placed { pose: shifted(at), shape }]).expect("a solid")
         };
-        let truss = truss.clone().amid(Surroundings::new(&[post(1.0), post(-1.0)], None, 0.05));
+        let truss = truss.clone().with_surroundings(Surroundings::new(&[post(1.0), post(-1.0)], None, 0.05));
         both(&format!("gate of {gap}"), &truss, &start, &[[12.0, 0.0]]);
     }
     for high in [0.1, 0.2, 0.3] {
@@ -130,24 +137,24 @@ fn around() {
         let heights = (0..count * count).map(|i| height(at(i % count), at(i / count))).collect();
         let field = HeightField { corner: [-10.0; 2], spacing: 0.5, columns: count, heights };
         let steepest = libm::atan(field.steepest()).to_degrees();
-        let truss = truss.clone().amid(Surroundings::new(&[], Some(field), 0.05));
+        let truss = truss.clone().with_surroundings(Surroundings::new(&[], Some(field), 0.05));
         both(&format!("S, slopes of up to {steepest:.0} degrees"), &truss, &start, &s);
     }
 }
 
 fn both(name: &str, truss: &Structure, start: &[Vec3], path: &[[f64; 2]]) {
-    let start = rested(truss, start).expect("it rests");
-    let from = truss.centre(&start);
+    let start = settled(truss, start).expect("it rests");
+    let from = truss.centre_of_mass(&start);
     let path: Vec<[f64; 2]> = path.iter().map(|[x, y]| [from.x + x, from.y + y]).collect();
-    for ahead in [0, 40] {
-        let wish = Wish { ahead, ..along(path.clone(), Aim::Springs, 4000) };
+    for lookahead in [0, 40] {
+        let settings = Settings { lookahead, ..stepping(Objective::Springs, 4000) };
         let clock = Instant::now();
-        let travel = locomote(truss, &start, &wish, &|_| true);
+        let travel = follow_path(truss, &start, &path, &settings, &mut NoProgress);
         let time = each(clock.elapsed(), travel.steps);
         let ends = if travel.end == End::Arrived { "arrived" } else { "stuck" };
-        let Travel { steps, rolls, footholds, slip, lasts, .. } = travel;
+        let Travel { steps, rolls, footholds, slip, duration, .. } = travel;
         println!(
-            "| {name}, {ahead} ahead | {ends} | {steps} | {rolls} | {footholds} | {slip:.1} | {lasts:.1} | {time:.1} |"
+            "| {name}, {lookahead} ahead | {ends} | {steps} | {rolls} | {footholds} | {slip:.1} | {duration:.1} | {time:.1} |"
         );
     }
 }

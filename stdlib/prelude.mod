@@ -1849,7 +1849,7 @@ extern type Travel is Plan {
   /// How far nodes slid over the ground, all together.
   slip: Length
   /// Steps that were made slower, or otherwise easier, because no ordinary step kept all limits.
-  eased: Int
+  relaxed_steps: Int
   /// `arrived`, or what stopped it.
   ended: Text
 }
@@ -1865,7 +1865,7 @@ extern type Travel is Plan {
 /// it, without which it gets stuck), `restoring` is `lengths` towards the first lengths, `fewest` moves
 /// few struts (the sum of the rates' sizes; slower to plan). `hold` says which nodes on the ground stay
 /// where they are: `three` around the centre of mass, or `all`. Where no step is found, easier ones are
-/// tried, unless `ladder` is false: slower, with the centre free to sink, with the other hold, with the
+/// tried, unless `fallbacks` is false: slower, with the centre free to sink, with the other hold, with the
 /// other objective. Without `impact` it does not fall over an edge where it can put a node down beyond it
 /// first, and takes about twice as many steps. `budget` is in steps. `angle`, `rigidity`, `failed`,
 /// `perimeters`, `timeout` and `obstacles` are those of `morph`.
@@ -1891,7 +1891,7 @@ extern fn locomote(
   path: List<Vec3<Length>>,
   objective: springs | lengths | restoring | fewest = springs,
   hold: three | all = three,
-  ladder: Bool = true,
+  fallbacks: Bool = true,
   budget: Int = 100_000,
   angle: Angle = 0deg,
   rigidity: Number = 0,

@@ -6,7 +6,7 @@ use super::lists::list_element;
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
 use crate::source::suggest::suggest;
-use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::source::{Diagnostic, Span, Symbol, code, foreign};
 use crate::syntax::ast;
 use crate::units::Dimension;
 use std::rc::Rc;
@@ -379,7 +379,9 @@ impl<'a> Checker<'a> {
         let mut d =
             Diagnostic::error(code::ARGUMENTS, format!("`{function}` has no parameter `{}`", name.text))
                 .label(name.span, "no such parameter");
-        d = match suggest(name.text.as_str(), names.iter().copied()) {
+        let renamed = foreign::renamed(function.as_str(), name.text.as_str());
+        d = match renamed.or_else(|| suggest(name.text.as_str(), names.iter().copied())) {
+            Some(new) if renamed.is_some() => d.hint(format!("`{}` is now called `{new}`", name.text)),
             Some(near) => d.hint(format!("`{near}`?")),
             None if names.is_empty() => d.hint(format!("`{function}` takes no arguments")),
             None => d.hint(format!("it takes {}", names.join(", "))),

@@ -7,7 +7,7 @@ use super::expr::{error_expr, expr_of};
 use super::typed::{DefId, Expr, ExprKind, MemberId};
 use super::types::{Family, FnType, Type};
 use crate::source::suggest::suggest;
-use crate::source::{Diagnostic, Span, Symbol, code};
+use crate::source::{Diagnostic, Span, Symbol, code, foreign};
 use crate::syntax::ast::{self, ConfigClauseKind, ExprKind as K, ModuleClauseKind, TrussClauseKind};
 use crate::units::Dimension;
 use std::rc::Rc;
@@ -464,7 +464,9 @@ impl<'a> Checker<'a> {
         let names = self.record_names(id);
         let mut d = Diagnostic::error(code::UNKNOWN_MEMBER, format!("a {name} has no `{}`", field.text))
             .label(field.span, "no such field");
-        if let Some(near) = suggest(field.text.as_str(), names) {
+        if let Some(new) = foreign::renamed(name.as_str(), field.text.as_str()) {
+            d = d.hint(format!("`{}` is now called `{new}`", field.text));
+        } else if let Some(near) = suggest(field.text.as_str(), names) {
             d = d.hint(format!("`{near}`?"));
         }
         self.report(d);

@@ -7,6 +7,7 @@ use crate::interpret::design::Design;
 use crate::interpret::planning::Planned;
 use crate::natives::truss::Trussed;
 use crate::plan::{Body, NodePaths};
+use crate::planners::morph;
 use crate::units::number;
 use crate::units::{Dimension, quantity};
 
@@ -59,27 +60,27 @@ pub fn truss(design: &Design, truss: &TrussDesign) -> String {
 pub fn made(planned: &Planned) -> Vec<String> {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     let mut lines = match &planned.trussed {
-        Some(Trussed::Morphed { distance, start, ended }) => vec![
+        Some(Trussed::Morphed(morph::Report { distance, start, ended, .. })) => vec![
             format!(
                 "  {} from the target at the start, {} at the end",
-                metres(start.there),
-                metres(distance.there)
+                metres(start.target_to_surface),
+                metres(distance.target_to_surface)
             ),
             format!(
                 "  {} at worst, {} from the target to the truss; ended: {ended}",
                 metres(distance.worst),
-                metres(distance.back)
+                metres(distance.surface_to_target)
             ),
         ],
-        Some(Trussed::Travelled { rolls, footholds, distance, slip, reached, ended, .. }) => vec![
+        Some(Trussed::Travelled(report)) => vec![
             format!(
                 "  {} travelled, {}, {}, {} reached",
-                metres(*distance),
-                counted(*rolls, "roll"),
-                counted(*footholds, "foothold"),
-                counted(*reached, "point")
+                metres(report.distance),
+                counted(report.rolls, "roll"),
+                counted(report.footholds, "foothold"),
+                counted(report.reached, "point")
             ),
-            format!("  {} of slip; ended: {ended}", metres(*slip)),
+            format!("  {} of slip; ended: {}", metres(report.slip), report.ended),
         ],
         None => Vec::new(),
     };

@@ -9,6 +9,8 @@
 pub mod random;
 
 pub mod fold;
+pub mod locomote;
+pub mod morph;
 pub mod reconfigure;
 pub mod refold;
 pub mod squeeze;

@@ -15,6 +15,15 @@ pub(crate) fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
 }
 
+/// The present name of a parameter or field (`word`) of a function or record (`of`) that was renamed.
+pub(crate) fn renamed(of: &str, word: &str) -> Option<&'static str> {
+    RENAMED.iter().find(|(owner, old, _)| (*owner, *old) == (of, word)).map(|(_, _, new)| *new)
+}
+
+/// Function or record, old name, new name.
+const RENAMED: &[(&str, &str, &str)] =
+    &[("locomote", "ladder", "fallbacks"), ("Travel", "eased", "relaxed_steps")];
+
 /// Words of other languages with their hints.
 const INSTEAD: &[(&[&str], &str)] = &[
     (&["def", "func", "function", "fun"], "a function is written `fn name(x: Length) -> Length = 2 * x`"),

@@ -2,16 +2,14 @@
 
 use crate::support::trusses::{cube, distance, ell, looked_at, robot, truth};
 use modl::geometry::Vec3;
-use modl::planners::truss::fit::Distance;
-use modl::planners::truss::goal::Goal;
-use modl::planners::truss::morph::{End, Morph, Wish, morph};
-use modl::planners::truss::surface::{Surface, outer};
-use modl::planners::truss::{Limits, Loop};
+use modl::planners::NoProgress;
+use modl::planners::morph::{Descent, Distance, End, Settings, Surface, Target, descend, outer};
+use modl::planners::truss::Limits;
 
-fn morphed(goal: &Goal, steps_max: usize) -> Morph {
+fn morphed(goal: &Target, steps_max: usize) -> Descent {
     let (truss, start) = robot();
-    let wish = Wish { steps_max, tolerance: 0.0, orientations: 0, seed: 0 };
-    morph(&truss, &start, goal, &wish, &|_, _| true).expect("it has a surface")
+    let settings = Settings { steps_max, tolerance: 0.0, ..Settings::default() };
+    descend(&truss, &start, goal, &settings, &mut NoProgress).expect("it has a surface")
 }
 
 fn near(found: f64, wanted: f64, within: f64) {
@@ -38,16 +36,16 @@ fn the_outer_surface_is_the_known_one() {
 #[test]
 fn the_start_is_as_far_as_known() {
     let initial = truth()["initial_rms"].clone();
-    near(morphed(&cube(), 0).start.there, initial["cube"].as_f64().expect("a number"), 1e-12);
-    near(morphed(&ell(), 0).start.there, initial["L"].as_f64().expect("a number"), 1e-12);
+    near(morphed(&cube(), 0).start.target_to_surface, initial["cube"].as_f64().expect("a number"), 1e-12);
+    near(morphed(&ell(), 0).start.target_to_surface, initial["L"].as_f64().expect("a number"), 1e-12);
 }
 
-/// What the best known method reaches (`final_rms_by_method` and the aims beside it), and better.
+/// What the best known method reaches (`final_rms_by_method` and the objectives beside it), and better.
 #[test]
 fn a_cube_and_an_ell_are_reached() {
-    let Distance { there, back, .. } = morphed(&cube(), 150).distance;
+    let Distance { target_to_surface: there, surface_to_target: back, .. } = morphed(&cube(), 150).distance;
     assert!(there <= 0.0140 && back <= 0.015, "cube {there} {back}");
-    let Distance { there, back, .. } = morphed(&ell(), 300).distance;
+    let Distance { target_to_surface: there, surface_to_target: back, .. } = morphed(&ell(), 300).distance;
     assert!(there <= 0.0095 && back <= 0.0105, "ell {there} {back}");
 }
 
@@ -60,14 +58,14 @@ fn what_is_said_of_the_distance_holds() {
     let surface = Surface::new(faces.iter().map(|f| f.map(|node| last[node])).collect());
     // The goal's middle is the middle of the nodes at the start.
     let goal = ell();
-    let shift = start.iter().sum::<Vec3>() / start.len() as f64 - goal.centre();
+    let shift = start.iter().sum::<Vec3>() / start.len() as f64 - goal.centroid();
     let squares = goal.points.iter().map(|p| {
         // The nearest of all triangles, none left out.
-        let to = |t: &[Vec3; 3]| Surface::new(vec![*t]).nearest(p + shift, None).distance;
+        let to = |t: &[Vec3; 3]| Surface::new(vec![*t]).closest(p + shift, None).distance;
         surface.triangles().iter().map(to).fold(f64::INFINITY, f64::min)
     });
     let rms = libm::sqrt(squares.map(|d| d * d).sum::<f64>() / goal.points.len() as f64);
-    near(rms, found.distance.there, 1e-12);
+    near(rms, found.distance.target_to_surface, 1e-12);
 }
 
 #[test]
@@ -89,20 +87,19 @@ fn struts_keep_their_limits_between_the_samples() {
 fn limits_of_the_shape_are_kept_between_the_samples() {
     let (truss, start) = robot();
     let angle = 10f64.to_radians();
-    let around = |struts: &[usize]| Loop { struts: struts.to_vec(), range: (0.0, 0.0) };
-    let loops = vec![around(&[0, 1, 2]), around(&[50, 51, 60, 61])];
+    let loops = vec![vec![0, 1, 2], vec![50, 51, 60, 61]];
     let cases = [
         (Limits { angle, ..Limits::default() }, cube(), 150, 0.0140),
         (Limits { angle, ..Limits::default() }, ell(), 300, 0.0080),
-        (Limits { still: vec![3, 40, 77], ..Limits::default() }, cube(), 60, 0.05),
+        (Limits { locked: vec![3, 40, 77], ..Limits::default() }, cube(), 60, 0.05),
         (Limits { loops, ..Limits::default() }, cube(), 60, 0.05),
         (Limits { rigidity: 0.2, ..Limits::default() }, cube(), 15, 0.2),
     ];
     for (limits, goal, steps_max, within) in cases {
-        let truss = truss.clone().limited(&start, limits.clone());
-        let wish = Wish { steps_max, tolerance: 0.0, orientations: 0, seed: 0 };
-        let found = morph(&truss, &start, &goal, &wish, &|_, _| true).expect("it has a surface");
-        assert!(found.distance.there <= within, "{limits:?}: {}", found.distance.there);
+        let truss = truss.clone().with_limits(&start, limits.clone());
+        let settings = Settings { steps_max, tolerance: 0.0, ..Settings::default() };
+        let found = descend(&truss, &start, &goal, &settings, &mut NoProgress).expect("it has a surface");
+        assert!(found.distance.target_to_surface <= within, "{limits:?}: {}", found.distance.target_to_surface);
         let slack = 2e-3 + 1e-9;
         let mut x = start.clone();
         for y in &found.steps {
@@ -112,11 +109,11 @@ fn limits_of_the_shape_are_kept_between_the_samples() {
                     let (a, b) = truss.struts[strut];
                     (at[a] - at[b]).norm()
                 };
-                for &strut in &limits.still {
+                for &strut in &limits.locked {
                     assert!((long(strut, &at) - long(strut, &start)).abs() < slack);
                 }
                 for around in &limits.loops {
-                    let sum = |at: &[Vec3]| around.struts.iter().map(|&s| long(s, at)).sum::<f64>();
+                    let sum = |at: &[Vec3]| around.iter().map(|&s| long(s, at)).sum::<f64>();
                     assert!((sum(&at) - sum(&start)).abs() < slack, "{}", sum(&at) - sum(&start));
                 }
                 if limits.angle > 0.0 {
@@ -172,7 +169,7 @@ fn other_orientations_are_reached_as_well() {
     let turns: Vec<[[f64; 3]; 3]> =
         serde_json::from_value(truth()["orientations_4"].clone()).expect("matrices");
     for (name, goal, median) in [("cube", cube(), 0.0150), ("L", ell(), 0.0155)] {
-        let centre = goal.centre();
+        let centre = goal.centroid();
         let mut found: Vec<f64> = turns
             .iter()
             .map(|turn| {
@@ -181,7 +178,7 @@ fn other_orientations_are_reached_as_well() {
                     let d = p - centre;
                     Vec3::new(row(0).dot(&d), row(1).dot(&d), row(2).dot(&d))
                 });
-                morphed(&turned, 200).distance.there
+                morphed(&turned, 200).distance.target_to_surface
             })
             .collect();
         found.sort_by(f64::total_cmp);
@@ -195,7 +192,7 @@ fn targets_too_large_and_too_small_end_well() {
         let goal = cube().moved(|p| p * scale);
         let found = morphed(&goal, 80);
         assert!(!matches!(found.end, End::Done), "{:?}", found.end);
-        assert!(found.distance.there < found.start.there);
+        assert!(found.distance.target_to_surface < found.start.target_to_surface);
     }
 }
 
@@ -204,8 +201,8 @@ fn orientations_are_tried_and_the_same_seed_finds_the_same() {
     let (truss, start) = robot();
     let turned = ell().moved(|p| Vec3::new(p.y, -p.x, p.z));
     let with = |orientations: usize| {
-        let wish = Wish { steps_max: 40, tolerance: 0.0, orientations, seed: 3 };
-        morph(&truss, &start, &turned, &wish, &|_, _| true).expect("it has a surface")
+        let settings = Settings { steps_max: 40, tolerance: 0.0, orientations, seed: 3, ..Settings::default() };
+        descend(&truss, &start, &turned, &settings, &mut NoProgress).expect("it has a surface")
     };
     let (one, again) = (with(2), with(2));
     assert_eq!(one.steps, again.steps);

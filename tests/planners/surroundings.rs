@@ -2,12 +2,13 @@
 //! tests' own, and what the judge says of plans that were changed.
 
 use crate::desk::cli::Sandbox;
-use crate::support::trusses::{along, robot};
+use crate::support::trusses::{robot, stepping};
 use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3, pose::shifted};
 use modl::plan::{Body, CheckKind, Interpolation, NodePaths, Verdict, verify};
-use modl::planners::truss::locomote::{End, Move, Travel, Wish, locomote};
-use modl::planners::truss::locomotion::Aim;
-use modl::planners::truss::roll::{rested, rolled};
+use modl::planners::NoProgress;
+use modl::planners::locomote::{End, Objective, Settings, Travel, follow_path};
+use modl::planners::truss::motion::Move;
+use modl::planners::truss::roll::{rolled, settled};
 use modl::planners::truss::{Structure, Surroundings};
 use std::fs;
 
@@ -81,14 +82,14 @@ fn looked_over(truss: &Structure, start: &[Vec3], travel: &Travel, look: &dyn Fn
         for moment in 0..=MOMENTS {
             let part = moment as f64 / MOMENTS as f64;
             match step {
-                Move::Step(y) => look(&x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect::<Vec<_>>()),
+                Move::Linear(y) => look(&x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect::<Vec<_>>()),
                 Move::Roll(roll) => {
                     look(&rolled(&x, modl::planners::truss::roll::Roll { angle: roll.angle * part, ..*roll }))
                 }
             }
         }
         x = match step {
-            Move::Step(y) => y.clone(),
+            Move::Linear(y) => y.clone(),
             Move::Roll(roll) => rolled(&x, *roll),
         };
     }
@@ -103,15 +104,15 @@ fn to_box(p: Vec3, middle: Vec3, size: Vec3) -> f64 {
 #[test]
 fn a_truss_goes_through_a_gate_narrower_than_itself() {
     let (truss, start) = robot();
-    let from = truss.centre(&start);
+    let from = truss.centre_of_mass(&start);
     let posts =
         [3.6, -3.6].map(|aside| (Vec3::new(from.x + 5.0, from.y + aside, 2.5), Vec3::new(0.5, 5.0, 5.0)));
     let solids = posts.map(|(at, size)| {
         Solid::new(&[Placed { pose: shifted(at), shape: Shape::Box { size } }]).expect("a solid")
     });
-    let truss = truss.amid(Surroundings::new(&solids, None, SINK));
-    let wish = along(vec![[from.x + 8.0, from.y]], Aim::Springs, 1000);
-    let travel = locomote(&truss, &start, &wish, &|_| true);
+    let truss = truss.with_surroundings(Surroundings::new(&solids, None, SINK));
+    let (path, settings) = ([[from.x + 8.0, from.y]], stepping(Objective::Springs, 1000));
+    let travel = follow_path(&truss, &start, &path, &settings, &mut NoProgress);
     assert_eq!(travel.end, End::Arrived);
     // The gate is 2.2 wide, and the robot was 4.
     looked_over(&truss, &start, &travel, &|x| {
@@ -130,11 +131,11 @@ fn a_truss_goes_through_a_gate_narrower_than_itself() {
 fn a_truss_walks_over_hills() {
     let (truss, start) = robot();
     let field = hills(0.1, 1.0);
-    let truss = truss.amid(Surroundings::new(&[], Some(field.clone()), SINK));
-    let start = rested(&truss, &start).expect("it rests");
-    let from = truss.centre(&start);
-    let wish = along(vec![[from.x + 5.0, from.y + 2.0]], Aim::Springs, 1000);
-    let travel = locomote(&truss, &start, &wish, &|_| true);
+    let truss = truss.with_surroundings(Surroundings::new(&[], Some(field.clone()), SINK));
+    let start = settled(&truss, &start).expect("it rests");
+    let from = truss.centre_of_mass(&start);
+    let (path, settings) = ([[from.x + 5.0, from.y + 2.0]], stepping(Objective::Springs, 1000));
+    let travel = follow_path(&truss, &start, &path, &settings, &mut NoProgress);
     assert_eq!(travel.end, End::Arrived);
     assert!(travel.rolls > 0, "it only crept");
     looked_over(&truss, &start, &travel, &|x| {
@@ -153,20 +154,20 @@ fn a_truss_walks_over_hills() {
 #[test]
 fn looking_ahead_saves_time_and_finds_ways_where_greed_gets_stuck() {
     let (truss, start) = robot();
-    let from = truss.centre(&start);
-    let path = vec![[from.x + 6.0, from.y], [from.x + 6.0, from.y + 3.0]];
-    let greedy = along(path.clone(), Aim::Springs, 2000);
-    let ahead = Wish { ahead: 30, ..greedy.clone() };
-    let lasts = |truss: &Structure, wish: &Wish| {
-        let start = rested(truss, &start).expect("it rests");
-        let travel = locomote(truss, &start, wish, &|_| true);
-        (travel.end == End::Arrived).then_some(travel.lasts)
+    let from = truss.centre_of_mass(&start);
+    let path = [[from.x + 6.0, from.y], [from.x + 6.0, from.y + 3.0]];
+    let greedy = stepping(Objective::Springs, 2000);
+    let ahead = Settings { lookahead: 30, ..greedy.clone() };
+    let duration = |truss: &Structure, settings: &Settings| {
+        let start = settled(truss, &start).expect("it rests");
+        let travel = follow_path(truss, &start, &path, settings, &mut NoProgress);
+        (travel.end == End::Arrived).then_some(travel.duration)
     };
-    let [slow, fast] = [&greedy, &ahead].map(|wish| lasts(&truss, wish).expect("arrives"));
+    let [slow, fast] = [&greedy, &ahead].map(|settings| duration(&truss, settings).expect("arrives"));
     assert!(fast < 0.8 * slow, "{fast} s, greedily {slow} s");
-    let rough = truss.amid(Surroundings::new(&[], Some(hills(0.25, 1.0)), SINK));
-    assert_eq!(lasts(&rough, &greedy), None);
-    assert!(lasts(&rough, &ahead).is_some());
+    let rough = truss.with_surroundings(Surroundings::new(&[], Some(hills(0.25, 1.0)), SINK));
+    assert_eq!(duration(&rough, &greedy), None);
+    assert!(duration(&rough, &ahead).is_some());
 }
 
 #[test]

@@ -1,11 +1,9 @@
 //! The robot of the linear-actuator-robots paper and its targets, for the tests of its planners.
 
 use modl::geometry::Vec3;
+use modl::planners::locomote::{Objective, Settings};
+use modl::planners::morph::{Surface, Target};
 use modl::planners::truss::Structure;
-use modl::planners::truss::goal::Goal;
-use modl::planners::truss::locomote::{Hold, Wish};
-use modl::planners::truss::locomotion::Aim;
-use modl::planners::truss::surface::Surface;
 use modl::robot::Strut;
 use serde_json::Value;
 
@@ -20,19 +18,9 @@ pub fn actuator() -> Strut {
     Strut { name, length: (0.3, 3.0), speed: 1.0, force: 1.0, mass: 1.0, clearance: 0.1 }
 }
 
-/// Along places by the steps of the paper, with easier ones where they are needed.
-pub fn along(path: Vec<[f64; 2]>, aim: Aim, steps_max: usize) -> Wish {
-    Wish {
-        path,
-        near: 0.25,
-        stride: 0.05,
-        aim,
-        hold: Hold::Three,
-        ladder: true,
-        impact: true,
-        ahead: 0,
-        steps_max,
-    }
+/// By the steps of the paper, with relaxed ones where they are needed.
+pub fn stepping(objective: Objective, steps_max: usize) -> Settings {
+    Settings { objective, steps_max, ..Settings::default() }
 }
 
 pub fn robot() -> (Structure, Vec<Vec3>) {
@@ -44,7 +32,7 @@ pub fn robot() -> (Structure, Vec<Vec3>) {
 }
 
 /// A target of rectangles, with points in the middles of squares of an eighth (`targets` of the truth).
-fn rectangles(sides: &[[[f64; 3]; 3]]) -> Goal {
+fn rectangles(sides: &[[[f64; 3]; 3]]) -> Target {
     const APART: f64 = 0.125;
     let (mut points, mut triangles) = (Vec::new(), Vec::new());
     for [o, u, v] in sides.iter().map(|side| side.map(Vec3::from)) {
@@ -57,11 +45,11 @@ fn rectangles(sides: &[[[f64; 3]; 3]]) -> Goal {
         }
         triangles.extend([[o, o + u, o + u + v], [o, o + u + v, o + v]]);
     }
-    Goal { surface: Some(Surface::new(triangles)), ..Goal::cloud(points) }
+    Target { surface: Some(Surface::new(triangles)), ..Target::cloud(points) }
 }
 
 /// Side 2.
-pub fn cube() -> Goal {
+pub fn cube() -> Target {
     let mut sides = Vec::new();
     for k in 0..3 {
         for c in [0.0, 2.0] {
@@ -77,7 +65,7 @@ pub fn cube() -> Goal {
 }
 
 /// Arms of length 3, width and height 1.
-pub fn ell() -> Goal {
+pub fn ell() -> Target {
     let mut sides = Vec::new();
     for y in [0.0, 1.0] {
         sides.push([[0.0, y, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);

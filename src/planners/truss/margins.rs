@@ -1,42 +1,47 @@
-//! How near a truss is to each of its limits where it is.
+//! Margins of a configuration: how much each limit leaves.
 
-use super::bound::Bound;
-use super::nearby;
-use super::roll;
-use super::stiffness;
+use super::broad_phase;
+use super::constraint::Constraint;
+use super::rigidity;
 use super::structure::Structure;
-use super::support;
+use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::plan::Margins;
 
-/// Of the nodes' places. `stands`: whether it stands on the ground.
+/// Returns the least margin of each kind of limit at the positions `x` of the nodes, m; none of kinds that
+/// the truss does not have, and none of distances that are more than twice the clearance. `stands` says
+/// that the truss stands on the ground, so that its static stability margin counts.
 pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
-    let value = |bound: Bound| bound.value(truss, x);
+    let value = |constraint: Constraint| constraint.value(truss, x);
     let least = |values: &mut dyn Iterator<Item = f64>| values.reduce(f64::min);
     let struts = 0..truss.struts.len();
-    let lengths = struts.clone().flat_map(|strut| [Bound::Shortest(strut), Bound::Longest(strut)]);
+    let both_ends = |strut: usize| [Constraint::LengthMin(strut), Constraint::LengthMax(strut)];
+    let lengths = struts.clone().flat_map(both_ends);
+    // Distances to other struts and to obstacles, where they are near.
     let near = |margin: &f64| *margin <= truss.clearance;
-    let pairs = nearby::pairs(truss, x, 2.0 * truss.clearance);
+    let pairs = broad_phase::pairs(truss, x, 2.0 * truss.clearance);
     let obstacles = struts.flat_map(|strut| {
         let segment = truss.segment(x, strut);
-        let parts = 0..truss.around.parts.len();
-        let may = move |part: &usize| truss.around.may_meet(segment, *part, 2.0 * truss.clearance);
+        let parts = 0..truss.surroundings.parts.len();
+        let may = move |part: &usize| truss.surroundings.may_collide(segment, *part, 2.0 * truss.clearance);
         parts
             .filter(may)
-            .map(move |part| truss.around.nearness(segment, part, f64::MAX).distance - truss.clearance)
+            .map(move |part| truss.surroundings.signed_distance(segment, part, f64::MAX).distance - truss.clearance)
     });
-    let sums = 0..truss.limits.loops.len();
-    let still = truss.limits.still.iter().flat_map(|&strut| [Bound::Shortest(strut), Bound::Longest(strut)]);
-    let sums = sums.flat_map(|index| [Bound::Least(index), Bound::Most(index)]).chain(still);
-    let feet = if stands { support::contacts(truss, x) } else { Vec::new() };
-    let rigid = (truss.limits.rigidity > 0.0).then(|| stiffness::weakest(truss, x, 1));
+    // Sums of lengths: of loops, and of single struts that are locked.
+    let locked = truss.limits.locked.iter().flat_map(|&strut| both_ends(strut));
+    let sums = (0..truss.limits.loops.len())
+        .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)])
+        .chain(locked);
+    let contacts = if stands { support_polygon::contacts(truss, x) } else { Vec::new() };
+    let modes = (truss.limits.rigidity > 0.0).then(|| rigidity::weakest(truss, x, 1));
     Margins {
         length: least(&mut lengths.map(value)),
-        clearance: least(&mut pairs.iter().map(|&(i, j, _)| value(Bound::Apart(i, j))).filter(near)),
+        clearance: least(&mut pairs.iter().map(|&(i, j, _)| value(Constraint::Clearance(i, j))).filter(near)),
         obstacle: least(&mut obstacles.filter(near)),
-        support: roll::standing(truss, x, &feet).map(|(inside, _)| inside),
-        angle: least(&mut truss.corners.iter().map(|&(i, j)| value(Bound::Angle(i, j)) / truss.unit)),
-        rigidity: rigid.and_then(|modes| modes.first().map(|mode| mode.value - truss.limits.rigidity)),
+        support: support_polygon::stability_margin(truss, x, &contacts).map(|(inside, _)| inside),
+        angle: least(&mut truss.corners.iter().map(|&(i, j)| value(Constraint::Angle(i, j)) / truss.unit)),
+        rigidity: modes.and_then(|modes| modes.first().map(|mode| mode.value - truss.limits.rigidity)),
         sum: least(&mut sums.map(value)),
     }
 }

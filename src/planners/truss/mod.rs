@@ -1,41 +1,38 @@
-//! `morph` and `locomote`: trusses of linear actuators that change shape and roll, after "Linear
-//! Actuator Robots: Differential Kinematics, Controllability, and Algorithms for Locomotion and Shape
-//! Morphing" (Usevitch, Hammond, Follmer, Schwager), with Algorithm 1 mended ([`step`]) and a
-//! certificate between the ends of steps ([`between`]).
+//! The kernel of the truss planners [`morph`](super::morph) and [`locomote`](super::locomote): trusses of
+//! linear actuators after "Linear Actuator Robots: Differential Kinematics, Controllability, and Algorithms
+//! for Locomotion and Shape Morphing" (Usevitch, Hammond, Follmer, Schwager), with Algorithm 1 mended
+//! ([`step`]) and a certificate by conservative advancement between the ends of steps ([`advancement`]).
+//!
+//! Data first, what is computed of it below: a [`Structure`] with its [`Limits`] and [`Surroundings`]; its
+//! inequality [`constraint`]s with gradients; the singular values of its rigidity matrix; the broad phase;
+//! one step of sequential quadratic programming; static stability on a support polygon, and rolls over its
+//! edges; the plan's body.
 
-mod segment;
 pub mod structure;
 pub mod surroundings;
+pub mod tolerances;
 
-mod stiffness;
+mod rigidity;
 
 pub mod margins;
 
-pub mod bound;
-mod nearby;
+pub mod constraint;
 
-pub mod between;
-mod passing;
+mod broad_phase;
+
+mod advancement;
+mod environment;
 
 pub mod step;
 
-pub mod locomotion;
-mod support;
+pub(super) mod support_polygon;
 
 pub mod roll;
-mod turning;
+mod rotation;
 
-pub mod locomote;
+pub mod motion;
+pub mod problem;
 
-mod ahead;
-
-pub mod surface;
-
-pub mod goal;
-
-pub mod fit;
-
-pub mod morph;
-
-pub use structure::{Limits, Loop, Structure};
+pub use structure::{Limits, Structure};
 pub use surroundings::Surroundings;
+pub use tolerances::Tolerances;

@@ -1,118 +1,119 @@
-//! Rolling: when the centre of mass comes over an edge of the support, the truss falls over it as one
-//! rigid body until other nodes meet the ground.
+//! Rolls: when the centre of mass leaves the support polygon over an edge, the truss topples over that edge
+//! as one rigid body until other nodes meet the ground.
 
-use super::bound::Bound;
+use super::constraint::Constraint;
+use super::rotation::{self, Axis};
 use super::structure::Structure;
-use super::support;
-use super::turning::{self, Line, ON_LINE};
+use super::support_polygon::{self, contacts};
 use crate::geometry::Vec3;
 use std::f64::consts::TAU;
 
-/// Falls from edge to edge until it rests: a truss that still falls is a wheel.
-pub const FALLS_MAX: usize = 50;
-/// It rests if its centre of mass is farther inside its support than this part of the unit.
-const RESTS: f64 = 1e-9;
-/// Turns smaller than this are none, rad.
-const TURN_MIN: f64 = 1e-9;
+/// Rolls in a row until a truss that still topples counts as one that never rests.
+pub(in crate::planners) const ROLLS_MAX: usize = 50;
 
-/// A turn about the line from the first node to the second, by the right-hand rule, rad.
+/// A rigid rotation about the line through two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roll {
+    /// The nodes that stay; the axis points from the first to the second.
     pub edge: (usize, usize),
+    /// The angle by the right-hand rule, rad.
     pub angle: f64,
 }
 
-/// The roll over an edge of the support (its inside on the left) to the outside, by the least angle that
-/// brings a node to the ground.
-pub fn over(truss: &Structure, x: &[Vec3], edge: (usize, usize)) -> Option<Roll> {
-    let line = line(x, edge);
-    if truss.around.terrain.is_some() {
-        let angle = x.iter().filter_map(|p| turning::landing(truss, &line, *p)).min_by(f64::total_cmp)?;
+/// Returns the roll over an edge of the support polygon (inside on the left) to the outside, by the least
+/// angle that brings a node to the ground; `None` if none gets there.
+pub(in crate::planners) fn over(truss: &Structure, x: &[Vec3], edge: (usize, usize)) -> Option<Roll> {
+    let axis = axis(x, edge);
+    // Over terrain by conservative advancement, over flat ground in closed form.
+    if truss.surroundings.terrain.is_some() {
+        let angle = x.iter().filter_map(|p| rotation::touchdown(truss, &axis, *p)).min_by(f64::total_cmp)?;
         return Some(Roll { edge, angle });
     }
-    let Line { origin, along } = line;
-    // Turned by t, a node is at the height `middle + level cos t + ahead sin t`.
-    let landing = |p: &Vec3| {
+    let Axis { origin, along } = axis;
+    // Rotated by t, a node is at the height `middle + level cos t + ahead sin t`.
+    let touchdown = |p: &Vec3| {
         let arm = p - origin;
         let across = arm - along * along.dot(&arm);
         let (level, ahead) = (across.z, along.cross(&arm).z);
         let middle = p.z - level;
         let reach = libm::hypot(level, ahead);
-        if across.norm() <= ON_LINE * truss.unit || middle.abs() >= reach {
+        if across.norm() <= truss.tolerances.on_axis * truss.unit || middle.abs() >= reach {
             return None;
         }
         let angle = libm::atan2(ahead, level) + libm::acos(-middle / reach);
-        Some(if angle > TURN_MIN { angle } else { angle + TAU })
+        Some(if angle > truss.tolerances.rotation_min { angle } else { angle + TAU })
     };
-    let angle = x.iter().filter_map(landing).min_by(f64::total_cmp)?;
+    let angle = x.iter().filter_map(touchdown).min_by(f64::total_cmp)?;
     Some(Roll { edge, angle })
 }
 
-fn line(x: &[Vec3], edge: (usize, usize)) -> Line {
-    Line { origin: x[edge.0], along: (x[edge.1] - x[edge.0]).normalize() }
+fn axis(x: &[Vec3], edge: (usize, usize)) -> Axis {
+    Axis { origin: x[edge.0], along: (x[edge.1] - x[edge.0]).normalize() }
 }
 
-/// What is in the way of a roll.
-pub fn blocked(truss: &Structure, x: &[Vec3], roll: Roll) -> Option<Bound> {
-    turning::blocked(truss, x, &line(x, roll.edge), roll.angle)
+/// Returns a constraint that a roll would violate on its way: a strut would meet an obstacle, or the ground
+/// before its ends do. `None` if the way is free.
+pub(in crate::planners) fn blocked(truss: &Structure, x: &[Vec3], roll: Roll) -> Option<Constraint> {
+    rotation::blocked(truss, x, &axis(x, roll.edge), roll.angle)
 }
 
-/// What a truss on the ground does by itself.
-pub enum Fate {
-    Rests,
-    Rolls(Roll),
+/// The static equilibrium of a truss on the ground.
+pub(in crate::planners) enum Equilibrium {
+    /// The centre of mass is inside the support polygon.
+    Stable,
+    /// It topples, by this roll.
+    Topples(Roll),
     /// It stands on one node, this one.
-    Tips(usize),
+    OnOneNode(usize),
 }
 
-/// `None` if it rolls over an edge beyond which nothing meets the ground.
-pub fn fate(truss: &Structure, x: &[Vec3]) -> Option<Fate> {
-    let contacts = support::contacts(truss, x);
-    match standing(truss, x, &contacts) {
-        Some((inside, _)) if inside > RESTS * truss.unit => Some(Fate::Rests),
-        Some((_, edge)) => over(truss, x, edge).map(Fate::Rolls),
-        None => contacts.first().map(|node| Fate::Tips(*node)),
+/// Returns the equilibrium of a truss; `None` if it has no contact, or topples over an edge beyond which
+/// nothing meets the ground.
+pub(in crate::planners) fn equilibrium(truss: &Structure, x: &[Vec3]) -> Option<Equilibrium> {
+    let contacts = contacts(truss, x);
+    match support_polygon::stability_margin(truss, x, &contacts) {
+        Some((inside, _)) if inside > truss.tolerances.stability_margin * truss.unit => {
+            Some(Equilibrium::Stable)
+        }
+        Some((_, edge)) => over(truss, x, edge).map(Equilibrium::Topples),
+        None => contacts.first().map(|node| Equilibrium::OnOneNode(*node)),
     }
 }
 
-/// The truss as it comes to rest on the ground when it is let go with its lowest nodes there. Where it falls
-/// on from is the one that is nearest to the centre of mass; `None` if it never rests.
-pub fn rested(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
+/// Returns the positions of the nodes, m, once the truss has come to rest on the ground after it is let go
+/// with its lowest nodes there; quasi-statically, without inertia. `None` if it never rests.
+pub fn settled(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
     let mut x = x.to_vec();
-    for _ in 0..FALLS_MAX {
-        let lowest = x.iter().map(|p| truss.around.above(*p)).fold(f64::INFINITY, f64::min);
+    for _ in 0..ROLLS_MAX {
+        let lowest = x.iter().map(|p| truss.surroundings.height(*p)).fold(f64::INFINITY, f64::min);
         x.iter_mut().for_each(|p| p.z -= lowest);
-        x = match fate(truss, &x)? {
-            Fate::Rests => return Some(x),
-            Fate::Rolls(roll) => rolled(&x, roll),
-            Fate::Tips(node) => tipped(truss, &x, node)?,
+        x = match equilibrium(truss, &x)? {
+            Equilibrium::Stable => return Some(x),
+            Equilibrium::Topples(roll) => rolled(&x, roll),
+            Equilibrium::OnOneNode(node) => toppled_over_node(truss, &x, node)?,
         };
     }
     None
 }
 
-/// Over one node, towards where the centre of mass is.
-fn tipped(truss: &Structure, x: &[Vec3], node: usize) -> Option<Vec<Vec3>> {
-    let arm = truss.centre(x) - x[node];
+/// Returns the positions after toppling over one node, in the direction of the centre of mass: a roll about
+/// a horizontal axis through the node.
+fn toppled_over_node(truss: &Structure, x: &[Vec3], node: usize) -> Option<Vec<Vec3>> {
+    let arm = truss.centre_of_mass(x) - x[node];
     let aside = Vec3::new(-arm.y, arm.x, 0.0);
-    let along = aside.try_normalize(ON_LINE * truss.unit).unwrap_or_else(Vec3::y);
+    let along = aside.try_normalize(truss.tolerances.on_axis * truss.unit).unwrap_or_else(Vec3::y);
+    // The axis becomes an edge to an auxiliary node; rotated by the right hand, what is ahead comes down.
     let mut with_axis = x.to_vec();
     with_axis.push(x[node] + along * truss.unit);
-    // Turned about the axis by the right hand, what is ahead comes down.
     let roll = over(truss, &with_axis, (node, x.len()))?;
     let mut found = rolled(&with_axis, roll);
     found.pop();
     Some(found)
 }
 
+/// Returns the positions of the nodes after a roll, m.
 pub fn rolled(x: &[Vec3], roll: Roll) -> Vec<Vec3> {
-    let line = line(x, roll.edge);
-    let turn = line.turn(roll.angle);
-    x.iter().map(|p| turn(*p)).collect()
-}
-
-/// How far the centre of mass is inside the hull of some nodes (m, negative outside), and the edge that it
-/// is nearest to.
-pub fn standing(truss: &Structure, x: &[Vec3], feet: &[usize]) -> Option<(f64, (usize, usize))> {
-    support::margin(x, &support::hull(x, feet), truss.centre(x))
+    let axis = axis(x, roll.edge);
+    let rotate = axis.rotation(roll.angle);
+    x.iter().map(|p| rotate(*p)).collect()
 }

@@ -1,63 +1,63 @@
-//! A truss as its planners see it: who is joined to whom, and what its struts allow.
+//! A truss as its planners see it: the graph of nodes and struts, and what the struts allow.
 
 use super::surroundings::Surroundings;
+use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::robot::Strut;
 
-/// A value is below zero if it is by more than this part of the unit.
-pub const ROUNDING: f64 = 1e-10;
-
-/// Lengths in metres; `unit` is the mean length of a strut at the start, by which steps are measured.
+/// A truss of linear actuators: its graph, the limits of its struts and of its shape, and what is around
+/// it. The positions of its nodes are no part of it; functions take them as `x`, m, in the world's frame,
+/// one for each node.
 #[derive(Clone, Debug)]
 pub struct Structure {
+    /// The number of nodes.
     pub nodes: usize,
+    /// The two nodes of each strut.
     pub struts: Vec<(usize, usize)>,
-    /// The range of each.
+    /// The least and the greatest length of each strut, m.
     pub lengths: Vec<(f64, f64)>,
-    /// Of each strut, m/s.
+    /// The greatest rate of length of a strut, m/s.
     pub speed: f64,
-    /// Between struts that share no node.
+    /// The least distance between struts that share no node, and between struts and obstacles, m.
     pub clearance: f64,
-    /// The part of the whole mass that each node carries: half of each of its struts.
-    pub shares: Vec<f64>,
+    /// The fraction of the whole mass that each node carries: half of each of its struts.
+    pub mass_fractions: Vec<f64>,
+    /// The mean length of a strut at the start, m: the unit of steps and tolerances.
     pub unit: f64,
+    /// The limits of the shape beside those of the struts.
     pub limits: Limits,
-    /// Struts that share a node, where their angles have a limit.
+    /// The range of the sum of lengths of each of `limits.loops`, m.
+    pub loop_ranges: Vec<(f64, f64)>,
+    /// Pairs of struts that share a node, the lower first; empty unless their angles are limited.
     pub corners: Vec<(usize, usize)>,
-    pub around: Surroundings,
+    /// Obstacles and terrain.
+    pub surroundings: Surroundings,
+    /// The tolerances of all computations on this truss.
+    pub tolerances: Tolerances,
 }
 
-/// Limits beside those that every strut has.
+/// Limits of the shape of a truss beside those that every strut has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// Between struts that share a node, rad; of 0 there is none.
+    /// The least angle between struts that share a node, rad, below π/3; 0 for no limit.
     pub angle: f64,
-    /// The least singular value of the rigidity matrix (rows of unit vectors) that is not one of a rigid
-    /// motion, after every step; of 0 there is none.
+    /// The least that the smallest singular value of the rigidity matrix (rows of unit vectors) that
+    /// belongs to no rigid motion may be after every step; 0 for no limit.
     pub rigidity: f64,
-    /// Struts that keep the length they have at the start: they failed, or have no motor.
-    pub still: Vec<usize>,
-    /// Struts of one tube or cable: the sum of their lengths stays.
-    pub loops: Vec<Loop>,
+    /// Struts that keep their length at the start: they failed, or have no motor.
+    pub locked: Vec<usize>,
+    /// Sets of struts made of one tube or cable: the sum of the lengths of each set stays.
+    pub loops: Vec<Vec<usize>>,
 }
-
-#[derive(Clone, Debug, PartialEq)]
-pub struct Loop {
-    pub struts: Vec<usize>,
-    /// What their lengths add up to, m.
-    pub range: (f64, f64),
-}
-
-/// Lengths that stay may be off by this part of the unit: nodes go straight on, and what turns meanwhile
-/// gets shorter in between.
-pub const SLACK: f64 = 2e-3;
 
 impl Structure {
+    /// Returns the truss of struts of one kind, with the nodes at `start`, m, and without further limits,
+    /// obstacles or terrain. Every strut must join two different nodes of `start`.
     pub fn new(strut: &Strut, start: &[Vec3], struts: &[(usize, usize)]) -> Structure {
-        let mut shares = vec![0.0; start.len()];
+        let mut mass_fractions = vec![0.0; start.len()];
         for &(a, b) in struts {
-            shares[a] += 0.5 / struts.len() as f64;
-            shares[b] += 0.5 / struts.len() as f64;
+            mass_fractions[a] += 0.5 / struts.len() as f64;
+            mass_fractions[b] += 0.5 / struts.len() as f64;
         }
         let length = |&(a, b): &(usize, usize)| (start[a] - start[b]).norm();
         Structure {
@@ -66,18 +66,21 @@ impl Structure {
             lengths: vec![strut.length; struts.len()],
             speed: strut.speed,
             clearance: strut.clearance,
-            shares,
+            mass_fractions,
             unit: struts.iter().map(length).sum::<f64>() / struts.len().max(1) as f64,
             limits: Limits::default(),
+            loop_ranges: Vec::new(),
             corners: Vec::new(),
-            around: Surroundings::default(),
+            surroundings: Surroundings::default(),
+            tolerances: Tolerances::DEFAULT,
         }
     }
 
-    /// Under more limits; loops are of struts, and keep the sum that they have at the start.
-    pub fn limited(mut self, start: &[Vec3], limits: Limits) -> Structure {
-        let slack = SLACK * self.unit;
-        for &strut in &limits.still {
+    /// Returns the truss under `limits` too. Locked struts and loops keep the lengths that they have at
+    /// `start` up to the tolerance `locked_slack`.
+    pub fn with_limits(mut self, start: &[Vec3], limits: Limits) -> Structure {
+        let slack = self.tolerances.locked_slack * self.unit;
+        for &strut in &limits.locked {
             let length = self.length(start, strut);
             self.lengths[strut] = (length - slack, length + slack);
         }
@@ -87,33 +90,32 @@ impl Structure {
             self.corners = pairs.filter(|&(i, j)| self.share_node(i, j)).collect();
         }
         self.limits = limits;
-        for i in 0..self.limits.loops.len() {
-            let sum = self.around(start, i);
-            self.limits.loops[i].range = (sum - slack, sum + slack);
-        }
+        let sums = (0..self.limits.loops.len()).map(|index| self.loop_length(start, index));
+        self.loop_ranges = sums.map(|sum| (sum - slack, sum + slack)).collect();
         self
     }
 
-    /// Among obstacles, and on uneven ground.
-    pub fn amid(mut self, around: Surroundings) -> Structure {
-        self.around = around;
+    /// Returns the truss among obstacles and on terrain.
+    pub fn with_surroundings(mut self, surroundings: Surroundings) -> Structure {
+        self.surroundings = surroundings;
         self
     }
 
-    /// With distances and angles that are greater by a little, in units and rad, so that certificates end.
-    pub fn cautious(&self, cushion: f64) -> Structure {
+    /// Returns the truss with clearance and least angle enlarged by `margin` (units and rad), so that
+    /// certificates by conservative advancement end.
+    pub fn tightened(&self, margin: f64) -> Structure {
         let mut truss = self.clone();
-        truss.clearance += cushion * self.unit;
-        truss.limits.angle += if self.limits.angle > 0.0 { cushion } else { 0.0 };
+        truss.clearance += margin * self.unit;
+        truss.limits.angle += if self.limits.angle > 0.0 { margin } else { 0.0 };
         truss
     }
 
-    /// What the lengths of a loop add up to.
-    pub fn around(&self, x: &[Vec3], index: usize) -> f64 {
-        self.limits.loops[index].struts.iter().map(|&strut| self.length(x, strut)).sum()
+    /// Returns the sum of the lengths of a loop, m.
+    pub fn loop_length(&self, x: &[Vec3], index: usize) -> f64 {
+        self.limits.loops[index].iter().map(|&strut| self.length(x, strut)).sum()
     }
 
-    /// The node of two struts that share one, and their others.
+    /// Returns the node that two struts share, and the other end of the first and of the second.
     pub fn corner(&self, i: usize, j: usize) -> (usize, usize, usize) {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         match (a == c, a == d, b == c) {
@@ -124,28 +126,31 @@ impl Structure {
         }
     }
 
+    /// Returns the length of a strut, m.
     pub fn length(&self, x: &[Vec3], strut: usize) -> f64 {
         let (a, b) = self.struts[strut];
         (x[a] - x[b]).norm()
     }
 
+    /// Returns the two ends of a strut, m.
     pub fn segment(&self, x: &[Vec3], strut: usize) -> (Vec3, Vec3) {
         let (a, b) = self.struts[strut];
         (x[a], x[b])
     }
 
+    /// Returns true if two struts have a node in common.
     pub fn share_node(&self, i: usize, j: usize) -> bool {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         a == c || a == d || b == c || b == d
     }
 
-    /// The centre of mass.
-    pub fn centre(&self, x: &[Vec3]) -> Vec3 {
-        x.iter().zip(&self.shares).map(|(p, share)| p * *share).sum()
+    /// Returns the centre of mass, m.
+    pub fn centre_of_mass(&self, x: &[Vec3]) -> Vec3 {
+        x.iter().zip(&self.mass_fractions).map(|(p, fraction)| p * *fraction).sum()
     }
 
-    /// How fast each strut has to be for the nodes to go from `x` to `y` evenly in one second, at most: a
-    /// strut's rate only grows while its nodes go straight on, so it is greatest at an end. m/s.
+    /// Returns for each strut the greatest speed of its length, m/s, while the nodes move from `x` to `y`
+    /// at constant velocity in one second. The length is convex in time, so its rate is greatest at an end.
     pub fn rates(&self, x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
         self.struts.iter().map(|&(a, b)| {
             let (from, to) = (x[a] - x[b], y[a] - y[b]);

@@ -1,22 +1,29 @@
-//! The least singular values of the rigidity matrix, and how they change with the nodes: where one is
-//! zero the struts no longer decide where the nodes are.
+//! The least singular values of the rigidity matrix and their gradients over the nodes. Where one is zero
+//! the lengths of the struts no longer determine the positions of the nodes.
+//!
+//! The rigidity matrix R has a row for each strut with the unit vector along it at one node and minus that
+//! at the other: R times the velocities of the nodes is the rates of length. It is the Jacobian of the
+//! lengths.
 
 use super::structure::Structure;
 use crate::geometry::Vec3;
 use nalgebra::{DMatrix, DVector};
 
-/// Motions of the whole.
+/// Dimension of the rigid motions of the whole truss: singular values of R that are always zero.
 const RIGID: usize = 6;
 
-/// A singular value with its vectors: of the struts and of the nodes' coordinates.
+/// A singular value of the rigidity matrix with its singular vectors: over the struts (left) and over the
+/// nodes' coordinates (right).
 #[derive(Clone)]
 pub struct Mode {
+    /// The singular value, without unit.
     pub value: f64,
     struts: Vec<f64>,
     nodes: DVector<f64>,
 }
 
-/// The least ones but those of rigid motions, in order. The matrix has a row of unit vectors a strut.
+/// Returns the `count` least singular values in ascending order, those of rigid motions left out. Found as
+/// square roots of the eigenvalues of RᵀR, so values below about 1e-8 are noise.
 pub fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
     let n = 3 * truss.nodes;
     let along = |strut: usize| {
@@ -45,9 +52,10 @@ pub fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
     order.iter().skip(RIGID).take(count).map(mode).collect()
 }
 
-/// The mode i for i = j, else the sum or the difference of two ([`Bound::Rigid`](super::bound::Bound)). Where two values
-/// are nearly the same their vectors are any two of the plane that they span, and a step that keeps both may
-/// still bring down one between them.
+/// Returns mode i for i = j, else the normalised sum (i < j) or difference (i > j) of two modes, as in
+/// [`Constraint::Rigidity`](super::constraint::Constraint). Where two singular values nearly coincide, their
+/// vectors are any two of the plane that they span, and a step that keeps both values may still lower one
+/// in between.
 pub fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
     if i == j {
         return modes[i].clone();
@@ -63,12 +71,12 @@ pub fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
 }
 
 impl Mode {
-    /// By how much it is above the floor, in units.
+    /// Returns the singular value minus its limit, times the unit, m.
     pub fn spare(&self, truss: &Structure) -> f64 {
         (self.value - truss.limits.rigidity) * truss.unit
     }
 
-    /// Of the value times the unit, by node: `uᵀ dR v`.
+    /// Returns the gradient of the singular value times the unit, by node: `uᵀ dR v`.
     pub fn gradient(&self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         let mut sums = vec![Vec3::zeros(); truss.nodes];
         for (strut, &(a, b)) in truss.struts.iter().enumerate() {

@@ -1,20 +1,21 @@
-//! The outer surface of a truss, and the nearest points of surfaces of triangles.
+//! The outer surface of a truss, and closest points of triangle meshes by a bounding sphere tree.
 
-use super::structure::Structure;
 use crate::geometry::Vec3;
+use crate::planners::truss::Structure;
 use std::collections::BTreeMap;
 
-/// Nodes this far (parts of the unit) beyond a face are on its plane.
-const ON_PLANE: f64 = 1e-6;
-
-/// Why a truss has no outer surface of triangles: edges that do not lie between two of them.
+/// The reason why a truss has no outer surface of triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Open {
+    /// The edges of its hull that do not lie between two triangles, as pairs of nodes.
     pub edges: Vec<(usize, usize)>,
 }
 
-/// The outer triangles of struts, counter-clockwise as seen from outside: the boundary of the hull, where
-/// struts triangulate it, else that of the tetrahedra that struts make up.
+/// Returns the outer triangles of struts, counter-clockwise as seen from outside: the boundary of the convex
+/// hull where struts triangulate it, else that of the union of the tetrahedra of struts.
+///
+/// # Errors
+/// [`Open`] if neither boundary is closed.
 pub fn outer(truss: &Structure, x: &[Vec3]) -> Result<Vec<[usize; 3]>, Open> {
     let mut after: Vec<Vec<usize>> = vec![Vec::new(); truss.nodes];
     for &(a, b) in &truss.struts {
@@ -30,14 +31,14 @@ pub fn outer(truss: &Structure, x: &[Vec3]) -> Result<Vec<[usize; 3]>, Open> {
     if open_edges(&solid).is_empty() && !solid.is_empty() { Ok(solid) } else { Err(Open { edges: open }) }
 }
 
-/// Triangles of struts that have all nodes on one side.
+/// Returns the triangles of struts that have all nodes on one side.
 fn hull(truss: &Structure, x: &[Vec3], after: &[Vec<usize>]) -> Vec<[usize; 3]> {
     let mut triangles = Vec::new();
     for [a, b, c] in cliques(after) {
         let normal = (x[b] - x[a]).cross(&(x[c] - x[a])).normalize();
         let sides = x.iter().map(|p| normal.dot(&(p - x[a])));
         let (low, high) = sides.fold((0.0f64, 0.0f64), |(low, high), s| (low.min(s), high.max(s)));
-        let tolerance = ON_PLANE * truss.unit;
+        let tolerance = truss.tolerances.coplanar * truss.unit;
         if high <= tolerance {
             triangles.push([a, b, c]);
         } else if low >= -tolerance {
@@ -47,14 +48,14 @@ fn hull(truss: &Structure, x: &[Vec3], after: &[Vec<usize>]) -> Vec<[usize; 3]> 
     triangles
 }
 
-/// Triangles of exactly one of the tetrahedra whose edges are all struts.
+/// Returns the triangles that belong to exactly one tetrahedron of struts.
 fn solid(truss: &Structure, x: &[Vec3], after: &[Vec<usize>]) -> Vec<[usize; 3]> {
     let mut sides: BTreeMap<[usize; 3], (usize, [usize; 3])> = BTreeMap::new();
     for [a, b, c] in cliques(after) {
         let all = |d: &&usize| after[a].contains(d) && after[b].contains(d);
         for &d in after[c].iter().filter(all) {
             let volume = (x[b] - x[a]).cross(&(x[c] - x[a])).dot(&(x[d] - x[a]));
-            if volume.abs() <= ON_PLANE * truss.unit * truss.unit * truss.unit {
+            if volume.abs() <= truss.tolerances.coplanar * truss.unit * truss.unit * truss.unit {
                 continue;
             }
             for (mut side, across) in [([a, b, c], d), ([a, b, d], c), ([a, c, d], b), ([b, c, d], a)] {
@@ -70,7 +71,7 @@ fn solid(truss: &Structure, x: &[Vec3], after: &[Vec<usize>]) -> Vec<[usize; 3]>
     sides.into_values().filter(|(uses, _)| *uses == 1).map(|(_, side)| side).collect()
 }
 
-/// Three nodes with struts between all of them, in order.
+/// Returns the triples of nodes, ascending, with struts between all three.
 fn cliques(after: &[Vec<usize>]) -> Vec<[usize; 3]> {
     let mut found = Vec::new();
     for (a, others) in after.iter().enumerate() {
@@ -82,7 +83,7 @@ fn cliques(after: &[Vec<usize>]) -> Vec<[usize; 3]> {
     found
 }
 
-/// Edges that are not between two triangles.
+/// Returns the edges that are not between exactly two triangles.
 fn open_edges(triangles: &[[usize; 3]]) -> Vec<(usize, usize)> {
     let mut uses: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for t in triangles {
@@ -94,34 +95,39 @@ fn open_edges(triangles: &[[usize; 3]]) -> Vec<(usize, usize)> {
     uses.into_iter().filter(|(_, n)| *n != 2).map(|(edge, _)| edge).collect()
 }
 
-/// A point of a triangle, by its weights.
+/// The point of a surface closest to some point.
 #[derive(Clone, Copy, Debug)]
-pub struct Foot {
+pub struct ClosestPoint {
+    /// The number of the triangle that it lies on.
     pub triangle: usize,
+    /// Its barycentric coordinates there.
     pub weights: [f64; 3],
+    /// The point, m.
     pub at: Vec3,
+    /// The distance, m.
     pub distance: f64,
 }
 
-/// Triangles in a tree of balls, so that most need not be looked at.
+/// A triangle mesh in a bounding sphere tree.
 pub struct Surface {
     corners: Vec<[Vec3; 3]>,
-    /// A unit vector across each, and how far along it the triangle is.
+    /// The plane of each triangle: unit normal n and offset d with n·p = d; zero for one without area.
     planes: Vec<(Vec3, f64)>,
-    /// The balls of the tree, depth first: what is in one follows it.
+    /// The spheres of the tree, depth first: the descendants of one follow it.
     balls: Vec<Ball>,
 }
 
 struct Ball {
     middle: Vec3,
     radius: f64,
-    /// The place of the ball after all that are in this one.
+    /// The index of the first sphere that is no descendant.
     after: usize,
-    /// The triangle, of a ball around one.
+    /// The triangle, of a leaf.
     triangle: Option<usize>,
 }
 
 impl Surface {
+    /// Builds the tree over triangles, given by their corners, m.
     pub fn new(corners: Vec<[Vec3; 3]>) -> Surface {
         let mut order: Vec<usize> = (0..corners.len()).collect();
         let plane = |[a, b, c]: &[Vec3; 3]| {
@@ -135,7 +141,8 @@ impl Surface {
         surface
     }
 
-    /// A ball around some triangles, and those within, halved across the longest side of their middles' box.
+    /// Adds the sphere around some triangles and its descendants, split at the median of their centroids along
+    /// the longest side of the centroids' box.
     fn grow(&mut self, triangles: &mut [usize]) {
         if triangles.is_empty() {
             return;
@@ -162,19 +169,20 @@ impl Surface {
         self.balls[at].after = self.balls.len();
     }
 
+    /// Returns the corners of all triangles, m.
     pub fn triangles(&self) -> &[[Vec3; 3]] {
         &self.corners
     }
 
-    /// The point nearest to `p`; a triangle that is near already may be guessed. Of equally near ones the
-    /// first.
-    pub fn nearest(&self, p: Vec3, guess: Option<usize>) -> Foot {
-        let foot = |triangle: usize| {
-            let weights = nearest_weights(p, &self.corners[triangle]);
+    /// Returns the point of the surface closest to `p`, m; of triangles equally near the first. A triangle that
+    /// is known to be near may be given as a `guess` to prune the search. The surface must have a triangle.
+    pub fn closest(&self, p: Vec3, guess: Option<usize>) -> ClosestPoint {
+        let closest = |triangle: usize| {
+            let weights = closest_weights(p, &self.corners[triangle]);
             let at = (0..3).map(|k| self.corners[triangle][k] * weights[k]).sum::<Vec3>();
-            Foot { triangle, weights, at, distance: (p - at).norm() }
+            ClosestPoint { triangle, weights, at, distance: (p - at).norm() }
         };
-        let mut best = foot(guess.unwrap_or(0));
+        let mut best = closest(guess.unwrap_or(0));
         let mut i = 0;
         while let Some(ball) = self.balls.get(i) {
             let reach = best.distance + ball.radius;
@@ -186,12 +194,12 @@ impl Surface {
             let Some(triangle) = ball.triangle.filter(|triangle| *triangle != best.triangle) else {
                 continue;
             };
-            // No nearer than its plane.
+            // The triangle is no nearer than its plane.
             let (normal, along) = self.planes[triangle];
             if (normal.dot(&p) - along).abs() > best.distance {
                 continue;
             }
-            let found = foot(triangle);
+            let found = closest(triangle);
             if found.distance < best.distance || (found.distance == best.distance && triangle < best.triangle)
             {
                 best = found;
@@ -201,8 +209,9 @@ impl Surface {
     }
 }
 
-/// Weights of the point of a triangle that is nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
-fn nearest_weights(p: Vec3, &[a, b, c]: &[Vec3; 3]) -> [f64; 3] {
+/// Returns the barycentric coordinates of the point of a triangle closest to `p` (Ericson, Real-Time Collision
+/// Detection, 5.1.5).
+fn closest_weights(p: Vec3, &[a, b, c]: &[Vec3; 3]) -> [f64; 3] {
     let (ab, ac) = (b - a, c - a);
     let (d1, d2) = (ab.dot(&(p - a)), ac.dot(&(p - a)));
     if d1 <= 0.0 && d2 <= 0.0 {

@@ -1,23 +1,24 @@
-//! Which struts are near each other: a grid over their boxes, and of what is near what may come too near
-//! in a step. Of a truss of n struts few of the n² pairs are, and few of those; what is known of their
-//! distances lasts for several steps.
+//! Broad phase: pairs of struts that may come too near, by a uniform grid over their bounding boxes and a
+//! neighbour list with a skin (Verlet) that serves several steps. Of the n² pairs of a truss of n struts
+//! few are near each other, and few of those come nearer.
 
-use super::segment;
 use super::structure::Structure;
 use crate::geometry::Vec3;
+use crate::geometry::closest_points::segment_segment;
 
-/// Pairs are looked for again when a node has moved this far beside what all move, in units.
+/// Default skin of the neighbour list, units: it is rebuilt when a node has moved this far beside the mean
+/// motion of all.
 const SKIN: f64 = 0.3;
-/// Cells of the grid, for each strut.
+/// Greatest number of grid cells for each strut.
 const CELLS_PER_STRUT: f64 = 8.0;
 
-/// Pairs of struts without a common node, each with a distance that it keeps at least: all that may come
-/// nearer to each other than the clearance while no node is farther than `skin` from where it was.
+/// Neighbour list: all pairs of struts without a common node that can come nearer than the clearance while
+/// no node is farther than `skin` (m) from where it was, each with a lower bound on its distance.
 #[derive(Clone, Debug)]
-pub struct Nearby {
+pub struct NeighbourList {
     pairs: Vec<Pair>,
     skin: f64,
-    /// Where the nodes were when it was made, and where they are.
+    /// Positions of the nodes when the list was made, and now, m.
     first: Vec<Vec3>,
     now: Vec<Vec3>,
 }
@@ -25,16 +26,16 @@ pub struct Nearby {
 #[derive(Clone, Debug)]
 struct Pair {
     struts: (usize, usize),
-    /// What it keeps at least, m, and whether that is its distance where the nodes are.
+    /// A lower bound on the distance, m, and true if it is the present distance exactly.
     apart: f64,
     exact: bool,
-    /// From the second's nearest point to the first's, where the distance is exact.
+    /// The unit vector from the second strut's closest point to the first's; valid where `exact`.
     normal: Vec3,
 }
 
 impl Pair {
-    /// Whether the two are apart by the clearance, seen along the direction in which they were nearest: then
-    /// they are so all the way to y.
+    /// Returns true if the slab between the two struts along `normal` stays as thick as the clearance from x
+    /// to y: a separating direction at both ends of linear motion separates all the way.
     fn stays_apart(&self, truss: &Structure, y: &[Vec3]) -> bool {
         let along = |(p, q): (Vec3, Vec3)| (p.dot(&self.normal), q.dot(&self.normal));
         let (first, second) =
@@ -43,33 +44,34 @@ impl Pair {
     }
 }
 
-impl Nearby {
-    /// For nodes that go a way of `wanted`, m, at least.
-    fn new(truss: &Structure, x: &[Vec3], wanted: f64) -> Nearby {
+impl NeighbourList {
+    /// Makes the list with a skin of at least `wanted`, m.
+    fn new(truss: &Structure, x: &[Vec3], wanted: f64) -> NeighbourList {
         let skin = wanted.max(SKIN * truss.unit);
         let pairs = pairs(truss, x, truss.clearance + 2.0 * skin);
         let pair = |(i, j, apart)| Pair { struts: (i, j), apart, exact: false, normal: Vec3::z() };
         let pairs = pairs.into_iter().map(pair).collect();
-        Nearby { pairs, skin, first: x.to_vec(), now: x.to_vec() }
+        NeighbourList { pairs, skin, first: x.to_vec(), now: x.to_vec() }
     }
 
-    /// Pairs that may come nearer than the clearance and some more when the nodes go straight from x to y.
+    /// Returns the pairs that may come nearer than the clearance plus `more`, m, while the nodes move
+    /// linearly from x to y. Reuses the list in `known` if it still covers the motion, else rebuilds it.
     pub fn candidates(
-        known: &mut Option<Nearby>,
+        known: &mut Option<NeighbourList>,
         truss: &Structure,
         (x, y): (&[Vec3], &[Vec3]),
         more: f64,
     ) -> Vec<(usize, usize)> {
         let still =
             known.take().filter(|known| known.now == x && farthest(&known.first, y) + more <= known.skin);
-        let nearby = known.insert(still.unwrap_or_else(|| Nearby::new(truss, x, farthest(x, y) + more)));
+        let nearby = known.insert(still.unwrap_or_else(|| NeighbourList::new(truss, x, farthest(x, y) + more)));
         let reach = reach(truss, x, y);
         let mut found = Vec::new();
         for pair in &mut nearby.pairs {
             let (i, j) = pair.struts;
             let limit = truss.clearance + more + reach[i] + reach[j];
             if pair.apart < limit && !pair.exact {
-                let nearest = segment::nearest(truss.segment(x, i), truss.segment(x, j));
+                let nearest = segment_segment(truss.segment(x, i), truss.segment(x, j));
                 (pair.apart, pair.normal, pair.exact) = (nearest.distance, nearest.normal, true);
             }
             if pair.apart < limit && !pair.stays_apart(truss, y) {
@@ -79,7 +81,7 @@ impl Nearby {
         found
     }
 
-    /// The nodes went straight on to y.
+    /// Updates the bounds on distances after linear motion of the nodes to y.
     pub fn moved(&mut self, truss: &Structure, y: &[Vec3]) {
         let reach = reach(truss, &self.now, y);
         for pair in &mut self.pairs {
@@ -90,7 +92,7 @@ impl Nearby {
     }
 }
 
-/// How far each strut's points go at most beside what all do.
+/// Returns for each strut a bound on the displacement of its points relative to the mean of all nodes, m.
 fn reach(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<f64> {
     let moved: Vec<f64> = moved(x, y).collect();
     truss.struts.iter().map(|&(a, b)| moved[a].max(moved[b])).collect()
@@ -100,14 +102,15 @@ fn farthest(x: &[Vec3], y: &[Vec3]) -> f64 {
     moved(x, y).fold(0.0, f64::max)
 }
 
-/// How far each node goes when the mean way of all is taken off, which brings no strut nearer to another.
+/// Returns the displacement of each node minus the mean displacement, which brings no strut nearer to
+/// another, m.
 fn moved(x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
     let mean = x.iter().zip(y).map(|(p, q)| q - p).sum::<Vec3>() / x.len().max(1) as f64;
     x.iter().zip(y).map(move |(p, q)| (q - p - mean).norm())
 }
 
-/// Pairs of struts without a common node whose boxes come within `reach` (m) of each other, with the
-/// distance of the boxes.
+/// Returns the pairs of struts without a common node whose bounding boxes are within `reach` of each other,
+/// with the distance between the boxes, both in m.
 pub fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
     let boxes: Vec<(Vec3, Vec3)> = (0..truss.struts.len())
         .map(|strut| {
@@ -118,7 +121,7 @@ pub fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f6
     let margin = Vec3::repeat(reach / 2.0);
     let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, (p, _)| low.inf(p)) - margin;
     let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, (_, q)| high.sup(q)) + margin;
-    // No more cells than some for each strut, however far apart they are.
+    // Choose the cell size: at least `reach`, and no more than CELLS_PER_STRUT cells for each strut.
     let mut size = truss.unit.max(reach);
     let counts = |size: f64| (high - low).map(|length| libm::floor(length / size) + 1.0);
     while counts(size).product() > CELLS_PER_STRUT * boxes.len() as f64 + 1.0 {
@@ -126,6 +129,7 @@ pub fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f6
     }
     let counts = counts(size).map(|count| count as usize);
     let cell = |p: Vec3| ((p - low) / size).map(|v| v.max(0.0) as usize);
+    // Insert the boxes one by one; each is compared with those that are in its cells already.
     let mut grid: Vec<Vec<usize>> = vec![Vec::new(); counts.product()];
     let mut found = Vec::new();
     for (j, (low_j, high_j)) in boxes.iter().enumerate() {
@@ -138,7 +142,7 @@ pub fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f6
                         let (low_i, high_i) = &boxes[i];
                         let gap = (low_i - high_j).sup(&(low_j - high_i)).sup(&Vec3::zeros());
                         let apart = gap.norm_squared();
-                        // Of the cells that both are in, the first speaks for the pair.
+                        // Of the cells that both boxes overlap, only the first reports the pair.
                         if apart < reach * reach
                             && !truss.share_node(i, j)
                             && cell(low_i.sup(low_j) - margin) == nalgebra::Vector3::new(a, b, c)

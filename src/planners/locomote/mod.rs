@@ -1,0 +1,151 @@
+//! `locomote`: a truss of linear actuators moves over the ground, its centre of mass along a path, and rolls
+//! over the edges of its support polygon (section IV of the linear-actuator-robots paper; the kernel is
+//! [`planners::truss`](super::truss)). Quasi-static: gravity makes it roll, and nothing swings.
+//!
+//! ```
+//! use modl::geometry::Vec3;
+//! use modl::planners::truss::{Limits, problem::TrussProblem};
+//! use modl::planners::{NoProgress, locomote};
+//! use modl::robot::Strut;
+//!
+//! // A regular tetrahedron with edges of one metre.
+//! let (a, b) = (3f64.sqrt() / 2.0, (2f64 / 3.0).sqrt());
+//! let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, a, 0.0], [0.5, a / 3.0, b]].map(Vec3::from);
+//! let name = "Actuator".to_owned();
+//! let strut = Strut { name, length: (0.3, 3.0), speed: 1.0, force: 1.0, mass: 1.0, clearance: 0.05 };
+//! let truss = TrussProblem {
+//!     strut,
+//!     node_names: (0..4).map(|i| format!("n[{i}]")).collect(),
+//!     nodes: nodes.to_vec(),
+//!     struts: vec![(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (2, 3)],
+//!     limits: Limits::default(),
+//!     obstacles: Vec::new(),
+//!     terrain: None,
+//! };
+//! let problem = locomote::Problem { truss, path: vec![[2.0, 0.3]] };
+//! let solution = locomote::plan(&problem, &locomote::Settings::default(), &mut NoProgress)?;
+//! assert_eq!(solution.report.end, locomote::End::Arrived);
+//! assert!(solution.report.rolls > 0);
+//! assert!(solution.body.duration() > 1.0);
+//! # Ok::<(), locomote::Refusal>(())
+//! ```
+
+mod lookahead;
+mod objective;
+mod rollout;
+
+pub use objective::{Objective, cost};
+pub use rollout::{End, Foothold, Hold, Settings, Travel, follow_path};
+
+use super::truss::motion::{node_paths, travelled_distance};
+use super::truss::problem::{InvalidTruss, TrussProblem};
+use super::truss::{Structure, roll};
+use super::{Progress, Solution};
+use crate::plan::Body;
+use std::fmt;
+
+/// A truss and the path that it has to follow.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The truss, in the world's frame; it is put down on the ground and falls to where it rests.
+    pub truss: TrussProblem,
+    /// The places (x, y), m, that the centre of mass has to reach one after another.
+    pub path: Vec<[f64; 2]>,
+}
+
+/// The figures of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The reason why the motion ends; short of the path unless it is [`End::Arrived`].
+    pub end: End,
+    /// `end` in words.
+    pub ended: String,
+    /// Places of the path that were reached.
+    pub reached: usize,
+    /// The length of the path of the centre of mass over the ground, m.
+    pub distance: f64,
+    /// Steps made.
+    pub steps: usize,
+    /// Rolls made.
+    pub rolls: usize,
+    /// Nodes placed beyond an edge before the centre of mass went there.
+    pub footholds: usize,
+    /// Steps that were relaxed because no ordinary step was found.
+    pub relaxed_steps: usize,
+    /// The distance that contacts slid over the ground, summed over nodes, m.
+    pub slip: f64,
+}
+
+/// The reason why there is no plan at all.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// The truss can't be planned for.
+    Truss(InvalidTruss),
+    /// The path has no place.
+    EmptyPath,
+    /// The truss does not come to rest on the ground.
+    NeverRests,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Refusal::Truss(invalid) => invalid.fmt(f),
+            Refusal::EmptyPath => f.write_str("a path has at least one place"),
+            Refusal::NeverRests => f.write_str("the truss does not come to rest on the ground"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl From<InvalidTruss> for Refusal {
+    fn from(invalid: InvalidTruss) -> Refusal {
+        Refusal::Truss(invalid)
+    }
+}
+
+/// Plans a motion along the path, as far as it gets: a search that gets stuck, or that `progress` ends, gives
+/// the motion so far, and the report says why. The body is node paths for a world with gravity and ground.
+///
+/// # Errors
+/// [`Refusal`] if there is nothing to begin with.
+pub fn plan(
+    problem: &Problem,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    let truss = problem.truss.structure(settings.tolerances)?;
+    let start = roll::settled(&truss, &problem.truss.nodes).ok_or(Refusal::NeverRests)?;
+    problem.truss.check_start(&truss, &start)?;
+    if problem.path.is_empty() {
+        return Err(Refusal::EmptyPath);
+    }
+    let travel = follow_path(&truss, &start, &problem.path, settings, progress);
+    let report = Report {
+        ended: ended(&problem.truss, &truss, settings, &travel.end),
+        distance: travelled_distance(&truss, &start, &travel.moves),
+        reached: travel.reached,
+        steps: travel.steps,
+        rolls: travel.rolls,
+        footholds: travel.footholds,
+        relaxed_steps: travel.relaxed_steps,
+        slip: travel.slip,
+        end: travel.end,
+    };
+    let paths = node_paths(&problem.truss, &truss, &start, &travel.moves, settings.time_law, true);
+    Ok(Solution { body: Body::NodePaths(paths), program: None, report })
+}
+
+fn ended(problem: &TrussProblem, truss: &Structure, settings: &Settings, end: &End) -> String {
+    match end {
+        End::Arrived => "arrived".to_string(),
+        End::Steps => format!("{} steps were not enough", settings.steps_max),
+        End::Falls => "it does not come to rest on three nodes".to_string(),
+        End::Stuck(error) => problem.explain(truss, error),
+        End::Blocked(constraint) => {
+            format!("it would fall over an edge: {}", problem.explain_constraint(truss, *constraint))
+        }
+        End::Cancelled => "it was ended".to_string(),
+    }
+}

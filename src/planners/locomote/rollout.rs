@@ -1,0 +1,518 @@
+//! The rollout of locomotion: the centre of mass along a path, step by step, and over the edge of the
+//! support polygon where it gets there (sections IV.A to IV.C of the paper).
+
+use super::lookahead;
+use super::objective::{Objective, cost};
+use crate::geometry::Vec3;
+use crate::planners::Progress;
+use crate::planners::truss::Structure;
+use crate::planners::truss::constraint::Constraint;
+use crate::planners::truss::motion::{Move, TimeLaw};
+use crate::planners::truss::roll::{self, Equilibrium};
+use crate::planners::truss::step::{StepError, StepProblem, WarmStart, step};
+use crate::planners::truss::support_polygon;
+use crate::planners::truss::tolerances::Tolerances;
+
+/// Relaxed steps that are taken one after another; with lookahead, where other policies are known, fewer.
+const RELAXED_MAX: usize = 60;
+const RELAXED_MAX_LOOKAHEAD: usize = 3;
+/// Bisections of a step in which the centre of mass leaves the support polygon: more than a double has bits.
+const BISECTIONS: usize = 60;
+
+/// The contacts that stay where they are during a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hold {
+    /// Three nodes on the ground, with the centre of mass well inside their triangle; others may slide.
+    #[default]
+    Three,
+    /// All nodes on the ground.
+    All,
+}
+
+/// The settings of `locomote`. Lengths in "units" are multiples of the mean strut length at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// A place of the path is reached when the centre of mass is nearer than this, units. 0.25: a path
+    /// need not be met exactly, and a robot that rolls goes in leaps.
+    pub arrival_distance: f64,
+    /// The distance of the centre of mass in one step, units. 0.05: the paper's step.
+    pub stride: f64,
+    /// The cost that each step minimises. Springs, (17): the most robust.
+    pub objective: Objective,
+    /// The contacts that stay where they are. Three.
+    pub hold: Hold,
+    /// True if the truss may fall over an edge onto other nodes; else it places a node beyond the edge
+    /// first, where it can, as variable topology trusses roll without impact. True, as in the paper.
+    pub impact: bool,
+    /// Steps for which each policy is tried before the best is taken; 0 for no lookahead. 0: lookahead takes
+    /// five times the work.
+    pub lookahead: usize,
+    /// True if relaxed steps are tried where no step is found. True.
+    pub fallbacks: bool,
+    /// The greatest number of steps. 100 000: five thousand units of way.
+    pub steps_max: usize,
+    /// The placing of nodes without impact.
+    pub foothold: Foothold,
+    /// The time law of the plan.
+    pub time_law: TimeLaw,
+    /// The tolerances of the truss kernel.
+    pub tolerances: Tolerances,
+}
+
+/// The settings of placing a node on the ground beyond an edge of the support polygon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foothold {
+    /// A node is placed when the next step would bring the centre of mass this near to an edge, units. 0.1:
+    /// two steps.
+    pub trigger: f64,
+    /// The least distance of the node beyond the edge, units. 0.2.
+    pub beyond: f64,
+    /// The weight of its way down beside the cost of the step, without unit. 100.
+    pub weight: f64,
+    /// Steps until another node is tried. 60: three units of way.
+    pub steps_max: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            arrival_distance: 0.25,
+            stride: 0.05,
+            objective: Objective::Springs,
+            hold: Hold::Three,
+            impact: true,
+            lookahead: 0,
+            fallbacks: true,
+            steps_max: 100_000,
+            foothold: Foothold { trigger: 0.1, beyond: 0.2, weight: 100.0, steps_max: 60 },
+            time_law: TimeLaw::default(),
+            tolerances: Tolerances::DEFAULT,
+        }
+    }
+}
+
+/// The end of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    /// The centre of mass reached the last place of the path.
+    Arrived,
+    /// No step was found, not even a relaxed one; the error is that of the ordinary step.
+    Stuck(StepError),
+    /// The truss stands on one node, or rolls without end.
+    Falls,
+    /// The truss would topple over an edge, and violate this constraint on the way.
+    Blocked(Constraint),
+    /// The steps allowed were not enough.
+    Steps,
+    /// The observer ended the search.
+    Cancelled,
+}
+
+/// The motion that a search found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Travel {
+    /// The moves, one after another.
+    pub moves: Vec<Move>,
+    /// The reason why there are no more.
+    pub end: End,
+    /// Places of the path that were reached.
+    pub reached: usize,
+    /// Steps made.
+    pub steps: usize,
+    /// Rolls made.
+    pub rolls: usize,
+    /// Steps among them that were relaxed.
+    pub relaxed_steps: usize,
+    /// Nodes placed beyond an edge before the centre of mass went there.
+    pub footholds: usize,
+    /// The distance that contacts slid over the ground, summed over nodes, m.
+    pub slip: f64,
+    /// The duration of the motion, s.
+    pub duration: f64,
+}
+
+/// A relaxation of a step: an easier one that is tried in its place.
+struct Relaxation {
+    /// The fraction of the stride.
+    speed: f64,
+    /// True if the height of the centre of mass is prescribed too.
+    level: bool,
+    /// True if the other set of contacts is held.
+    other_hold: bool,
+    /// True if the objective is Springs.
+    springs: bool,
+}
+
+/// The step as it is wanted, then its relaxations in the order in which they are tried.
+const RELAXATIONS: [Relaxation; 8] = [
+    Relaxation { speed: 1.0, level: true, other_hold: false, springs: false },
+    Relaxation { speed: 0.5, level: true, other_hold: false, springs: false },
+    Relaxation { speed: 0.25, level: true, other_hold: false, springs: false },
+    Relaxation { speed: 1.0, level: false, other_hold: false, springs: false },
+    Relaxation { speed: 1.0, level: true, other_hold: true, springs: false },
+    Relaxation { speed: 1.0, level: true, other_hold: false, springs: true },
+    Relaxation { speed: 0.5, level: true, other_hold: false, springs: true },
+    // The centre of mass stands still while the truss gets into shape.
+    Relaxation { speed: 0.0, level: true, other_hold: false, springs: true },
+];
+
+/// Moves a truss that rests on the ground with its nodes at `start`, m, so that its centre of mass follows a
+/// path of places (x, y), m; the first may be where it is.
+///
+/// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
+pub fn follow_path(
+    truss: &Structure,
+    start: &[Vec3],
+    path: &[[f64; 2]],
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Travel {
+    let truss = &truss.tightened(truss.tolerances.clearance_margin);
+    let mut monitor = Monitor { progress, asked: 0 };
+    let mut rollout = Rollout {
+        truss,
+        path,
+        settings,
+        stride: settings.stride * truss.unit,
+        policy: StepPolicy { objective: settings.objective, impact: settings.impact },
+        x: start.to_vec(),
+        warm_start: WarmStart::default(),
+        relaxed_in_a_row: 0,
+        allow_fallbacks: settings.lookahead == 0,
+        place_node_first: false,
+        placing: None,
+        out_of_reach: Vec::new(),
+        travel: Travel::new(),
+    };
+    rollout.travel.end = match rollout.settle() {
+        Err(end) => end,
+        Ok(()) if settings.lookahead > 0 => return lookahead::search(rollout, &mut monitor).travel,
+        Ok(()) => rollout.advance_steps(usize::MAX, &mut monitor).unwrap_or(End::Steps),
+    };
+    rollout.travel
+}
+
+/// The observer, with the number of steps begun on all branches of the search.
+pub(super) struct Monitor<'a> {
+    progress: &'a mut dyn Progress,
+    asked: usize,
+}
+
+impl Monitor<'_> {
+    fn should_continue(&mut self, rollout: &Rollout) -> bool {
+        let (step, most) = (self.asked, rollout.settings.steps_max);
+        let (reached, places) = (rollout.travel.reached, rollout.path.len());
+        self.asked += 1;
+        self.progress
+            .report(&|| format!("step {step} of at most {most}, {reached} of {places} places reached"));
+        self.progress.should_continue()
+    }
+}
+
+impl Travel {
+    fn new() -> Travel {
+        Travel {
+            moves: Vec::new(),
+            end: End::Arrived,
+            reached: 0,
+            steps: 0,
+            rolls: 0,
+            relaxed_steps: 0,
+            footholds: 0,
+            slip: 0.0,
+            duration: 0.0,
+        }
+    }
+}
+
+/// The choices that lookahead varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct StepPolicy {
+    pub objective: Objective,
+    pub impact: bool,
+}
+
+/// A truss on its way; lengths in m.
+#[derive(Clone)]
+pub(super) struct Rollout<'a> {
+    pub truss: &'a Structure,
+    pub path: &'a [[f64; 2]],
+    pub settings: &'a Settings,
+    /// The distance of the centre of mass in one step, m.
+    pub stride: f64,
+    pub policy: StepPolicy,
+    /// The positions of the nodes.
+    pub x: Vec<Vec3>,
+    warm_start: WarmStart,
+    relaxed_in_a_row: usize,
+    /// True if it continues with relaxed steps as long as it can.
+    pub allow_fallbacks: bool,
+    /// True if something is in the way of the next roll, so that a node has to be placed first.
+    place_node_first: bool,
+    /// The node that is being placed, and the steps this has taken.
+    placing: Option<(usize, usize)>,
+    /// Nodes that could not be placed from where the truss stands.
+    out_of_reach: Vec<usize>,
+    pub travel: Travel,
+}
+
+impl Rollout<'_> {
+    /// Continues for at most `steps` steps; `None` if it is still on its way then.
+    pub fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
+        let first = self.travel.steps;
+        while let Some(place) = self.path.get(self.travel.reached) {
+            let centre = self.truss.centre_of_mass(&self.x);
+            let away = [place[0] - centre.x, place[1] - centre.y];
+            let distance = libm::hypot(away[0], away[1]);
+            if distance < self.settings.arrival_distance * self.truss.unit {
+                self.travel.reached += 1;
+                continue;
+            }
+            if self.travel.steps >= self.settings.steps_max {
+                return Some(End::Steps);
+            }
+            if self.travel.steps - first >= steps {
+                return None;
+            }
+            if !monitor.should_continue(self) {
+                return Some(End::Cancelled);
+            }
+            let stride = self.stride.min(distance) / distance;
+            if let Err(end) = self.advance_one([away[0] * stride, away[1] * stride]) {
+                return Some(end);
+            }
+        }
+        Some(End::Arrived)
+    }
+
+    /// Makes one step, and the rolls that follow.
+    fn advance_one(&mut self, stride: [f64; 2]) -> Result<(), End> {
+        if (!self.policy.impact || self.place_node_first) && self.place_node(stride) {
+            return self.settle();
+        }
+        let before = (self.x.clone(), self.travel.moves.len(), self.travel.duration, self.travel.slip);
+        let y = self.next(stride).map_err(End::Stuck)?;
+        self.travel.steps += 1;
+        self.move_to(y);
+        let settled = self.settle();
+        if matches!(settled, Err(End::Blocked(_))) && !self.place_node_first {
+            // Take the step back, and place a node first.
+            self.place_node_first = true;
+            self.warm_start = WarmStart::default();
+            self.x = before.0;
+            self.travel.moves.truncate(before.1);
+            (self.travel.duration, self.travel.slip) = (before.2, before.3);
+            return Ok(());
+        }
+        settled
+    }
+
+    /// Returns the distance left, along straight lines from place to place, m.
+    pub fn distance_left(&self) -> f64 {
+        let centre = self.truss.centre_of_mass(&self.x);
+        let rest = &self.path[self.travel.reached.min(self.path.len())..];
+        let places: Vec<[f64; 2]> = [[centre.x, centre.y]].into_iter().chain(rest.iter().copied()).collect();
+        places.windows(2).map(|p| libm::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum()
+    }
+
+    /// Makes a step that lowers a node beyond an edge of the support polygon while the centre of mass stays,
+    /// if the next step would bring the centre of mass near that edge. False if there is nothing to place.
+    fn place_node(&mut self, stride: [f64; 2]) -> bool {
+        let (unit, foothold) = (self.truss.unit, self.settings.foothold);
+        let contacts = support_polygon::contacts(self.truss, &self.x);
+        // The node that was being placed is on the ground.
+        if let Some((node, _)) = self.placing.filter(|(node, _)| contacts.contains(node)) {
+            self.travel.footholds += 1;
+            self.out_of_reach.clear();
+            self.out_of_reach.push(node);
+            self.placing = None;
+        }
+        // The edge that the centre of mass comes near to.
+        let hull = support_polygon::hull(&self.x, &contacts);
+        let ahead = self.truss.centre_of_mass(&self.x) + Vec3::new(stride[0], stride[1], 0.0);
+        let Some((inside, (a, b))) = support_polygon::margin(&self.x, &hull, ahead) else { return false };
+        if inside > foothold.trigger * unit {
+            self.placing = None;
+            return false;
+        }
+        // The lowest free node beyond it, unless one is being placed.
+        let (from, along) = (self.x[a], (self.x[b] - self.x[a]).normalize());
+        let beyond = |node: &usize| (self.x[*node] - from).cross(&along).z > foothold.beyond * unit;
+        let open = (0..self.truss.nodes)
+            .filter(|node| !contacts.contains(node) && !self.out_of_reach.contains(node) && beyond(node));
+        let height = |node: &usize| self.truss.surroundings.height(self.x[*node]);
+        let lowest = open.min_by(|i, j| height(i).total_cmp(&height(j)));
+        let (node, tries) = match (self.placing, lowest) {
+            (Some(placing), _) => placing,
+            (None, Some(node)) => (node, 0),
+            (None, None) => return false,
+        };
+        // A step that lowers it; else the next node.
+        let step = if tries < foothold.steps_max { self.lower(node, &hull) } else { None };
+        let Some(y) = step else {
+            self.out_of_reach.push(node);
+            self.placing = None;
+            return self.place_node(stride);
+        };
+        self.placing = Some((node, tries + 1));
+        self.travel.steps += 1;
+        self.move_to(y);
+        true
+    }
+
+    /// Returns the positions after a step that lowers a node; `None` if other limits hold it up.
+    fn lower(&mut self, node: usize, hull: &[usize]) -> Option<Vec<Vec3>> {
+        let weight = self.settings.foothold.weight;
+        let down = self.truss.surroundings.height(self.x[node]).min(self.stride);
+        let pace = self.stride / self.truss.unit;
+        let mut cost = cost(self.policy.objective, self.truss, &self.x, pace);
+        cost.hessian.push((3 * node + 2, 3 * node + 2, weight));
+        cost.linear[3 * node + 2] += weight * down;
+        let problem = StepProblem {
+            truss: self.truss,
+            x: &self.x,
+            cost: &cost,
+            pinned: &support_polygon::support_triangle(&self.x, hull, self.truss.centre_of_mass(&self.x)),
+            centre_of_mass: &[(0, 0.0), (1, 0.0)],
+            ground: true,
+            displacement_max: f64::INFINITY,
+        };
+        let mut warm_start = self.warm_start.clone();
+        let y = step(&problem, &mut warm_start).ok()?;
+        self.warm_start = warm_start;
+        (self.x[node].z - y[node].z > 0.1 * down).then_some(y)
+    }
+
+    /// Returns the positions after the next step, from the first relaxation that has one.
+    fn next(&mut self, stride: [f64; 2]) -> Result<Vec<Vec3>, StepError> {
+        let contacts = support_polygon::contacts(self.truss, &self.x);
+        let mut first = None;
+        let relaxations = if self.settings.fallbacks { &RELAXATIONS[..] } else { &RELAXATIONS[..1] };
+        for (index, relaxation) in relaxations.iter().enumerate() {
+            match self.attempt(relaxation, stride, &contacts) {
+                Ok(y) => {
+                    let relaxed = index > 0;
+                    self.travel.relaxed_steps += usize::from(relaxed);
+                    self.relaxed_in_a_row = if relaxed { self.relaxed_in_a_row + 1 } else { 0 };
+                    let most = if self.allow_fallbacks { RELAXED_MAX } else { RELAXED_MAX_LOOKAHEAD };
+                    if self.relaxed_in_a_row <= most {
+                        return Ok(y);
+                    }
+                }
+                Err(error) => {
+                    first.get_or_insert(error);
+                }
+            }
+        }
+        Err(first.unwrap_or(StepError::NotConverged(Vec::new())))
+    }
+
+    fn attempt(
+        &mut self,
+        relaxation: &Relaxation,
+        stride: [f64; 2],
+        contacts: &[usize],
+    ) -> Result<Vec<Vec3>, StepError> {
+        let centre = self.truss.centre_of_mass(&self.x);
+        let pinned = match (self.settings.hold, relaxation.other_hold) {
+            (Hold::Three, false) | (Hold::All, true) => {
+                support_polygon::support_triangle(&self.x, &support_polygon::hull(&self.x, contacts), centre)
+            }
+            (Hold::All, false) | (Hold::Three, true) => contacts.to_vec(),
+        };
+        let objective = if relaxation.springs { Objective::Springs } else { self.policy.objective };
+        let mut goal = vec![(0, stride[0] * relaxation.speed), (1, stride[1] * relaxation.speed)];
+        if relaxation.level {
+            let to = [centre.x + goal[0].1, centre.y + goal[1].1];
+            let rise = self.truss.surroundings.ground_rise([centre.x, centre.y], to, self.truss.unit);
+            goal.push((2, rise));
+        }
+        let problem = StepProblem {
+            truss: self.truss,
+            x: &self.x,
+            cost: &cost(objective, self.truss, &self.x, self.stride / self.truss.unit),
+            pinned: &pinned,
+            centre_of_mass: &goal,
+            ground: true,
+            displacement_max: f64::INFINITY,
+        };
+        let mut warm_start = self.warm_start.clone();
+        let y = step(&problem, &mut warm_start)?;
+        self.warm_start = warm_start;
+        Ok(y)
+    }
+
+    /// Moves the nodes to y, or as far towards it as the truss is statically stable (by bisection).
+    fn move_to(&mut self, y: Vec<Vec3>) {
+        let towards =
+            |fraction: f64| self.x.iter().zip(&y).map(|(p, q)| p + (q - p) * fraction).collect::<Vec<_>>();
+        // Nodes that lift off on the way, or touch down, carry nothing.
+        let before = support_polygon::contacts(self.truss, &self.x);
+        let contacts = |x: &[Vec3]| {
+            let now = support_polygon::contacts(self.truss, x);
+            let stays = |node: &usize| {
+                now.contains(node)
+                    && support_polygon::stays_in_contact(self.truss, self.x[*node], x[*node])
+            };
+            before.iter().copied().filter(stays).collect::<Vec<_>>()
+        };
+        let stable = |x: &[Vec3]| {
+            let margin = support_polygon::stability_margin(self.truss, x, &contacts(x));
+            margin.is_some_and(|(inside, _)| inside >= 0.0)
+        };
+        let next = if stable(&y) {
+            y
+        } else {
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..BISECTIONS {
+                let middle = (low + high) / 2.0;
+                if stable(&towards(middle)) { low = middle } else { high = middle }
+            }
+            towards(low)
+        };
+        for node in contacts(&next) {
+            let slid = next[node] - self.x[node];
+            self.travel.slip += libm::hypot(slid.x, slid.y);
+        }
+        if next != self.x {
+            self.push(Move::Linear(next.clone()));
+            self.x = next;
+        }
+    }
+
+    fn push(&mut self, step: Move) {
+        self.travel.duration += self.settings.time_law.duration(self.truss, &self.x, &step);
+        self.travel.moves.push(step);
+    }
+
+    /// Rolls until the truss is statically stable.
+    fn settle(&mut self) -> Result<(), End> {
+        for _ in 0..roll::ROLLS_MAX {
+            let roll = match roll::equilibrium(self.truss, &self.x) {
+                Some(Equilibrium::Stable) => return Ok(()),
+                Some(Equilibrium::Topples(roll)) => roll,
+                Some(Equilibrium::OnOneNode(_)) | None => return Err(End::Falls),
+            };
+            if let Some(constraint) = roll::blocked(self.truss, &self.x, roll) {
+                return Err(End::Blocked(constraint));
+            }
+            self.push(Move::Roll(roll));
+            self.x = roll::rolled(&self.x, roll);
+            // Distances between struts are invariant under a roll; those from the surroundings are not.
+            let outer = |constraint: &Constraint| {
+                matches!(
+                    constraint,
+                    Constraint::NodeHeight(_)
+                        | Constraint::StrutHeight(..)
+                        | Constraint::ObstacleClearance(..)
+                )
+            };
+            self.warm_start.active.retain(|constraint| !outer(constraint));
+            self.travel.rolls += 1;
+            self.place_node_first = false;
+            self.placing = None;
+            self.out_of_reach.clear();
+        }
+        Err(End::Falls)
+    }
+}

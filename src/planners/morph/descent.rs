@@ -1,0 +1,233 @@
+//! The descent of a morph: step by step nearer to the target (section V of the paper), each step by
+//! Algorithm 1 mended ([`step`](crate::planners::truss::step)).
+
+use super::fit::{Distance, Weights, fit};
+use super::surface;
+use super::target::Target;
+use crate::geometry::Vec3;
+use crate::planners::Progress;
+use crate::planners::random::SplitMix64;
+use crate::planners::truss::motion::TimeLaw;
+use crate::planners::truss::step::{StepError, StepProblem, WarmStart, step};
+use crate::planners::truss::{Structure, Tolerances};
+use crate::units::{Dimension, quantity};
+use nalgebra::UnitQuaternion;
+use std::f64::consts::TAU;
+
+/// Attempts at a step, each with a quarter of the displacement, until the descent counts as stuck.
+const ATTEMPTS: usize = 4;
+
+/// The settings of `morph`. Lengths in "units" are multiples of the mean strut length at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The greatest number of steps. 300: fits improve little beyond.
+    pub steps_max: usize,
+    /// The descent is done when both distances, of the target from the surface and of the surface from the
+    /// target, are below this as root mean squares, m. 20 mm.
+    pub tolerance: f64,
+    /// Random orientations of the target that are screened beside its own. 0: the orientation is the
+    /// user's.
+    pub orientations: usize,
+    /// Steps for which an orientation is screened. 60: the order of fits rarely changes later.
+    pub screening_steps: usize,
+    /// The seed of the random orientations.
+    pub seed: u64,
+    /// The spacing of sample points on a target mesh, units. 0.125: the root mean square changes by
+    /// 1.5 percent from 0.25 to 0.0625.
+    pub sample_spacing: f64,
+    /// The greatest displacement of a node in a step, units. 0.05: longer steps gain nothing.
+    pub displacement_max: f64,
+    /// The weight of the squared strut lengths at the start and at the end of four fifths of the steps; it
+    /// falls geometrically in between. 3e-2 to 1e-6.
+    pub springs: (f64, f64),
+    /// The weight of the squared displacements (Levenberg's damping). 1e-3.
+    pub damping: f64,
+    /// The fraction of a squared distance that counts only across the surface (point to plane), so that
+    /// points may slide along it. 0.9.
+    pub point_to_plane: f64,
+    /// The time law of the plan.
+    pub time_law: TimeLaw,
+    /// The tolerances of the truss kernel.
+    pub tolerances: Tolerances,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            steps_max: 300,
+            tolerance: 0.02,
+            orientations: 0,
+            screening_steps: 60,
+            seed: 0,
+            sample_spacing: 0.125,
+            displacement_max: 0.05,
+            springs: (3e-2, 1e-6),
+            damping: 1e-3,
+            point_to_plane: 0.9,
+            time_law: TimeLaw::default(),
+            tolerances: Tolerances::DEFAULT,
+        }
+    }
+}
+
+/// The end of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    /// Both distances are within the tolerance.
+    Done,
+    /// The steps allowed were made.
+    Steps,
+    /// No step was found.
+    Stuck(StepError),
+    /// The observer ended the search.
+    Cancelled,
+}
+
+/// The motion that a descent found.
+#[derive(Clone, Debug)]
+pub struct Descent {
+    /// The positions of the nodes after every step, m, up to the one that fits best.
+    pub steps: Vec<Vec<Vec3>>,
+    /// The distances at the start.
+    pub start: Distance,
+    /// The distances after the last of `steps`.
+    pub distance: Distance,
+    /// The reason why there are no more steps.
+    pub end: End,
+}
+
+/// Morphs a truss with its nodes at `start`, m, into a target, which is moved so that its centroid is the
+/// mean of the nodes. With orientations, each is screened for some steps, and the best is descended to.
+///
+/// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
+///
+/// # Errors
+/// [`surface::Open`] if the truss has no outer surface of triangles.
+pub fn descend(
+    truss: &Structure,
+    start: &[Vec3],
+    target: &Target,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Descent, surface::Open> {
+    let truss = &truss.tightened(truss.tolerances.clearance_margin);
+    let mut monitor = Monitor { progress, least: f64::INFINITY };
+    let faces = surface::outer(truss, start)?;
+    let middle = start.iter().sum::<Vec3>() / start.len() as f64;
+    let centroid = target.centroid();
+    let placed = |turn: &UnitQuaternion<f64>| target.moved(|p| turn * (p - centroid) + middle);
+    // Screen the given orientation and random ones, and keep the best.
+    let mut best = (f64::INFINITY, UnitQuaternion::identity());
+    if settings.orientations > 0 {
+        let steps_max = settings.screening_steps.min(settings.steps_max);
+        let short = Settings { steps_max, ..settings.clone() };
+        let mut rng = SplitMix64(settings.seed);
+        for i in 0..=settings.orientations {
+            let turn = if i == 0 { UnitQuaternion::identity() } else { random_rotation(&mut rng) };
+            let tried = descend_to(truss, start, &faces, &placed(&turn), &short, &mut monitor);
+            if tried.distance.both() < best.0 {
+                best = (tried.distance.both(), turn);
+            }
+            if tried.end == End::Cancelled {
+                return Ok(tried);
+            }
+        }
+    }
+    Ok(descend_to(truss, start, &faces, &placed(&best.1), settings, &mut monitor))
+}
+
+/// The observer, with the least distance (root mean square, m) seen in all descents.
+struct Monitor<'a> {
+    progress: &'a mut dyn Progress,
+    least: f64,
+}
+
+impl Monitor<'_> {
+    fn should_continue(&mut self, step: usize, distance: &Distance, settings: &Settings) -> bool {
+        self.least = self.least.min(distance.target_to_surface);
+        let both = [distance.target_to_surface, self.least];
+        self.progress.report(&|| {
+            let [apart, least] = both.map(|d| quantity(d, Dimension::LENGTH));
+            format!("step {step} of at most {}, {apart} apart, {least} at best", settings.steps_max)
+        });
+        self.progress.should_continue()
+    }
+}
+
+fn descend_to(
+    truss: &Structure,
+    start: &[Vec3],
+    faces: &[[usize; 3]],
+    target: &Target,
+    settings: &Settings,
+    monitor: &mut Monitor,
+) -> Descent {
+    let mut guesses = Vec::new();
+    let mut x = start.to_vec();
+    let mut warm_start = WarmStart::default();
+    let mut found = fit(faces, &x, target, &mut guesses);
+    let first = found.distance;
+    let mut steps: Vec<Vec<Vec3>> = Vec::new();
+    let mut best = (0, found.distance);
+    let mut end = End::Steps;
+    while steps.len() < settings.steps_max {
+        if found.distance.within(settings.tolerance) {
+            end = End::Done;
+            break;
+        }
+        if !monitor.should_continue(steps.len(), &found.distance, settings) {
+            end = End::Cancelled;
+            break;
+        }
+        // The springs vanish over the first four fifths of the steps.
+        let part = (steps.len() as f64 / (0.8 * settings.steps_max as f64)).min(1.0);
+        let springs = settings.springs.0 * libm::pow(settings.springs.1 / settings.springs.0, part);
+        let (point_to_plane, damping) = (settings.point_to_plane, settings.damping);
+        let weights = Weights { surface_to_target: 1.0, point_to_plane, springs, damping };
+        let cost = found.cost(truss, &x, &weights);
+        // A Gauss-Newton step, shortened until one is found.
+        let attempt = |displacement_max: f64, warm_start: &mut WarmStart| {
+            let (pinned, centre_of_mass) = (&[], &[]);
+            let problem = StepProblem {
+                truss,
+                x: &x,
+                cost: &cost,
+                pinned,
+                centre_of_mass,
+                ground: false,
+                displacement_max,
+            };
+            step(&problem, warm_start)
+        };
+        let caps = (0..ATTEMPTS).map(|i| settings.displacement_max * truss.unit / (1 << (2 * i)) as f64);
+        let mut stuck = None;
+        let next = caps.into_iter().find_map(|cap| match attempt(cap, &mut warm_start) {
+            Ok(y) => Some(y),
+            Err(why) => {
+                warm_start.active.clear();
+                stuck.get_or_insert(why);
+                None
+            }
+        });
+        let Some(next) = next else {
+            end = End::Stuck(stuck.expect("an attempt was made"));
+            break;
+        };
+        x = next;
+        steps.push(x.clone());
+        found = fit(faces, &x, target, &mut guesses);
+        if found.distance.both() < best.1.both() {
+            best = (steps.len(), found.distance);
+        }
+    }
+    steps.truncate(best.0);
+    Descent { steps, start: first, distance: best.1, end }
+}
+
+/// Returns a uniformly random rotation (Shoemake, "Uniform random rotations", Graphics Gems III).
+fn random_rotation(rng: &mut SplitMix64) -> UnitQuaternion<f64> {
+    let (u, v, w) = (rng.next_f64(), TAU * rng.next_f64(), TAU * rng.next_f64());
+    let ((sv, cv), (sw, cw)) = (libm::sincos(v), libm::sincos(w));
+    let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
+    UnitQuaternion::new_normalize(nalgebra::Quaternion::new(b * cw, a * sv, a * cv, b * sw))
+}

@@ -1,0 +1,208 @@
+//! The fit of the outer surface of a truss to its target, and the Gauss-Newton model of the squared distances
+//! with their closest points fixed (as in iterative closest point, ICP).
+//!
+//! The paper's energy (18) to (20) asks only that the target is near the surface; a node that is closest to
+//! no sample is free, and stands off by whole struts. Here the surface has to be near the target, too.
+
+use super::surface::Surface;
+use super::target::{Target, centroids};
+use crate::geometry::Vec3;
+use crate::planners::truss::Structure;
+use crate::planners::truss::step::QuadraticCost;
+use nalgebra::Matrix3;
+use std::collections::BTreeMap;
+
+/// Outer triangles are sampled at the centroids of the squares of this many smaller ones.
+const PIECES: usize = 4;
+
+/// The weights of the terms of the cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights {
+    /// The squared distances from surface to target, relative to those from target to surface.
+    pub surface_to_target: f64,
+    /// The fraction of a squared distance that counts only across the surface (point to plane).
+    pub point_to_plane: f64,
+    /// The mean of the squared strut lengths (the springs of Hoppe et al., "Mesh optimization").
+    pub springs: f64,
+    /// The mean of the squared displacements of the nodes.
+    pub damping: f64,
+}
+
+/// Distances between the outer surface of a truss and its target, m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Distance {
+    /// The root mean square distance of the target from the surface.
+    pub target_to_surface: f64,
+    /// The root mean square distance of the surface from the target.
+    pub surface_to_target: f64,
+    /// The greatest distance in either direction (Hausdorff, at the samples).
+    pub worst: f64,
+}
+
+impl Distance {
+    /// Returns the root of the sum of both squares, m.
+    pub fn both(&self) -> f64 {
+        libm::hypot(self.target_to_surface, self.surface_to_target)
+    }
+
+    /// Returns true if both root mean squares are at most `tolerance`, m.
+    pub fn within(&self, tolerance: f64) -> bool {
+        self.target_to_surface <= tolerance && self.surface_to_target <= tolerance
+    }
+}
+
+/// A residual: a point of the surface, with barycentric `weights` over nodes, that should be at `at`;
+/// `normal` is that of the surface there.
+struct Residual {
+    nodes: [usize; 3],
+    weights: [f64; 3],
+    /// The present position and the wanted one, m.
+    from: Vec3,
+    at: Vec3,
+    normal: Vec3,
+    fraction: f64,
+}
+
+/// The distances of a truss from its target, with the residuals that they come from.
+pub struct Fit {
+    /// The distances.
+    pub distance: Distance,
+    forward: Vec<Residual>,
+    backward: Vec<Residual>,
+}
+
+/// Measures the fit of the outer triangles `faces` of nodes at `x`, m. `guesses` holds for each sample point
+/// the triangle that was closest last, and is updated.
+pub fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Vec<usize>) -> Fit {
+    let corners: Vec<[Vec3; 3]> = faces.iter().map(|f| f.map(|node| x[node])).collect();
+    let normals: Vec<Vec3> =
+        corners.iter().map(|t| (t[1] - t[0]).cross(&(t[2] - t[0])).normalize()).collect();
+    let area = |t: &[Vec3; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).norm();
+    let whole: f64 = corners.iter().map(area).sum();
+    let surface = Surface::new(corners);
+    guesses.resize(target.points.len(), 0);
+    let mut distance = Distance::default();
+    let mut forward = Vec::with_capacity(target.points.len());
+    // From each sample point of the target to the surface.
+    for (i, (point, fraction)) in target.points.iter().zip(&target.fractions).enumerate() {
+        let foot = surface.closest(*point, Some(guesses[i]));
+        guesses[i] = foot.triangle;
+        distance.target_to_surface += fraction * foot.distance * foot.distance;
+        distance.worst = distance.worst.max(foot.distance);
+        forward.push(Residual {
+            nodes: faces[foot.triangle],
+            weights: foot.weights,
+            from: foot.at,
+            at: *point,
+            normal: normals[foot.triangle],
+            fraction: *fraction,
+        });
+    }
+    // From points of the surface to the target.
+    let pieces = centroids(PIECES);
+    let mut backward = Vec::with_capacity(faces.len() * pieces.len());
+    for (triangle, corners) in surface.triangles().iter().enumerate() {
+        let fraction = area(corners) / whole / pieces.len() as f64;
+        for weights in &pieces {
+            let from: Vec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
+            let at = target.closest(from);
+            let apart = (from - at).norm();
+            distance.surface_to_target += fraction * apart * apart;
+            distance.worst = distance.worst.max(apart);
+            let normal = normals[triangle];
+            backward.push(Residual { nodes: faces[triangle], weights: *weights, from, at, normal, fraction });
+        }
+    }
+    distance.target_to_surface = libm::sqrt(distance.target_to_surface);
+    distance.surface_to_target = libm::sqrt(distance.surface_to_target);
+    Fit { distance, forward, backward }
+}
+
+impl Fit {
+    /// Returns the Gauss-Newton model of the weighted squared distances, with springs and damping, as a cost
+    /// of displacements of the nodes from `x`, m.
+    pub fn cost(&self, truss: &Structure, x: &[Vec3], weights: &Weights) -> QuadraticCost {
+        let mut sums = Sums { blocks: BTreeMap::new(), linear: vec![Vec3::zeros(); truss.nodes] };
+        // All residuals of one face have the same metric, so their weights can be added up first.
+        let mut faces: BTreeMap<[usize; 3], Face> = BTreeMap::new();
+        for (forward, weight) in [(&self.forward, 1.0), (&self.backward, weights.surface_to_target)] {
+            for residual in forward.iter().filter(|_| weight > 0.0) {
+                faces
+                    .entry(residual.nodes)
+                    .or_insert_with(|| Face::new(residual.normal))
+                    .add(residual, weight * residual.fraction);
+            }
+        }
+        for (nodes, face) in &faces {
+            let metric = Matrix3::identity() * (1.0 - weights.point_to_plane)
+                + face.normal * face.normal.transpose() * weights.point_to_plane;
+            for k in 0..3 {
+                sums.linear[nodes[k]] += metric * face.pushed[k];
+                for l in (0..3).filter(|l| nodes[*l] >= nodes[k]) {
+                    sums.block(nodes[k], nodes[l], metric * face.weights[(k, l)]);
+                }
+            }
+        }
+        let spring = weights.springs / truss.struts.len() as f64;
+        for &(a, b) in &truss.struts {
+            let pushed = (x[a] - x[b]) * spring;
+            sums.linear[a] += pushed;
+            sums.linear[b] -= pushed;
+            sums.block(a, a, Matrix3::identity() * spring);
+            sums.block(b, b, Matrix3::identity() * spring);
+            sums.block(a.min(b), a.max(b), -Matrix3::identity() * spring);
+        }
+        for node in 0..truss.nodes {
+            sums.block(node, node, Matrix3::identity() * (weights.damping / truss.nodes as f64));
+        }
+        sums.cost()
+    }
+}
+
+/// The residuals r whose points are on one face: `½ Σ weight rᵀ M r`.
+struct Face {
+    normal: Vec3,
+    /// The sum of weight times the outer product of barycentric weights.
+    weights: Matrix3<f64>,
+    /// The sum of weight times barycentric weight times residual, by corner.
+    pushed: [Vec3; 3],
+}
+
+impl Face {
+    fn new(normal: Vec3) -> Face {
+        Face { normal, weights: Matrix3::zeros(), pushed: [Vec3::zeros(); 3] }
+    }
+
+    fn add(&mut self, residual: &Residual, weight: f64) {
+        let corners = Vec3::from(residual.weights);
+        self.weights += corners * corners.transpose() * weight;
+        for k in 0..3 {
+            self.pushed[k] += (residual.from - residual.at) * (weight * corners[k]);
+        }
+    }
+}
+
+/// The Hessian in blocks of 3 by 3 on and above the diagonal, by pairs of nodes, and the linear term.
+struct Sums {
+    blocks: BTreeMap<(usize, usize), Matrix3<f64>>,
+    linear: Vec<Vec3>,
+}
+
+impl Sums {
+    fn block(&mut self, a: usize, b: usize, value: Matrix3<f64>) {
+        *self.blocks.entry((a, b)).or_insert_with(Matrix3::zeros) += value;
+    }
+
+    fn cost(&self) -> QuadraticCost {
+        let mut hessian = Vec::with_capacity(9 * self.blocks.len());
+        for ((a, b), block) in &self.blocks {
+            for i in 0..3 {
+                let above = if a == b { i } else { 0 };
+                let entries = (above..3).map(|j| (3 * a + i, 3 * b + j, block[(i, j)]));
+                hessian.extend(entries.filter(|(_, _, value)| *value != 0.0));
+            }
+        }
+        let linear = self.linear.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
+        QuadraticCost { hessian, linear, absolutes: Vec::new() }
+    }
+}

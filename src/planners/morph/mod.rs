@@ -1,0 +1,172 @@
+//! `morph`: a truss of linear actuators takes on a shape (section V of the linear-actuator-robots paper; the
+//! kernel is [`planners::truss`](super::truss)). There is neither gravity nor ground, as in the paper.
+//!
+//! ```
+//! use modl::geometry::Vec3;
+//! use modl::planners::morph::{self, TargetShape};
+//! use modl::planners::truss::{Limits, problem::TrussProblem};
+//! use modl::planners::NoProgress;
+//! use modl::robot::Strut;
+//!
+//! // A regular tetrahedron with edges of one metre.
+//! let (a, b) = (3f64.sqrt() / 2.0, (2f64 / 3.0).sqrt());
+//! let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, a, 0.0], [0.5, a / 3.0, b]].map(Vec3::from);
+//! let name = "Actuator".to_owned();
+//! let strut = Strut { name, length: (0.3, 3.0), speed: 1.0, force: 1.0, mass: 1.0, clearance: 0.05 };
+//! let truss = TrussProblem {
+//!     strut,
+//!     node_names: (0..4).map(|i| format!("n[{i}]")).collect(),
+//!     nodes: nodes.to_vec(),
+//!     struts: vec![(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (2, 3)],
+//!     limits: Limits::default(),
+//!     obstacles: Vec::new(),
+//!     terrain: None,
+//! };
+//! // The same tetrahedron, half as large again.
+//! let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+//! let target = TargetShape::Mesh(faces.iter().map(|face| face.map(|i| nodes[i] * 1.5)).collect());
+//! let problem = morph::Problem { truss, target };
+//! let solution = morph::plan(&problem, &morph::Settings::default(), &mut NoProgress)?;
+//! assert_eq!(solution.report.end, morph::End::Done);
+//! assert!(solution.report.distance.target_to_surface < 0.02);
+//! # Ok::<(), morph::Refusal>(())
+//! ```
+
+mod descent;
+mod fit;
+mod surface;
+mod target;
+
+pub use descent::{Descent, End, Settings, descend};
+pub use fit::Distance;
+pub use surface::{ClosestPoint, Open, Surface, outer};
+pub use target::Target;
+
+use super::truss::motion::{Move, node_paths};
+use super::truss::problem::{InvalidTruss, TrussProblem};
+use super::{Progress, Solution};
+use crate::geometry::Vec3;
+use crate::plan::Body;
+use std::fmt;
+
+/// The least number of points of a cloud that says something of a shape.
+const POINTS_MIN: usize = 4;
+
+/// A truss and the shape that it has to take on.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The truss, in the world's frame.
+    pub truss: TrussProblem,
+    /// The shape; it is moved so that its centroid is the mean of the nodes.
+    pub target: TargetShape,
+}
+
+/// A shape to take on.
+#[derive(Clone, Debug)]
+pub enum TargetShape {
+    /// Triangles of a surface, m.
+    Mesh(Vec<[Vec3; 3]>),
+    /// Points on a surface, m, of equal weight.
+    Cloud(Vec<Vec3>),
+}
+
+/// The figures of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The distances between the outer surface and the target at the end.
+    pub distance: Distance,
+    /// The distances at the start.
+    pub start: Distance,
+    /// The reason why the motion ends; short of the tolerance unless it is [`End::Done`].
+    pub end: End,
+    /// `end` in words.
+    pub ended: String,
+}
+
+/// The reason why there is no plan at all.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// The truss can't be planned for.
+    Truss(InvalidTruss),
+    /// The triangles of the target have no area.
+    NoArea,
+    /// The cloud has too few points.
+    FewPoints {
+        /// The number of points.
+        points: usize,
+    },
+    /// The truss has no outer surface of triangles of struts.
+    NoSurface {
+        /// The edges of its hull that do not lie between two triangles, as pairs of nodes.
+        edges: Vec<(usize, usize)>,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Refusal::Truss(invalid) => invalid.fmt(f),
+            Refusal::NoArea => f.write_str("a surface without area is no target"),
+            Refusal::FewPoints { points } => {
+                write!(f, "a target has at least {POINTS_MIN} points; these are {points}")
+            }
+            Refusal::NoSurface { .. } => {
+                f.write_str("a truss that morphs has an outer surface: its hull, of triangles of struts")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl From<InvalidTruss> for Refusal {
+    fn from(invalid: InvalidTruss) -> Refusal {
+        Refusal::Truss(invalid)
+    }
+}
+
+/// Plans a motion towards the target, as near as it gets: a search that gets stuck, or that `progress` ends,
+/// gives the motion to the best fit so far, and the report says why. The body is node paths for a world
+/// without gravity and ground.
+///
+/// # Errors
+/// [`Refusal`] if there is nothing to begin with.
+pub fn plan(
+    problem: &Problem,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    let truss = problem.truss.structure(settings.tolerances)?;
+    let start = &problem.truss.nodes;
+    problem.truss.check_start(&truss, start)?;
+    let target = target(&problem.target, settings.sample_spacing * truss.unit)?;
+    let found = descend(&truss, start, &target, settings, progress)
+        .map_err(|open| Refusal::NoSurface { edges: open.edges })?;
+    let ended = match &found.end {
+        End::Done => "done".to_string(),
+        End::Steps => format!("{} steps were not enough", settings.steps_max),
+        End::Stuck(error) => problem.truss.explain(&truss, error),
+        End::Cancelled => "it was ended".to_string(),
+    };
+    let moves: Vec<Move> = found.steps.into_iter().map(Move::Linear).collect();
+    let paths = node_paths(&problem.truss, &truss, start, &moves, settings.time_law, false);
+    let report = Report { distance: found.distance, start: found.start, end: found.end, ended };
+    Ok(Solution { body: Body::NodePaths(paths), program: None, report })
+}
+
+/// Returns the target with its sample points; `spacing` in m.
+fn target(shape: &TargetShape, spacing: f64) -> Result<Target, Refusal> {
+    match shape {
+        TargetShape::Mesh(triangles) => {
+            let area: f64 = triangles.iter().map(|[a, b, c]| (b - a).cross(&(c - a)).norm()).sum();
+            if area <= 0.0 {
+                return Err(Refusal::NoArea);
+            }
+            Ok(Target::surface(triangles.clone(), spacing))
+        }
+        TargetShape::Cloud(points) if points.len() < POINTS_MIN => {
+            Err(Refusal::FewPoints { points: points.len() })
+        }
+        TargetShape::Cloud(points) => Ok(Target::cloud(points.clone())),
+    }
+}

@@ -1,0 +1,88 @@
+//! The target of a morph: sample points of a surface, and the surface where it is known.
+
+use super::surface::Surface;
+use crate::geometry::Vec3;
+
+/// The greatest number of sample points.
+const POINTS_MAX: usize = 20_000;
+
+/// A shape to take on, as weighted sample points.
+pub struct Target {
+    /// The sample points, m.
+    pub points: Vec<Vec3>,
+    /// The fraction of the surface that each point stands for; they add up to 1.
+    pub fractions: Vec<f64>,
+    /// The surface; none of a cloud of points.
+    pub surface: Option<Surface>,
+}
+
+impl Target {
+    /// Returns a target of points of equal weight, m.
+    pub fn cloud(points: Vec<Vec3>) -> Target {
+        let fraction = 1.0 / points.len().max(1) as f64;
+        Target { fractions: vec![fraction; points.len()], points, surface: None }
+    }
+
+    /// Returns a target of triangles, m, with a sample point for about every square of side `spacing`, m. The
+    /// triangles must have area.
+    pub fn surface(triangles: Vec<[Vec3; 3]>, spacing: f64) -> Target {
+        let area = |t: &[Vec3; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).norm() / 2.0;
+        let whole: f64 = triangles.iter().map(area).sum();
+        let spacing = spacing.max(libm::sqrt(whole / POINTS_MAX as f64));
+        let (mut points, mut fractions) = (Vec::new(), Vec::new());
+        for t in &triangles {
+            let n = libm::ceil(libm::sqrt(area(t)) / spacing).max(1.0) as usize;
+            let fraction = area(t) / whole / (n * n) as f64;
+            for middle in centroids(n) {
+                points.push(t[0] * middle[0] + t[1] * middle[1] + t[2] * middle[2]);
+                fractions.push(fraction);
+            }
+        }
+        Target { points, fractions, surface: Some(Surface::new(triangles)) }
+    }
+
+    /// Returns the weighted mean of the sample points, m.
+    pub fn centroid(&self) -> Vec3 {
+        self.points.iter().zip(&self.fractions).map(|(p, fraction)| p * *fraction).sum()
+    }
+
+    /// Returns the target with every point moved by a rigid motion.
+    pub fn moved(&self, motion: impl Fn(&Vec3) -> Vec3) -> Target {
+        let surface = self.surface.as_ref();
+        let surface =
+            surface.map(|s| Surface::new(s.triangles().iter().map(|t| t.each_ref().map(&motion)).collect()));
+        let points = self.points.iter().map(&motion).collect();
+        Target { points, fractions: self.fractions.clone(), surface }
+    }
+
+    /// Returns the point of the target closest to `p`, m: of the surface, else of the sample points, of
+    /// which there must be one.
+    pub fn closest(&self, p: Vec3) -> Vec3 {
+        match &self.surface {
+            Some(surface) => surface.closest(p, None).at,
+            None => {
+                let apart = |q: &&Vec3| (p - **q).norm_squared();
+                *self.points.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a target has points")
+            }
+        }
+    }
+}
+
+/// Returns the barycentric coordinates of the centroids of the n² congruent triangles that divide a triangle.
+pub(super) fn centroids(n: usize) -> Vec<[f64; 3]> {
+    let mut found = Vec::new();
+    for i in 0..n {
+        for j in 0..n - i {
+            let at = |u: f64, v: f64| {
+                let (u, v) = (u / n as f64, v / n as f64);
+                [1.0 - u - v, u, v]
+            };
+            let (i, j) = (i as f64, j as f64);
+            found.push(at(i + 1.0 / 3.0, j + 1.0 / 3.0));
+            if i + j + 2.0 <= n as f64 {
+                found.push(at(i + 2.0 / 3.0, j + 2.0 / 3.0));
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,116 @@
+//! The plan of a truss: a sequence of linear steps and rolls, retimed to the speed of the struts.
+
+use super::margins::margins;
+use super::problem::TrussProblem;
+use super::roll::{Roll, rolled};
+use super::structure::Structure;
+use crate::geometry::Vec3;
+use crate::plan::{CauseId, Interpolation, Keyframe, LengthSum, NodePaths, Surroundings, TrussLimits};
+
+/// One piece of a motion of all nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Move {
+    /// Every node moves linearly, to these positions, m.
+    Linear(Vec<Vec3>),
+    /// The whole truss topples over an edge as a rigid body.
+    Roll(Roll),
+}
+
+/// The time law of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeLaw {
+    /// The shortest duration of a step, s. 1 ms: no two keyframes at the same time.
+    pub step_duration_min: f64,
+    /// The angular speed of rolls, rad/s. 1: the robot topples by itself, and nothing depends on it.
+    pub roll_speed: f64,
+}
+
+impl Default for TimeLaw {
+    fn default() -> TimeLaw {
+        TimeLaw { step_duration_min: 1e-3, roll_speed: 1.0 }
+    }
+}
+
+impl TimeLaw {
+    /// Returns the least duration, s, in which the struts can make a move from `x`, without rounding up to
+    /// the shortest.
+    pub fn duration(&self, truss: &Structure, x: &[Vec3], step: &Move) -> f64 {
+        match step {
+            Move::Linear(y) => truss.rates(x, y).fold(0.0, f64::max) / truss.speed,
+            Move::Roll(roll) => roll.angle.abs() / self.roll_speed,
+        }
+    }
+}
+
+/// Returns the positions of the nodes after a move from `x`, m.
+pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
+    match step {
+        Move::Linear(y) => y.clone(),
+        Move::Roll(roll) => rolled(x, *roll),
+    }
+}
+
+/// Returns the length of the path of the centre of mass over the ground, m, heights left out.
+pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> f64 {
+    let mut x = start.to_vec();
+    let mut distance = 0.0;
+    for step in moves {
+        let before = truss.centre_of_mass(&x);
+        x = moved(&x, step);
+        let after = truss.centre_of_mass(&x);
+        distance += libm::hypot(after.x - before.x, after.y - before.y);
+    }
+    distance
+}
+
+/// Returns the moves from `start` as node paths: each move in the least time that the struts allow, with the
+/// margins of its end. `stands` as for [`margins`]. The strut is number 0 of the plan's library, and all
+/// causes are 0.
+pub fn node_paths(
+    problem: &TrussProblem,
+    truss: &Structure,
+    start: &[Vec3],
+    moves: &[Move],
+    law: TimeLaw,
+    stands: bool,
+) -> NodePaths {
+    let places = |x: &[Vec3]| x.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>();
+    let cause = CauseId(0);
+    let (mut time, mut x) = (0.0, start.to_vec());
+    let keyframe = |time: f64, interpolation: Interpolation, x: &[Vec3]| {
+        let margins = margins(truss, x, stands);
+        Keyframe { time, interpolation, nodes: places(x), cause, margins }
+    };
+    let mut keyframes = vec![keyframe(time, Interpolation::Linear, &x)];
+    for step in moves {
+        time += law.duration(truss, &x, step).max(law.step_duration_min);
+        x = moved(&x, step);
+        let interpolation = match step {
+            Move::Linear(_) => Interpolation::Linear,
+            Move::Roll(roll) => Interpolation::RigidRoll { edge: roll.edge, angle: roll.angle },
+        };
+        keyframes.push(keyframe(time, interpolation, &x));
+    }
+    NodePaths {
+        strut: 0,
+        node_names: problem.node_names.clone(),
+        struts: truss.struts.clone(),
+        keyframes,
+        limits: limits(truss),
+        surroundings: Surroundings {
+            obstacles: problem.obstacles.clone(),
+            terrain: problem.terrain.clone(),
+        },
+    }
+}
+
+/// Returns the limits of the shape as the plan states them: a locked strut is a sum of one length.
+fn limits(truss: &Structure) -> TrussLimits {
+    let locked = truss.limits.locked.iter().map(|&strut| (vec![strut], truss.lengths[strut]));
+    let loops = truss.limits.loops.iter().cloned().zip(truss.loop_ranges.iter().copied());
+    TrussLimits {
+        angle: truss.limits.angle,
+        rigidity: truss.limits.rigidity,
+        sums: locked.chain(loops).map(|(struts, range)| LengthSum { struts, range }).collect(),
+    }
+}

@@ -1,0 +1,260 @@
+//! The part of a problem that `morph` and `locomote` share: a truss, where its nodes are, its limits, and
+//! what is around it.
+
+use super::constraint::Constraint;
+use super::step::StepError;
+use super::structure::{Limits, Structure};
+use super::surroundings::Surroundings;
+use super::tolerances::Tolerances;
+use crate::geometry::{HeightField, Placed, Solid, Unsound, Vec3};
+use crate::robot::Strut;
+use crate::units::{Dimension, quantity};
+use std::f64::consts::FRAC_PI_3;
+use std::fmt;
+
+/// Nodes of the largest truss whose rigidity can be limited: the eigenvalues of a larger one take minutes.
+pub const RIGIDITY_NODES_MAX: usize = 200;
+/// The least angle between struts is limited below this, rad: three struts that make a triangle can't all
+/// be farther apart in angle.
+const ANGLE_LIMIT_MAX: f64 = FRAC_PI_3;
+/// Constraints that are named in the reason why a search ended.
+const CONSTRAINTS_TOLD: usize = 4;
+
+/// A truss of struts of one kind, in the world's frame.
+#[derive(Clone, Debug)]
+pub struct TrussProblem {
+    /// The kind of all struts: range of length, speed, clearance.
+    pub strut: Strut,
+    /// A name for each node, for messages and the plan.
+    pub node_names: Vec<String>,
+    /// The position of each node at the start, m.
+    pub nodes: Vec<Vec3>,
+    /// The two nodes of each strut.
+    pub struts: Vec<(usize, usize)>,
+    /// Limits of the shape beside those of the struts.
+    pub limits: Limits,
+    /// Solids that struts keep their clearance from, each a union of shapes.
+    pub obstacles: Vec<Vec<Placed>>,
+    /// The ground; flat at height 0 where there is none.
+    pub terrain: Option<HeightField>,
+}
+
+/// The reason why a truss can't be planned for. Struts and obstacles are named for the user; obstacles count
+/// from 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InvalidTruss {
+    /// There are not as many names as nodes, or no struts.
+    Incomplete,
+    /// A strut (its number) joins a node to itself, to no node, or to one in the same place.
+    Degenerate {
+        /// The number of the strut.
+        strut: usize,
+    },
+    /// The shapes of an obstacle enclose no volume.
+    NotSolid {
+        /// The number of the obstacle.
+        obstacle: usize,
+        /// What is wrong with its shapes.
+        why: Unsound,
+    },
+    /// The limit of the angle between struts is not in [0, π/3).
+    AngleLimit,
+    /// The limit of the singular values is negative.
+    RigidityLimit,
+    /// The rigidity of a truss of so many nodes takes too long to limit.
+    RigidityNodes {
+        /// The number of nodes.
+        nodes: usize,
+    },
+    /// A loop has fewer than two struts.
+    ShortLoop,
+    /// A strut begins nearer to an obstacle than its clearance.
+    NearObstacle {
+        /// The name of the strut.
+        strut: String,
+        /// The number of the obstacle.
+        obstacle: usize,
+        /// The clearance, m.
+        clearance: f64,
+    },
+    /// A strut begins below the ground.
+    BelowGround {
+        /// The name of the strut.
+        strut: String,
+        /// Its depth, m.
+        depth: f64,
+        /// The depth allowed, m.
+        depth_max: f64,
+    },
+    /// The truss begins inside an obstacle.
+    InsideObstacle {
+        /// The number of the obstacle.
+        obstacle: usize,
+    },
+}
+
+impl fmt::Display for InvalidTruss {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            InvalidTruss::Incomplete => f.write_str("a truss has struts, and a name for each node"),
+            InvalidTruss::Degenerate { strut } => write!(f, "strut {strut} joins no two nodes"),
+            InvalidTruss::NotSolid { obstacle, why } => {
+                write!(f, "obstacle {} is no solid: {why}", obstacle + 1)
+            }
+            InvalidTruss::AngleLimit => {
+                f.write_str("an angle between struts is at least 0 and less than 60deg")
+            }
+            InvalidTruss::RigidityLimit => f.write_str("a singular value is not negative"),
+            InvalidTruss::RigidityNodes { nodes } => write!(
+                f,
+                "the singular values of a truss of more than {RIGIDITY_NODES_MAX} nodes take too long; this one has {nodes}"
+            ),
+            InvalidTruss::ShortLoop => f.write_str("a perimeter has at least two struts"),
+            InvalidTruss::NearObstacle { strut, obstacle, .. } => write!(
+                f,
+                "the strut {strut} is too near to obstacle {} where the truss begins",
+                obstacle + 1
+            ),
+            InvalidTruss::BelowGround { strut, depth, .. } => {
+                let depth = quantity(*depth, Dimension::LENGTH);
+                write!(f, "the strut {strut} is {depth} in the ground where the truss begins")
+            }
+            InvalidTruss::InsideObstacle { obstacle } => {
+                write!(f, "the truss begins inside obstacle {}", obstacle + 1)
+            }
+        }
+    }
+}
+
+impl std::error::Error for InvalidTruss {}
+
+impl TrussProblem {
+    /// Returns the name of a strut, from the names of its nodes: `a -- b`.
+    pub fn strut_name(&self, strut: usize) -> String {
+        let (a, b) = self.struts[strut];
+        format!("{} -- {}", self.node_names[a], self.node_names[b])
+    }
+
+    /// Returns the truss with its limits and surroundings. Struts may be half their clearance below uneven
+    /// ground: nodes are taken to be thicker by that much.
+    ///
+    /// # Errors
+    /// [`InvalidTruss`], but for the three about where the truss begins.
+    pub fn structure(&self, tolerances: Tolerances) -> Result<Structure, InvalidTruss> {
+        self.check()?;
+        let mut solids = Vec::with_capacity(self.obstacles.len());
+        for (obstacle, shapes) in self.obstacles.iter().enumerate() {
+            solids.push(Solid::new(shapes).map_err(|why| InvalidTruss::NotSolid { obstacle, why })?);
+        }
+        let surroundings = Surroundings::new(&solids, self.terrain.clone(), self.strut.clearance / 2.0);
+        let truss = Structure::new(&self.strut, &self.nodes, &self.struts);
+        let truss = Structure { tolerances, ..truss };
+        Ok(truss.with_limits(&self.nodes, self.limits.clone()).with_surroundings(surroundings))
+    }
+
+    /// Checks graph and limits.
+    fn check(&self) -> Result<(), InvalidTruss> {
+        if self.node_names.len() != self.nodes.len() || self.struts.is_empty() {
+            return Err(InvalidTruss::Incomplete);
+        }
+        let place = |node: usize| self.nodes.get(node);
+        let joins = |&(a, b): &(usize, usize)| place(a).zip(place(b)).is_some_and(|(p, q)| p != q);
+        if let Some(strut) = self.struts.iter().position(|ends| !joins(ends)) {
+            return Err(InvalidTruss::Degenerate { strut });
+        }
+        let Limits { angle, rigidity, loops, .. } = &self.limits;
+        if !(0.0..ANGLE_LIMIT_MAX).contains(angle) {
+            return Err(InvalidTruss::AngleLimit);
+        }
+        if rigidity.is_nan() || *rigidity < 0.0 {
+            return Err(InvalidTruss::RigidityLimit);
+        }
+        if *rigidity > 0.0 && self.nodes.len() > RIGIDITY_NODES_MAX {
+            return Err(InvalidTruss::RigidityNodes { nodes: self.nodes.len() });
+        }
+        if loops.iter().any(|struts| struts.len() < 2) {
+            return Err(InvalidTruss::ShortLoop);
+        }
+        Ok(())
+    }
+
+    /// Checks that the truss with its nodes at `x`, m, is free of obstacles and not below the ground.
+    ///
+    /// # Errors
+    /// [`InvalidTruss::NearObstacle`], [`InvalidTruss::BelowGround`] or [`InvalidTruss::InsideObstacle`].
+    pub fn check_start(&self, truss: &Structure, x: &[Vec3]) -> Result<(), InvalidTruss> {
+        let around = &truss.surroundings;
+        for index in 0..truss.struts.len() {
+            let (strut, ends) = (|| self.strut_name(index), truss.segment(x, index));
+            for (part, (obstacle, _)) in around.parts.iter().enumerate() {
+                let near = around.may_collide(ends, part, truss.clearance);
+                if near && around.signed_distance(ends, part, truss.clearance).distance < truss.clearance {
+                    let (obstacle, clearance) = (*obstacle, truss.clearance);
+                    return Err(InvalidTruss::NearObstacle { strut: strut(), obstacle, clearance });
+                }
+            }
+            let depth = around.terrain.as_ref().map_or(0.0, |field| -field.lowest(ends.0, ends.1).1);
+            if depth > around.sink_depth {
+                let depth_max = around.sink_depth;
+                return Err(InvalidTruss::BelowGround { strut: strut(), depth, depth_max });
+            }
+        }
+        // A node may be inside a solid and yet far from its surface.
+        for (obstacle, shapes) in self.obstacles.iter().enumerate() {
+            let solid = Solid::new(shapes).map_err(|why| InvalidTruss::NotSolid { obstacle, why })?;
+            if x.iter().any(|p| solid.encloses(p)) {
+                return Err(InvalidTruss::InsideObstacle { obstacle });
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns in words why there was no step: the constraints that were in the way, obstacles and ground
+    /// first, for of a truss's own struts many are at some limit.
+    pub fn explain(&self, truss: &Structure, error: &StepError) -> String {
+        let (why, constraints) = match error {
+            StepError::Infeasible(constraints) => ("no step keeps all limits", constraints),
+            StepError::NotConverged(constraints) => {
+                ("no step was found that keeps all limits", constraints)
+            }
+        };
+        let mut told: Vec<String> = Vec::new();
+        let outer = |constraint: &&Constraint| {
+            matches!(constraint, Constraint::ObstacleClearance(..) | Constraint::StrutHeight(..))
+        };
+        let own = constraints.iter().filter(|constraint| !outer(constraint));
+        for constraint in constraints.iter().filter(outer).chain(own) {
+            let words = self.explain_constraint(truss, *constraint);
+            if !told.contains(&words) {
+                told.push(words);
+            }
+        }
+        let more = told.len().saturating_sub(CONSTRAINTS_TOLD);
+        told.truncate(CONSTRAINTS_TOLD);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        if told.is_empty() { why.to_string() } else { format!("{why}: {}{more}", told.join(", ")) }
+    }
+
+    /// Returns in words that a constraint is active.
+    pub fn explain_constraint(&self, truss: &Structure, constraint: Constraint) -> String {
+        let strut = |k: usize| self.strut_name(k);
+        match constraint {
+            Constraint::LengthMin(k) => format!("{} is at its least length", strut(k)),
+            Constraint::LengthMax(k) => format!("{} is at its greatest length", strut(k)),
+            Constraint::Clearance(i, j) | Constraint::EndClearance(i, _, j) => {
+                format!("{} is near {}", strut(i), strut(j))
+            }
+            Constraint::NodeHeight(node) => format!("{} is on the ground", self.node_names[node]),
+            Constraint::StrutHeight(k, _) => format!("{} is on the ground", strut(k)),
+            Constraint::ObstacleClearance(k, part, _) => {
+                let obstacle = truss.surroundings.parts[part].0 + 1;
+                format!("{} is near obstacle {obstacle}", strut(k))
+            }
+            Constraint::Angle(i, j) => format!("{} is near {} in angle", strut(i), strut(j)),
+            Constraint::LoopMin(k) | Constraint::LoopMax(k) => {
+                format!("the sum of perimeter {} changes", k + 1)
+            }
+            Constraint::Rigidity(..) => "its rigidity is at its least".to_string(),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Static stability: the support polygon, the convex hull of the contacts with the ground, and the signed
+//! distance of the centre of mass from its boundary (the static stability margin of McGhee and Frank 1968).
+
+use super::structure::Structure;
+use crate::geometry::Vec3;
+
+/// Returns the nodes on the ground: those at most `contact_height` above it.
+pub(in crate::planners) fn contacts(truss: &Structure, x: &[Vec3]) -> Vec<usize> {
+    let height = truss.tolerances.contact_height * truss.unit;
+    (0..truss.nodes).filter(|&node| truss.surroundings.height(x[node]) <= height).collect()
+}
+
+/// Returns true if a node that is on the ground at both ends of a linear motion is so in between.
+pub(in crate::planners) fn stays_in_contact(truss: &Structure, from: Vec3, to: Vec3) -> bool {
+    let height_max = truss.tolerances.contact_height * truss.unit;
+    let terrain = truss.surroundings.terrain.as_ref().filter(|_| from != to);
+    terrain.is_none_or(|terrain| {
+        let mut stays = true;
+        terrain.profile(from, to, |_, height| stays &= height <= height_max);
+        stays
+    })
+}
+
+/// Returns the support polygon: the convex hull of the contacts seen from above, counter-clockwise, without
+/// nodes on its edges (Andrew's monotone chain).
+pub(in crate::planners) fn hull(x: &[Vec3], contacts: &[usize]) -> Vec<usize> {
+    let mut order = contacts.to_vec();
+    order.sort_by(|&a, &b| x[a].x.total_cmp(&x[b].x).then(x[a].y.total_cmp(&x[b].y)));
+    let half = |order: &mut dyn Iterator<Item = usize>| {
+        let mut chain: Vec<usize> = Vec::new();
+        for node in order {
+            while let [.., a, b] = chain[..]
+                && cross(x[a], x[b], x[node]) <= 0.0
+            {
+                chain.pop();
+            }
+            chain.push(node);
+        }
+        chain.pop();
+        chain
+    };
+    let mut hull = half(&mut order.iter().copied());
+    hull.extend(half(&mut order.iter().rev().copied()));
+    if hull.is_empty() { order } else { hull }
+}
+
+/// Returns twice the signed area of a triangle seen from above, m²; positive if c is left of the line from
+/// a to b.
+fn cross(a: Vec3, b: Vec3, c: Vec3) -> f64 {
+    (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
+}
+
+/// Returns the signed distance of a point from the boundary of a hull seen from above, m, positive inside,
+/// and the edge that it is nearest to. A hull of two nodes has no inside. `None` with fewer.
+pub(in crate::planners) fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Option<(f64, (usize, usize))> {
+    if hull.len() < 2 {
+        return None;
+    }
+    let edges = (0..hull.len()).map(|i| (hull[i], hull[(i + 1) % hull.len()]));
+    let inside = |(a, b): (usize, usize)| {
+        let along = libm::hypot(x[b].x - x[a].x, x[b].y - x[a].y);
+        (cross(x[a], x[b], at) / along, (a, b))
+    };
+    edges.map(inside).min_by(|p, q| p.0.total_cmp(&q.0))
+}
+
+/// Returns the static stability margin of the truss on some contacts, m, negative if it topples, and the
+/// edge of the support polygon nearest to the centre of mass. `None` with fewer than two contacts.
+pub(in crate::planners) fn stability_margin(
+    truss: &Structure,
+    x: &[Vec3],
+    contacts: &[usize],
+) -> Option<(f64, (usize, usize))> {
+    margin(x, &hull(x, contacts), truss.centre_of_mass(x))
+}
+
+/// Returns the three nodes of a hull whose triangle holds a point with the greatest margin; all nodes of a
+/// hull of fewer.
+pub(in crate::planners) fn support_triangle(x: &[Vec3], hull: &[usize], at: Vec3) -> Vec<usize> {
+    let mut best: Option<(f64, Vec<usize>)> = None;
+    for (i, &a) in hull.iter().enumerate() {
+        for (j, &b) in hull.iter().enumerate().skip(i + 1) {
+            for &c in &hull[j + 1..] {
+                let Some((inside, _)) = margin(x, &[a, b, c], at) else { continue };
+                if best.as_ref().is_none_or(|(most, _)| inside > *most) {
+                    best = Some((inside, vec![a, b, c]));
+                }
+            }
+        }
+    }
+    best.map_or_else(|| hull.to_vec(), |(_, nodes)| nodes)
+}

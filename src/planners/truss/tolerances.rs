@@ -1,0 +1,90 @@
+//! Tolerances of the truss planners.
+
+/// Tolerances of the truss planners, each with its default and the reason for it. "Unit" stands for the
+/// mean strut length at the start ([`Structure::unit`](super::Structure::unit)): lengths given in units
+/// make the planners independent of the size of the truss.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// A constraint counts as violated when its value is below minus this many units. 1e-10: far above
+    /// the rounding of doubles, far below what the judge allows.
+    pub rounding: f64,
+    /// Added to the clearance (units) and to the least angle (rad) during planning, so that conservative
+    /// advancement between the ends of a step ends after finitely many samples. 2e-4: two samples for
+    /// most pairs, and nothing of the clearance lost that matters.
+    pub clearance_margin: f64,
+    /// The value, in units, that a row of the quadratic programme asks a constraint to keep at first.
+    /// 1e-6: above `qp_residual`, so that the solver's error violates nothing.
+    pub bound_inset: f64,
+    /// The factor by which a row that is violated again asks for more than the shortfall; above 1, so
+    /// that second-order terms are overtaken. 1.5: the livelock of the paper's Algorithm 1 ends in two or
+    /// three rounds.
+    pub row_gain: f64,
+    /// Constraints with a value below this many units stay in the active set for the next step. 0.02:
+    /// a little less than half a step.
+    pub active_band: f64,
+    /// The residual of the rows that the quadratic programme is solved to, units. 1e-9.
+    pub qp_residual: f64,
+    /// The least fraction of a shortened step by which a shortfall is divided to scale it to the whole
+    /// step. 0.02: smaller fractions would ask for rows far beyond reach.
+    pub step_fraction_min: f64,
+    /// Two struts whose angle has a smaller sine get a row for each end beside the one for their closest
+    /// points, which jump from end to end. 0.1.
+    pub parallel_sine: f64,
+    /// The slack of a length, or sum of lengths, that has to stay, units: nodes move on straight lines,
+    /// so a strut that turns gets shorter on the way. 2e-3.
+    pub locked_slack: f64,
+    /// The part of the depth to which struts may be below uneven ground that planners leave unused,
+    /// units. 1e-4: the judge samples elsewhere.
+    pub ground_margin: f64,
+    /// Nodes at most this high above the ground are contacts, units. 1e-4.
+    pub contact_height: f64,
+    /// The truss is statically stable if its centre of mass is farther inside the support polygon than
+    /// this, units. 1e-9.
+    pub stability_margin: f64,
+    /// Rotations by less than this are none, rad. 1e-9.
+    pub rotation_min: f64,
+    /// Nodes nearer than this to the axis of a rotation stay where they are, units. 1e-9.
+    pub on_axis: f64,
+    /// A falling node at most this high above the ground has landed, units. 1e-11: far below
+    /// `contact_height`, so that it counts as a contact.
+    pub touchdown_tol: f64,
+    /// A node that starts on the ground has left it when it is higher than this, units. 2e-4: above
+    /// `contact_height`.
+    pub liftoff_height: f64,
+    /// The part of the clearance from obstacles that may be missing during a roll, units. 1e-4: so that
+    /// conservative advancement ends.
+    pub roll_clearance_margin: f64,
+    /// Nodes at most this far beyond the plane of a face lie on it, units; and tetrahedra of at most this
+    /// volume (cubic units) are flat. 1e-6.
+    pub coplanar: f64,
+}
+
+impl Tolerances {
+    /// The defaults, as the fields' documentation gives them.
+    pub const DEFAULT: Tolerances = Tolerances {
+        rounding: 1e-10,
+        clearance_margin: 2e-4,
+        bound_inset: 1e-6,
+        row_gain: 1.5,
+        active_band: 0.02,
+        qp_residual: 1e-9,
+        step_fraction_min: 0.02,
+        parallel_sine: 0.1,
+        locked_slack: 2e-3,
+        ground_margin: 1e-4,
+        contact_height: 1e-4,
+        stability_margin: 1e-9,
+        rotation_min: 1e-9,
+        on_axis: 1e-9,
+        touchdown_tol: 1e-11,
+        liftoff_height: 2e-4,
+        roll_clearance_margin: 1e-4,
+        coplanar: 1e-6,
+    };
+}
+
+impl Default for Tolerances {
+    fn default() -> Tolerances {
+        Tolerances::DEFAULT
+    }
+}
