@@ -35,8 +35,7 @@ pub enum Trussed {
 
 /// The fields of a `Morphing` and a `Travel` beside those of a plan.
 pub const MORPHING: &[&str] = &["rms", "rms_back", "worst", "start_rms", "clearance", "ended"];
-pub const TRAVEL: &[&str] =
-    &["distance", "rolls", "footholds", "reached", "slip", "relaxed_steps", "ended"];
+pub const TRAVEL: &[&str] = &["distance", "rolls", "footholds", "reached", "slip", "relaxed_steps", "ended"];
 
 impl Trussed {
     pub fn has(&self, field: &str) -> bool {
@@ -236,9 +235,8 @@ fn morph_refused(call: &Call, truss: &TrussProblem, refusal: morph::Refusal) -> 
         morph::Refusal::Truss(invalid) => invalid_truss(call, (11, 11), invalid),
         morph::Refusal::NoArea | morph::Refusal::FewPoints { .. } => call.refuse(1, refusal.to_string()),
         morph::Refusal::NoSurface { edges } => {
-            let name = |&(a, b): &(usize, usize)| {
-                format!("{} -- {}", truss.node_names[a], truss.node_names[b])
-            };
+            let name =
+                |&(a, b): &(usize, usize)| format!("{} -- {}", truss.node_names[a], truss.node_names[b]);
             let label = match &edges[..] {
                 [] => "no triangle of struts has all nodes on one side".to_string(),
                 [first, rest @ ..] => {

@@ -34,7 +34,8 @@ fn the_s_is_travelled() {
     if std::env::var_os("MODL_WHOLE").is_some() {
         let turned =
             [0.0, 10.0, 25.0, 45.0, 77.0, 90.0, 130.0, 157.0, 200.0, 222.0, 260.0, 300.0, 330.0, 345.0];
-        let objectives = [Objective::Springs, Objective::Lengths { damping: 1.0 }, Objective::Restoring { damping: 1.0 }];
+        let objectives =
+            [Objective::Springs, Objective::Lengths { damping: 1.0 }, Objective::Restoring { damping: 1.0 }];
         cases = turned.iter().flat_map(|&turned| objectives.map(|aim| (turned, aim))).collect();
     }
     for (turned, aim) in cases {
@@ -128,7 +129,8 @@ fn one_step_is_the_known_optimum() {
         let found = libm::sqrt(changes.iter().map(|c| c * c).sum());
         assert!((found - wanted).abs() < 1e-5, "{found} and not {wanted}, pinned {pinned:?}");
         let wanted = optimum["min_L1"].as_f64().expect("a number");
-        let found: f64 = least_change(&pinned, Objective::Fewest { damping: 0.0 }).iter().map(|c| c.abs()).sum();
+        let found: f64 =
+            least_change(&pinned, Objective::Fewest { damping: 0.0 }).iter().map(|c| c.abs()).sum();
         assert!((found - wanted).abs() < 1e-5, "{found} and not {wanted} of sizes, pinned {pinned:?}");
     }
 }
@@ -144,10 +146,21 @@ fn gradients_are_what_differences_say() {
         *p += Vec3::new(wiggle(0), wiggle(1), wiggle(2));
     }
     let struts = [(0, 50), (3, 40), (10, 90), (20, 70), (33, 107)];
-    let apart = struts.iter().filter(|(i, j)| !truss.share_node(*i, *j)).map(|&(i, j)| Constraint::Clearance(i, j));
-    let others = [Constraint::LengthMin(7), Constraint::LengthMax(30), Constraint::NodeHeight(4), Constraint::EndClearance(3, 1, 40)];
-    let shapes =
-        [Constraint::Angle(0, 1), Constraint::LoopMin(0), Constraint::LoopMax(0), Constraint::Rigidity(0, 0), Constraint::Rigidity(2, 2)];
+    let apart =
+        struts.iter().filter(|(i, j)| !truss.share_node(*i, *j)).map(|&(i, j)| Constraint::Clearance(i, j));
+    let others = [
+        Constraint::LengthMin(7),
+        Constraint::LengthMax(30),
+        Constraint::NodeHeight(4),
+        Constraint::EndClearance(3, 1, 40),
+    ];
+    let shapes = [
+        Constraint::Angle(0, 1),
+        Constraint::LoopMin(0),
+        Constraint::LoopMax(0),
+        Constraint::Rigidity(0, 0),
+        Constraint::Rigidity(2, 2),
+    ];
     for bound in apart.chain(others).chain(shapes) {
         const SMALL: f64 = 1e-6;
         let mut found = vec![Vec3::zeros(); truss.nodes];

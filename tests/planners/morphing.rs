@@ -99,7 +99,11 @@ fn limits_of_the_shape_are_kept_between_the_samples() {
         let truss = truss.clone().with_limits(&start, limits.clone());
         let settings = Settings { steps_max, tolerance: 0.0, ..Settings::default() };
         let found = descend(&truss, &start, &goal, &settings, &mut NoProgress).expect("it has a surface");
-        assert!(found.distance.target_to_surface <= within, "{limits:?}: {}", found.distance.target_to_surface);
+        assert!(
+            found.distance.target_to_surface <= within,
+            "{limits:?}: {}",
+            found.distance.target_to_surface
+        );
         let slack = 2e-3 + 1e-9;
         let mut x = start.clone();
         for y in &found.steps {
@@ -201,7 +205,8 @@ fn orientations_are_tried_and_the_same_seed_finds_the_same() {
     let (truss, start) = robot();
     let turned = ell().moved(|p| Vec3::new(p.y, -p.x, p.z));
     let with = |orientations: usize| {
-        let settings = Settings { steps_max: 40, tolerance: 0.0, orientations, seed: 3, ..Settings::default() };
+        let settings =
+            Settings { steps_max: 40, tolerance: 0.0, orientations, seed: 3, ..Settings::default() };
         descend(&truss, &start, &turned, &settings, &mut NoProgress).expect("it has a surface")
     };
     let (one, again) = (with(2), with(2));

@@ -82,7 +82,9 @@ fn looked_over(truss: &Structure, start: &[Vec3], travel: &Travel, look: &dyn Fn
         for moment in 0..=MOMENTS {
             let part = moment as f64 / MOMENTS as f64;
             match step {
-                Move::Linear(y) => look(&x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect::<Vec<_>>()),
+                Move::Linear(y) => {
+                    look(&x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect::<Vec<_>>())
+                }
                 Move::Roll(roll) => {
                     look(&rolled(&x, modl::planners::truss::roll::Roll { angle: roll.angle * part, ..*roll }))
                 }

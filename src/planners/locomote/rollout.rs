@@ -451,8 +451,7 @@ impl Rollout<'_> {
         let contacts = |x: &[Vec3]| {
             let now = support_polygon::contacts(self.truss, x);
             let stays = |node: &usize| {
-                now.contains(node)
-                    && support_polygon::stays_in_contact(self.truss, self.x[*node], x[*node])
+                now.contains(node) && support_polygon::stays_in_contact(self.truss, self.x[*node], x[*node])
             };
             before.iter().copied().filter(stays).collect::<Vec<_>>()
         };

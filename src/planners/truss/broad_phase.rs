@@ -64,7 +64,8 @@ impl NeighbourList {
     ) -> Vec<(usize, usize)> {
         let still =
             known.take().filter(|known| known.now == x && farthest(&known.first, y) + more <= known.skin);
-        let nearby = known.insert(still.unwrap_or_else(|| NeighbourList::new(truss, x, farthest(x, y) + more)));
+        let nearby =
+            known.insert(still.unwrap_or_else(|| NeighbourList::new(truss, x, farthest(x, y) + more)));
         let reach = reach(truss, x, y);
         let mut found = Vec::new();
         for pair in &mut nearby.pairs {

@@ -133,9 +133,7 @@ impl Constraint {
     fn closest_points(self, truss: &Structure, x: &[Vec3]) -> SegmentPair {
         match self {
             Constraint::Clearance(i, j) => segment_segment(truss.segment(x, i), truss.segment(x, j)),
-            Constraint::EndClearance(i, end, j) => {
-                end_segment(truss.segment(x, i), end, truss.segment(x, j))
-            }
+            Constraint::EndClearance(i, end, j) => end_segment(truss.segment(x, i), end, truss.segment(x, j)),
             _ => unreachable!("only distances have closest points"),
         }
     }

@@ -7,12 +7,7 @@ use crate::geometry::Vec3;
 
 /// Returns the obstacle constraints that fall short by more than half of `margin`, m, somewhere between x
 /// and y, each with the shortfall, m; both ends of a strut get a row.
-pub fn obstacle_violations(
-    truss: &Structure,
-    x: &[Vec3],
-    y: &[Vec3],
-    margin: f64,
-) -> Vec<(Constraint, f64)> {
+pub fn obstacle_violations(truss: &Structure, x: &[Vec3], y: &[Vec3], margin: f64) -> Vec<(Constraint, f64)> {
     let mut found = Vec::new();
     for strut in 0..truss.struts.len() {
         let (from, to) = (truss.segment(x, strut), truss.segment(y, strut));

@@ -24,9 +24,9 @@ pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
         let segment = truss.segment(x, strut);
         let parts = 0..truss.surroundings.parts.len();
         let may = move |part: &usize| truss.surroundings.may_collide(segment, *part, 2.0 * truss.clearance);
-        parts
-            .filter(may)
-            .map(move |part| truss.surroundings.signed_distance(segment, part, f64::MAX).distance - truss.clearance)
+        parts.filter(may).map(move |part| {
+            truss.surroundings.signed_distance(segment, part, f64::MAX).distance - truss.clearance
+        })
     });
     // Sums of lengths: of loops, and of single struts that are locked.
     let locked = truss.limits.locked.iter().flat_map(|&strut| both_ends(strut));

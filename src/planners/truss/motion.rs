@@ -97,10 +97,7 @@ pub fn node_paths(
         struts: truss.struts.clone(),
         keyframes,
         limits: limits(truss),
-        surroundings: Surroundings {
-            obstacles: problem.obstacles.clone(),
-            terrain: problem.terrain.clone(),
-        },
+        surroundings: Surroundings { obstacles: problem.obstacles.clone(), terrain: problem.terrain.clone() },
     }
 }
 

@@ -110,11 +110,9 @@ impl fmt::Display for InvalidTruss {
                 "the singular values of a truss of more than {RIGIDITY_NODES_MAX} nodes take too long; this one has {nodes}"
             ),
             InvalidTruss::ShortLoop => f.write_str("a perimeter has at least two struts"),
-            InvalidTruss::NearObstacle { strut, obstacle, .. } => write!(
-                f,
-                "the strut {strut} is too near to obstacle {} where the truss begins",
-                obstacle + 1
-            ),
+            InvalidTruss::NearObstacle { strut, obstacle, .. } => {
+                write!(f, "the strut {strut} is too near to obstacle {} where the truss begins", obstacle + 1)
+            }
             InvalidTruss::BelowGround { strut, depth, .. } => {
                 let depth = quantity(*depth, Dimension::LENGTH);
                 write!(f, "the strut {strut} is {depth} in the ground where the truss begins")
@@ -214,9 +212,7 @@ impl TrussProblem {
     pub fn explain(&self, truss: &Structure, error: &StepError) -> String {
         let (why, constraints) = match error {
             StepError::Infeasible(constraints) => ("no step keeps all limits", constraints),
-            StepError::NotConverged(constraints) => {
-                ("no step was found that keeps all limits", constraints)
-            }
+            StepError::NotConverged(constraints) => ("no step was found that keeps all limits", constraints),
         };
         let mut told: Vec<String> = Vec::new();
         let outer = |constraint: &&Constraint| {

@@ -284,8 +284,8 @@ fn violated(
     // Broad phase: pairs of struts that may come too near on the way.
     let pairs = NeighbourList::candidates(neighbours, truss, (x, y), margin);
     // Values at y.
-    let lengths =
-        (0..truss.struts.len()).flat_map(|strut| [Constraint::LengthMin(strut), Constraint::LengthMax(strut)]);
+    let lengths = (0..truss.struts.len())
+        .flat_map(|strut| [Constraint::LengthMin(strut), Constraint::LengthMax(strut)]);
     let clearances = pairs.iter().map(|&(i, j)| Constraint::Clearance(i, j));
     let heights = (0..truss.nodes).filter(|_| problem.ground).map(Constraint::NodeHeight);
     let angles = truss.corners.iter().map(|&(i, j)| Constraint::Angle(i, j));
