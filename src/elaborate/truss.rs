@@ -4,6 +4,7 @@ use super::config::Deferred;
 use super::connect::shorten;
 use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
 use crate::geometry::Vec3;
+use crate::geometry::closest_points::segment_segment_distance;
 use crate::interpret::design::{Design, DesignKind, Instance};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
@@ -305,7 +306,7 @@ impl Interpreter<'_> {
             if [c, d].contains(&a) || [c, d].contains(&b) {
                 continue;
             }
-            let distance = truss::segment_distance(ends(a, b), ends(c, d));
+            let distance = segment_segment_distance(ends(a, b), ends(c, d));
             if distance < kind.clearance.max(NODE_DISTANCE_MIN) {
                 let message = format!(
                     "the struts {} and {} are {} apart; a {} keeps {}",

@@ -99,7 +99,7 @@ pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, found: &mut dyn FnMut(u
     while counts(size).product() > CELLS_PER_BOX * boxes.len() as f64 + 1.0 {
         size *= 2.0;
     }
-    let counts = counts(size).map(|count| count as usize);
+    let counts = counts(size).map(|count| (count as usize).max(1));
     let index = |p: Vec3| ((p - low) / size).map(|v| v.max(0.0) as usize);
     let mut grid: Vec<Vec<usize>> = vec![Vec::new(); counts.product()];
     for (j, box_j) in boxes.iter().enumerate() {

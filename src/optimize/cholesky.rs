@@ -14,6 +14,16 @@ pub struct SymmetricMatrix {
     /// The index in `values` of each row's first entry, and one more at the end.
     start: Vec<usize>,
     values: Vec<f64>,
+    summation: Summation,
+}
+
+/// The order in which products are summed; it decides the last digits, and nothing else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Summation {
+    /// From the first to the last: small dense matrices, which have no long rows.
+    InOrder,
+    /// Four sums side by side, which a processor adds at once: rows of an envelope may be long.
+    FourLanes,
 }
 
 /// The treatment of a pivot that is not positive enough, so that the matrix is not positive definite within rounding.
@@ -34,7 +44,7 @@ pub struct Cholesky {
 impl SymmetricMatrix {
     /// Returns the zero matrix of a size with room for every entry.
     pub fn dense(size: usize) -> SymmetricMatrix {
-        SymmetricMatrix::with_envelope(vec![0; size])
+        SymmetricMatrix { summation: Summation::InOrder, ..SymmetricMatrix::with_envelope(vec![0; size]) }
     }
 
     /// Returns the zero matrix whose row `i` has room for the columns from `first[i]`, which is at most `i`.
@@ -47,7 +57,7 @@ impl SymmetricMatrix {
             end += row + 1 - first;
             start.push(end);
         }
-        SymmetricMatrix { first, start, values: vec![0.0; end] }
+        SymmetricMatrix { first, start, values: vec![0.0; end], summation: Summation::FourLanes }
     }
 
     /// Returns the number of rows.
@@ -100,11 +110,11 @@ impl SymmetricMatrix {
                 let other = &done[self.start[j]..self.start[j + 1]];
                 let first = self.first[j];
                 let common = from.max(first);
-                let sum = dot(&row[common - from..j - from], &other[common - first..j - first]);
+                let sum = self.summation.dot(&row[common - from..j - from], &other[common - first..j - first]);
                 row[j - from] = (row[j - from] - sum) / other[j - first];
             }
             let (diagonal, before) = row.split_last_mut()?;
-            let pivot = *diagonal - dot(before, before);
+            let pivot = *diagonal - self.summation.dot(before, before);
             *diagonal = libm::sqrt(rule.accepted(pivot, *diagonal)?);
         }
         Some(Cholesky { lower: self })
@@ -133,12 +143,29 @@ impl Cholesky {
             let first = self.lower.first[i].max(begin);
             let row = &self.lower.row(i)[first - self.lower.first[i]..];
             let Some((pivot, row)) = row.split_last() else { continue };
-            b[i] = (b[i] - dot(row, &b[first..i])) / pivot;
+            b[i] = (b[i] - self.lower.summation.dot(row, &b[first..i])) / pivot;
         }
     }
 
     /// Replaces `y` by `L⁻ᵀ y` (backward substitution).
     pub fn solve_upper(&self, y: &mut [f64]) {
+        match self.lower.summation {
+            Summation::InOrder => self.solve_upper_by_columns(y),
+            Summation::FourLanes => self.solve_upper_by_rows(y),
+        }
+    }
+
+    /// Backward substitution by the columns of a dense L.
+    fn solve_upper_by_columns(&self, y: &mut [f64]) {
+        let n = y.len();
+        for i in (0..n).rev() {
+            let sum: f64 = (i + 1..n).map(|j| self.lower.row(j)[i] * y[j]).sum();
+            y[i] = (y[i] - sum) / self.lower.row(i)[i];
+        }
+    }
+
+    /// Backward substitution by the rows of L, each within its envelope.
+    fn solve_upper_by_rows(&self, y: &mut [f64]) {
         for i in (0..y.len()).rev() {
             let Some((pivot, row)) = self.lower.row(i).split_last() else { continue };
             let value = y[i] / pivot;
@@ -154,8 +181,19 @@ impl Cholesky {
     }
 }
 
-/// Returns the dot product by four sums side by side, which a processor adds at once.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+impl Summation {
+    /// Returns the dot product of two rows of one length.
+    #[inline]
+    fn dot(self, a: &[f64], b: &[f64]) -> f64 {
+        match self {
+            Summation::InOrder => a.iter().zip(b).map(|(x, y)| x * y).sum(),
+            Summation::FourLanes => four_lanes(a, b),
+        }
+    }
+}
+
+/// Returns the dot product by four sums side by side.
+fn four_lanes(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
     let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();

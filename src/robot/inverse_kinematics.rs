@@ -38,8 +38,8 @@ pub struct Row {
 /// The state of a descent at some joint positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
-    /// The norm of the residual of the task: it sets the damping.
-    pub residual: f64,
+    /// The squared norm of the residual of the task: it sets the damping.
+    pub residual_squared: f64,
     /// The figure that is to become less from iteration to iteration: residual and violations of inequalities together.
     pub merit: f64,
     /// True where the task is fulfilled.
@@ -157,7 +157,7 @@ pub fn solve(
                 return (StopReason::Stalled, iteration);
             }
         }
-        let change = step(problem, q, limits, state.residual, settings);
+        let change = step(problem, q, limits, state.residual_squared, settings);
         for ((q, change), limits) in q.iter_mut().zip(&change).zip(limits) {
             *q = (*q + change).clamp(limits.0, limits.1);
         }
@@ -171,13 +171,13 @@ fn step(
     problem: &dyn IkProblem,
     q: &[f64],
     limits: &[(f64, f64)],
-    residual: f64,
+    residual_squared: f64,
     settings: &Settings,
 ) -> Vec<f64> {
     let mut rows = problem.task();
     let task = rows.len();
     let preferred = problem.preferred(q.len());
-    let damping = settings.damping * (residual * residual).min(1.0) + settings.damping_min;
+    let damping = settings.damping * residual_squared.min(1.0) + settings.damping_min;
     let mut fixed = vec![false; q.len()];
     let mut active: Vec<usize> = Vec::new();
     let mut change = vec![0.0; q.len()];
@@ -444,9 +444,9 @@ impl IkProblem for FrameProblem<'_> {
         self.update(q);
         let (place, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
         let turn = if self.task.aim == Aim::Pose { turn } else { 0.0 };
-        let residual = libm::hypot(place / self.scale, turn);
+        let residual_squared = (place / self.scale) * (place / self.scale) + turn * turn;
         let converged = place <= self.task.tolerance.0 && turn <= self.task.tolerance.1;
-        Evaluation { residual, merit: residual, converged }
+        Evaluation { residual_squared, merit: libm::sqrt(residual_squared), converged }
     }
 
     fn task(&self) -> Vec<Row> {

@@ -173,18 +173,3 @@ fn free_motion(motion: &DVector<f64>) -> FreeMotion {
     let moving = (0..count).filter(|&n| at(n).norm() > largest * STILL);
     FreeMotion { nodes: moving.map(|n| (n, at(n) / largest)).collect() }
 }
-
-/// The least distance between two segments, m.
-pub fn segment_distance(p: (Vec3, Vec3), q: (Vec3, Vec3)) -> f64 {
-    let (u, v, w) = (p.1 - p.0, q.1 - q.0, p.0 - q.0);
-    let (a, b, c, d, e) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
-    let denominator = a * c - b * b;
-    let clamp = |x: f64| x.clamp(0.0, 1.0);
-    let project = |from: f64, over: f64| if over > 0.0 { clamp(from / over) } else { 0.0 };
-    // Parallel segments have their least distance at an end, too.
-    let s = if denominator > SINGULAR * a * c { clamp((b * e - c * d) / denominator) } else { 0.0 };
-    let t = project(e + b * s, c);
-    let s = project(b * t - d, a);
-    let t = project(e + b * s, c);
-    (w + u * s - v * t).norm()
-}

@@ -1,12 +1,11 @@
 //! Damped least-squares inverse kinematics (Buss 2005, section 6) that closes a loop: the joints between two
 //! docks -Z move until the docks meet, while balls that are near each other are driven apart.
 //!
-//! Each iteration solves for joint steps that satisfy six linear constraints from the Jacobian of the second
-//! dock, softly, and, in the collision-free mode, inequality constraints that keep balls apart (active set).
-//! What the constraints leave open follows a secondary task, a repulsion of balls, by projection into their
-//! null space. All postures of the descent are kept.
+//! The descent itself is [`crate::robot::inverse_kinematics`]. This file poses its problem: six linear constraints
+//! from the Jacobian of the second dock, softly, and, in the collision-free mode, inequality constraints that keep
+//! balls apart (active set). What the constraints leave open follows a secondary task, a repulsion of balls, by
+//! projection into their null space. All postures of the descent are kept.
 
-use super::cholesky::NormalMatrix;
 use super::motion_check::{MIN_DISTANCE, Scene};
 use super::neighbour_list::{NeighbourList, Neighbours};
 use super::robot::{Dock, GAMMA, RED, mate};
@@ -14,6 +13,7 @@ use super::state::Joints;
 use super::tree::{JointRef, Tree};
 use crate::geometry::rigid_transform::rotation_vector;
 use crate::geometry::{RigidTransform, Vec3};
+use crate::robot::inverse_kinematics::{self, Evaluation, IkProblem, Row, StopReason};
 use nalgebra::Vector6;
 use std::f64::consts::FRAC_PI_2;
 
@@ -137,13 +137,10 @@ impl LoopClosure<'_> {
     pub fn solve(&self, start: &[[f64; 3]], initial_bias: &[f64], work: &mut u64) -> Option<Vec<Joints>> {
         let LoopClosure { scene, lp, mode, settings } = *self;
         let tree = scene.tree;
-        let mut descent = vec![start.to_vec()];
-        let mut joints = start.to_vec();
         let mut poses = Vec::new();
-        tree.poses(&joints, &mut poses);
+        tree.poses(start, &mut poses);
         let in_loop = |module| lp.joints.iter().any(|(joint, _)| joint.module == module);
         let turns = |module: usize| mode == IkMode::CollisionFree || in_loop(module);
-        let carried = tree.carried(turns);
         let loop_scale = 1.0 + lp.joints.len() as f64 / 3.0 * settings.loop_scale;
         let bias_steps = if initial_bias.is_empty() { 0 } else { settings.initial_bias_steps };
         // For an endpoint, overlapping and repelled balls matter; in a collision-free descent all that may
@@ -152,57 +149,31 @@ impl LoopClosure<'_> {
             IkMode::Endpoint => settings.repulsion_reach.max(MIN_DISTANCE),
             IkMode::CollisionFree => 1.0 + 2.0 * settings.ball_step_max * loop_scale,
         };
-        let mut list = NeighbourList::new(scene, (lp.from, lp.to), tree.parts(turns));
-        let (mut best, mut since) = (f64::INFINITY, 0);
-        for iteration in 0..(settings.iterations_max as f64 * loop_scale) as usize {
-            crate::interrupt::checkpoint();
-            // Errors of the present posture.
-            tree.poses_of(&carried, &joints, &mut poses);
-            *work += ITERATION_WORK;
-            let error = lp.error(&poses);
-            let size = error.norm();
-            let neighbours = list.within(reach, &poses);
-            let least = neighbours.iter().fold(f64::INFINITY, |least, n| least.min(n.distance));
-            let overlap = (MIN_DISTANCE - least).max(0.0);
-            if size < settings.tol_closed && overlap == 0.0 {
-                return Some(descent);
-            }
-            // Stagnation ends the descent.
-            let merit = size + OVERLAP_WEIGHT * overlap;
-            if merit < 0.9 * best {
-                (best, since) = (merit, 0);
-            } else {
-                since += 1;
-                if since > settings.patience + bias_steps {
-                    return None;
-                }
-            }
-            // One damped least-squares step, within the joints' ranges.
-            let repulsion_gain = match mode {
-                _ if size < settings.nearly_closed && overlap == 0.0 => 0.0,
-                IkMode::Endpoint => settings.endpoint_repulsion_gain,
-                IkMode::CollisionFree => settings.collision_free_repulsion_gain,
-            };
-            let initial_bias = if iteration < bias_steps { initial_bias } else { &[] };
-            let iteration = Iteration {
-                mode,
-                loop_scale,
-                tree,
-                poses: &poses,
-                joints: &joints,
-                neighbours: &neighbours,
-                settings,
-                repulsion_gain,
-                initial_bias,
-            };
-            let step = iteration.joint_step(lp, &error);
-            for joint in tree.all_joints() {
-                let q = &mut joints[joint.module][joint.joint];
-                *q = clamped(joint.joint, *q + step[3 * joint.module + joint.joint]);
-            }
-            descent.push(joints.clone());
-        }
-        None
+        let mut descent = Descent {
+            closure: self,
+            loop_scale,
+            reach,
+            carried: tree.carried(turns),
+            list: NeighbourList::new(scene, (lp.from, lp.to), tree.parts(turns)),
+            initial_bias,
+            bias_steps,
+            work,
+            postures: vec![start.to_vec()],
+            poses,
+            error: Vector6::zeros(),
+            neighbours: Vec::new(),
+            repulsion_gain: 0.0,
+            biased: false,
+        };
+        let limits: Vec<(f64, f64)> = (0..start.len()).flat_map(|_| (0..3).map(range)).collect();
+        let settings = inverse_kinematics::Settings {
+            iterations_max: (settings.iterations_max as f64 * loop_scale) as usize,
+            patience: settings.patience + bias_steps,
+            ..inverse_kinematics::Settings::default()
+        };
+        let mut joints = start.as_flattened().to_vec();
+        let (stop, _) = inverse_kinematics::solve(&mut descent, &mut joints, &limits, &settings);
+        (stop == StopReason::Converged).then_some(descent.postures)
     }
 }
 
@@ -212,124 +183,75 @@ const ITERATION_WORK: u64 = 10;
 /// Weight of an overlap in the merit, beside the closure error.
 const OVERLAP_WEIGHT: f64 = 10.0;
 
+/// Returns the range of a joint of a module, rad: ±π/2 for tilts, any for gamma.
+fn range(joint: usize) -> (f64, f64) {
+    if joint == GAMMA { (f64::NEG_INFINITY, f64::INFINITY) } else { (-FRAC_PI_2, FRAC_PI_2) }
+}
+
 /// Returns a joint position within its range: ±π/2 for tilts (rad), any for gamma.
 pub fn clamped(joint: usize, q: f64) -> f64 {
-    if joint == GAMMA { q } else { q.clamp(-FRAC_PI_2, FRAC_PI_2) }
+    let (low, high) = range(joint);
+    q.clamp(low, high)
 }
 
-/// One iteration of the descent.
-struct Iteration<'a> {
-    mode: IkMode,
+/// A descent, as the shared inverse kinematics sees it ([`inverse_kinematics::IkProblem`]).
+struct Descent<'a> {
+    closure: &'a LoopClosure<'a>,
     loop_scale: f64,
-    tree: &'a Tree,
-    poses: &'a [RigidTransform],
-    joints: &'a [[f64; 3]],
-    neighbours: &'a [Neighbours],
-    settings: &'a Settings,
-    repulsion_gain: f64,
+    /// The distance up to which neighbours matter.
+    reach: f64,
+    /// Indices of the shoes that the joints carry.
+    carried: Vec<usize>,
+    list: NeighbourList<'a>,
     initial_bias: &'a [f64],
-}
-
-/// A linear constraint on joint steps: `Σ factor · step = goal`, or at least the goal. The factors are a
-/// sparse row of a Jacobian.
-struct Row {
-    terms: Vec<(usize, f64)>,
-    goal: f64,
+    bias_steps: usize,
+    work: &'a mut u64,
+    postures: Vec<Joints>,
+    /// At the last posture: poses by index, closure error, balls that are near each other, the gain of their
+    /// repulsion, and whether the initial bias still lasts.
+    poses: Vec<RigidTransform>,
+    error: Vector6<f64>,
+    neighbours: Vec<Neighbours>,
+    repulsion_gain: f64,
+    biased: bool,
 }
 
 /// Number of rows that close the loop.
 const CLOSURE_ROWS: usize = 6;
-/// Greatest number of distance constraints in the active set.
-const ACTIVE_MAX: usize = 100;
-/// Greatest number of changes of the active set.
-const ACTIVE_SET_ROUNDS_MAX: usize = 12;
 /// Violation of a distance constraint, in pitches, below which it stays out of the active set.
 const TOL_CONSTRAINT: f64 = 1e-3;
 /// Greatest rotation error that one step is to make good, rad.
 const ROTATION_STEP_MAX: f64 = 0.4;
-/// Damping relative to the squared closure error, as in Buss 2005 eq. (11) with λ² decreasing towards the
-/// solution.
-const DAMPING: f64 = 1e-4;
-/// Damping that remains at the solution.
-const DAMPING_MIN: f64 = 1e-12;
-/// Damping relative to the trace of the normal matrix, against singular configurations.
-const DAMPING_TRACE: f64 = 1e-10;
-/// Damping of distance constraints: two that are nearly the same leave the matrix regular.
-const DAMPING_CONSTRAINT: f64 = 1e-6;
 
-impl Iteration<'_> {
-    /// The step of all joints (rad): a damped least-squares step under the constraints of an active set that
-    /// is updated until it does not change (primal active-set method).
-    fn joint_step(&self, lp: &Loop, error: &Vector6<f64>) -> Vec<f64> {
-        let count = 3 * self.joints.len();
-        let mut rows = self.closure_rows(lp, error);
-        let secondary_task = self.secondary_task(lp, count);
-        let candidates = match self.mode {
-            IkMode::Endpoint => &[],
-            IkMode::CollisionFree => self.neighbours,
+impl IkProblem for Descent<'_> {
+    fn evaluate(&mut self, q: &[f64], iteration: usize) -> Evaluation {
+        let LoopClosure { scene, lp, mode, settings } = *self.closure;
+        let (joints, _) = q.as_chunks::<3>();
+        scene.tree.poses_of(&self.carried, joints, &mut self.poses);
+        *self.work += ITERATION_WORK;
+        self.error = lp.error(&self.poses);
+        let size = self.error.norm();
+        self.neighbours = self.list.within(self.reach, &self.poses);
+        let least = self.neighbours.iter().fold(f64::INFINITY, |least, n| least.min(n.distance));
+        let overlap = (MIN_DISTANCE - least).max(0.0);
+        self.repulsion_gain = match mode {
+            _ if size < settings.nearly_closed && overlap == 0.0 => 0.0,
+            IkMode::Endpoint => settings.endpoint_repulsion_gain,
+            IkMode::CollisionFree => settings.collision_free_repulsion_gain,
         };
-        let damping = DAMPING * error.norm_squared().min(1.0) + DAMPING_MIN;
-        let mut fixed = vec![false; count];
-        let mut active: Vec<usize> = Vec::new();
-        let mut step = vec![0.0; count];
-        for round in 0..ACTIVE_SET_ROUNDS_MAX {
-            // Solve with the constraints of the active set as equations.
-            rows.truncate(CLOSURE_ROWS);
-            rows.extend(active.iter().map(|&c| self.distance_row(&candidates[c])));
-            let (solved, multipliers) = solve(&rows, &secondary_task, &fixed, damping);
-            step = solved;
-            self.limit_step(&mut step);
-            if round + 1 == ACTIVE_SET_ROUNDS_MAX {
-                break;
-            }
-            // Drop constraints with negative multipliers: they would hold the balls together.
-            let mut kept = Vec::new();
-            for (i, &c) in active.iter().enumerate() {
-                if multipliers[CLOSURE_ROWS + i] >= 0.0 {
-                    kept.push(c);
-                }
-            }
-            let mut changed = kept.len() != active.len();
-            active = kept;
-            // Add violated constraints, the worst first.
-            let displacements = if candidates.is_empty() { Vec::new() } else { self.displacements(&step) };
-            let far = displacements.iter().map(|v: &Vec3| v.norm()).fold(0.0, f64::max);
-            let mut violated: Vec<(f64, usize)> = candidates
-                .iter()
-                .enumerate()
-                .filter(|(c, pair)| {
-                    pair.distance < self.settings.min_distance + 2.0 * far && !active.contains(c)
-                })
-                .map(|(c, pair)| {
-                    let separation = pair.normal.dot(&(displacements[pair.b] - displacements[pair.a]));
-                    (separation - self.least_separation(pair), c)
-                })
-                .filter(|(slack, _)| *slack < -TOL_CONSTRAINT)
-                .collect();
-            violated.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-            for (_, c) in violated.into_iter().take(ACTIVE_MAX.saturating_sub(active.len())) {
-                active.push(c);
-                changed = true;
-            }
-            // Fix joints that would leave their ranges.
-            for (index, fixed) in fixed.iter_mut().enumerate() {
-                let (module, joint) = (index / 3, index % 3);
-                let q = self.joints[module][joint] + step[index];
-                if !*fixed && clamped(joint, q) != q {
-                    *fixed = true;
-                    changed = true;
-                }
-            }
-            if !changed {
-                break;
-            }
+        self.biased = iteration < self.bias_steps;
+        Evaluation {
+            residual_squared: self.error.norm_squared(),
+            merit: size + OVERLAP_WEIGHT * overlap,
+            converged: size < settings.tol_closed && overlap == 0.0,
         }
-        step
     }
 
     /// The six rows that close the loop: the Jacobian of the second shoe, with as much of the error as one
     /// step can make good.
-    fn closure_rows(&self, lp: &Loop, error: &Vector6<f64>) -> Vec<Row> {
+    fn task(&self) -> Vec<Row> {
+        let LoopClosure { lp, .. } = self.closure;
+        let error = &self.error;
         let (shift, turn) = (error.fixed_rows::<3>(0).norm(), error.fixed_rows::<3>(3).norm());
         let scale =
             f64::min(1.0, f64::min(self.loop_scale / shift.max(1e-30), ROTATION_STEP_MAX / turn.max(1e-30)));
@@ -338,7 +260,7 @@ impl Iteration<'_> {
             .map(|i| Row { terms: Vec::with_capacity(lp.joints.len()), goal: error[i] * scale })
             .collect();
         for (joint, sign) in &lp.joints {
-            let (axis, point) = self.tree.axis(*joint, self.poses);
+            let (axis, point) = self.tree().axis(*joint, &self.poses);
             let v = axis.cross(&(tip - point)) * *sign;
             let index = 3 * joint.module + joint.joint;
             for i in 0..3 {
@@ -349,12 +271,47 @@ impl Iteration<'_> {
         rows
     }
 
+    /// The secondary task: steps of the joints (rad) that are wanted as far as the constraints leave them
+    /// open. The initial bias, plus the joint torques of the repulsion times a gain.
+    fn preferred(&self, count: usize) -> Vec<f64> {
+        let LoopClosure { lp, mode, settings, .. } = *self.closure;
+        let bias = if self.biased { self.initial_bias } else { &[] };
+        let mut task = if bias.is_empty() { vec![0.0; count] } else { bias.to_vec() };
+        if self.repulsion_gain == 0.0 {
+            return task;
+        }
+        let repulsion = Repulsion::new(&self.poses, &self.neighbours, settings.repulsion_reach);
+        let joints = match mode {
+            IkMode::Endpoint => lp.joints.iter().map(|(joint, _)| *joint).collect(),
+            IkMode::CollisionFree => self.tree().all_joints(),
+        };
+        for joint in joints {
+            let (axis, point) = self.tree().axis(joint, &self.poses);
+            let torque = repulsion.torque(self.tree(), joint.child, &axis, &point);
+            task[3 * joint.module + joint.joint] += self.repulsion_gain * torque;
+        }
+        task
+    }
+
+    /// Scales a step so that no joint turns too far, and in a collision-free descent no ball goes too far.
+    fn shorten(&self, step: &mut [f64]) {
+        let settings = self.closure.settings;
+        let greatest = step.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
+        let mut scale = f64::min(1.0, settings.joint_step_max / greatest.max(1e-30));
+        if self.closure.mode == IkMode::CollisionFree {
+            let far = libm::sqrt(self.displacements(step).iter().map(Vec3::norm_squared).fold(0.0, f64::max));
+            scale = scale.min(settings.ball_step_max * self.loop_scale / far.max(1e-30));
+        }
+        step.iter_mut().for_each(|s| *s *= scale);
+    }
+
     /// The row that keeps two balls apart: the gradient of their distance, and its least change.
-    fn distance_row(&self, pair: &Neighbours) -> Row {
+    fn inequality(&self, number: usize) -> Row {
+        let pair = &self.neighbours[number];
         let at = self.poses[pair.b].translation;
-        let between = joints_between(self.tree, pair.a, pair.b);
+        let between = joints_between(self.tree(), pair.a, pair.b);
         let term = |(joint, sign): &(JointRef, f64)| {
-            let (axis, point) = self.tree.axis(*joint, self.poses);
+            let (axis, point) = self.tree().axis(*joint, &self.poses);
             // A turn of the joint carries b, or the other way round a: the distance changes alike.
             let v = axis.cross(&(at - point)) * *sign;
             (3 * joint.module + joint.joint, pair.normal.dot(&v))
@@ -362,42 +319,41 @@ impl Iteration<'_> {
         Row { terms: between.iter().map(term).collect(), goal: self.least_separation(pair) }
     }
 
+    /// In a collision-free descent, the pairs of balls that a step brings too near, the worst first.
+    fn violated(&self, step: &[f64], active: &[usize]) -> Vec<usize> {
+        if self.closure.mode == IkMode::Endpoint || self.neighbours.is_empty() {
+            return Vec::new();
+        }
+        let displacements = self.displacements(step);
+        let far = displacements.iter().map(|v: &Vec3| v.norm()).fold(0.0, f64::max);
+        let near = self.closure.settings.min_distance + 2.0 * far;
+        let pairs = self.neighbours.iter().enumerate();
+        let mut violated: Vec<(f64, usize)> = pairs
+            .filter(|(number, pair)| pair.distance < near && !active.contains(number))
+            .map(|(number, pair)| {
+                let separation = pair.normal.dot(&(displacements[pair.b] - displacements[pair.a]));
+                (separation - self.least_separation(pair), number)
+            })
+            .filter(|(slack, _)| *slack < -TOL_CONSTRAINT)
+            .collect();
+        violated.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        violated.into_iter().map(|(_, number)| number).collect()
+    }
+
+    fn stepped(&mut self, q: &[f64]) {
+        self.postures.push(q.as_chunks::<3>().0.to_vec());
+    }
+}
+
+impl Descent<'_> {
+    fn tree(&self) -> &Tree {
+        self.closure.scene.tree
+    }
+
     /// The least change of the distance of two balls in one step, in pitches; negative if they may approach.
     fn least_separation(&self, pair: &Neighbours) -> f64 {
-        let missing = self.settings.min_distance - pair.distance;
+        let missing = self.closure.settings.min_distance - pair.distance;
         if missing > 0.0 { (0.5 * missing).min(0.05) } else { missing }
-    }
-
-    /// The secondary task: steps of the joints (rad) that are wanted as far as the constraints leave them
-    /// open. The initial bias, plus the joint torques of the repulsion times a gain.
-    fn secondary_task(&self, lp: &Loop, count: usize) -> Vec<f64> {
-        let mut task =
-            if self.initial_bias.is_empty() { vec![0.0; count] } else { self.initial_bias.to_vec() };
-        if self.repulsion_gain == 0.0 {
-            return task;
-        }
-        let repulsion = Repulsion::new(self.poses, self.neighbours, self.settings.repulsion_reach);
-        let joints = match self.mode {
-            IkMode::Endpoint => lp.joints.iter().map(|(joint, _)| *joint).collect(),
-            IkMode::CollisionFree => self.tree.all_joints(),
-        };
-        for joint in joints {
-            let (axis, point) = self.tree.axis(joint, self.poses);
-            let torque = repulsion.torque(self.tree, joint.child, &axis, &point);
-            task[3 * joint.module + joint.joint] += self.repulsion_gain * torque;
-        }
-        task
-    }
-
-    /// Scales a step so that no joint turns too far, and in a collision-free descent no ball goes too far.
-    fn limit_step(&self, step: &mut [f64]) {
-        let greatest = step.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
-        let mut scale = f64::min(1.0, self.settings.joint_step_max / greatest.max(1e-30));
-        if self.mode == IkMode::CollisionFree {
-            let far = libm::sqrt(self.displacements(step).iter().map(Vec3::norm_squared).fold(0.0, f64::max));
-            scale = scale.min(self.settings.ball_step_max * self.loop_scale / far.max(1e-30));
-        }
-        step.iter_mut().for_each(|s| *s *= scale);
     }
 
     /// By index: the displacement of each ball by a step of the joints, to first order, in pitches. Twists
@@ -406,11 +362,11 @@ impl Iteration<'_> {
         let mut twist = vec![(Vec3::zeros(), Vec3::zeros()); self.poses.len()];
         let mut displacements = vec![Vec3::zeros(); self.poses.len()];
         for index in 1..self.poses.len() {
-            let (mut v, mut w) = twist[self.tree.parent[index]];
-            for joint in self.tree.joints_at(index) {
+            let (mut v, mut w) = twist[self.tree().parent[index]];
+            for joint in self.tree().joints_at(index) {
                 let turn = step[3 * joint.module + joint.joint];
                 if turn != 0.0 {
-                    let (axis, point) = self.tree.axis(joint, self.poses);
+                    let (axis, point) = self.tree().axis(joint, &self.poses);
                     v -= axis.cross(&point) * turn;
                     w += axis * turn;
                 }
@@ -420,53 +376,6 @@ impl Iteration<'_> {
         }
         displacements
     }
-}
-
-/// The step nearest to the secondary task that satisfies the rows, the first six of them damped:
-/// `x = t + Jᵀ (J Jᵀ + D)⁻¹ (goal - J t)`. Returns it with the multipliers of the rows. Fixed joints stay.
-fn solve(rows: &[Row], secondary_task: &[f64], fixed: &[bool], damping: f64) -> (Vec<f64>, Vec<f64>) {
-    // J as a dense matrix, without the columns of fixed joints.
-    let count = secondary_task.len();
-    let mut dense = vec![0.0; rows.len() * count];
-    for (row, out) in rows.iter().zip(dense.chunks_mut(count)) {
-        for &(joint, factor) in row.terms.iter().filter(|(joint, _)| !fixed[*joint]) {
-            out[joint] += factor;
-        }
-    }
-    // The normal matrix J Jᵀ and the right side.
-    let mut normal = NormalMatrix::zeros(rows.len());
-    let mut right = vec![0.0; rows.len()];
-    for i in 0..rows.len() {
-        for &(joint, _) in &rows[i].terms {
-            let factor = dense[i * count + joint];
-            if factor == 0.0 {
-                continue;
-            }
-            for j in 0..=i {
-                normal.add(i, j, factor * dense[j * count + joint]);
-            }
-        }
-        right[i] = rows[i].goal
-            - rows[i]
-                .terms
-                .iter()
-                .map(|&(joint, _)| dense[i * count + joint] * secondary_task[joint])
-                .sum::<f64>();
-    }
-    // Damping, and the multipliers.
-    let trace = normal.trace().max(1e-9);
-    for i in 0..rows.len() {
-        normal.add(i, i, if i < CLOSURE_ROWS { damping + DAMPING_TRACE * trace } else { DAMPING_CONSTRAINT });
-    }
-    normal.solve(&mut right);
-    let mut step: Vec<f64> =
-        secondary_task.iter().zip(fixed).map(|(t, fixed)| if *fixed { 0.0 } else { *t }).collect();
-    for (i, row) in rows.iter().enumerate() {
-        for &(joint, _) in &row.terms {
-            step[joint] += dense[i * count + joint] * right[i];
-        }
-    }
-    (step, right)
 }
 
 /// A repulsion of balls: prefix sums by index of the forces on balls and of their moments, so that those on a

@@ -23,7 +23,6 @@ pub mod motion_check;
 pub mod neighbour_list;
 
 // Motions that bring two docks together.
-mod cholesky;
 pub mod fabrik;
 pub mod inverse_kinematics;
 mod lattice_closure;

@@ -3,7 +3,8 @@
 //! lasts (conservative advancement).
 
 use super::judge::Leg;
-use crate::geometry::Vec3;
+use crate::geometry::broad_phase::{Aabb, near_boxes};
+use crate::geometry::closest_points::segment_segment_distance;
 use crate::plan::NodePaths;
 
 /// A distance may be less than the clearance by this much: rounding, m.
@@ -27,28 +28,19 @@ pub fn nearest(paths: &NodePaths, leg: &Leg, clearance: f64) -> Vec<Near> {
         let ((a, b), (c, d)) = (paths.struts[i], paths.struts[j]);
         a == c || a == d || b == c || b == d
     };
-    let swept = |&(a, b): &(usize, usize)| {
-        let all = [leg.from[a], leg.from[b], leg.to[a], leg.to[b]];
-        let low = all.iter().skip(1).fold(all[0], |low, p| low.inf(p));
-        let high = all.iter().skip(1).fold(all[0], |high, p| high.sup(p));
-        (low, high)
-    };
-    let boxes: Vec<(Vec3, Vec3)> = paths.struts.iter().map(swept).collect();
-    // Sorted by where they begin along x, those that a box can meet follow it.
-    let mut order: Vec<usize> = (0..boxes.len()).collect();
-    order.sort_by(|&i, &j| boxes[i].0.x.total_cmp(&boxes[j].0.x).then(i.cmp(&j)));
+    let swept = |&(a, b): &(usize, usize)| Aabb::around([leg.from[a], leg.from[b], leg.to[a], leg.to[b]]);
+    let boxes: Vec<Aabb> = paths.struts.iter().map(swept).collect();
+    // A cell of the grid is as large as a box is in the mean.
+    let sizes: f64 = boxes.iter().map(|swept| (swept.high - swept.low).max()).sum();
+    let cell = sizes / boxes.len().max(1) as f64;
     // Twice the clearance, so that a distance is told where nothing is nearer.
     let reach = 2.0 * clearance;
     let mut found = Vec::new();
-    for (at, &i) in order.iter().enumerate() {
-        for &j in order[at + 1..].iter().take_while(|&&j| boxes[j].0.x <= boxes[i].1.x + reach) {
-            let meet = (1..3)
-                .all(|k| boxes[i].0[k] <= boxes[j].1[k] + reach && boxes[j].0[k] <= boxes[i].1[k] + reach);
-            if meet && !shares(i, j) {
-                found.push(pair(paths, leg, (i.min(j), i.max(j)), clearance));
-            }
+    near_boxes(&boxes, reach, cell, &mut |i, j| {
+        if !shares(i, j) {
+            found.push(pair(paths, leg, (i, j), clearance));
         }
-    }
+    });
     found.sort_by_key(|near| near.struts);
     found
 }
@@ -62,7 +54,7 @@ fn pair(paths: &NodePaths, leg: &Leg, struts: (usize, usize), clearance: f64) ->
     let mut part = 0.0;
     let apart = |part: f64| {
         let at = |node: usize| leg.from[node] + way(node) * part;
-        distance([at(a), at(b)], [at(c), at(d)])
+        segment_segment_distance((at(a), at(b)), (at(c), at(d)))
     };
     let end = apart(1.0);
     if end < near.distance {
@@ -84,30 +76,4 @@ fn pair(paths: &NodePaths, leg: &Leg, struts: (usize, usize), clearance: f64) ->
         part = (part + spare / speed).min(1.0);
     }
     near
-}
-
-/// Between two segments: inside both where they cross as seen along their common perpendicular, else
-/// from an end.
-fn distance(p: [Vec3; 2], q: [Vec3; 2]) -> f64 {
-    let (u, v) = (p[1] - p[0], q[1] - q[0]);
-    let normal = u.cross(&v);
-    let ends = [to_segment(p[0], q), to_segment(p[1], q), to_segment(q[0], p), to_segment(q[1], p)];
-    let least = ends.into_iter().fold(f64::INFINITY, f64::min);
-    let area = normal.norm_squared();
-    let apart = q[0] - p[0];
-    // Where the lines are nearest, by Cramer's rule.
-    let (s, t) = (apart.cross(&v).dot(&normal), apart.cross(&u).dot(&normal));
-    let inside = |x: f64| 0.0 < x && x < area;
-    if area > 0.0 && inside(s) && inside(t) {
-        least.min(apart.dot(&normal).abs() / area.sqrt())
-    } else {
-        least
-    }
-}
-
-fn to_segment(point: Vec3, [a, b]: [Vec3; 2]) -> f64 {
-    let along = b - a;
-    let length = along.norm_squared();
-    let part = if length > 0.0 { ((point - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (point - a - along * part).norm()
 }
