@@ -110,7 +110,8 @@ impl SymmetricMatrix {
                 let other = &done[self.start[j]..self.start[j + 1]];
                 let first = self.first[j];
                 let common = from.max(first);
-                let sum = self.summation.dot(&row[common - from..j - from], &other[common - first..j - first]);
+                let sum =
+                    self.summation.dot(&row[common - from..j - from], &other[common - first..j - first]);
                 row[j - from] = (row[j - from] - sum) / other[j - first];
             }
             let (diagonal, before) = row.split_last_mut()?;

@@ -8,13 +8,14 @@ use nalgebra::{DMatrix, DVector};
 /// Singular values below this part of the largest count as zero: far above rounding, far below the
 /// stiffness of any truss that is worth building.
 const SINGULAR: f64 = 1e-9;
-/// Components below this part of the largest count as no motion.
+/// The part of the largest component below which a component counts as no motion.
 const STILL: f64 = 1e-6;
 /// A strut carries a self-stress if this much of its row lies in the span of the others.
 const REDUNDANT: f64 = 1e-9;
-/// Trusses of more nodes are looked at in their band first: a decomposition takes the cube of their number.
+/// The number of nodes above which the banded decomposition is tried first: a dense one takes the cube of it.
 const NODES_DENSE: usize = 60;
 
+/// Infinitesimal rigidity of a truss.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rigidity {
     /// Rank of the rigidity matrix.
@@ -39,23 +40,24 @@ pub struct FreeMotion {
 }
 
 impl Rigidity {
+    /// Returns true if no motion is free but those of the whole.
     pub fn rigid(&self) -> bool {
         self.free.is_empty()
     }
 }
 
-/// Examines a truss. Struts must have length.
+/// Examines a truss with nodes at these places (m) and struts between them, which must have length.
 pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     if nodes.len() > NODES_DENSE
-        && let Some(facts) = truss_band::facts(nodes, struts)
+        && let Some(report) = truss_band::examine(nodes, struts)
     {
-        let rank = 3 * nodes.len() - motions_of_the_whole(nodes).len();
+        let rank = 3 * nodes.len() - rigid_motions(nodes).len();
         return Rigidity {
             rank,
             rank_rigid: rank,
             self_stresses: struts.len() - rank,
-            weakest: facts.weakest,
-            redundant: facts.redundant,
+            weakest: report.weakest,
+            redundant: report.redundant,
             free: Vec::new(),
         };
     }
@@ -68,15 +70,15 @@ pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     let u = svd.u.as_ref().expect("asked for");
     let v_t = svd.v_t.as_ref().expect("asked for");
     let leverage = |strut: usize| kept.iter().map(|&i| u[(strut, i)] * u[(strut, i)]).sum::<f64>();
-    let rigid_motions = motions_of_the_whole(nodes);
+    let rigid = rigid_motions(nodes);
     let null: Vec<DVector<f64>> = (0..svd.singular_values.len())
         .filter(|i| !kept.contains(i))
         .map(|i| v_t.row(i).transpose())
         .collect();
-    let free = reduced(without(null, &rigid_motions), 3 * nodes.len() - kept.len() - rigid_motions.len());
+    let free = reduced(project_out(null, &rigid), 3 * nodes.len() - kept.len() - rigid.len());
     Rigidity {
         rank: kept.len(),
-        rank_rigid: 3 * nodes.len() - rigid_motions.len(),
+        rank_rigid: 3 * nodes.len() - rigid.len(),
         self_stresses: struts.len() - kept.len(),
         weakest: kept.iter().map(|&i| svd.singular_values[i]).fold(f64::INFINITY, f64::min),
         redundant: (0..struts.len()).filter(|&s| leverage(s) < 1.0 - REDUNDANT).collect(),
@@ -101,8 +103,8 @@ fn rigidity_matrix(nodes: &[Vec3], struts: &[(usize, usize)]) -> DMatrix<f64> {
     matrix
 }
 
-/// An orthonormal basis of the translations and turns of all nodes together.
-pub(super) fn motions_of_the_whole(nodes: &[Vec3]) -> Vec<DVector<f64>> {
+/// Returns an orthonormal basis of the rigid motions of all nodes together, translations and rotations.
+pub(super) fn rigid_motions(nodes: &[Vec3]) -> Vec<DVector<f64>> {
     let centre = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
     let moved = |motion: &dyn Fn(&Vec3) -> Vec3| {
         DVector::from_iterator(3 * nodes.len(), nodes.iter().flat_map(|p| motion(p).data.0[0]))
@@ -113,7 +115,8 @@ pub(super) fn motions_of_the_whole(nodes: &[Vec3]) -> Vec<DVector<f64>> {
     orthonormal(motions)
 }
 
-/// Gram and Schmidt, twice for accuracy; vectors that depend on those before are left out.
+/// Returns an orthonormal basis by the method of Gram and Schmidt, twice for accuracy; vectors that depend on those before
+/// are left out.
 pub(super) fn orthonormal(vectors: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     let mut basis: Vec<DVector<f64>> = Vec::new();
     for vector in vectors {
@@ -132,7 +135,8 @@ pub(super) fn orthonormal(vectors: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     basis
 }
 
-fn without(vectors: Vec<DVector<f64>>, basis: &[DVector<f64>]) -> Vec<DVector<f64>> {
+/// Projects vectors onto the complement of orthonormal ones.
+fn project_out(vectors: Vec<DVector<f64>>, basis: &[DVector<f64>]) -> Vec<DVector<f64>> {
     let project = |mut v: DVector<f64>| {
         for b in basis {
             let along = b.dot(&v);
@@ -143,8 +147,8 @@ fn without(vectors: Vec<DVector<f64>>, basis: &[DVector<f64>]) -> Vec<DVector<f6
     vectors.into_iter().map(project).collect()
 }
 
-/// A basis of what the vectors span, of `count` vectors with as many zeros as elimination gives:
-/// it depends on the span alone, so on nothing but the truss.
+/// Returns a basis of the span of vectors, of `count` vectors with as many zeros as Gaussian elimination gives: it depends
+/// on the span alone, so on nothing but the truss.
 fn reduced(mut rows: Vec<DVector<f64>>, count: usize) -> Vec<DVector<f64>> {
     let mut done: Vec<DVector<f64>> = Vec::new();
     let columns = rows.first().map_or(0, |r| r.len());
@@ -166,6 +170,7 @@ fn reduced(mut rows: Vec<DVector<f64>>, count: usize) -> Vec<DVector<f64>> {
     done
 }
 
+/// Returns a null vector as a motion of nodes, scaled.
 fn free_motion(motion: &DVector<f64>) -> FreeMotion {
     let at = |node: usize| Vec3::new(motion[3 * node], motion[3 * node + 1], motion[3 * node + 2]);
     let count = motion.len() / 3;

@@ -1,37 +1,42 @@
-//! Rigidity of trusses of many nodes. Nodes that struts join are numbered near to each other, so that
-//! the rows of the rigidity matrix keep to a band; rotations make it triangular there. Its condition is
-//! not squared, and the time grows with the nodes times the square of the band's width.
+//! Rigidity of trusses of many nodes, by a banded QR decomposition of the rigidity matrix.
+//!
+//! Nodes are numbered in the order of Cuthill and McKee, so that the rows of the rigidity matrix keep to a band, and
+//! Givens rotations make it triangular there. Unlike normal equations that does not square its condition, and the time
+//! grows with the nodes times the square of the band's width.
 
-use super::truss::{motions_of_the_whole, orthonormal};
+use super::truss::{orthonormal, rigid_motions};
 use crate::geometry::Vec3;
 use crate::interrupt;
+use crate::optimize::cuthill_mckee;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// A truss whose weakest singular value is less than this part of the largest is not told apart from
-/// one that gives way: the square root of what counts as zero would be 3e-5, and rounding is 1e-16.
-const CLEAR: f64 = 1e-7;
+/// The least singular value, as a part of the largest, above which a truss is clearly rigid: the square root of what
+/// counts as zero would be 3e-5, and rounding is 1e-16.
+const CLEARLY_RIGID: f64 = 1e-7;
 /// A strut carries a self-stress if this much of its row lies in the span of the others.
 const REDUNDANT: f64 = 1e-9;
-/// Steps of the iterations for the least and the largest singular value.
-const STEPS_MAX: usize = 300;
-/// How many directions are followed towards the weakest at once.
-const SPACE: usize = 8;
-/// An iteration ends when its value changes by less than this part.
-const SETTLED: f64 = 1e-11;
-/// How often in a row it must.
-const SETTLED_TIMES: usize = 4;
+/// Iterations for the least singular value at most.
+const ITERATIONS_MAX: usize = 300;
+/// Dimension of the subspace that is iterated towards the weakest directions.
+const SUBSPACE: usize = 8;
+/// An iteration has converged when its value changes by less than this part.
+const CONVERGED: f64 = 1e-11;
+/// The number of iterations in a row in which it must.
+const CONVERGED_TIMES: usize = 4;
 /// Nodes nearer to a line than this part of its length lie on it.
 const ON_LINE: f64 = 1e-6;
 
-pub(super) struct Facts {
+/// Rigidity of a truss that is clearly rigid.
+pub(super) struct RigidityReport {
     /// The least singular value that belongs to no motion of the whole, for struts of mean length 1.
     pub weakest: f64,
+    /// Struts without any one of which the truss stays rigid.
     pub redundant: Vec<usize>,
 }
 
-/// Facts about a truss that is clearly rigid; `None`: it is not, or not clearly.
-pub(super) fn facts(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<Facts> {
+/// Examines a truss with nodes at these places (m); `None` where it is not rigid, or not clearly.
+pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<RigidityReport> {
     let order = order(nodes.len(), struts);
     let mut place = vec![0; nodes.len()];
     order.iter().enumerate().for_each(|(at, &node)| place[node] = at);
@@ -42,7 +47,7 @@ pub(super) fn facts(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<Facts> 
     let rows: Vec<Row> =
         struts.iter().map(|&(a, b)| Row::strut(a, b, (nodes[a] - nodes[b]) / mean)).collect();
     let mut all = rows.clone();
-    all.extend(held(&nodes)?);
+    all.extend(pinning_rows(&nodes)?);
     all.sort_by_key(|row| row.first);
     let mut band = Band::new(3 * nodes.len(), all.iter().map(Row::width).max()?);
     for row in &all {
@@ -52,54 +57,41 @@ pub(super) fn facts(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<Facts> 
     if !band.is_full() {
         return None;
     }
-    let whole = motions_of_the_whole(&nodes);
-    let weakest = least(&band, &rows, &whole)?;
-    if weakest <= CLEAR * largest(&rows, 3 * nodes.len()) {
+    let whole = rigid_motions(&nodes);
+    let weakest = least_singular_value(&band, &rows, &whole)?;
+    if weakest <= CLEARLY_RIGID * largest_singular_value(&rows, 3 * nodes.len()) {
         return None;
     }
     // With as many struts as there are ways to move, each is needed.
     let spare = struts.len() + whole.len() > 3 * nodes.len();
     let needed = |row: &Row| {
         interrupt::checkpoint();
-        band.share(row) >= 1.0 - REDUNDANT
+        band.leverage(row) >= 1.0 - REDUNDANT
     };
     let redundant = if spare { (0..rows.len()).filter(|&s| !needed(&rows[s])).collect() } else { Vec::new() };
-    Some(Facts { weakest, redundant })
+    Some(RigidityReport { weakest, redundant })
 }
 
-/// Nodes so that those that struts join come near each other (Cuthill and McKee).
+/// Returns the nodes in the order of Cuthill and McKee, from a node at an end of the truss.
 fn order(count: usize, struts: &[(usize, usize)]) -> Vec<usize> {
-    let mut beside = vec![BTreeSet::new(); count];
-    for &(a, b) in struts {
-        beside[a].insert(b);
-        beside[b].insert(a);
-    }
+    let neighbours = cuthill_mckee::neighbours(count, struts.iter().copied());
     let from = |start: usize| {
-        let mut order = vec![start];
-        let mut known = vec![false; count];
-        known[start] = true;
-        let mut at = 0;
-        while let Some(&node) = order.get(at) {
-            let mut next: Vec<usize> = beside[node].iter().copied().filter(|&n| !known[n]).collect();
-            next.sort_by_key(|&n| (beside[n].len(), n));
-            next.iter().for_each(|&n| known[n] = true);
-            order.extend(next);
-            at += 1;
-        }
+        let mut order = Vec::with_capacity(count);
+        cuthill_mckee::number_from(start, &neighbours, &mut vec![false; count], &mut order);
         order
     };
     // The last one reached from anywhere lies at an end.
     let end = from(0).last().copied().unwrap_or(0);
     let mut order = from(end);
-    // What hangs together with nothing of it comes behind.
+    // Nodes that no struts connect with it come behind.
     let reached: BTreeSet<usize> = order.iter().copied().collect();
     order.extend((0..count).filter(|node| !reached.contains(node)));
     order
 }
 
-/// Rows that hold three nodes so that the whole can't move, each at one node; `None` where all nodes
-/// lie on a line.
-fn held(nodes: &[Vec3]) -> Option<Vec<Row>> {
+/// Returns six rows, each at one of three nodes, that pin the truss so that it can't move as a rigid body; `None` where
+/// all nodes lie on a line.
+fn pinning_rows(nodes: &[Vec3]) -> Option<Vec<Row>> {
     let far = |weigh: &dyn Fn(&Vec3) -> f64| {
         (0..nodes.len()).max_by(|&i, &j| weigh(&nodes[i]).total_cmp(&weigh(&nodes[j])))
     };
@@ -118,7 +110,7 @@ fn held(nodes: &[Vec3]) -> Option<Vec<Row>> {
     Some(rows)
 }
 
-/// A row of few entries, from column `first` on.
+/// A sparse row of the matrix, from column `first` on.
 #[derive(Clone)]
 struct Row {
     first: usize,
@@ -126,11 +118,12 @@ struct Row {
 }
 
 impl Row {
+    /// Returns the row that keeps a node from moving along d.
     fn node(node: usize, d: Vec3) -> Row {
         Row { first: 3 * node, entries: d.iter().copied().collect() }
     }
 
-    /// Of a strut from `a` to `b`, the later of the two.
+    /// Returns the row of the rigidity matrix of a strut from `a` to `b`, the later of the two, along d.
     fn strut(a: usize, b: usize, d: Vec3) -> Row {
         let mut entries = vec![0.0; 3 * (b - a) + 3];
         for k in 0..3 {
@@ -144,18 +137,20 @@ impl Row {
         self.entries.len()
     }
 
-    /// The two ends of the row: what lies between is zero.
+    /// Returns the two ends of the row, what lies between being zero.
     fn parts(&self) -> [(usize, &[f64]); 2] {
         let tail = self.entries.len() - 3;
         let second = if tail == 0 { &[][..] } else { &self.entries[tail..] };
         [(self.first, &self.entries[..3]), (self.first + tail, second)]
     }
 
+    /// Returns the dot product with x.
     fn times(&self, x: &DVector<f64>) -> f64 {
         let part = |(at, part): (usize, &[f64])| part.iter().zip(at..).map(|(e, c)| e * x[c]).sum::<f64>();
         self.parts().map(part).iter().sum()
     }
 
+    /// Adds the row times a factor to y.
     fn add_to(&self, factor: f64, y: &mut DVector<f64>) {
         for (at, part) in self.parts() {
             part.iter().zip(at..).for_each(|(e, c)| y[c] += factor * e);
@@ -163,7 +158,7 @@ impl Row {
     }
 }
 
-/// An upper triangular matrix of a narrow band, row by row from the diagonal on.
+/// The upper triangular factor R of the QR decomposition, within a narrow band, row by row from the diagonal on.
 struct Band {
     columns: usize,
     width: usize,
@@ -180,11 +175,12 @@ impl Band {
         &self.rows[at * self.width..(at + 1) * self.width]
     }
 
+    /// Returns true if R is regular.
     fn is_full(&self) -> bool {
         (0..self.columns).all(|at| self.taken[at] && self.row(at)[0] != 0.0)
     }
 
-    /// Rotates a row into those that are there, until a place is free.
+    /// Adds a row to the decomposed matrix, by Givens rotations with the rows that are there, until a place is free.
     fn insert(&mut self, row: &Row) {
         let mut entries = vec![0.0; self.width];
         entries[..row.entries.len()].copy_from_slice(&row.entries);
@@ -230,9 +226,9 @@ impl Band {
         }
     }
 
-    /// How much of a row lies in no span of the others: 1 for one that is needed. What holds the whole
-    /// still spans nothing that struts do, so it does not change this.
-    fn share(&self, row: &Row) -> f64 {
+    /// Returns the leverage of a row, the part of it that lies in no span of the others: 1 for a strut that is needed. The
+    /// pinning rows span nothing that struts do, so they do not change it.
+    fn leverage(&self, row: &Row) -> f64 {
         let mut b = DVector::zeros(self.columns);
         row.add_to(1.0, &mut b);
         self.solve_transposed(&mut b, row.first);
@@ -240,8 +236,8 @@ impl Band {
     }
 }
 
-/// Vectors with no direction of their own, the same everywhere.
-fn beginnings(columns: usize, count: usize) -> Vec<DVector<f64>> {
+/// Returns pseudo-random vectors to begin iterations with, the same everywhere.
+fn starting_vectors(columns: usize, count: usize) -> Vec<DVector<f64>> {
     let mut state = 1u64;
     let mut next = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -250,17 +246,17 @@ fn beginnings(columns: usize, count: usize) -> Vec<DVector<f64>> {
     (0..count).map(|_| DVector::from_fn(columns, |_, _| next())).collect()
 }
 
-/// The least singular value of the struts' rows beside those of the motions of the whole, by iteration
-/// of a subspace: slender trusses bend in two planes almost alike. The inverse of what is held, between
-/// two projections, is the pseudo-inverse of what is not.
-fn least(band: &Band, rows: &[Row], whole: &[DVector<f64>]) -> Option<f64> {
-    let mut space = beginnings(band.columns, SPACE);
-    settled(&mut || {
+/// Returns the least singular value of the struts' rows but those of rigid motions, by inverse subspace iteration:
+/// slender trusses bend in two planes almost alike. The inverse of the pinned matrix, between two projections, is the
+/// pseudo-inverse of the free one.
+fn least_singular_value(band: &Band, rows: &[Row], whole: &[DVector<f64>]) -> Option<f64> {
+    let mut space = starting_vectors(band.columns, SUBSPACE);
+    converged(&mut || {
         let solved = space.drain(..).map(|mut x| {
-            clear(&mut x, whole);
+            project_out(&mut x, whole);
             band.solve_transposed(&mut x, 0);
             band.solve(&mut x);
-            clear(&mut x, whole);
+            project_out(&mut x, whole);
             x
         });
         space = orthonormal(solved.collect());
@@ -277,17 +273,17 @@ fn least(band: &Band, rows: &[Row], whole: &[DVector<f64>]) -> Option<f64> {
     })
 }
 
-/// Takes the part along orthonormal vectors out.
-fn clear(x: &mut DVector<f64>, basis: &[DVector<f64>]) {
+/// Projects x onto the complement of orthonormal vectors.
+fn project_out(x: &mut DVector<f64>, basis: &[DVector<f64>]) {
     for b in basis {
         let along = b.dot(x);
         x.axpy(-along, b, 1.0);
     }
 }
 
-/// The largest singular value, about.
-fn largest(rows: &[Row], columns: usize) -> f64 {
-    let mut x = beginnings(columns, 1).remove(0).normalize();
+/// Returns the largest singular value, about, by power iteration.
+fn largest_singular_value(rows: &[Row], columns: usize) -> f64 {
+    let mut x = starting_vectors(columns, 1).remove(0).normalize();
     let mut value = 0.0;
     for _ in 0..50 {
         let mut y = DVector::zeros(columns);
@@ -298,17 +294,17 @@ fn largest(rows: &[Row], columns: usize) -> f64 {
     value
 }
 
-/// The value at which an iteration comes to rest; `None` where it does not.
-fn settled(step: &mut dyn FnMut() -> f64) -> Option<f64> {
+/// Returns the value to which an iteration converges; `None` where it does not.
+fn converged(step: &mut dyn FnMut() -> f64) -> Option<f64> {
     let (mut before, mut times) = (f64::INFINITY, 0);
-    for _ in 0..STEPS_MAX {
+    for _ in 0..ITERATIONS_MAX {
         interrupt::checkpoint();
         let value = step();
         if !value.is_finite() {
             return None;
         }
-        times = if (value - before).abs() <= value * SETTLED { times + 1 } else { 0 };
-        if times >= SETTLED_TIMES {
+        times = if (value - before).abs() <= value * CONVERGED { times + 1 } else { 0 };
+        if times >= CONVERGED_TIMES {
             return Some(value);
         }
         before = value;
