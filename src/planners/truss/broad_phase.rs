@@ -4,13 +4,12 @@
 
 use super::structure::Structure;
 use crate::geometry::Vec3;
+use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::closest_points::segment_segment;
 
 /// Default skin of the neighbour list, units: it is rebuilt when a node has moved this far beside the mean
 /// motion of all.
 const SKIN: f64 = 0.3;
-/// Greatest number of grid cells for each strut.
-const CELLS_PER_STRUT: f64 = 8.0;
 
 /// Neighbour list: all pairs of struts without a common node that can come nearer than the clearance while
 /// no node is farther than `skin` (m) from where it was, each with a lower bound on its distance.
@@ -113,48 +112,14 @@ fn moved(x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
 /// Returns the pairs of struts without a common node whose bounding boxes are within `reach` of each other,
 /// with the distance between the boxes, both in m.
 pub fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
-    let boxes: Vec<(Vec3, Vec3)> = (0..truss.struts.len())
-        .map(|strut| {
-            let (a, b) = truss.segment(x, strut);
-            (a.inf(&b), a.sup(&b))
-        })
-        .collect();
-    let margin = Vec3::repeat(reach / 2.0);
-    let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, (p, _)| low.inf(p)) - margin;
-    let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, (_, q)| high.sup(q)) + margin;
-    // Choose the cell size: at least `reach`, and no more than CELLS_PER_STRUT cells for each strut.
-    let mut size = truss.unit.max(reach);
-    let counts = |size: f64| (high - low).map(|length| libm::floor(length / size) + 1.0);
-    while counts(size).product() > CELLS_PER_STRUT * boxes.len() as f64 + 1.0 {
-        size *= 2.0;
-    }
-    let counts = counts(size).map(|count| count as usize);
-    let cell = |p: Vec3| ((p - low) / size).map(|v| v.max(0.0) as usize);
-    // Insert the boxes one by one; each is compared with those that are in its cells already.
-    let mut grid: Vec<Vec<usize>> = vec![Vec::new(); counts.product()];
+    let ends = |strut| -> [Vec3; 2] { truss.segment(x, strut).into() };
+    let boxes: Vec<Aabb> = (0..truss.struts.len()).map(|strut| Aabb::around(ends(strut))).collect();
     let mut found = Vec::new();
-    for (j, (low_j, high_j)) in boxes.iter().enumerate() {
-        let (from, to) = (cell(low_j - margin), cell(high_j + margin));
-        for a in from.x..=to.x.min(counts.x - 1) {
-            for b in from.y..=to.y.min(counts.y - 1) {
-                for c in from.z..=to.z.min(counts.z - 1) {
-                    let members = &mut grid[(a * counts.y + b) * counts.z + c];
-                    for &i in members.iter() {
-                        let (low_i, high_i) = &boxes[i];
-                        let gap = (low_i - high_j).sup(&(low_j - high_i)).sup(&Vec3::zeros());
-                        let apart = gap.norm_squared();
-                        // Of the cells that both boxes overlap, only the first reports the pair.
-                        if apart < reach * reach
-                            && !truss.share_node(i, j)
-                            && cell(low_i.sup(low_j) - margin) == nalgebra::Vector3::new(a, b, c)
-                        {
-                            found.push((i, j, apart.sqrt()));
-                        }
-                    }
-                    members.push(j);
-                }
-            }
+    near_boxes(&boxes, reach, truss.unit, &mut |i, j| {
+        let apart = boxes[i].gap(&boxes[j]).norm_squared();
+        if apart < reach * reach && !truss.share_node(i, j) {
+            found.push((i, j, apart.sqrt()));
         }
-    }
+    });
     found
 }
