@@ -2,7 +2,7 @@
 
 use super::docking;
 use super::joints;
-use super::law::{self, Ability, Piece};
+use super::law::{self, MotionLimits, Piece};
 use super::limits::{Issue, IssueKind, Part};
 use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
@@ -82,7 +82,7 @@ impl Run<'_> {
         let braking = law::changed_speed(at, speed, 0.0, able);
         let stopped = braking.as_ref().map_or(at, |piece| piece.control[2]);
         let spent = braking.as_ref().map_or(0.0, |piece| piece.duration);
-        let least = law::least(profile, target - stopped, able);
+        let least = law::least_duration(profile, target - stopped, able);
         let lasting = match duration {
             Some(given) => self.given_duration(action, joint, given, spent, least)?,
             None => tick_after(least.ok_or_else(|| Reason::NoSpeed { joint: self.name(joint) })?),
@@ -95,7 +95,7 @@ impl Run<'_> {
             });
         }
         let mut pieces: Vec<Piece> = braking.into_iter().collect();
-        pieces.extend(law::moved(profile, stopped, target, lasting, able));
+        pieces.extend(law::rest_to_rest(profile, stopped, target, lasting, able));
         self.give(action, joint, pieces)
     }
 
@@ -132,7 +132,7 @@ impl Run<'_> {
         finite("a speed", speed)?;
         at_least_zero("a duration", duration)?;
         let (at, at_speed) = self.take_over(joint);
-        let pieces = law::spun(at, at_speed, speed, tick_after(duration), able);
+        let pieces = law::spin(at, at_speed, speed, tick_after(duration), able);
         self.give(action, joint, pieces)
     }
 
@@ -172,14 +172,14 @@ impl Run<'_> {
         if (at - begins[1]).abs() > self.settings.tol_begin {
             return Err(Reason::Jump { joint: self.name(joint), at, begins: begins[1] });
         }
-        self.give(action, joint, law::followed(keyframes))
+        self.give(action, joint, law::cubic_pieces(keyframes))
     }
 
     /// Brings a joint to rest as fast as it can: at once where no acceleration limit is stated.
     pub(super) fn stop(&mut self, joint: JointId, cause: CauseId) {
         let (at, speed) = self.take_over(joint);
         let facts = &self.facts[joint.0 as usize];
-        let able = Ability { speed: facts.speed, acceleration: facts.acceleration };
+        let able = MotionLimits { speed: facts.speed, acceleration: facts.acceleration };
         let braking = law::changed_speed(at, speed, 0.0, able).into_iter().collect();
         self.motions[joint.0 as usize].append(self.now, braking, cause);
     }
@@ -198,11 +198,11 @@ impl Run<'_> {
     }
 
     /// What a joint can do, if it takes commands.
-    fn able(&self, joint: JointId) -> Result<Ability, Reason> {
+    fn able(&self, joint: JointId) -> Result<MotionLimits, Reason> {
         let facts = &self.facts[joint.0 as usize];
-        match facts.mute {
-            Some(why) => Err(Reason::Mute { joint: facts.name.clone(), why }),
-            None => Ok(Ability { speed: facts.speed, acceleration: facts.acceleration }),
+        match facts.uncommandable {
+            Some(why) => Err(Reason::NoCommands { joint: facts.name.clone(), why }),
+            None => Ok(MotionLimits { speed: facts.speed, acceleration: facts.acceleration }),
         }
     }
 

@@ -1,28 +1,28 @@
-//! When a condition begins to hold along the nominal motion: exact crossings of polynomials.
+//! The first instant at which a condition holds along the nominal motion: exact crossings of polynomials.
 //!
-//! Conditions are judged on open stretches of time and at the instants where a piece of motion
+//! Conditions are judged on open intervals of time and at the instants where a piece of motion
 //! begins; a signal that only touches a value inside a piece does not reach it.
 
-use super::motion::{Motion, Stretch};
+use super::motion::{Motion, SignalPiece};
 use crate::plan::time::tick_after;
 use crate::plan::{Compare, Condition, Signal, polynomial};
 use crate::robot::{Assembly, PortRef};
 
 /// Deepest nesting of a condition.
-pub const DEPTH_MAX: usize = 64;
+pub(super) const DEPTH_MAX: usize = 64;
 
-/// What a condition can see.
-pub struct View<'a> {
-    pub robot: &'a Assembly,
-    pub motions: &'a [Motion],
-    /// Which bonds hold.
-    pub holds: &'a [bool],
-    /// When the action began.
-    pub began: f64,
+/// The motion that a condition is judged on.
+pub(super) struct View<'a> {
+    pub(super) robot: &'a Assembly,
+    pub(super) motions: &'a [Motion],
+    /// A flag for every bond: whether it holds.
+    pub(super) holds: &'a [bool],
+    /// The time at which the action began, s.
+    pub(super) began: f64,
 }
 
-/// The first tick in `t0..=t1` (`t1` may be infinite) from which on the condition holds.
-pub fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Option<f64> {
+/// Returns the first tick in `t0..=t1` (`t1` may be infinite) from which on the condition holds.
+pub(super) fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Option<f64> {
     if holds(condition, view, t0) {
         return Some(t0);
     }
@@ -43,8 +43,8 @@ pub fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Option<f64
     (t1.is_finite() && holds(condition, view, t1)).then_some(t1)
 }
 
-/// How deeply a condition is nested, up to one more than [`DEPTH_MAX`].
-pub fn depth(condition: &Condition) -> usize {
+/// Returns the depth of a condition's nesting, up to one more than [`DEPTH_MAX`].
+pub(super) fn depth(condition: &Condition) -> usize {
     let mut deepest = 0;
     let mut stack = vec![(condition, 1)];
     while let Some((c, depth)) = stack.pop() {
@@ -66,8 +66,8 @@ fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
     a.into_iter().chain(b)
 }
 
-/// Whether any part of a condition reads a sensor: anything but the time since the action began.
-pub fn senses(condition: &Condition) -> bool {
+/// Returns `true` where a part of a condition reads a sensor: anything but the time since the action began.
+pub(super) fn senses(condition: &Condition) -> bool {
     match condition {
         Condition::Compare { signal, .. } => *signal != Signal::Elapsed,
         Condition::Docked(_) | Condition::Mated(..) => true,
@@ -75,7 +75,7 @@ pub fn senses(condition: &Condition) -> bool {
     }
 }
 
-/// Whether it holds at an instant; rates are those just after it.
+/// Returns `true` where a condition holds at an instant; rates are those just after it.
 fn holds(condition: &Condition, view: &View, t: f64) -> bool {
     match condition {
         Condition::Compare { signal, compare, value } => {
@@ -119,37 +119,37 @@ fn value_at(signal: Signal, view: &View, t: f64) -> f64 {
 /// Collects the instants in `t0..t1` at which a part of the condition may change.
 fn add_breaks(condition: &Condition, view: &View, t0: f64, t1: f64, breaks: &mut Vec<f64>) {
     if let Condition::Compare { signal, value, .. } = condition {
-        for stretch in stretches(*signal, view, t0, t1) {
-            breaks.push(stretch.start);
-            breaks.extend(crossings(&stretch, *value));
+        for piece in pieces(*signal, view, t0, t1) {
+            breaks.push(piece.start);
+            breaks.extend(crossings(&piece, *value));
         }
     }
     parts(condition).for_each(|part| add_breaks(part, view, t0, t1, breaks));
 }
 
-fn stretches(signal: Signal, view: &View, t0: f64, t1: f64) -> Vec<Stretch> {
+fn pieces(signal: Signal, view: &View, t0: f64, t1: f64) -> Vec<SignalPiece> {
     let pieces = |joint: crate::robot::JointId| view.motions[joint.0 as usize].pieces(t0, t1);
     match signal {
         Signal::Angle(joint) => pieces(joint),
-        Signal::Speed(joint) => pieces(joint).iter().map(Stretch::rate).collect(),
+        Signal::Speed(joint) => pieces(joint).iter().map(SignalPiece::rate).collect(),
         Signal::Elapsed => {
             let elapsed = t0 - view.began;
             let span = if t1.is_finite() { t1 - t0 } else { 1.0 };
-            vec![Stretch { start: t0, end: t1, control: vec![elapsed, elapsed + span] }]
+            vec![SignalPiece { start: t0, end: t1, control: vec![elapsed, elapsed + span] }]
         }
     }
 }
 
 /// When a piece of a signal crosses a value.
-fn crossings(stretch: &Stretch, value: f64) -> Vec<f64> {
-    let control: Vec<f64> = stretch.control.iter().map(|c| c - value).collect();
+fn crossings(piece: &SignalPiece, value: f64) -> Vec<f64> {
+    let control: Vec<f64> = piece.control.iter().map(|c| c - value).collect();
     if control.len() == 2 {
         let u = control[0] / (control[0] - control[1]);
-        let t = stretch.start + u * stretch.span();
-        return if u > 0.0 && t < stretch.end { vec![t] } else { vec![] };
+        let t = piece.start + u * piece.span();
+        return if u > 0.0 && t < piece.end { vec![t] } else { vec![] };
     }
-    if control.len() < 2 || stretch.start == stretch.end {
+    if control.len() < 2 || piece.start == piece.end {
         return vec![];
     }
-    polynomial::roots(&control).into_iter().map(|u| stretch.start + u * stretch.span()).collect()
+    polynomial::roots(&control).into_iter().map(|u| piece.start + u * piece.span()).collect()
 }

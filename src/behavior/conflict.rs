@@ -28,7 +28,8 @@ pub struct Conflict {
     pub joint: JointId,
 }
 
-/// What was found.
+/// The conflicts of a program: where it commands one controller to hold two positions at one time
+/// (Definition IV.5).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conflicts {
     /// Different setpoints: an error. Each pair of causes once.
@@ -41,10 +42,11 @@ pub struct Conflicts {
     pub work: usize,
 }
 
-/// Most pairs reported of each kind.
+/// The greatest number of pairs that are reported of each kind.
 pub const PAIRS_MAX: usize = 100;
 
-/// The conflicts in a program.
+/// Returns the conflicts of a program, found on its graph without running it, in time linear in the size
+/// of the graph.
 pub fn conflicts(program: &Arc<Node>) -> Conflicts {
     let graph = Graph::of(program);
     let mut search = Search { found: Conflicts::default(), seen: BTreeSet::new() };
@@ -174,7 +176,7 @@ fn commanded(command: &Command) -> Option<JointId> {
     }
 }
 
-/// Whether two commands to one joint want the same of it. What is relative to where the joint is
+/// Returns `true` where two commands to one joint set the same setpoint. What is relative to where the joint is
 /// when the command comes is never the same twice.
 fn same(a: &Command, b: &Command) -> bool {
     match (a, b) {

@@ -4,7 +4,7 @@
 //! time round it goes from where the first ended, which for a cycle is what every further round will
 //! do. That round, begun at the shift and wrapped round its end, is the phase.
 
-use super::law::{self, Ability, Piece};
+use super::law::{self, MotionLimits, Piece};
 use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
 use super::run::{Played, Run, limit};
@@ -67,7 +67,7 @@ impl Run<'_> {
             if !moved.absolute {
                 continue;
             }
-            let pieces = law::moved(Profile::Smooth, at, moved.begins, lead, Ability::default());
+            let pieces = law::rest_to_rest(Profile::Smooth, at, moved.begins, lead, MotionLimits::default());
             motion.append(self.now, pieces, cause);
         }
         Ok((round, self.now + lead))
@@ -80,8 +80,8 @@ impl Run<'_> {
             return Ok(0.0);
         }
         let facts = &self.facts[moved.joint.0 as usize];
-        let able = Ability { speed: facts.speed, acceleration: facts.acceleration };
-        law::least(Profile::Smooth, at - moved.begins, able)
+        let able = MotionLimits { speed: facts.speed, acceleration: facts.acceleration };
+        law::least_duration(Profile::Smooth, at - moved.begins, able)
             .ok_or_else(|| Refusal::at(cause, Reason::NoSpeed { joint: facts.name.clone() }))
     }
 

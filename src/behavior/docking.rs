@@ -1,4 +1,4 @@
-//! Docking and undocking: which bond, and with which turn.
+//! Docking and undocking: the bond that a command makes or breaks, and its turn.
 
 use super::refusal::Reason;
 use crate::geometry::Pose;
@@ -6,14 +6,17 @@ use crate::geometry::pose::turned;
 use crate::robot::{Assembly, Bond, Kinematics, PortRef};
 use std::f64::consts::{PI, TAU};
 
-/// The bond that holds at a port.
-pub fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option<usize> {
+/// Returns the index of the bond that holds at a port.
+pub(super) fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option<usize> {
     (0..robot.bonds.len()).find(|&b| holds[b] && (robot.bonds[b].a == port || robot.bonds[b].b == port))
 }
 
-/// A new bond of port `b` to port `a`, with the allowed turn nearest to where they are, and the
-/// position of its hinge, if the connector has one.
-pub fn docked(
+/// Returns a new bond of port `b` to port `a`, with the allowed turn nearest to where they are, and the
+/// position of its hinge in rad, if the connector has one.
+///
+/// # Errors
+/// Where a port is taken, the connectors do not mate, or nothing connects the parts of the two ports.
+pub(super) fn docked(
     robot: &Assembly,
     holds: &[bool],
     joints: &[f64],
@@ -34,13 +37,13 @@ pub fn docked(
     Ok(nearest(robot, a, b, &X_PQ))
 }
 
-/// Whether the connectors of two ports of different modules mate.
-pub fn mate(robot: &Assembly, a: PortRef, b: PortRef) -> bool {
+/// Returns `true` where two ports of different modules have connectors that mate.
+pub(super) fn mate(robot: &Assembly, a: PortRef, b: PortRef) -> bool {
     let connector = |p: PortRef| robot.module_type(p.module).ports[p.port].connector;
     a.module != b.module && robot.library.connectors[connector(a)].mates.contains(&connector(b))
 }
 
-/// Where port `b` is as seen from port `a`; `None` where no bonds connect them.
+/// The pose of port `b` in the frame of port `a`, `X_PQ`; `None` where no bonds connect them.
 fn between(robot: &Assembly, holds: &[bool], joints: &[f64], a: PortRef, b: PortRef) -> Option<Pose> {
     let kinematics = Kinematics::new(robot, holds, a.module);
     if kinematics.tree.loose.contains(&b.module) {
@@ -52,6 +55,7 @@ fn between(robot: &Assembly, holds: &[bool], joints: &[f64], a: PortRef, b: Port
     Some(X_RP.inverse() * kinematics.port_pose(robot, b, &poses))
 }
 
+/// The bond with the allowed turn that is nearest to the pose of the ports, and its hinge, rad.
 fn nearest(robot: &Assembly, a: PortRef, b: PortRef, X_PQ: &Pose) -> (Bond, Option<f64>) {
     let connector = robot.module_type(a.module).ports[a.port].connector;
     let connector = &robot.library.connectors[connector];
@@ -74,7 +78,7 @@ fn nearest(robot: &Assembly, a: PortRef, b: PortRef, X_PQ: &Pose) -> (Bond, Opti
     (Bond { a, b, turn: best.1 }, best.2)
 }
 
-/// Turns whose fit differs by less than this (rad) count as equally near: rounding must not choose.
+/// The difference of fits, rad, below which two turns are equally near: rounding must not choose.
 const TURN_TIE: f64 = 1e-9;
 
 /// The angle of the turn about an axis that comes nearest to a rotation, rad.

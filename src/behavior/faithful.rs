@@ -1,17 +1,18 @@
-//! Whether the program of a plan makes the tracks of that plan: a position-servo robot executes the
-//! program, and the judge judges the tracks.
+//! The comparison of a plan's program with its tracks: a position-servo robot executes the program, and
+//! the judge judges the tracks.
 
 use super::conflict::conflicts;
 use super::schedule::{Problem, Settings, schedule};
-use crate::plan::{Body, Failure, Plan, Track, Tracks};
+use crate::plan::{Failure, Plan, Track, Tracks};
 use crate::units::{Dimension, quantity};
 
-/// Positions (rad or m) and times (s) that differ by less are the same.
+/// The greatest difference of positions (rad or m) and times (s) that count as the same: rounding.
 const TOL_SAME: f64 = 1e-9;
 
-/// What differs, if anything. A plan without a program, or of another family, has nothing to compare.
+/// Schedules the program of a plan anew and returns a failure that says where the motion differs from
+/// the plan's tracks. Returns `None` where they are the same, and for a plan without a program.
 pub fn unfaithful(plan: &Plan) -> Option<Failure> {
-    let (Some(program), Body::Tracks(tracks)) = (&plan.program, &plan.body) else { return None };
+    let (Some(program), Some(tracks)) = (&plan.program, plan.body.tracks()) else { return None };
     let joints: Vec<_> = tracks.robot.joints().collect();
     if let Some(conflict) = conflicts(&program.root).errors.first() {
         let owner = joints.get(conflict.joint.0 as usize);
@@ -66,7 +67,7 @@ fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
     None
 }
 
-/// The same motion: the same pieces, but for those that stand still.
+/// Returns `true` where two tracks have the same segments, but for those that stand still.
 fn same(a: Option<&Track>, b: Option<&Track>, start: f64) -> bool {
     let [a, b] = [a, b].map(|track| {
         let segments = track.map_or(&[][..], |t| &t.segments);

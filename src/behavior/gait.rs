@@ -3,7 +3,7 @@
 use crate::plan::{CauseId, Node};
 use std::sync::Arc;
 
-/// Behaviours that run side by side for `times` rounds of `period` seconds, each begun at its own
+/// Returns behaviours that run side by side for `times` rounds of `period` seconds, each begun at its own
 /// phase (0..1) of its cycle. All are brought to their beginnings before the first round, so that the
 /// rounds begin together.
 pub fn cycle(bodies: &[(Arc<Node>, f64)], period: f64, times: u64, cause: CauseId) -> Node {

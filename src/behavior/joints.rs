@@ -1,29 +1,29 @@
-//! What each joint of a robot can be commanded to do.
+//! Joints as behaviours see them: what each can be commanded to do.
 
 use crate::robot::{Assembly, JointKind, JointOwner, Limits, ModuleType};
 
-/// A joint as a behaviour sees it. Radians or metres.
+/// A joint with the limits that hold for it, its motors' included. Radians or metres.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Facts {
+pub(super) struct JointFacts {
     /// Path name, such as `leg[2].m[0].tilt`.
-    pub name: String,
+    pub(super) name: String,
     /// Where the joint lives.
-    pub owner: JointOwner,
-    /// Why it takes no commands, if it takes none.
-    pub mute: Option<Mute>,
+    pub(super) owner: JointOwner,
+    /// The reason why it takes no commands, if it takes none.
+    pub(super) uncommandable: Option<Uncommandable>,
     /// Whether it moves along its axis, in metres.
-    pub prismatic: bool,
+    pub(super) prismatic: bool,
     /// Lowest and highest position; `None` is a continuous joint.
-    pub range: Option<(f64, f64)>,
+    pub(super) range: Option<(f64, f64)>,
     /// Greatest speed when it moves alone: its own limit and those of the motors that drive it.
-    pub speed: Option<f64>,
+    pub(super) speed: Option<f64>,
     /// Greatest acceleration when it moves alone.
-    pub acceleration: Option<f64>,
+    pub(super) acceleration: Option<f64>,
 }
 
-/// Why a joint takes no commands.
+/// The reason why a joint takes no commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mute {
+pub enum Uncommandable {
     /// It has no motor.
     Passive,
     /// It follows other joints.
@@ -32,8 +32,8 @@ pub enum Mute {
     Fixed,
 }
 
-/// The facts of every joint, by [`JointId`](crate::robot::JointId).
-pub fn facts(robot: &Assembly) -> Vec<Facts> {
+/// Returns every joint of a robot, by [`JointId`](crate::robot::JointId).
+pub(super) fn facts(robot: &Assembly) -> Vec<JointFacts> {
     let of = |owner| match owner {
         JointOwner::Module { module, joint } => of_module(robot, module, joint),
         JointOwner::Bond(bond) => {
@@ -44,23 +44,29 @@ pub fn facts(robot: &Assembly) -> Vec<Facts> {
     robot.joints().map(of).collect()
 }
 
-fn of_module(robot: &Assembly, module: usize, joint: usize) -> Facts {
+fn of_module(robot: &Assembly, module: usize, joint: usize) -> JointFacts {
     let owner = JointOwner::Module { module, joint };
     let kind = robot.module_type(module);
     let declared = &kind.joints[joint];
-    let mute = match declared.kind {
-        _ if declared.mimic.is_some() => Some(Mute::Mimic),
-        JointKind::Fixed => Some(Mute::Fixed),
-        _ if declared.passive => Some(Mute::Passive),
+    let uncommandable = match declared.kind {
+        _ if declared.mimic.is_some() => Some(Uncommandable::Mimic),
+        JointKind::Fixed => Some(Uncommandable::Fixed),
+        _ if declared.passive => Some(Uncommandable::Passive),
         _ => None,
     };
     let limits = with_motors(kind, joint);
-    made(robot.joint_name(owner), owner, mute, declared.kind == JointKind::Prismatic, limits)
+    made(robot.joint_name(owner), owner, uncommandable, declared.kind == JointKind::Prismatic, limits)
 }
 
-fn made(name: String, owner: JointOwner, mute: Option<Mute>, prismatic: bool, limits: Limits) -> Facts {
+fn made(
+    name: String,
+    owner: JointOwner,
+    uncommandable: Option<Uncommandable>,
+    prismatic: bool,
+    limits: Limits,
+) -> JointFacts {
     let Limits { range, speed, acceleration, .. } = limits;
-    Facts { name, owner, mute, prismatic, range, speed, acceleration }
+    JointFacts { name, owner, uncommandable, prismatic, range, speed, acceleration }
 }
 
 /// A joint's own limits, tightened by every motor that drives it.

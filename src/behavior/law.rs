@@ -1,5 +1,5 @@
-//! Time laws: how a joint goes from rest to rest, and how it takes up and gives up speed. Least
-//! durations follow from the greatest speed and acceleration of the joint.
+//! Time laws: trajectories of one joint from rest to rest, and those that take up and give up speed, as
+//! polynomials in Bernstein form. Least durations follow from the greatest speed and acceleration.
 
 use crate::plan::Profile;
 use crate::plan::time::{tick_after, tick_near};
@@ -13,24 +13,25 @@ pub struct Piece {
     pub control: Vec<f64>,
 }
 
-/// What a joint can do: greatest speed and acceleration, rad or m per s and s².
+/// The greatest speed and acceleration of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ability {
+pub struct MotionLimits {
     /// rad/s or m/s; `None`: no limit.
     pub speed: Option<f64>,
     /// rad/s² or m/s²; `None`: no limit.
     pub acceleration: Option<f64>,
 }
 
-/// Peak speed of the smooth law over one unit in one second.
+/// The peak speed of the quintic law over one unit in one second: 15/8.
 pub const SMOOTH_SPEED: f64 = 1.875;
-/// Peak acceleration of the smooth law over one unit in one second: 10/√3.
+/// The peak acceleration of the quintic law over one unit in one second: 10/√3.
 pub const SMOOTH_ACCELERATION: f64 = 5.773_502_691_896_258;
-/// What part of a trapezoid each ramp takes where no acceleration limit says it.
+/// The part of a trapezoid that each ramp takes where no acceleration limit says it.
 pub const RAMP: f64 = 0.25;
 
-/// Least time to go `distance` from rest to rest, s; `None` where no limit bounds it.
-pub fn least(profile: Profile, distance: f64, able: Ability) -> Option<f64> {
+/// Returns the least duration of a move by `distance` (rad or m) from rest to rest, s; `None` where no
+/// limit bounds it.
+pub fn least_duration(profile: Profile, distance: f64, able: MotionLimits) -> Option<f64> {
     let distance = distance.abs();
     if distance == 0.0 {
         return Some(0.0);
@@ -58,9 +59,9 @@ fn longer(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-/// The motion from rest at `from` to rest at `to` in `duration` seconds, a whole number of ticks.
+/// Returns the motion from rest at `from` to rest at `to` in `duration` seconds, a whole number of ticks.
 /// The ramps of a trapezoid are as short as the acceleration allows.
-pub fn moved(profile: Profile, from: f64, to: f64, duration: f64, able: Ability) -> Vec<Piece> {
+pub fn rest_to_rest(profile: Profile, from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     match profile {
         Profile::Smooth => vec![Piece { duration, control: vec![from, from, from, to, to, to] }],
         Profile::Linear => vec![Piece { duration, control: vec![from, to] }],
@@ -68,7 +69,7 @@ pub fn moved(profile: Profile, from: f64, to: f64, duration: f64, able: Ability)
     }
 }
 
-fn trapezoid(from: f64, to: f64, duration: f64, able: Ability) -> Vec<Piece> {
+fn trapezoid(from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     let ramp = tick_near(ramp((to - from).abs(), duration, able));
     let cruise = duration - 2.0 * ramp;
     // The speed that covers the distance with the ramps as they are after rounding to ticks.
@@ -82,26 +83,26 @@ fn trapezoid(from: f64, to: f64, duration: f64, able: Ability) -> Vec<Piece> {
     pieces
 }
 
-/// How long each ramp of a trapezoid lasts: `a·r·(T-r) = distance`, or a fixed part of the time.
-fn ramp(distance: f64, duration: f64, able: Ability) -> f64 {
+/// The duration `r` of each ramp of a trapezoid, s: `a·r·(T-r) = distance`, or a fixed part of the time.
+fn ramp(distance: f64, duration: f64, able: MotionLimits) -> f64 {
     let Some(a) = able.acceleration else { return duration * RAMP };
     let square = duration * duration - 4.0 * distance / a;
     // Below zero the duration is too short for the acceleration: ramps all the way come nearest.
     (duration - libm::sqrt(square.max(0.0))) / 2.0
 }
 
-/// The change from one speed to another as fast as the joint can, from a position; nothing where no
-/// acceleration limit is stated: then speed may jump.
-pub fn changed_speed(from: f64, speed: f64, to_speed: f64, able: Ability) -> Option<Piece> {
+/// Returns the change from one speed to another at the greatest acceleration, from a position; `None`
+/// where no acceleration limit is stated: then speed may jump.
+pub fn changed_speed(from: f64, speed: f64, to_speed: f64, able: MotionLimits) -> Option<Piece> {
     let duration = tick_after((to_speed - speed).abs() / able.acceleration?);
     let middle = from + speed * duration / 2.0;
     (duration > 0.0)
         .then(|| Piece { duration, control: vec![from, middle, middle + to_speed * duration / 2.0] })
 }
 
-/// Turning at `speed` for `duration` seconds, then rest: with ramps within that time where an
+/// Returns a motion at `speed` for `duration` seconds, then rest: with ramps within that time where an
 /// acceleration limit is stated, beginning at the speed that the joint has.
-pub fn spun(from: f64, at_speed: f64, speed: f64, duration: f64, able: Ability) -> Vec<Piece> {
+pub fn spin(from: f64, at_speed: f64, speed: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     let Some(a) = able.acceleration else {
         return vec![Piece { duration, control: vec![from, from + speed * duration] }];
     };
@@ -123,8 +124,8 @@ pub fn spun(from: f64, at_speed: f64, speed: f64, duration: f64, able: Ability) 
     pieces
 }
 
-/// The cubic pieces through keyframes (time, position, velocity).
-pub fn followed(keyframes: &[[f64; 3]]) -> Vec<Piece> {
+/// Returns the cubic Hermite pieces through keyframes (s, rad or m, rad/s or m/s).
+pub fn cubic_pieces(keyframes: &[[f64; 3]]) -> Vec<Piece> {
     let piece = |w: &[[f64; 3]]| {
         let duration = tick_near(w[1][0]) - tick_near(w[0][0]);
         let third = duration / 3.0;

@@ -1,16 +1,16 @@
-//! What can be told of a program's commands without running it: targets outside ranges, speeds that
+//! The check of a program's commands without running it: targets outside ranges, speeds that
 //! no motor reaches, joints that take no commands, ports that do not mate.
 
 use super::condition;
 use super::docking::mate;
-use super::joints::{Facts, Mute, facts};
-use super::law::{self, Ability};
+use super::joints::{JointFacts, Uncommandable, facts};
+use super::law::{self, MotionLimits};
 use crate::plan::visit::Graph;
 use crate::plan::{Action, CauseId, Command, Node, Target, polynomial};
 use crate::robot::{Assembly, JointId};
 use std::sync::Arc;
 
-/// A command that asks for what the robot can't do.
+/// A command that asks for what the robot cannot do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Issue {
     /// The command of the source that this comes from.
@@ -42,7 +42,7 @@ pub enum Part {
     Ports,
 }
 
-/// What is wrong, in SI units; joints and ports by path name.
+/// What a command asks for that cannot be had, in SI units; joints and ports by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum IssueKind {
     /// The position is outside the joint's range.
@@ -77,11 +77,11 @@ pub enum IssueKind {
         needed: f64,
     },
     /// The joint takes no commands.
-    Mute {
+    NoCommands {
         /// The path name of the joint.
         joint: String,
         /// The reason.
-        why: Mute,
+        why: Uncommandable,
     },
     /// The connectors do not mate.
     NoMate {
@@ -97,7 +97,7 @@ pub enum IssueKind {
     },
 }
 
-/// The issues of every action, each action once, in order of the graph. `tol` is the part by which a
+/// Returns the issues of every action, each action once, in order of the graph. `tol` is the part by which a
 /// limit may be exceeded: rounding, see [`Settings`](super::Settings).
 pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
     let facts = facts(robot);
@@ -111,7 +111,7 @@ pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
 
 struct Judge<'a> {
     robot: &'a Assembly,
-    facts: &'a [Facts],
+    facts: &'a [JointFacts],
     tol: f64,
     action: &'a Action,
     found: &'a mut Vec<Issue>,
@@ -140,7 +140,7 @@ impl<'a> Judge<'a> {
                     self.short(
                         *joint,
                         given,
-                        change.and_then(|c| law::least(*profile, c, self.able(*joint))),
+                        change.and_then(|c| law::least_duration(*profile, c, self.able(*joint))),
                     );
                 }
             }
@@ -168,8 +168,8 @@ impl<'a> Judge<'a> {
 
     fn joint(&mut self, joint: JointId) {
         let facts = self.of(joint);
-        if let Some(why) = facts.mute {
-            self.report(Part::Joint, IssueKind::Mute { joint: facts.name.clone(), why });
+        if let Some(why) = facts.uncommandable {
+            self.report(Part::Joint, IssueKind::NoCommands { joint: facts.name.clone(), why });
         }
     }
 
@@ -217,7 +217,7 @@ impl<'a> Judge<'a> {
             }
         }
         let before = self.found.len();
-        for piece in law::followed(keyframes).into_iter().filter(|p| p.duration > 0.0) {
+        for piece in law::cubic_pieces(keyframes).into_iter().filter(|p| p.duration > 0.0) {
             let rates = polynomial::derivative(&piece.control);
             for u in [0.0, 0.5, 1.0] {
                 self.speed(Part::Keyframes, joint, polynomial::value(&rates, u) / piece.duration);
@@ -234,13 +234,13 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn of(&self, joint: JointId) -> &'a Facts {
+    fn of(&self, joint: JointId) -> &'a JointFacts {
         &self.facts[joint.0 as usize]
     }
 
-    fn able(&self, joint: JointId) -> Ability {
+    fn able(&self, joint: JointId) -> MotionLimits {
         let facts = self.of(joint);
-        Ability { speed: facts.speed, acceleration: facts.acceleration }
+        MotionLimits { speed: facts.speed, acceleration: facts.acceleration }
     }
 
     fn report(&mut self, part: Part, kind: IssueKind) {

@@ -1,5 +1,5 @@
-//! A behaviour carried over to the other side of a robot: which joint is the mirror image of which,
-//! and whether it then turns the other way.
+//! Mirror images of behaviours: for every joint the one on the other side of the robot, and the sign of
+//! its positions there.
 //!
 //! Found from geometry alone, with every joint at zero: the plane goes through the middle of the
 //! robot's centres of mass, parallel to two axes of the base's frame; the image of a joint is the
@@ -22,47 +22,51 @@ pub enum Plane {
     XZ,
 }
 
-/// How far an image may be from a joint, m: parts are placed with less care than this only by
+/// The greatest distance of an image from a joint, m: parts are placed with less care than this only by
 /// mistake, and the masses of the two halves of a module may differ a little.
 const TOL_PLACE: f64 = 2e-3;
-/// How far the direction of an axis may be from its image, as the sine of the angle.
+/// The greatest sine of the angle between an axis and its image.
 const TOL_DIRECTION: f64 = 1e-3;
 
-/// Why a behaviour has no mirror image.
+/// The reason why a behaviour has no mirror image.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Lopsided {
+pub enum MirrorError {
     /// No joint is where the mirror puts this one (path name).
     Joint(String),
     /// Docking has no mirror image.
     Docking,
 }
 
-impl std::fmt::Display for Lopsided {
+impl std::fmt::Display for MirrorError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Lopsided::Joint(name) => write!(f, "no joint is the mirror image of `{name}`"),
-            Lopsided::Docking => write!(f, "docking has no mirror image"),
+            MirrorError::Joint(name) => write!(f, "no joint is the mirror image of `{name}`"),
+            MirrorError::Docking => write!(f, "docking has no mirror image"),
         }
     }
 }
 
-/// The mirror image of a behaviour; `holds` says which bonds hold the robot together.
+/// Returns the mirror image of a behaviour; `holds` has a flag for every bond of the robot.
+///
+/// # Errors
+/// Where a joint has no image, or where the behaviour docks or undocks.
 pub fn mirrored(
     robot: &Assembly,
     holds: &[bool],
     program: &Arc<Node>,
     plane: Plane,
-) -> Result<Arc<Node>, Lopsided> {
+) -> Result<Arc<Node>, MirrorError> {
     let images = images(robot, holds, plane);
     let names: Vec<String> = robot.joints().map(|owner| robot.joint_name(owner)).collect();
     let image = |joint: JointId| {
         let index = joint.0 as usize;
-        images[index].ok_or_else(|| Lopsided::Joint(names[index].clone()))
+        images[index].ok_or_else(|| MirrorError::Joint(names[index].clone()))
     };
     rewritten(program, |action| mirrored_action(action, &image))
 }
 
-/// For every joint its image, and 1 or -1: what its positions are multiplied by.
+/// Returns the image of every joint with 1 or -1, by which its positions are multiplied; `None` for a
+/// joint without an image.
 pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(JointId, f64)>> {
     let marks = marks(robot, holds);
     let centre =
@@ -145,9 +149,9 @@ impl Mirror {
     }
 }
 
-type Image<'a> = &'a dyn Fn(JointId) -> Result<(JointId, f64), Lopsided>;
+type Image<'a> = &'a dyn Fn(JointId) -> Result<(JointId, f64), MirrorError>;
 
-fn mirrored_action(action: &Action, image: Image) -> Result<Action, Lopsided> {
+fn mirrored_action(action: &Action, image: Image) -> Result<Action, MirrorError> {
     let mut new = action.clone();
     match &mut new.command {
         Command::Move { joint, target, .. } => {
@@ -170,7 +174,7 @@ fn mirrored_action(action: &Action, image: Image) -> Result<Action, Lopsided> {
                 .for_each(|keyframe| (keyframe[1], keyframe[2]) = (keyframe[1] * sign, keyframe[2] * sign));
         }
         Command::Wait { .. } => {}
-        Command::Dock { .. } | Command::Undock { .. } => return Err(Lopsided::Docking),
+        Command::Dock { .. } | Command::Undock { .. } => return Err(MirrorError::Docking),
     }
     if let Some(until) = &action.until {
         new.until = Some(mirrored_condition(until, image)?);
@@ -178,7 +182,7 @@ fn mirrored_action(action: &Action, image: Image) -> Result<Action, Lopsided> {
     Ok(new)
 }
 
-fn mirrored_condition(condition: &Condition, image: Image) -> Result<Condition, Lopsided> {
+fn mirrored_condition(condition: &Condition, image: Image) -> Result<Condition, MirrorError> {
     let boxed = |c: &Condition| mirrored_condition(c, image).map(Box::new);
     Ok(match condition {
         Condition::Compare { signal, compare, value } => {
@@ -190,7 +194,7 @@ fn mirrored_condition(condition: &Condition, image: Image) -> Result<Condition, 
             let compare = if sign < 0.0 { compare.turned() } else { *compare };
             Condition::Compare { signal, compare, value: value * sign }
         }
-        Condition::Docked(_) | Condition::Mated(..) => return Err(Lopsided::Docking),
+        Condition::Docked(_) | Condition::Mated(..) => return Err(MirrorError::Docking),
         Condition::And(a, b) => Condition::And(boxed(a)?, boxed(b)?),
         Condition::Or(a, b) => Condition::Or(boxed(a)?, boxed(b)?),
         Condition::Not(a) => Condition::Not(boxed(a)?),

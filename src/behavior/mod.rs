@@ -1,10 +1,15 @@
-//! Behaviours, series-parallel programs of actions, and how they become plans: when every joint
-//! moves how, what contradicts itself, what asks for more than a joint can do; gaits.
+//! Behaviours: series-parallel action graphs (Definition IV.3 and Section V-B of the
+//! compositional-design paper), and how they become plans.
+//!
+//! [`schedule`] runs a behaviour undisturbed and writes down the motion of every joint. Before that,
+//! [`issues`] finds what asks for more than a joint can do, and [`conflicts`] what commands one joint
+//! twice at one time (Definition IV.5), both without running anything. [`gait`] composes cyclic
+//! behaviours, [`mirror`] reflects them, and [`unfaithful`] compares a plan's program with its motion.
 #![allow(non_snake_case)]
 
-pub mod joints;
+mod joints;
 pub mod law;
-pub mod refusal;
+mod refusal;
 
 mod command;
 mod condition;
@@ -12,17 +17,18 @@ mod cyclic;
 mod docking;
 mod motion;
 mod run;
-pub mod schedule;
+mod schedule;
 
-pub mod conflict;
-pub mod faithful;
-pub mod limits;
+mod conflict;
+mod faithful;
+mod limits;
 
 pub mod gait;
 pub mod mirror;
 
-pub use conflict::{Conflict, Conflicts, conflicts};
+pub use conflict::{Conflict, Conflicts, PAIRS_MAX, conflicts};
 pub use faithful::unfaithful;
+pub use joints::Uncommandable;
 pub use limits::{Issue, IssueKind, Part, issues};
 pub use refusal::{Reason, Refusal};
 pub use schedule::{Problem, Scheduled, Settings, schedule};

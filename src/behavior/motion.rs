@@ -1,15 +1,15 @@
-//! The motion of one joint while a behaviour is scheduled: what has happened, what is still to come
-//! unless another command supersedes it.
+//! The motion of one joint while a behaviour is scheduled: its past, and its future as far as no other
+//! command supersedes it.
 
 use super::law::Piece;
 use crate::plan::{CauseId, Command, Segment, polynomial};
 use std::collections::VecDeque;
 
-/// Where a joint was, is and, as far as commanded, will be.
+/// The past and the commanded future of a joint's position.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub(super) struct Motion {
     /// Past segments: nothing can change them.
-    pub past: Vec<Segment>,
+    pub(super) past: Vec<Segment>,
     /// Present and coming segments, in order.
     ahead: VecDeque<Segment>,
     /// Turning without end once `ahead` is over.
@@ -17,32 +17,32 @@ pub struct Motion {
     /// Where it is when `ahead` is over, or was when nothing is.
     rest: f64,
     /// The command in force.
-    pub command: Option<(Command, CauseId)>,
+    pub(super) command: Option<(Command, CauseId)>,
 }
 
 /// Steady motion from a time and position on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning {
-    pub since: f64,
-    pub from: f64,
-    pub speed: f64,
-    pub cause: CauseId,
+pub(super) struct Turning {
+    pub(super) since: f64,
+    pub(super) from: f64,
+    pub(super) speed: f64,
+    pub(super) cause: CauseId,
 }
 
 impl Motion {
-    pub fn at_rest(position: f64) -> Motion {
+    pub(super) fn at_rest(position: f64) -> Motion {
         Motion { past: vec![], ahead: VecDeque::new(), turning: None, rest: position, command: None }
     }
 
     /// Makes what has ended by `now` past.
-    pub fn pass(&mut self, now: f64) {
+    pub(super) fn pass(&mut self, now: f64) {
         while self.ahead.front().is_some_and(|s| s.end <= now) {
             self.past.extend(self.ahead.pop_front());
         }
     }
 
     /// Position at a time that is not before the last [`pass`](Motion::pass).
-    pub fn position(&self, t: f64) -> f64 {
+    pub(super) fn position(&self, t: f64) -> f64 {
         let begun = self.ahead.iter().take_while(|s| s.start <= t).last();
         match (begun, self.turning) {
             (_, Some(turning)) if t >= turning.since => turning.at(t),
@@ -53,7 +53,7 @@ impl Motion {
     }
 
     /// Drops all that is to come after `now`. Returns position and speed at `now`.
-    pub fn cut(&mut self, now: f64) -> (f64, f64) {
+    pub(super) fn cut(&mut self, now: f64) -> (f64, f64) {
         let position = self.position(now);
         let speed = self.speed_before(now);
         self.pass(now);
@@ -91,7 +91,7 @@ impl Motion {
 
     /// Appends pieces that begin at `start`, where the motion so far has ended. Pieces that stay
     /// where they are leave nothing but time.
-    pub fn append(&mut self, start: f64, pieces: Vec<Piece>, cause: CauseId) -> f64 {
+    pub(super) fn append(&mut self, start: f64, pieces: Vec<Piece>, cause: CauseId) -> f64 {
         let mut now = start;
         for Piece { duration, mut control } in pieces.into_iter().filter(|p| p.duration > 0.0) {
             let (begin, end) = (now, now + duration);
@@ -108,33 +108,33 @@ impl Motion {
     }
 
     /// Lets the joint turn without end from `since` on, when what was appended is over.
-    pub fn turn(&mut self, since: f64, speed: f64, cause: CauseId) {
+    pub(super) fn turn(&mut self, since: f64, speed: f64, cause: CauseId) {
         self.turning = Some(Turning { since, from: self.rest, speed, cause });
     }
 
-    pub fn turning(&self) -> Option<Turning> {
+    pub(super) fn turning(&self) -> Option<Turning> {
         self.turning
     }
 
     /// When the last commanded piece ends; `None` at rest.
-    pub fn ends(&self) -> Option<f64> {
+    pub(super) fn ends(&self) -> Option<f64> {
         self.ahead.back().map(|s| s.end)
     }
 
     /// The signal's pieces over `t0..t1` (which may be endless): each with its time and, in Bernstein
     /// form, the position over it. The last may be endless, and is then linear over its first second.
-    pub fn pieces(&self, t0: f64, t1: f64) -> Vec<Stretch> {
-        let mut stretches = Vec::new();
+    pub(super) fn pieces(&self, t0: f64, t1: f64) -> Vec<SignalPiece> {
+        let mut pieces = Vec::new();
         let mut now = t0;
         let mut hold = self.position(t0);
         for segment in self.ahead.iter().take_while(|s| s.start < t1).filter(|s| s.end > t0) {
             if segment.start > now {
-                stretches.push(Stretch { start: now, end: segment.start, control: vec![hold] });
+                pieces.push(SignalPiece { start: now, end: segment.start, control: vec![hold] });
             }
             if let Some(piece) = segment.between(now, t1) {
                 now = piece.end;
                 hold = piece.last();
-                stretches.push(Stretch { start: piece.start, end: piece.end, control: piece.control });
+                pieces.push(SignalPiece { start: piece.start, end: piece.end, control: piece.control });
             }
         }
         if let Some(turning) = self.turning.filter(|t| t1 > t.since) {
@@ -144,15 +144,15 @@ impl Motion {
             let control = vec![from, from + turning.speed * length];
             // Linear pieces are given over all their time, or over one second if they are endless.
             let control = if t1.is_finite() { vec![from, turning.at(t1)] } else { control };
-            stretches.push(Stretch { start, end: t1, control });
+            pieces.push(SignalPiece { start, end: t1, control });
         } else if now < t1 {
-            stretches.push(Stretch { start: now, end: t1, control: vec![hold] });
+            pieces.push(SignalPiece { start: now, end: t1, control: vec![hold] });
         }
-        stretches
+        pieces
     }
 
     /// All segments, past and coming.
-    pub fn into_segments(mut self) -> Vec<Segment> {
+    pub(super) fn into_segments(mut self) -> Vec<Segment> {
         self.past.extend(self.ahead);
         self.past
     }
@@ -160,23 +160,23 @@ impl Motion {
 
 /// A piece of a signal; see [`Motion::pieces`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stretch {
-    pub start: f64,
-    pub end: f64,
-    pub control: Vec<f64>,
+pub(super) struct SignalPiece {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) control: Vec<f64>,
 }
 
-impl Stretch {
+impl SignalPiece {
     /// Time over which the control points are spread.
-    pub fn span(&self) -> f64 {
+    pub(super) fn span(&self) -> f64 {
         if self.end.is_finite() { self.end - self.start } else { 1.0 }
     }
 
     /// The rate of the signal, over the same time.
-    pub fn rate(&self) -> Stretch {
+    pub(super) fn rate(&self) -> SignalPiece {
         let span = self.span();
         let control = polynomial::derivative(&self.control).into_iter().map(|c| c / span).collect();
-        Stretch { control, ..*self }
+        SignalPiece { control, ..*self }
     }
 }
 

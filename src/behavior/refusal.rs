@@ -1,10 +1,10 @@
-//! Why a behaviour is no plan, and which action is to blame.
+//! Refusals of scheduling: why a behaviour is no plan, and which action is to blame.
 
-use super::joints::Mute;
+use super::Uncommandable;
 use crate::plan::CauseId;
 use crate::units::{Dimension, quantity};
 
-/// A behaviour that can't be carried out, or whose schedule exceeds a limit.
+/// The refusal of a behaviour that cannot be carried out, or whose schedule exceeds a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
     /// The action to blame; `None` where it is the behaviour as a whole.
@@ -13,15 +13,15 @@ pub struct Refusal {
     pub reason: Reason,
 }
 
-/// SI units; joints and ports by path name.
+/// The reason of a refusal. SI units; joints and ports by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// The joint takes no commands.
-    Mute {
+    NoCommands {
         /// The path name of the joint.
         joint: String,
         /// The reason.
-        why: Mute,
+        why: Uncommandable,
     },
     /// No limit says how fast the joint is, so the action needs a duration.
     NoSpeed {
@@ -112,10 +112,12 @@ pub enum Reason {
 }
 
 impl Refusal {
+    /// Returns the refusal of an action.
     pub fn at(cause: CauseId, reason: Reason) -> Refusal {
         Refusal { cause: Some(cause), reason }
     }
 
+    /// Returns the refusal of a behaviour as a whole.
     pub fn whole(reason: Reason) -> Refusal {
         Refusal { cause: None, reason }
     }
@@ -125,9 +127,11 @@ impl Refusal {
 impl std::fmt::Display for Reason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Reason::Mute { joint, why: Mute::Passive } => write!(f, "`{joint}` has no motor"),
-            Reason::Mute { joint, why: Mute::Mimic } => write!(f, "`{joint}` follows another joint"),
-            Reason::Mute { joint, why: Mute::Fixed } => write!(f, "`{joint}` is fixed"),
+            Reason::NoCommands { joint, why: Uncommandable::Passive } => write!(f, "`{joint}` has no motor"),
+            Reason::NoCommands { joint, why: Uncommandable::Mimic } => {
+                write!(f, "`{joint}` follows another joint")
+            }
+            Reason::NoCommands { joint, why: Uncommandable::Fixed } => write!(f, "`{joint}` is fixed"),
             Reason::NoSpeed { joint } => {
                 write!(f, "`{joint}` states no greatest speed, so the action needs a duration (`in:`)")
             }

@@ -1,7 +1,7 @@
 //! The run of a program: frames for what has begun, a queue for what will end.
 
 use super::condition::{self, View};
-use super::joints::Facts;
+use super::joints::JointFacts;
 use super::limits::Issue;
 use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// A run in progress. Time begins at 0.
 pub(super) struct Run<'a> {
     pub(super) robot: Arc<Assembly>,
-    pub(super) facts: Vec<Facts>,
+    pub(super) facts: Vec<JointFacts>,
     pub(super) motions: Vec<Motion>,
     /// Positions at the start, joints of new bonds included.
     pub(super) start: Vec<f64>,
@@ -84,7 +84,7 @@ struct Active<'a> {
     action: Option<&'a Action>,
     began: f64,
     /// Which of the slot's tenants this is: events of earlier ones are void.
-    tenant: u64,
+    generation: u64,
     /// The joint to hold if the action ends before its motion.
     holds: Option<(JointId, CauseId)>,
 }
@@ -99,7 +99,7 @@ struct Event {
     time: f64,
     number: u64,
     slot: usize,
-    tenant: u64,
+    generation: u64,
     kind: EventKind,
 }
 
@@ -124,7 +124,7 @@ impl Eq for Event {}
 impl<'a> Run<'a> {
     pub(super) fn new(
         robot: Arc<Assembly>,
-        facts: Vec<Facts>,
+        facts: Vec<JointFacts>,
         motions: Vec<Motion>,
         holds: Vec<bool>,
         settings: Settings,
@@ -200,7 +200,7 @@ impl<'a> Run<'a> {
             Node::Phase { .. } | Node::Approach { .. } | Node::Stretch { .. } => {
                 let end = self.begin_cycle(node)?;
                 self.activate(
-                    Active { parent, action: None, began: self.now, tenant: 0, holds: None },
+                    Active { parent, action: None, began: self.now, generation: 0, holds: None },
                     Some(end),
                 );
             }
@@ -257,7 +257,7 @@ impl<'a> Run<'a> {
     fn begin_action(&mut self, action: &'a Action, parent: Option<usize>) -> Result<(), Refusal> {
         let (end, holds) = self.command(action)?;
         let timeout = self.timeout_of(action)?;
-        let active = Active { parent, action: Some(action), began: self.now, tenant: 0, holds };
+        let active = Active { parent, action: Some(action), began: self.now, generation: 0, holds };
         let slot = self.activate(active, end);
         if let Some(time) = timeout {
             self.post(time, slot, EventKind::Timeout);
@@ -282,7 +282,7 @@ impl<'a> Run<'a> {
 
     fn activate(&mut self, mut active: Active<'a>, end: Option<f64>) -> usize {
         self.events += 1;
-        active.tenant = self.events;
+        active.generation = self.events;
         let slot = match self.idle.pop() {
             Some(slot) => {
                 self.active[slot] = Some(active);
@@ -301,8 +301,8 @@ impl<'a> Run<'a> {
 
     fn post(&mut self, time: f64, slot: usize, kind: EventKind) {
         self.events += 1;
-        let tenant = self.active[slot].as_ref().expect("events are posted for what is active").tenant;
-        self.queue.push(Event { time, number: self.events, slot, tenant, kind });
+        let generation = self.active[slot].as_ref().expect("events are posted for what is active").generation;
+        self.queue.push(Event { time, number: self.events, slot, generation, kind });
     }
 
     /// Goes on to the next instant at which something completes.
@@ -330,7 +330,7 @@ impl<'a> Run<'a> {
     }
 
     fn drop_void_events(&mut self) {
-        let void = |e: &Event| self.active[e.slot].as_ref().is_none_or(|a| a.tenant != e.tenant);
+        let void = |e: &Event| self.active[e.slot].as_ref().is_none_or(|a| a.generation != e.generation);
         while self.queue.peek().is_some_and(void) {
             self.queue.pop();
         }

@@ -5,7 +5,7 @@
 //! out. What it commanded stays in force until the next command to the same joint, which takes over
 //! from where the joint is then.
 
-use super::joints::{self, Facts};
+use super::joints::{self, JointFacts};
 use super::limits::Issue;
 use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
@@ -15,7 +15,7 @@ use crate::plan::{CauseId, Exemption, Node, Otherwise, Program, Tracks};
 use crate::robot::{Assembly, JointId, State};
 use std::sync::Arc;
 
-/// A behaviour of a robot that is in a state.
+/// A behaviour to be scheduled, and the state of the robot that it begins in.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// The robot, with the bonds that exist at the start.
@@ -35,20 +35,20 @@ pub struct Problem {
 /// Limits and tolerances of scheduling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Most actions executed, repetitions included.
+    /// The most actions that are executed, repetitions included.
     pub actions_max: u64,
-    /// Most segments of all tracks together.
+    /// The most segments of all tracks together.
     pub segments_max: u64,
-    /// Most nodes entered, empty ones included.
+    /// The most nodes that are entered, empty ones included.
     pub steps_max: u64,
-    /// Deepest nesting of a program.
+    /// The deepest nesting of a program.
     pub depth_max: u64,
-    /// Deepest nesting of phases and stretches in each other.
+    /// The deepest nesting of phases and stretches in each other.
     pub cycles_max: u64,
-    /// How far from the joint a followed function, or a cycle, may begin, rad or m: what rounding
-    /// explains and no eye sees.
+    /// The greatest distance from the joint at which a followed function, or a cycle, may begin, rad or m:
+    /// what rounding explains and no eye sees.
     pub tol_begin: f64,
-    /// How much shorter than the least time a stated duration may be, as a part of it: rounding.
+    /// The part of the least time by which a stated duration may be shorter: rounding.
     pub tol_duration: f64,
 }
 
@@ -66,7 +66,7 @@ impl Default for Settings {
     }
 }
 
-/// When everything happens.
+/// The undisturbed run of a behaviour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheduled {
     /// The motion of every joint, and docking.
@@ -75,7 +75,7 @@ pub struct Scheduled {
     pub program: Program,
     /// What parts of the motion are excused from.
     pub exemptions: Vec<Exemption>,
-    /// Whether times depend on what sensors would say.
+    /// Whether times depend on what sensors would say: then they are those of the undisturbed run.
     pub nominal: bool,
     /// Actions executed, repetitions included.
     pub actions: u64,
@@ -83,8 +83,15 @@ pub struct Scheduled {
     pub issues: Vec<Issue>,
 }
 
-/// Schedules a behaviour. Commands in conflict are not looked for here: see
-/// [`conflicts`](super::conflicts).
+/// Schedules a behaviour: runs it undisturbed from event to event. Commands in conflict are not looked
+/// for here: see [`conflicts`](super::conflicts).
+///
+/// # Errors
+/// A [`Refusal`] with the action to blame, where a command cannot be carried out, a condition never
+/// holds, or a limit of the settings is reached.
+///
+/// # Panics
+/// Where the start has not one position for every joint and one flag for every bond.
 pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
     let Problem { robot, start, program, start_causes, bond_causes, settings } = problem;
     let graph = Graph::of(&program);
@@ -96,7 +103,7 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
             || matches!(a.otherwise, Otherwise::Node(_))
             || a.until.as_ref().is_some_and(super::condition::senses)
     });
-    let facts: Vec<Facts> = joints::facts(&robot);
+    let facts: Vec<JointFacts> = joints::facts(&robot);
     assert_eq!(facts.len(), start.joints.len(), "a state has one position for every joint");
     assert_eq!(robot.bonds.len(), start.bonds.len(), "a state has one flag for every bond");
     let motions = start.joints.iter().map(|&q| Motion::at_rest(q)).collect();

@@ -225,11 +225,11 @@ fn issue_words(kind: &IssueKind) -> (Code, String, String) {
                 "too short".to_string(),
             )
         }
-        IssueKind::Mute { joint, why } => {
+        IssueKind::NoCommands { joint, why } => {
             let why = match why {
-                behavior::joints::Mute::Passive => "has no motor",
-                behavior::joints::Mute::Mimic => "follows other joints",
-                behavior::joints::Mute::Fixed => "is fixed",
+                behavior::Uncommandable::Passive => "has no motor",
+                behavior::Uncommandable::Mimic => "follows other joints",
+                behavior::Uncommandable::Fixed => "is fixed",
             };
             (code::PASSIVE_JOINT, format!("{joint} {why} and takes no commands"), why.to_string())
         }

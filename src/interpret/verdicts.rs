@@ -232,7 +232,7 @@ pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], sp
 
 fn refusal_code(reason: &Reason) -> Code {
     match reason {
-        Reason::Mute { .. } => code::PASSIVE_JOINT,
+        Reason::NoCommands { .. } => code::PASSIVE_JOINT,
         Reason::Jump { .. } => code::FOLLOW_JUMP,
         Reason::StillTurning { .. } => code::NOT_AT_REST,
         Reason::Aborted { .. } => code::ABORTED,

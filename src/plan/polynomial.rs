@@ -4,7 +4,7 @@
 /// Highest degree of a segment in a plan.
 pub const DEGREE_MAX: usize = 15;
 
-/// The value at `u`, by de Casteljau's rule: exact at both ends.
+/// Returns the value at `u`, by de Casteljau's rule: exact at both ends.
 pub fn value(control: &[f64], u: f64) -> f64 {
     if u <= 0.0 {
         return control[0];
@@ -23,7 +23,7 @@ pub fn value(control: &[f64], u: f64) -> f64 {
     points[0]
 }
 
-/// The parts before and after `u`, each over 0..1. They share the value at `u` to the bit.
+/// Returns the parts before and after `u` (de Casteljau), each over 0..1. They share the value at `u` to the bit.
 pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     let mut right = control.to_vec();
     let mut left = Vec::with_capacity(control.len());
@@ -36,7 +36,7 @@ pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     (left, right)
 }
 
-/// The part between `u0` and `u1`, over 0..1.
+/// Returns the part between `u0` and `u1`, over 0..1.
 pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
     let mut points = control.to_vec();
     if u1 < 1.0 {
@@ -48,7 +48,7 @@ pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
     points
 }
 
-/// The derivative by the argument; a constant has the derivative `[0]`.
+/// Returns the derivative by the argument; a constant has the derivative `[0]`.
 pub fn derivative(control: &[f64]) -> Vec<f64> {
     let degree = control.len() - 1;
     if degree == 0 {
@@ -57,15 +57,15 @@ pub fn derivative(control: &[f64]) -> Vec<f64> {
     control.windows(2).map(|w| degree as f64 * (w[1] - w[0])).collect()
 }
 
-/// Lowest and highest control point: they bound every value.
+/// Returns the lowest and the highest control point: they bound every value.
 pub fn hull(control: &[f64]) -> (f64, f64) {
     control.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
 }
 
-/// How often roots are halved into: to the last bit of the argument.
+/// The most bisections of an interval for a root: to the last bit of the argument.
 const HALVINGS_MAX: usize = 60;
 
-/// The arguments in 0..1 where the polynomial passes through zero, in order: the control points are
+/// Returns the arguments in 0..1 where the polynomial passes through zero, in order: the control points are
 /// halved until they change sign once or not at all. Roots at the ends, and instants where it
 /// touches zero without passing through, may be missing.
 pub fn roots(control: &[f64]) -> Vec<f64> {
@@ -104,7 +104,7 @@ fn sign_changes(points: &[f64]) -> usize {
     changes
 }
 
-/// Whether the values at the ends have different signs.
+/// Returns `true` where the values at the ends have different signs.
 fn passes(points: &[f64]) -> bool {
     let (first, last) = (points[0], points[points.len() - 1]);
     first != 0.0 && last != 0.0 && (first < 0.0) != (last < 0.0)

@@ -8,6 +8,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+/// A series-parallel graph of actions (Section V-B of the compositional-design paper), as a position-servo
+/// robot executes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// The node that all others are under.
@@ -68,6 +70,7 @@ pub enum Node {
     },
 }
 
+/// One command to one controller with its end: (J, X, ξ, T).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
     /// J and X: what is commanded.
@@ -82,6 +85,7 @@ pub struct Action {
     pub cause: CauseId,
 }
 
+/// What an action commands: a controller (J) and a setpoint (X), a pause, or a change of the bonds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
@@ -132,6 +136,7 @@ pub enum Command {
     },
 }
 
+/// The end of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Target {
@@ -141,6 +146,7 @@ pub enum Target {
     By(f64),
 }
 
+/// The time law of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
@@ -163,6 +169,7 @@ pub enum Otherwise {
     Node(Arc<Node>),
 }
 
+/// A quantity that a condition measures.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Signal {
@@ -174,6 +181,7 @@ pub enum Signal {
     Elapsed,
 }
 
+/// A comparison of a signal with a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Compare {
@@ -187,6 +195,7 @@ pub enum Compare {
     GreaterEqual,
 }
 
+/// ξ: what ends an action when it begins to hold.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Condition {

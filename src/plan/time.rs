@@ -5,15 +5,15 @@
 /// One tick, s: a power of two.
 pub const TICK: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// Longest plan, s (18 h): 2⁵² ticks, beyond which ticks would be lost.
+/// The longest plan, s (18 h): 2⁵² ticks, beyond which ticks would be lost.
 pub const DURATION_MAX: f64 = (1u64 << 16) as f64;
 
-/// The first tick that is not before `t`. Infinite times stay as they are.
+/// Returns the first tick that is not before `t`. Infinite times stay as they are.
 pub fn tick_after(t: f64) -> f64 {
     libm::ceil(t / TICK) * TICK
 }
 
-/// The tick nearest to `t`.
+/// Returns the tick nearest to `t`, s.
 pub fn tick_near(t: f64) -> f64 {
     libm::round(t / TICK) * TICK
 }

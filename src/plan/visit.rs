@@ -9,12 +9,12 @@ pub struct Graph<'a> {
     /// In order of first completion; the root is last.
     pub nodes: Vec<&'a Arc<Node>>,
     index: HashMap<*const Node, usize>,
-    /// Most nodes on a way from the root down, the root included.
+    /// The length of the longest path from the root down, in nodes, the root included.
     pub depth: usize,
 }
 
 impl<'a> Graph<'a> {
-    /// Walks the graph with a stack of its own: however deep it is, nothing overflows.
+    /// Returns the graph under a root, walked with a stack of its own: however deep it is, nothing overflows.
     pub fn of(root: &'a Arc<Node>) -> Graph<'a> {
         let mut graph = Graph { nodes: Vec::new(), index: HashMap::new(), depth: 0 };
         let mut depths = Vec::new();
@@ -37,12 +37,12 @@ impl<'a> Graph<'a> {
         graph
     }
 
-    /// Where in [`nodes`](Graph::nodes) a node of the graph stands.
+    /// Returns the index in [`nodes`](Graph::nodes) of a node of the graph.
     pub fn position(&self, node: &Arc<Node>) -> usize {
         self.index[&Arc::as_ptr(node)]
     }
 
-    /// Every action, in order of nodes.
+    /// Returns every action, in order of nodes.
     pub fn actions(&self) -> impl Iterator<Item = &'a Action> + '_ {
         self.nodes.iter().filter_map(|node| match &***node {
             Node::Action(action) => Some(action),
@@ -51,7 +51,7 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// The nodes directly under a node: an action has its `else` branch.
+/// Returns the nodes directly under a node: an action has its `else` branch.
 pub fn children(node: &Node) -> impl Iterator<Item = &Arc<Node>> {
     (0..).map_while(|i| child(node, i))
 }
@@ -69,7 +69,7 @@ fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
     }
 }
 
-/// The same graph, sharing kept, with every action rewritten; `rewrite` sees the action with its
+/// Returns the same graph, sharing kept, with every action rewritten; `rewrite` sees the action with its
 /// `else` branch already done.
 pub fn rewritten<E>(
     root: &Arc<Node>,
@@ -100,7 +100,7 @@ pub fn rewritten<E>(
     Ok(done.pop().expect("a graph has its root"))
 }
 
-/// A node that is no action, over other children.
+/// Returns a node that is no action, over other children.
 pub fn with_children(node: &Node, new: impl Fn(&Arc<Node>) -> Arc<Node>) -> Node {
     match node {
         Node::Action(action) => Node::Action(action.clone()),

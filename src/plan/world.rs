@@ -4,6 +4,7 @@ use super::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// What is under the robot, and what it does to the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ground {
@@ -18,6 +19,7 @@ pub enum Ground {
     Off,
 }
 
+/// What is assumed of the surroundings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct World {
@@ -53,7 +55,7 @@ impl World {
     /// Nothing pulls, and there is no ground.
     pub const FREE: World = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
 
-    /// Whether there is something under the robot.
+    /// Returns `true` where there is something under the robot.
     pub fn has_floor(&self) -> bool {
         matches!(self.ground, Ground::Settle | Ground::Fixed)
     }
@@ -65,7 +67,7 @@ impl Default for World {
     }
 }
 
-/// From when on which world holds; the first begins at 0.
+/// A world that holds from a time on; the first begins at 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldFrom {
@@ -75,6 +77,7 @@ pub struct WorldFrom {
     pub world: World,
 }
 
+/// The polygon that the centre of mass must be over: Definition IV.7 of the compositional-design paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
@@ -84,17 +87,17 @@ pub enum Stability {
     Centres,
 }
 
-/// Options of the judge. A looser value than the default stands in the source and in the plan.
+/// The settings of the judge. A looser value than the default stands in the source and in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
-    /// Longest time between two samples, s.
+    /// The longest time between two samples, s.
     pub sample: f64,
-    /// How long support may be missing at a stretch (the paper's t_max), s.
+    /// The longest time without support at a stretch (t_max of Definition V.3), s.
     pub unstable_for: f64,
     /// The polygon of the check of stability.
     pub stability: Stability,
-    /// Most samples of one verification, refinements included.
+    /// The most samples of one verification, refinements included.
     pub samples_max: usize,
 }
 
@@ -104,6 +107,7 @@ impl Default for Settings {
     }
 }
 
+/// The check that a stretch of a plan is excused from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ExemptionKind {
@@ -117,7 +121,7 @@ pub enum ExemptionKind {
     Overload(Option<u32>),
 }
 
-/// What a stretch of the plan is excused from. The end of the whole plan never is.
+/// A stretch of a plan that is excused from a check. The end of the whole plan never is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Exemption {

@@ -2,8 +2,7 @@
 
 use crate::support::programs::*;
 use crate::support::robots::{FRONT, LEFT, TILT, chain};
-use modl::behavior::joints::Mute;
-use modl::behavior::{Conflicts, IssueKind, Part, conflicts, issues};
+use modl::behavior::{Conflicts, IssueKind, Part, Uncommandable, conflicts, issues};
 use modl::plan::visit::Graph;
 use modl::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target};
 use modl::robot::{JointId, PortRef};
@@ -77,7 +76,7 @@ fn pairs_of_causes_are_reported_once_and_not_without_end() {
     let many = (0..1000).map(|i| go(T, f64::from(i), i)).collect();
     let found = conflicts(&parallel(many));
     assert!(found.more);
-    assert_eq!(found.errors.len(), modl::behavior::conflict::PAIRS_MAX);
+    assert_eq!(found.errors.len(), modl::behavior::PAIRS_MAX);
 }
 
 /// Unordered pairs by the definition: the lowest common node is parallel. Slow and plain.
@@ -179,7 +178,10 @@ fn commands_beyond_the_joint_name_the_argument_at_fault() {
     let (_, kind) = first_issue(spin_for(T, -2.0, 0.1, 7));
     assert_eq!(kind, IssueKind::TooFast { joint: joint(), speed: -2.0, limit: 1.5, prismatic: false });
     let (part, kind) = first_issue(spin(F, 0.1, 7));
-    assert_eq!((part, kind), (Part::Joint, IssueKind::Mute { joint: "m0.front".into(), why: Mute::Passive }));
+    assert_eq!(
+        (part, kind),
+        (Part::Joint, IssueKind::NoCommands { joint: "m0.front".into(), why: Uncommandable::Passive })
+    );
     let (part, kind) = first_issue(act(moving(T, Target::By(1.0), Some(0.5), Profile::Linear), 7));
     let needed = 1.0 / 1.5;
     assert_eq!((part, kind), (Part::Duration, IssueKind::TooShort { joint: joint(), given: 0.5, needed }));

@@ -3,7 +3,7 @@
 use crate::support::programs::*;
 use crate::support::robots::{TILT, at_rest, car, chain, walk4};
 use modl::behavior::gait::cycle;
-use modl::behavior::mirror::{Lopsided, Plane, images, mirrored};
+use modl::behavior::mirror::{MirrorError, Plane, images, mirrored};
 use modl::geometry::{Pose, Vec3};
 use modl::plan::{CauseId, Command, Compare, Condition, Node, Signal, Target};
 use modl::robot::{Assembly, JointId, JointOwner, Kinematics, PortRef};
@@ -98,7 +98,7 @@ fn what_has_no_mirror_image_is_named() {
     // A chain is no mirror image of itself from front to back: its tilts are not in the middle.
     let robot = chain(2);
     let error = mirrored(&robot, &[true], &go(T, 0.5, 0), Plane::YZ).expect_err("there is no image");
-    assert_eq!(error, Lopsided::Joint("m0.tilt".into()));
+    assert_eq!(error, MirrorError::Joint("m0.tilt".into()));
     let undock = act(Command::Undock { port: PortRef { module: 0, port: 3 } }, 0);
-    assert_eq!(mirrored(&robot, &[true], &undock, Plane::XZ), Err(Lopsided::Docking));
+    assert_eq!(mirrored(&robot, &[true], &undock, Plane::XZ), Err(MirrorError::Docking));
 }

@@ -1,10 +1,10 @@
-//! What a truss keeps beside the limits of its struts, what is around it, and by how much it keeps both.
+//! The limits of a truss beside those of its struts, its surroundings, and its margins from both.
 
 use crate::geometry::{HeightField, Placed, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is around a truss, in the world's frame.
+/// The surroundings of a truss, in the world's frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Surroundings {
@@ -19,11 +19,12 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
+    /// Returns `true` where nothing is around, and the ground is flat at height 0.
     pub fn is_none(&self) -> bool {
         *self == Surroundings::default()
     }
 
-    /// How far a place is above the ground, m.
+    /// Returns the height of a world position above the ground, m.
     pub fn above(&self, p: Vec3) -> f64 {
         self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
     }
@@ -56,12 +57,13 @@ pub struct LengthSum {
 }
 
 impl TrussLimits {
+    /// Returns `true` where nothing is limited.
     pub fn is_none(&self) -> bool {
         *self == TrussLimits::default()
     }
 }
 
-/// By how much a truss is within its limits at a keyframe; negative outside. Nothing of limits that it has not, nor of
+/// The margins of a truss from its limits at a keyframe; negative outside. Nothing of limits that it has not, nor of
 /// distances that are more than twice the clearance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -90,6 +92,7 @@ pub struct Margins {
 }
 
 impl Margins {
+    /// Returns `true` where no margin is stated.
     pub fn is_none(&self) -> bool {
         *self == Margins::default()
     }

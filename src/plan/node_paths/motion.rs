@@ -27,6 +27,7 @@ pub struct NodePaths {
     pub surroundings: Surroundings,
 }
 
+/// The positions of all nodes at an instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
@@ -60,7 +61,7 @@ pub enum Interpolation {
 }
 
 impl NodePaths {
-    /// Seconds.
+    /// Returns the duration in seconds.
     pub fn duration(&self) -> f64 {
         self.keyframes.last().map_or(0.0, |k| k.time)
     }
@@ -70,7 +71,7 @@ impl NodePaths {
         self.keyframes.iter().map(|k| k.time).collect()
     }
 
-    /// World position of each node at a time in seconds, m.
+    /// Returns the world position of each node at a time in seconds, m.
     pub fn state(&self, t: f64) -> Vec<[f64; 3]> {
         let after = self.keyframes.partition_point(|k| k.time <= t);
         let Some(before) = after.checked_sub(1).map(|i| &self.keyframes[i]) else {
@@ -84,7 +85,7 @@ impl NodePaths {
         }
     }
 
-    /// Length of each strut at a time, m.
+    /// Returns the length of each strut at a time, m.
     pub fn lengths(&self, t: f64) -> Vec<f64> {
         let nodes = self.state(t);
         let at = |i: usize| Vec3::from(nodes[i]);

@@ -1,5 +1,5 @@
-//! Stretches of numbers on which something changes by the same step from each to the next, and
-//! stretches of such stretches: what lists of cells become in closed form.
+//! Arithmetic runs: numbers on which something changes by the same step from each to the next, and runs
+//! of such runs: what lists of cells become in closed form.
 
 /// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,8 +12,8 @@ pub struct ArithmeticRun {
     pub length: usize,
 }
 
-/// Splits 0..count into stretches. `step` says what changes from one number to another; `None` where no
-/// stretch may hold both.
+/// Splits 0..count into arithmetic runs. `step` says what changes from one number to another; `None` where no
+/// run may hold both.
 pub fn arithmetic_runs<T: PartialEq>(
     count: usize,
     step: impl Fn(usize, usize) -> Option<T>,

@@ -1,4 +1,4 @@
-//! Two lattice plans one after the other: where the first ends in the shape in which the second starts,
+//! Concatenated stages of two lattices: where the first ends in the shape in which the second starts,
 //! exactly, up to a translation. Cells are alike, so those of the second take the numbers of the cells
 //! in whose places they begin.
 
@@ -9,7 +9,11 @@ use crate::plan::cause::CauseId;
 use crate::plan::lattice::grid::{Cube, Grid};
 use crate::plan::operation_error::OperationError;
 
-/// The stages of the first plan, then those of the second, whose causes come behind `causes` others.
+/// Returns the stages of the first plan and then those of the second, whose causes come behind `causes`
+/// others.
+///
+/// # Errors
+/// Where the cells, their numbers or their shapes differ, or where 64 bits do not hold the numbers.
 pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
     if a.count != b.count {
         return Err(OperationError::CellCounts { first: a.count, second: b.count });
@@ -56,7 +60,7 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     Ok(new)
 }
 
-/// For each of the second cubes the number of the first that is there, and by how much the second are
+/// Returns for each of the second cubes the number of the first that is there, and by how much the second are
 /// shifted to be there. `None` where the shapes differ.
 fn matched(first: &[Cube], second: &[Cube]) -> Option<(Vec<u32>, [i64; 3])> {
     let low = |cubes: &[Cube]| [0, 1, 2].map(|axis| cubes.iter().map(|c| c.lo[axis]).min().unwrap_or(0));
@@ -80,7 +84,7 @@ fn matched(first: &[Cube], second: &[Cube]) -> Option<(Vec<u32>, [i64; 3])> {
     Some((numbers, shift))
 }
 
-/// Runs that say where all cells are.
+/// Returns runs that say where all cells are.
 fn gathered(cubes: &[Cube], grid: Grid) -> Option<Vec<Run>> {
     let sizes = |i: usize| [0, 1, 2].map(|axis| cubes[i].size(axis));
     let apart = |i: usize, j: usize| [0, 1, 2].map(|axis| cubes[j].middle(axis) - cubes[i].middle(axis));

@@ -78,7 +78,7 @@ pub struct Stage {
     pub cause: CauseId,
 }
 
-/// How far between its ends a stage is, `σ(u)` for `u` in 0..1 of its duration.
+/// The time law of a stage: its progress between its ends, `σ(u)` for `u` in 0..1 of its duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
@@ -110,6 +110,7 @@ pub struct Run {
     pub size: [Ratio; 3],
 }
 
+/// One of the nested counters of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Counter {
@@ -131,7 +132,7 @@ pub struct CellBox {
 }
 
 impl Law {
-    /// The parts of the duration that the ramps at the start and at the end take.
+    /// Returns the parts of the duration that the ramps at the start and at the end take.
     pub fn ramps(self) -> (Ratio, Ratio) {
         match self {
             Law::BangBang => (Ratio(1, 2), Ratio(1, 2)),
@@ -141,7 +142,7 @@ impl Law {
         }
     }
 
-    /// The same backwards in time.
+    /// Returns the same law backwards in time.
     pub fn reversed(self) -> Law {
         match self {
             Law::BangBang | Law::Trapezoid(_) => self,
@@ -150,7 +151,7 @@ impl Law {
         }
     }
 
-    /// `σ(u)`; 0 and 1 outside 0..1.
+    /// Returns `σ(u)`; 0 and 1 outside 0..1.
     pub fn progress(self, u: f64) -> f64 {
         let u = u.clamp(0.0, 1.0);
         let (first, last) = self.ramps();
@@ -165,7 +166,8 @@ impl Law {
         }
     }
 
-    /// The part of the duration at which the progress is so far: [`progress`](Law::progress), backwards.
+    /// Returns the part of the duration at which a progress is reached: the inverse of
+    /// [`progress`](Law::progress).
     pub fn part(self, progress: f64) -> f64 {
         let progress = progress.clamp(0.0, 1.0);
         let (first, last) = self.ramps();
@@ -182,7 +184,7 @@ impl Law {
 }
 
 impl Stage {
-    /// In units of time.
+    /// Returns the duration in units of time.
     pub fn duration(&self) -> f64 {
         libm::sqrt(self.time_squared.to_f64())
     }
@@ -215,12 +217,12 @@ impl Run {
 }
 
 impl Stages {
-    /// Seconds.
+    /// Returns the duration in seconds.
     pub fn duration(&self) -> f64 {
         self.stages.iter().fold(0.0, |time, stage| time + stage.duration()) * self.time_unit
     }
 
-    /// When each stage begins, and the end, in seconds.
+    /// Returns the time at which each stage begins, and the end, in seconds.
     pub fn instants(&self) -> Vec<f64> {
         let mut now = 0.0;
         let ends = self.stages.iter().map(|s| {
@@ -230,7 +232,7 @@ impl Stages {
         std::iter::once(0.0).chain(ends).collect()
     }
 
-    /// Runs that say where every cell is before a stage: those since the last that named every cell,
+    /// Returns runs that say where every cell is before a stage: those since the last that named every cell,
     /// in order, so that of two that name a cell the later holds.
     pub fn before(&self, stage: usize) -> Vec<Run> {
         let named: Vec<&[Run]> = std::iter::once(&self.start)
@@ -242,7 +244,7 @@ impl Stages {
         named[first..].concat()
     }
 
-    /// Every cell at a time in seconds, in cell sizes.
+    /// Returns every cell at a time in seconds, in cell sizes.
     pub fn state(&self, t: f64) -> Vec<CellBox> {
         let mut cells = vec![CellBox { center: [0.0; 3], size: [1.0; 3] }; self.count as usize];
         place(&mut cells, &self.start);

@@ -10,10 +10,12 @@ use std::cmp::Ordering;
 pub struct Ratio(pub i64, pub i64);
 
 impl Ratio {
+    /// 0.
     pub const ZERO: Ratio = Ratio(0, 1);
+    /// 1.
     pub const ONE: Ratio = Ratio(1, 1);
 
-    /// `numerator / denominator` in lowest terms; `None` where 64 bits do not hold it, or where the
+    /// Returns `numerator / denominator` in lowest terms; `None` where 64 bits do not hold it, or where the
     /// denominator is 0.
     pub fn new(numerator: i128, denominator: i128) -> Option<Ratio> {
         if denominator == 0 {
@@ -25,7 +27,7 @@ impl Ratio {
         Some(Ratio(reduced(numerator)?, reduced(denominator)?))
     }
 
-    /// The simplest rational number from `low` to `high`, both positive: that of the least denominator.
+    /// Returns the simplest rational number from `low` to `high`, both positive: that of the least denominator.
     /// `None` where 64 bits hold none.
     pub fn simplest(low: f64, high: f64) -> Option<Ratio> {
         if !(low > 0.0 && low <= high && high < 1e15) {
@@ -41,17 +43,18 @@ impl Ratio {
         Ratio::new(i128::from(whole as i64) * i128::from(rest.0) + i128::from(rest.1), i128::from(rest.0))
     }
 
+    /// Returns the nearest floating-point number.
     pub fn to_f64(self) -> f64 {
         self.0 as f64 / self.1 as f64
     }
 
-    /// How the numbers compare, whether or not they are in lowest terms.
+    /// Compares two numbers, whether or not they are in lowest terms.
     pub fn order(self, other: Ratio) -> Ordering {
         let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
         product(self.0, other.1).cmp(&product(other.0, self.1))
     }
 
-    /// `self · other`, where 64 bits hold it.
+    /// Returns `self · other`, or `None` where 64 bits do not hold it.
     pub fn times(self, other: Ratio) -> Option<Ratio> {
         Ratio::new(i128::from(self.0) * i128::from(other.0), i128::from(self.1) * i128::from(other.1))
     }

@@ -52,6 +52,7 @@ pub struct Segment {
     pub cause: CauseId,
 }
 
+/// The two changes of a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DockKind {
@@ -76,28 +77,28 @@ pub struct Dock {
 }
 
 impl Segment {
-    /// Where in 0..1 of the segment a time lies; held at the ends outside.
+    /// Returns the place of a time in the segment, 0 to 1; that of the nearer end outside.
     pub fn argument(&self, t: f64) -> f64 {
         ((t - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
     }
 
-    /// Position at a time, rad or m; the end positions outside the segment.
+    /// Returns the position at a time, rad or m; the end positions outside the segment.
     pub fn position(&self, t: f64) -> f64 {
         if t >= self.end { self.last() } else { polynomial::value(&self.control, self.argument(t)) }
     }
 
-    /// Rate of the position at a time within the segment, per second.
+    /// Returns the rate of the position at a time within the segment, per second.
     pub fn velocity(&self, t: f64) -> f64 {
         let rates = polynomial::derivative(&self.control);
         polynomial::value(&rates, self.argument(t)) / (self.end - self.start)
     }
 
-    /// Position at the end.
+    /// Returns the position at the end.
     pub fn last(&self) -> f64 {
         self.control[self.control.len() - 1]
     }
 
-    /// The piece between two times, which are clipped to the segment; `None` where nothing is left.
+    /// Returns the piece between two times, which are clipped to the segment; `None` where nothing is left.
     pub fn between(&self, t0: f64, t1: f64) -> Option<Segment> {
         let (start, end) = (t0.max(self.start), t1.min(self.end));
         if start >= end {
@@ -118,18 +119,18 @@ impl Track {
         self.segments.partition_point(|s| s.start <= t).checked_sub(1)
     }
 
-    /// Position at a time; `start` is the joint's position at the start of the plan.
+    /// Returns the position at a time; `start` is the joint's position at the start of the plan.
     pub fn position(&self, start: f64, t: f64) -> f64 {
         self.begun(t).map_or(start, |i| self.segments[i].position(t))
     }
 
-    /// Rate just after a time, per second: 0 between segments.
+    /// Returns the rate just after a time, per second: 0 between segments.
     pub fn velocity(&self, t: f64) -> f64 {
         let segment = self.begun(t).map(|i| &self.segments[i]).filter(|s| t < s.end);
         segment.map_or(0.0, |s| s.velocity(t))
     }
 
-    /// Lowest and highest position over a stretch of time, or a little beyond: from the control
+    /// Returns the lowest and the highest position over a stretch of time, or a little beyond: from the control
     /// points of the pieces.
     pub fn bounds(&self, start: f64, t0: f64, t1: f64) -> (f64, f64) {
         let at = self.position(start, t0);
@@ -143,13 +144,13 @@ impl Track {
 }
 
 impl Tracks {
-    /// The track of a joint, if it ever moves.
+    /// Returns the track of a joint, if it ever moves.
     pub fn track(&self, joint: JointId) -> Option<&Track> {
         let at = self.tracks.binary_search_by_key(&joint, |t| t.joint).ok()?;
         Some(&self.tracks[at])
     }
 
-    /// Joint positions and bonds at a time, docks at that very instant included. The base keeps its
+    /// Returns joint positions and bonds at a time, docks at that very instant included. The base keeps its
     /// pose: where it goes is for the judge to find.
     pub fn state(&self, t: f64) -> State {
         let mut state = self.start.clone();
@@ -163,18 +164,18 @@ impl Tracks {
         state
     }
 
-    /// The state that the plan ends in.
+    /// Returns the state that the plan ends in.
     pub fn end(&self) -> State {
         self.state(self.duration)
     }
 
-    /// Lowest and highest position of a joint over a stretch of time; see [`Track::bounds`].
+    /// Returns the lowest and the highest position of a joint over a stretch of time; see [`Track::bounds`].
     pub fn bounds(&self, joint: JointId, t0: f64, t1: f64) -> (f64, f64) {
         let start = self.start.joints[joint.0 as usize];
         self.track(joint).map_or((start, start), |track| track.bounds(start, t0, t1))
     }
 
-    /// Every instant at which a segment begins or ends or a bond changes, with 0 and the end, in
+    /// Returns every instant at which a segment begins or ends or a bond changes, with 0 and the end, in
     /// order and without repetition.
     pub fn instants(&self) -> Vec<f64> {
         let segments = self.tracks.iter().flat_map(|t| t.segments.iter().flat_map(|s| [s.start, s.end]));

@@ -8,7 +8,8 @@ use crate::plan::world::{Exemption, ExemptionKind};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, Kinematics, Matching, PortRef, State};
 use std::sync::Arc;
 
-/// How to say of robot A, with the bonds that B needs beside its own, what was said of robot B.
+/// A map from the modules, ports, joints, bonds and causes of robot B to those of robot A, which has the
+/// bonds that B needs beside its own.
 #[derive(Clone, Debug)]
 pub struct Remap {
     /// Robot A with the bonds of B.
@@ -25,7 +26,8 @@ pub struct Remap {
 }
 
 impl Remap {
-    /// `found` is where the robot of `b`, at its start, is found in that of `a`, at its end.
+    /// Returns the map for motion `a` and then motion `b`. `found` is where the robot of `b`, at its start, is
+    /// found in that of `a`, at its end; the causes of `b` come behind `causes` others.
     pub fn new(a: &Tracks, b: &Tracks, found: &Matching, causes: u32) -> Remap {
         let (mut robot, mut start) = (a.robot.clone(), a.start.clone());
         let mut hinges = Vec::new();
@@ -58,8 +60,8 @@ impl Remap {
         Remap { robot, start, found: found.clone(), bonds, joints, causes }
     }
 
-    /// What has another name in A: modules, and joints of modules that lie turned round (name in B, name
-    /// in A).
+    /// Returns the names that differ: of modules, and of joints of modules that lie turned round (name in B,
+    /// name in A).
     pub fn renamed(&self, b: &Assembly) -> Vec<(String, String)> {
         let mut pairs = Vec::new();
         for (module, instance) in b.modules.iter().enumerate() {
@@ -78,7 +80,7 @@ impl Remap {
         pairs
     }
 
-    /// Motion `a`, then motion `b`.
+    /// Returns motion `a`, then motion `b`.
     pub fn tracks(&self, a: &Tracks, b: &Tracks) -> Tracks {
         let end = a.end();
         let mut tracks: Vec<Track> = a.tracks.clone();
@@ -127,6 +129,7 @@ impl Remap {
         segments
     }
 
+    /// Returns an exemption of B, said of A, later by `seam` seconds.
     pub fn exemption(&self, exemption: &Exemption, seam: f64) -> Exemption {
         Exemption {
             kind: self.kind(&exemption.kind),
@@ -148,7 +151,7 @@ impl Remap {
         }
     }
 
-    /// A program of B, said of A; what is shared stays shared.
+    /// Returns a program of B, said of A; what is shared stays shared.
     pub fn program(&self, root: &Arc<Node>) -> Arc<Node> {
         let graph = Graph::of(root);
         let mut done: Vec<Arc<Node>> = Vec::with_capacity(graph.nodes.len());

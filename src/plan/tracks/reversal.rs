@@ -10,7 +10,7 @@ impl Segment {
 }
 
 impl Tracks {
-    /// From end to start: what was docked is undocked. The base stays where it was at the start.
+    /// Returns the motion from end to start: what was docked is undocked. The base stays where it was at the start.
     pub fn reversed(&self) -> Tracks {
         let d = self.duration;
         let track = |t: &Track| Track {

@@ -26,7 +26,7 @@ pub struct Panel {
     /// The thickness of the uniform plate with the same second moment across itself, m.
     pub thickness: f64,
     /// The greatest speed and acceleration of the hinges at its edges, rad/s and rad/s².
-    pub able: law::Ability,
+    pub able: law::MotionLimits,
     /// The torque that its hinges hold, N·m; `None` where no limit is stated.
     pub torque: Option<f64>,
     /// The depth to which a panel may enter another panel or the ground before that is a collision, m.
@@ -86,7 +86,7 @@ impl Panel {
             mass: link.mass,
             sides,
             thickness: thickness(link, a.pose.rotation * Vec3::z()),
-            able: law::Ability { speed: hinge.limits.speed, acceleration: hinge.limits.acceleration },
+            able: law::MotionLimits { speed: hinge.limits.speed, acceleration: hinge.limits.acceleration },
             torque: hinge.limits.effort,
             touch: module.touch,
             contact: module.contact,
@@ -103,7 +103,7 @@ impl Panel {
     /// for both. Mass, sides and parts stay its own.
     pub fn weaker(self, other: &Panel) -> Panel {
         let least = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::min);
-        let able = law::Ability {
+        let able = law::MotionLimits {
             speed: least(self.able.speed, other.able.speed),
             acceleration: least(self.able.acceleration, other.able.acceleration),
         };
@@ -119,7 +119,7 @@ impl Panel {
     /// Returns the least time in which a hinge folds by `angle` (rad) from rest to rest under the quintic law,
     /// rounded up to a multiple of 10 ms; 1 s where no limit bounds it. In s.
     pub fn step_time(&self, angle: f64) -> f64 {
-        match law::least(Profile::Smooth, angle, self.able) {
+        match law::least_duration(Profile::Smooth, angle, self.able) {
             Some(least) if least > 0.0 => (least / STEP_GRAIN).ceil() * STEP_GRAIN,
             Some(_) | None => STEP_UNLIMITED,
         }
