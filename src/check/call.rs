@@ -1,8 +1,9 @@
 //! Calls: the callee, and the assignment of arguments to parameters.
 
-use super::checker::{Bound, Checker, DefItem, Entity, ParamInfo, Scope, Signature, TypeParam};
+use super::checker::{Bound, Checker, DefItem, Entity, ParamInfo, Signature, TypeParam};
 use super::expr::{Role, error_expr, expr_of, has_params};
 use super::lists::list_element;
+use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
 use crate::source::suggest::suggest;

@@ -1,7 +1,8 @@
 //! Configurations: parts, ports, behaviours, and the clauses that connect them.
 
-use super::checker::{Checker, Entity, Scope};
+use super::checker::{Checker, Entity};
 use super::expr::Role;
+use super::scope::Scope;
 use super::typed::{
     BehaviorDef, ConfigClause, ConfigDef, DefId, DefKind, Exemption, ExemptionKind, Expr, MemberKind,
     PartCount, PartDef,

@@ -1,8 +1,9 @@
 //! Expressions of all kinds: expected types, choices, blocks and lambdas.
 
-use super::checker::{Checker, Scope};
+use super::checker::Checker;
 use super::describe::{dimension_with_unit, dimension_words};
 use super::literals::direction;
+use super::scope::Scope;
 use super::typed::{BinaryOp, Expr, ExprKind, StmtKind};
 use super::types::{Family, FnType, Type};
 use crate::source::{Diagnostic, Span, Symbol, code};

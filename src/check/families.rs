@@ -1,8 +1,9 @@
 //! Cells and struts, lattices and trusses.
 
-use super::checker::{Checker, Entity, MemberInfoKind, Scope};
+use super::checker::{Checker, Entity, MemberInfoKind};
 use super::describe::family_name;
 use super::expr::{Role, error_expr};
+use super::scope::Scope;
 use super::typed::{DefId, DefKind, Expr, FactsDef, LatticeDef, NodeRef, TrussBody, TrussClause, TrussDef};
 use super::types::{Family, Type};
 use crate::source::suggest::suggest;

@@ -1,7 +1,8 @@
 //! Items and statements: signatures and bodies, each checked when first needed.
 
-use super::checker::{Bound, Checker, DefItem, ParamInfo, Scope, Signature, TypeParam};
+use super::checker::{Bound, Checker, DefItem, ParamInfo, Signature, TypeParam};
 use super::expr::{Role, error_expr};
+use super::scope::Scope;
 use super::typed::{
     Body, DefId, DefKind, Expr, FnDef, LetDef, MemberId, NativeDef, Param, RecordDef, RecordField, Stmt,
     StmtKind, Test,

@@ -1,7 +1,8 @@
 //! Lists, comprehensions, ranges and indices.
 
-use super::checker::{Checker, Scope};
+use super::checker::Checker;
 use super::expr::{Role, alternatives, error_expr, expr_of, has_params};
+use super::scope::Scope;
 use super::typed::{Clause, Expr, ExprKind};
 use super::types::Type;
 use crate::source::{Diagnostic, Span, code};

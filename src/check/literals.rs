@@ -1,7 +1,8 @@
 //! Literals: numbers with their units, texts, and words of choices.
 
-use super::checker::{Checker, DefItem, Entity, MemberInfoKind, Scope};
+use super::checker::{Checker, DefItem, Entity, MemberInfoKind};
 use super::expr::{error_expr, expr_of};
+use super::scope::Scope;
 use super::typed::{Expr, ExprKind};
 use super::types::Type;
 use crate::source::{Diagnostic, Span, Symbol, code};

@@ -3,7 +3,7 @@
 //! The room knows no robots. What depends on values (an occupied port, a joint out of range) is found
 //! later, when `interpret` elaborates the declarations.
 //!
-//! Reading order: [`load`] reads files, [`checker`] holds the state, [`items`] drives; [`members`],
+//! Reading order: [`load`] reads files, [`checker`] holds the state, [`scope`] the locals, [`items`] drives; [`members`],
 //! [`module`], [`config`] and [`families`] check declarations, [`expr`], [`literals`], [`names`],
 //! [`lists`], [`call`] and [`operators`] expressions, [`type_expr`] types as written.
 
@@ -13,6 +13,7 @@ mod config;
 mod describe;
 mod expr;
 mod families;
+mod fields;
 mod items;
 mod lint;
 mod lists;
@@ -24,6 +25,7 @@ mod module;
 mod names;
 mod operators;
 mod reserve;
+mod scope;
 pub(crate) mod summary;
 mod type_expr;
 pub mod typed;

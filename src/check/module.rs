@@ -1,7 +1,8 @@
 //! Connectors and modules.
 
-use super::checker::{Checker, DefItem, Entity, Scope};
+use super::checker::{Checker, DefItem, Entity};
 use super::expr::{Role, expr_of};
+use super::scope::Scope;
 use super::typed::{
     ConnectorDef, DefId, DefKind, Expr, ExprKind, JointBetween, JointDef, JointDefKind, Linear, LinkDef,
     ModuleClause, ModuleDef, MotorDef, Placement, PortClause, PortGroup,

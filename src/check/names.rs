@@ -1,7 +1,8 @@
 //! Names as values: locals, members, declarations.
 
-use super::checker::{Checker, DefItem, Entity, Scope};
+use super::checker::{Checker, DefItem, Entity};
 use super::expr::{error_expr, expr_of};
+use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
 use crate::source::suggest::suggest;

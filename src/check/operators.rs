@@ -1,7 +1,8 @@
 //! Operators: the types of their operands, and the type of their result.
 
-use super::checker::{Checker, Scope};
+use super::checker::Checker;
 use super::expr::{Role, error_expr, expr_of};
+use super::scope::Scope;
 use super::typed::{BinaryOp, Expr, ExprKind, UnaryOp};
 use super::types::Type;
 use crate::source::{Diagnostic, Span, code};

@@ -1,6 +1,7 @@
 //! Types as they are written, and the subtype relation.
 
-use super::checker::{Bound, Checker, DefItem, Entity, Scope};
+use super::checker::{Bound, Checker, DefItem, Entity};
+use super::scope::Scope;
 use super::typed::DefId;
 use super::types::{Choice, Family, FnType, Type};
 use crate::source::suggest::suggest;

@@ -15,12 +15,12 @@ pub(crate) fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
 }
 
-/// The present name of a parameter or field (`word`) of a function or record (`of`) that was renamed.
+/// Returns the present name of a renamed parameter or field `word` of the function or record `of`.
 pub(crate) fn renamed(of: &str, word: &str) -> Option<&'static str> {
     RENAMED.iter().find(|(owner, old, _)| (*owner, *old) == (of, word)).map(|(_, _, new)| *new)
 }
 
-/// Function or record, old name, new name.
+/// Renamed parameters and fields: function or record, old name, new name.
 const RENAMED: &[(&str, &str, &str)] =
     &[("locomote", "ladder", "fallbacks"), ("Travel", "eased", "relaxed_steps")];
 
