@@ -78,11 +78,11 @@ pub(super) struct Loader<'a> {
     loaded: Vec<Option<LoadedFile>>,
     by_name: HashMap<String, Option<usize>>,
     /// The files being read, outermost first. An import of one of them is a cycle.
-    open: Vec<Open>,
+    open: Vec<OpenFile>,
 }
 
 /// A file being read.
-struct Open {
+struct OpenFile {
     name: String,
     /// The import of this file that is being followed.
     via: Option<Span>,
@@ -90,17 +90,17 @@ struct Open {
 
 /// The place of a file: a path in the project or in the standard library.
 #[derive(Clone)]
-enum Place {
+enum FilePlace {
     Project(String),
     Library(String),
 }
 
-impl Place {
+impl FilePlace {
     /// Returns the name of the file in diagnostics and plans.
     fn shown(&self) -> String {
         match self {
-            Place::Project(path) => path.clone(),
-            Place::Library(path) => format!("std/{path}"),
+            FilePlace::Project(path) => path.clone(),
+            FilePlace::Library(path) => format!("std/{path}"),
         }
     }
 }
@@ -108,8 +108,8 @@ impl Place {
 /// Loads `root` with all that it imports, and the prelude.
 pub(super) fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
-    let prelude = loader.load(Place::Library("prelude.mod".into())).ok();
-    let root = match loader.load(Place::Project(root.into())) {
+    let prelude = loader.load(FilePlace::Library("prelude.mod".into())).ok();
+    let root = match loader.load(FilePlace::Project(root.into())) {
         Ok(index) => Some(index),
         Err(error) => {
             loader.diagnostics.push(Diagnostic::error(code::CANNOT_READ, why_unreadable(root, &error)));
@@ -122,7 +122,7 @@ pub(super) fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagn
 /// Loads the entries of a session with all that they import, and the prelude.
 pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
-    let prelude = loader.load(Place::Library("prelude.mod".into())).ok();
+    let prelude = loader.load(FilePlace::Library("prelude.mod".into())).ok();
     let root = entries.iter().map(|entry| loader.entry(entry)).last();
     loader.finish(root, prelude)
 }
@@ -163,7 +163,7 @@ impl<'a> Loader<'a> {
     fn entry(&mut self, entry: &Entry) -> usize {
         let id = self.sources.add_piece(&entry.name, &entry.text, false, entry.first_line);
         // Paths in an entry are relative to the project.
-        let place = Place::Project(String::new());
+        let place = FilePlace::Project(String::new());
         let index = self.take(&place, id, &entry.text);
         let file = self.loaded[index].as_mut().expect("just closed");
         (file.entry, file.last) = (true, entry.last);
@@ -174,7 +174,7 @@ impl<'a> Loader<'a> {
     }
 
     /// Loads a file with all that it imports, once, and returns its index. Fails if it can't be read.
-    fn load(&mut self, place: Place) -> Result<usize, ReadError> {
+    fn load(&mut self, place: FilePlace) -> Result<usize, ReadError> {
         let shown = place.shown();
         if let Some(known) = self.by_name.get(&shown) {
             return known.ok_or(ReadError::NotFound);
@@ -186,12 +186,12 @@ impl<'a> Loader<'a> {
     }
 
     /// Parses a text and loads all that it imports; returns its index.
-    fn take(&mut self, place: &Place, id: FileId, text: &str) -> usize {
+    fn take(&mut self, place: &FilePlace, id: FileId, text: &str) -> usize {
         let parsed = syntax::parse(id, text);
         self.diagnostics.extend(parsed.diagnostics);
         let index = self.loaded.len();
         self.loaded.push(None);
-        self.open.push(Open { name: place.shown(), via: None });
+        self.open.push(OpenFile { name: place.shown(), via: None });
         let mut imports = Vec::new();
         for item in &parsed.file.items {
             if let ast::ItemKind::Use(u) = &item.kind {
@@ -204,13 +204,13 @@ impl<'a> Loader<'a> {
     }
 
     /// Reads a text; one that is not UTF-8 is reported and empty.
-    fn read(&mut self, place: &Place, shown: &str) -> Result<(FileId, String), ReadError> {
+    fn read(&mut self, place: &FilePlace, shown: &str) -> Result<(FileId, String), ReadError> {
         let bytes = match place {
-            Place::Library(path) => {
+            FilePlace::Library(path) => {
                 let text = self.files.library(path).ok_or(ReadError::NotFound)?;
                 return Ok((self.sources.add(shown, &text, true), text.into_owned()));
             }
-            Place::Project(path) => self.files.read(path)?,
+            FilePlace::Project(path) => self.files.read(path)?,
         };
         match String::from_utf8(bytes) {
             Ok(text) => Ok((self.sources.add(shown, &text, false), text)),
@@ -234,7 +234,7 @@ impl<'a> Loader<'a> {
     }
 
     /// Loads the target of a `use`.
-    fn import(&mut self, from: &Place, u: &ast::Use, imports: &mut Vec<Import>) {
+    fn import(&mut self, from: &FilePlace, u: &ast::Use, imports: &mut Vec<Import>) {
         match &u.source {
             ast::UseSource::File { path, span } => self.import_file(from, u, path, *span, imports),
             ast::UseSource::Path(path) => self.import_path(u, path, imports),
@@ -242,10 +242,17 @@ impl<'a> Loader<'a> {
     }
 
     /// Loads the target of a `use "path"`; reports a path that leads out of the project.
-    fn import_file(&mut self, from: &Place, u: &ast::Use, path: &str, span: Span, imports: &mut Vec<Import>) {
+    fn import_file(
+        &mut self,
+        from: &FilePlace,
+        u: &ast::Use,
+        path: &str,
+        span: Span,
+        imports: &mut Vec<Import>,
+    ) {
         let place = match from {
-            Place::Project(own) => join(own, path).map(Place::Project),
-            Place::Library(own) => join(own, path).map(Place::Library),
+            FilePlace::Project(own) => join(own, path).map(FilePlace::Project),
+            FilePlace::Library(own) => join(own, path).map(FilePlace::Library),
         };
         let Some(place) = place else {
             self.diagnostics.push(
@@ -282,7 +289,7 @@ impl<'a> Loader<'a> {
         }
         let whole = format!("{}.mod", words[1..].join("/"));
         if words.len() > 1 && self.files.library(&whole).is_some() {
-            let Some(file) = self.open_import(Place::Library(whole), &words.join("."), span) else {
+            let Some(file) = self.open_import(FilePlace::Library(whole), &words.join("."), span) else {
                 return unknown_names(u, imports);
             };
             return match &u.names {
@@ -300,7 +307,7 @@ impl<'a> Loader<'a> {
         let (last, rest) = (path[path.len() - 1], &words[1..words.len().max(2) - 1]);
         let file = format!("{}.mod", rest.join("/"));
         if u.names.is_none() && words.len() > 2 && self.files.library(&file).is_some() {
-            let target = match self.open_import(Place::Library(file), &words.join("."), span) {
+            let target = match self.open_import(FilePlace::Library(file), &words.join("."), span) {
                 Some(file) => ImportTarget::Item { file, item: last.text, span: last.span },
                 None => ImportTarget::Error,
             };
@@ -325,7 +332,7 @@ impl<'a> Loader<'a> {
 
     /// Returns the index of an imported file; `None` (and a diagnostic) if it can't be read or closes a
     /// cycle.
-    fn open_import(&mut self, place: Place, written: &str, span: Span) -> Option<usize> {
+    fn open_import(&mut self, place: FilePlace, written: &str, span: Span) -> Option<usize> {
         let shown = place.shown();
         if let Some(open) = self.open.last_mut() {
             open.via = Some(span);

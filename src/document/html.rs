@@ -1,6 +1,6 @@
 //! The pages of the site: plain HTML that works from a file.
 
-use super::outline::{Entry, Page};
+use super::outline::{Page, PageEntry};
 use crate::check::summary::{Group, Inside};
 use std::fmt::Write as _;
 
@@ -50,7 +50,7 @@ pub(super) fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
 }
 
 /// Returns the section of a declaration.
-fn section(entry: &Entry, doc: Doc) -> String {
+fn section(entry: &PageEntry, doc: Doc) -> String {
     let mut out = format!(
         "<section id=\"{name}\">\n<h2><a href=\"#{name}\">{name}</a> <small>{}</small></h2>\n\
          <pre class=\"signature\">{}</pre>\n",
@@ -87,7 +87,7 @@ fn section(entry: &Entry, doc: Doc) -> String {
 }
 
 /// Returns the list of a group of members.
-fn list(entry: &Entry, group: Group, inside: &[&Inside], doc: Doc) -> String {
+fn list(entry: &PageEntry, group: Group, inside: &[&Inside], doc: Doc) -> String {
     let heading = if group == Group::Let { "value" } else { group.word() };
     let mut out = format!("<h3>{heading}s</h3>\n<dl>\n");
     for i in inside {
@@ -156,11 +156,11 @@ pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
          configurations of order 1 and modules; and so on.</p>\n",
     );
     let all = pages.iter().flat_map(|page| page.entries.iter().map(move |entry| (page, entry)));
-    let mut configs: Vec<(u32, &Page, &Entry)> =
+    let mut configs: Vec<(u32, &Page, &PageEntry)> =
         all.filter_map(|(page, entry)| Some((entry.order?, page, entry))).collect();
     configs.sort_by_key(|(order, _, _)| *order);
     // A configuration without a default instance has no known order.
-    let sized = |(_, entry): &(&Page, &Entry)| entry.word == "config" && entry.order.is_none();
+    let sized = |(_, entry): &(&Page, &PageEntry)| entry.word == "config" && entry.order.is_none();
     let all = pages.iter().flat_map(|page| page.entries.iter().map(move |entry| (page, entry)));
     let open = all.filter(sized).map(|(page, entry)| (None, page, entry));
     let mut last = None;

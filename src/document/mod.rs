@@ -10,4 +10,4 @@ mod outline;
 mod pictures;
 mod site;
 
-pub use site::{Fault, Request, Site, site};
+pub use site::{LinkFault, Request, Site, site};

@@ -15,11 +15,11 @@ pub(super) struct Page {
     /// The file's documentation.
     pub doc: Option<String>,
     /// The entries, in the order of the text.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<PageEntry>,
 }
 
 /// The entry of a declaration.
-pub(super) struct Entry {
+pub(super) struct PageEntry {
     /// Its name.
     pub name: String,
     /// Its keyword: `module`, `config`, `fn`.
@@ -54,7 +54,7 @@ pub(super) fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Opti
         let def = checked.program.def(*id);
         def.file == file && !def.name.as_str().starts_with('_') && !methods.contains(id)
     });
-    let entries: Vec<Entry> = here.map(|id| entry(checked, id)).collect();
+    let entries: Vec<PageEntry> = here.map(|id| entry(checked, id)).collect();
     let file = format!("{}.html", title.replace(['/', '.'], "-"));
     (!entries.is_empty()).then_some(Page { title, file, doc, entries })
 }
@@ -69,12 +69,12 @@ fn methods(checked: &Checked) -> Vec<DefId> {
 }
 
 /// Returns the entry of a declaration.
-fn entry(checked: &Checked, id: DefId) -> Entry {
+fn entry(checked: &Checked, id: DefId) -> PageEntry {
     let def = checked.program.def(id);
     let params = summary::params_of(&checked.program, id);
     let instances =
         matches!(def.kind, DefKind::Module(_) | DefKind::Config(_) | DefKind::Lattice(_) | DefKind::Truss(_));
-    Entry {
+    PageEntry {
         name: def.name.to_string(),
         word: summary::word(&def.kind),
         signature: summary::signature(checked, id),

@@ -1,8 +1,8 @@
 //! Facts that only an instance has (order, modules, mass), and its picture. They are found by running a
 //! small program.
 
-use super::outline::{Entry, Page};
-use crate::check::{self, Entry as Cell};
+use super::outline::{Page, PageEntry};
+use crate::check::{self, Entry};
 use crate::interpret::{self, Host, Mode, Options, WriteError};
 use crate::interrupt::CancelState;
 use crate::source::Files;
@@ -64,7 +64,7 @@ pub(super) fn drawn(
 }
 
 /// Runs the program for one entry; `None` if it has no default instance.
-fn asked(entry: &Entry, import: &str, files: &dyn Files, cancel_state: &CancelState) -> Option<Answers> {
+fn asked(entry: &PageEntry, import: &str, files: &dyn Files, cancel_state: &CancelState) -> Option<Answers> {
     let name = &entry.name;
     let facts = match entry.word {
         "config" => {
@@ -75,7 +75,7 @@ fn asked(entry: &Entry, import: &str, files: &dyn Files, cancel_state: &CancelSt
         _ => String::new(),
     };
     let text = format!("use {import}.{{{name}}}\n{facts}show({name}(), \"picture.png\")\n");
-    let cell = Cell { name: "<documentation>".into(), text, first_line: 1, value: None, last: None };
+    let cell = Entry { name: "<documentation>".into(), text, first_line: 1, value: None, last: None };
     let checked = check::check_session(files, &[cell]);
     if checked.has_errors() {
         return None;

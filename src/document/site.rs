@@ -2,9 +2,9 @@
 
 use super::html;
 use super::markdown::{Targets, to_html};
-use super::outline::{Entry, Page, page};
+use super::outline::{Page, PageEntry, page};
 use super::pictures::drawn;
-use crate::check::{self, Checked, Entry as Cell};
+use crate::check::{self, Checked, Entry};
 use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, FileId, Files, library};
 use crate::syntax;
@@ -28,14 +28,14 @@ pub struct Site {
     /// The files by name.
     pub files: Vec<(String, Vec<u8>)>,
     /// The broken links in documentation.
-    pub faults: Vec<Fault>,
+    pub faults: Vec<LinkFault>,
     /// The programs that are left out because of errors, with their diagnostics.
     pub wrong: Vec<(Checked, Vec<Diagnostic>)>,
 }
 
 /// A broken link.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct LinkFault {
     /// The file that contains it.
     pub file: String,
     /// The declaration whose documentation contains it.
@@ -78,7 +78,7 @@ fn library_pages(files: &dyn Files) -> Vec<Page> {
     let names = library::FILES.iter().filter_map(|(name, _)| name.strip_suffix(".mod"));
     let uses: Vec<String> = names.filter(|n| *n != "prelude").map(|n| format!("use std.{n}\n")).collect();
     let text = uses.concat();
-    let cell = Cell { name: "<documentation>".into(), text, first_line: 1, value: None, last: None };
+    let cell = Entry { name: "<documentation>".into(), text, first_line: 1, value: None, last: None };
     let checked = check::check_session(files, &[cell]);
     let library: Vec<FileId> = checked.sources.files().filter(|(_, f)| f.library).map(|(id, _)| id).collect();
     let mut pages: Vec<Page> = library.into_iter().filter_map(|file| page_of(&checked, file)).collect();
@@ -98,7 +98,7 @@ fn write(pages: &[Page], request: &Request, site: &mut Site) {
             let (html, lost) = to_html(text, &links);
             let entry = page.entries.iter().find(|entry| stands_in(entry, text));
             let entry = entry.map_or_else(String::new, |entry| entry.name.clone());
-            faults.extend(lost.into_iter().map(|link| Fault {
+            faults.extend(lost.into_iter().map(|link| LinkFault {
                 file: page.title.clone(),
                 entry: entry.clone(),
                 link,
@@ -122,7 +122,7 @@ fn write(pages: &[Page], request: &Request, site: &mut Site) {
     site.faults = faults;
 }
 
-fn stands_in(entry: &Entry, text: &str) -> bool {
+fn stands_in(entry: &PageEntry, text: &str) -> bool {
     entry.doc.as_deref() == Some(text) || entry.inside.iter().any(|i| i.doc.as_deref() == Some(text))
 }
 

@@ -8,7 +8,7 @@ use crate::syntax::{Outline, Role, TokenKind};
 const STEP: usize = 2;
 
 /// An open bracket.
-struct Open {
+struct OpenBracket {
     /// The indentation of the line that it is on.
     line: usize,
 }
@@ -43,7 +43,7 @@ pub(super) fn lines(text: &str, outline: &Outline) -> Vec<Line> {
 
 /// The state of formatting line by line.
 struct Layout<'t> {
-    open: Vec<Open>,
+    open: Vec<OpenBracket>,
     lines: Vec<Line>,
     /// The last token of the chunk so far that is not a comment.
     before: Option<Piece<'t>>,
@@ -89,7 +89,7 @@ impl<'t> Layout<'t> {
                 out.text.push_str(piece.text);
             }
             match piece.token.kind {
-                TokenKind::Open => self.open.push(Open { line: indent }),
+                TokenKind::Open => self.open.push(OpenBracket { line: indent }),
                 TokenKind::Close => drop(self.open.pop()),
                 _ => {}
             }

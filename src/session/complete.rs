@@ -5,7 +5,7 @@
 use super::command::COMMANDS;
 use super::dependencies::meant;
 use super::kept::Kept;
-use super::locals::{Is, Local, locals};
+use super::locals::{LocalName, Origin, locals};
 pub(crate) use super::members::Named;
 use super::members::{about, members, params_of_member};
 use super::state::{Session, is_given, value_type};
@@ -291,12 +291,14 @@ fn substituted(expr: &str, before: &str) -> String {
         let end = expr.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(expr.len());
         let (head, rest) = expr.split_at(end);
         let Some(local) = locals.iter().rev().find(|local| local.name == head) else { break };
-        expr = match &local.is {
-            Is::Typed(ty) => format!("{ty}(){rest}"),
-            Is::Listed(ty) => format!("[{ty}()]{rest}"),
-            Is::Value(value) if !value.starts_with(head) => format!("{}{rest}", value.trim()),
+        expr = match &local.origin {
+            Origin::Typed(ty) => format!("{ty}(){rest}"),
+            Origin::Listed(ty) => format!("[{ty}()]{rest}"),
+            Origin::Value(value) if !value.starts_with(head) => format!("{}{rest}", value.trim()),
             // One of the elements; all have the same type.
-            Is::Each(list) if !list.starts_with(head) && !list.contains("..") => format!("{list}[0]{rest}"),
+            Origin::Each(list) if !list.starts_with(head) && !list.contains("..") => {
+                format!("{list}[0]{rest}")
+            }
             _ => break,
         };
     }
@@ -421,17 +423,17 @@ fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
 }
 
 /// Returns a name that the text declares above, with its type.
-fn own_name(knowledge: &Knowledge, before: &str, local: Local) -> Named {
+fn own_name(knowledge: &Knowledge, before: &str, local: LocalName) -> Named {
     let inferred = || {
         let (checked, ty) = type_of(knowledge, &substituted(&local.name, before));
         ty.map_or_else(|| "declared above".to_owned(), |ty| checked.program.type_name(&ty))
     };
-    let about = match &local.is {
-        Is::Typed(ty) => ty.clone(),
-        Is::Listed(ty) => format!("List<{ty}>"),
-        Is::Each(list) if list.contains("..") => "Int".to_owned(),
-        Is::Value(_) | Is::Each(_) => inferred(),
-        Is::Word(word) => word.clone(),
+    let about = match &local.origin {
+        Origin::Typed(ty) => ty.clone(),
+        Origin::Listed(ty) => format!("List<{ty}>"),
+        Origin::Each(list) if list.contains("..") => "Int".to_owned(),
+        Origin::Value(_) | Origin::Each(_) => inferred(),
+        Origin::Word(word) => word.clone(),
     };
     Named::new(local.name, about)
 }

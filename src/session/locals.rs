@@ -3,16 +3,16 @@
 
 /// A local name of an unfinished text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Local {
+pub(super) struct LocalName {
     /// The name.
     pub name: String,
     /// Its origin.
-    pub is: Is,
+    pub origin: Origin,
 }
 
 /// The origin of a local name, as it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Is {
+pub(super) enum Origin {
     /// A name of this type.
     Typed(String),
     /// A list of this type.
@@ -50,7 +50,7 @@ const DECLARING: &[&str] = &[
 const CLAUSES: &[&str] = &["connect", "set", "base", "require", "expect", "touching", "alias"];
 
 /// Returns the names that a text declares, the latest last.
-pub(super) fn locals(text: &str) -> Vec<Local> {
+pub(super) fn locals(text: &str) -> Vec<LocalName> {
     let mut found = Vec::new();
     let mut rest = text;
     while let Some((word, after)) = next_word(rest) {
@@ -64,8 +64,10 @@ pub(super) fn locals(text: &str) -> Vec<Local> {
         if DECLARING.contains(&name) || after.len() - behind.len() > name.len() + blanks(after) {
             continue;
         }
-        found.extend(parameters(behind).into_iter().map(|(name, ty)| Local { name, is: Is::Typed(ty) }));
-        found.push(Local { name: name.to_owned(), is: what(word, behind) });
+        found.extend(
+            parameters(behind).into_iter().map(|(name, ty)| LocalName { name, origin: Origin::Typed(ty) }),
+        );
+        found.push(LocalName { name: name.to_owned(), origin: origin_of(word, behind) });
     }
     found
 }
@@ -84,28 +86,28 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
 }
 
 /// Returns the origin of a name, from the word before it and the text behind it.
-fn what(word: &str, behind: &str) -> Is {
+fn origin_of(word: &str, behind: &str) -> Origin {
     let after = |text: &str, mark: char| text.trim_start().strip_prefix(mark).map(str::to_owned);
     match word {
         "let" => {
             let value = after(behind, '=').map(|value| up_to_clause(&up_to(&value, &['\n'])));
-            value.filter(|value| !value.is_empty()).map_or_else(|| Is::Word(word.into()), Is::Value)
+            value.filter(|value| !value.is_empty()).map_or_else(|| Origin::Word(word.into()), Origin::Value)
         }
         "for" => {
             let list = behind.trim_start().strip_prefix("in ").map(|list| up_to(list, &['{', ']', '\n']));
-            list.filter(|list| !list.is_empty()).map_or_else(|| Is::Word(word.into()), Is::Each)
+            list.filter(|list| !list.is_empty()).map_or_else(|| Origin::Word(word.into()), Origin::Each)
         }
         "part" => {
             let many = behind.trim_start().starts_with('[');
             let behind = if many { behind.split_once(']').map_or("", |(_, rest)| rest) } else { behind };
             let ty = after(behind, ':').map(|ty| type_name(&ty));
             match ty.filter(|ty| !ty.is_empty()) {
-                Some(ty) if many => Is::Listed(ty),
-                Some(ty) => Is::Typed(ty),
-                None => Is::Word(word.into()),
+                Some(ty) if many => Origin::Listed(ty),
+                Some(ty) => Origin::Typed(ty),
+                None => Origin::Word(word.into()),
             }
         }
-        _ => Is::Word(word.into()),
+        _ => Origin::Word(word.into()),
     }
 }
 

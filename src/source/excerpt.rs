@@ -60,7 +60,7 @@ pub(super) struct Excerpt {
 
 /// The lines of a label in its file, and its first and last byte within those lines.
 #[derive(Clone, Copy)]
-struct Place {
+struct LabelPlace {
     file: FileId,
     first: usize,
     last: usize,
@@ -70,7 +70,7 @@ struct Place {
 
 /// Returns the excerpt that shows all `labels`, with no line wider than `columns`.
 pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
-    let places: Vec<Place> = labels.iter().map(|label| place(sources, label)).collect();
+    let places: Vec<LabelPlace> = labels.iter().map(|label| place(sources, label)).collect();
     let mut excerpt = Excerpt::default();
     let mut starts = vec![0; places.len()];
     let mut ends = vec![0; places.len()];
@@ -111,7 +111,7 @@ pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Ex
 }
 
 /// Returns the mark of a label shown at the bytes `shown` of the excerpt.
-fn mark(sources: &Sources, text: &str, place: Place, shown: Range<usize>, columns: usize) -> Mark {
+fn mark(sources: &Sources, text: &str, place: LabelPlace, shown: Range<usize>, columns: usize) -> Mark {
     let Range { start, end } = shown;
     let before = &text[text[..start].rfind('\n').map_or(0, |i| i + 1)..start];
     let before: usize = before.chars().map(columns_of).sum();
@@ -131,7 +131,7 @@ fn mark(sources: &Sources, text: &str, place: Place, shown: Range<usize>, column
 }
 
 /// Returns the place of a label, moved to visible characters.
-fn place(sources: &Sources, label: &Label) -> Place {
+fn place(sources: &Sources, label: &Label) -> LabelPlace {
     let file = sources.file(label.span.file);
     let range = visible_range(&file.text, label.span.start as usize, label.span.end as usize);
     let first = file.line_column(range.start).line;
@@ -139,9 +139,9 @@ fn place(sources: &Sources, label: &Label) -> Place {
     let start = range.start - file.line_start(first);
     if last >= first + LABEL_LINES_MAX {
         let end = file.line(first).trim_end().len();
-        return Place { file: label.span.file, first, last: first, start, end };
+        return LabelPlace { file: label.span.file, first, last: first, start, end };
     }
-    Place { file: label.span.file, first, last, start, end: range.end - file.line_start(last) }
+    LabelPlace { file: label.span.file, first, last, start, end: range.end - file.line_start(last) }
 }
 
 /// Returns the range without the blanks at its end. An empty range is moved to the character after it, or,
@@ -176,8 +176,8 @@ fn floor(text: &str, offset: usize) -> usize {
 
 /// Returns the runs of lines to show: those of the first label's file first, then other files in order; in
 /// a file by line.
-fn blocks(sources: &Sources, places: &[Place]) -> Vec<(FileId, Range<usize>)> {
-    let mut ordered: Vec<Place> = places.to_vec();
+fn blocks(sources: &Sources, places: &[LabelPlace]) -> Vec<(FileId, Range<usize>)> {
+    let mut ordered: Vec<LabelPlace> = places.to_vec();
     let first = places.first().map(|p| p.file);
     ordered.sort_by_key(|p| (Some(p.file) != first, p.file, p.first));
     let mut blocks: Vec<(FileId, Range<usize>)> = Vec::new();

@@ -11,7 +11,7 @@ use crate::source::{Code, Diagnostic, FileId, Span, code};
 
 /// The kind of body that a faulty piece is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum BodyKind {
     Items,
     Statements,
     Module,
@@ -39,26 +39,26 @@ const ITEMS_AND_STATEMENTS: &[&str] = &[
     "for",
 ];
 
-impl Place {
+impl BodyKind {
     /// Returns the words that begin a piece in this kind of body.
     pub(super) fn keywords(self) -> &'static [&'static str] {
         match self {
-            Place::Items => ITEMS_AND_STATEMENTS,
-            Place::Statements => words::STATEMENTS,
-            Place::Module => words::MODULE,
-            Place::Config => words::CONFIG,
-            Place::Truss => words::TRUSS,
+            BodyKind::Items => ITEMS_AND_STATEMENTS,
+            BodyKind::Statements => words::STATEMENTS,
+            BodyKind::Module => words::MODULE,
+            BodyKind::Config => words::CONFIG,
+            BodyKind::Truss => words::TRUSS,
         }
     }
 
     /// Returns the phrase for such a piece, and for where it belongs.
     fn name(self) -> &'static str {
         match self {
-            Place::Items => "an item of a file",
-            Place::Statements => "a statement",
-            Place::Module => "a clause of a module",
-            Place::Config => "a clause of a configuration",
-            Place::Truss => "a clause of a truss",
+            BodyKind::Items => "an item of a file",
+            BodyKind::Statements => "a statement",
+            BodyKind::Module => "a clause of a module",
+            BodyKind::Config => "a clause of a configuration",
+            BodyKind::Truss => "a clause of a truss",
         }
     }
 }
@@ -72,7 +72,7 @@ struct Mistake<'t> {
     /// The index of the faulty token; the number of tokens if the piece ends too early.
     found: usize,
     failure: &'t Failure,
-    place: Place,
+    place: BodyKind,
     in_text: bool,
 }
 
@@ -81,7 +81,7 @@ pub(super) fn explain(
     failure: &Failure,
     text: &str,
     base: usize,
-    place: Place,
+    place: BodyKind,
     whole: &str,
     file: FileId,
 ) -> Diagnostic {
@@ -204,7 +204,7 @@ impl Mistake<'_> {
             _ => false,
         };
         let index = match (self.before(), self.found()) {
-            _ if item && self.place == Place::Items => 0,
+            _ if item && self.place == BodyKind::Items => 0,
             ("closed", "(") => self.found - 1,
             (_, "ensures") => self.found,
             _ => return None,
@@ -223,7 +223,7 @@ impl Mistake<'_> {
         if !is_word || self.found > 1 || self.place.keywords().contains(&first) || words::is_reserved(first) {
             return None;
         }
-        let may_be_expression = matches!(self.place, Place::Items | Place::Statements);
+        let may_be_expression = matches!(self.place, BodyKind::Items | BodyKind::Statements);
         if may_be_expression && self.kind_of(1) != Some(TokenKind::Word) {
             return None;
         }
@@ -238,7 +238,7 @@ impl Mistake<'_> {
         if may_be_expression && matches!(first, "print" | "emit" | "show" | "save") {
             return Some(diagnostic.hint(format!("what it takes stands in brackets: `{first}(...)`")));
         }
-        if self.place == Place::Config && self.token_text(1) == "=" {
+        if self.place == BodyKind::Config && self.token_text(1) == "=" {
             return Some(diagnostic.hint(format!(
                 "a part is declared by `part {first}: Type`, any other value by `let {first} = ...`"
             )));
@@ -418,7 +418,7 @@ impl Mistake<'_> {
             && self.token_text(self.found - 2) == "{";
         let brace = self.found() == "{" && self.wants_expression();
         // The first entry of a brace literal that was read as a block.
-        let entry = self.found() == ":" && self.found == 1 && self.place == Place::Statements;
+        let entry = self.found() == ":" && self.found == 1 && self.place == BodyKind::Statements;
         if !record && !brace && !entry {
             return None;
         }
@@ -431,7 +431,7 @@ impl Mistake<'_> {
     fn line_start(&self) -> Option<Diagnostic> {
         let first = self.found().chars().next()?;
         let continues = matches!(self.found(), "+" | "-" | "(" | "[");
-        let is_clause = !matches!(self.place, Place::Items | Place::Statements);
+        let is_clause = !matches!(self.place, BodyKind::Items | BodyKind::Statements);
         let mark = self.span_of(self.found);
         (continues && (self.begins_line() && !self.wants_expression() || is_clause && self.found == 0))
             .then(|| explain::line_break(mark, first))
@@ -456,7 +456,8 @@ impl Mistake<'_> {
     /// Explains two statements on one line.
     fn own_line(&self) -> Option<Diagnostic> {
         let in_block = self.wants("}") && self.wants("let");
-        let statements = matches!(self.place, Place::Items | Place::Statements) && !self.in_text || in_block;
+        let statements =
+            matches!(self.place, BodyKind::Items | BodyKind::Statements) && !self.in_text || in_block;
         let begins = matches!(
             self.kind_of(self.found),
             Some(TokenKind::Word | TokenKind::Number | TokenKind::Text { .. })
@@ -560,8 +561,8 @@ impl Mistake<'_> {
 }
 
 /// Returns the kind of body in which this keyword is used.
-fn elsewhere(word: &str) -> Option<Place> {
-    let places = [Place::Items, Place::Config, Place::Module, Place::Truss];
+fn elsewhere(word: &str) -> Option<BodyKind> {
+    let places = [BodyKind::Items, BodyKind::Config, BodyKind::Module, BodyKind::Truss];
     places.into_iter().find(|place| place.keywords().contains(&word))
 }
 

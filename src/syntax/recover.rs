@@ -3,7 +3,7 @@
 
 use super::ast::*;
 use super::build::{Builder, whole_characters};
-use super::failure::{Place, explain};
+use super::failure::{BodyKind, explain};
 use super::lex::{Token, TokenKind};
 use super::parse::{DIAGNOSTICS_MAX, Node, Rule, failure, nodes};
 use super::scan::{Fault, Scan};
@@ -39,7 +39,7 @@ trait Clause: Sized {
     /// The rule for a text of several clauses.
     const RULE: Rule;
     /// The kind of body, for messages.
-    const PLACE: Place;
+    const BODY_KIND: BodyKind;
     /// Builds the clauses of a parsed run.
     fn build(builder: &mut Builder, run: Node) -> Vec<Self>;
     /// Returns the clause that marks an error.
@@ -52,7 +52,7 @@ macro_rules! clause {
     ($name:ident, $kind:ident, $rule:ident, $build:ident, $place:ident $(, $doc:ident)?) => {
         impl Clause for $name {
             const RULE: Rule = Rule::$rule;
-            const PLACE: Place = Place::$place;
+            const BODY_KIND: BodyKind = BodyKind::$place;
             fn build(builder: &mut Builder, run: Node) -> Vec<$name> {
                 builder.$build(run)
             }
@@ -111,7 +111,7 @@ impl<'t> Parser<'t> {
     /// Parses a faulty chunk piece by piece.
     fn faulty_chunk(&mut self, range: Range<usize>, items: &mut Vec<Item>) {
         let told = self.builder.diagnostics.len();
-        for piece in split(&self.scan.text, range.clone(), Place::Items.keywords(), &self.scan.unclosed) {
+        for piece in split(&self.scan.text, range.clone(), BodyKind::Items.keywords(), &self.scan.unclosed) {
             if !self.sound_items(piece.clone(), items) {
                 let item = self.faulty_item(piece);
                 items.push(item);
@@ -120,7 +120,7 @@ impl<'t> Parser<'t> {
         if self.builder.diagnostics.len() == told {
             // Each piece is sound, but not next to the others.
             let text = self.scan.text[range.clone()].to_string();
-            self.explain(Rule::chunk, &text, &range, Place::Items);
+            self.explain(Rule::chunk, &text, &range, BodyKind::Items);
         }
     }
 
@@ -158,7 +158,7 @@ impl<'t> Parser<'t> {
                 self.fill_item(&mut item, body.clone());
                 return item;
             }
-            self.explain(Rule::chunk, &header, &(range.start..body.start - 1), Place::Items);
+            self.explain(Rule::chunk, &header, &(range.start..body.start - 1), BodyKind::Items);
             return self.error_item(range);
         }
         self.explain_item(&range);
@@ -218,7 +218,7 @@ impl<'t> Parser<'t> {
             return;
         }
         let text = self.scan.text[range.clone()].to_string();
-        self.explain(Rule::chunk, &text, range, Place::Items);
+        self.explain(Rule::chunk, &text, range, BodyKind::Items);
     }
 
     /// Returns the block behind `=` that ends a piece.
@@ -238,7 +238,7 @@ impl<'t> Parser<'t> {
             return self.piece(range);
         }
         self.depth += 1;
-        let pieces = split(&self.scan.text, range, C::PLACE.keywords(), &self.scan.unclosed);
+        let pieces = split(&self.scan.text, range, C::BODY_KIND.keywords(), &self.scan.unclosed);
         let clauses = pieces.into_iter().flat_map(|piece| self.piece(piece)).collect();
         self.depth -= 1;
         clauses
@@ -278,7 +278,7 @@ impl<'t> Parser<'t> {
             Some(value) => drop(self.body::<Stmt>(value)),
             None => {
                 let text = self.scan.text[range.clone()].to_string();
-                self.explain(C::RULE, &text, &range, C::PLACE);
+                self.explain(C::RULE, &text, &range, C::BODY_KIND);
             }
         }
         self.with_faulty_value(&range, |this, text, start| this.parsed::<C>(text, start)?.pop())
@@ -394,7 +394,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Reports why a piece cannot be parsed, unless a fault in it was reported.
-    fn explain(&mut self, rule: Rule, text: &str, range: &Range<usize>, place: Place) {
+    fn explain(&mut self, rule: Rule, text: &str, range: &Range<usize>, place: BodyKind) {
         let rest = self.scan.text[range.end..].bytes();
         let blank = rest.take_while(|byte| matches!(byte, b' ' | b'\t')).count();
         // A character replaced by a blank behind the piece belongs to it.

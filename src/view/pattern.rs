@@ -30,7 +30,7 @@ const VALLEY: &str = "#0b63a5";
 /// A point in the drawing, in mm, y down.
 type Point = [f64; 2];
 /// An edge from its first to its second end.
-type Side = [Point; 2];
+type Edge = [Point; 2];
 
 /// A panel as a polygon in the drawing.
 struct Panel {
@@ -39,7 +39,7 @@ struct Panel {
 
 /// A fold line between two panels.
 struct Fold {
-    ends: Side,
+    ends: Edge,
     /// The angle at the end of the plan, in radians.
     angle: f64,
     /// The position in folding order, from 1; 0 for a hinge that never moves.
@@ -48,7 +48,7 @@ struct Fold {
 
 /// An edge along which the sheet is cut.
 struct Cut {
-    ends: Side,
+    ends: Edge,
     /// The centre of its panel.
     inside: Point,
     /// The number of the letter that it shares with the edge it coincides with in the end.
@@ -104,7 +104,7 @@ pub(super) fn pattern(input: &RenderInput, tracks: &Tracks) -> Option<String> {
     let mut cuts = Vec::new();
     for (module, panel) in panels.iter().enumerate() {
         let own = |port: &PortRef| port.module == module;
-        let hinged: Vec<Side> = bonded.iter().filter(|p| own(p)).map(|p| side(panel, middle(*p))).collect();
+        let hinged: Vec<Edge> = bonded.iter().filter(|p| own(p)).map(|p| side(panel, middle(*p))).collect();
         for ends in sides(panel).filter(|ends| !hinged.contains(ends)) {
             let port = free.iter().position(|(port, _)| own(port) && side(panel, middle(*port)) == ends);
             let meets = port.and_then(|port| pairs[port]);
@@ -170,14 +170,14 @@ fn centre(points: &[Point]) -> Point {
 }
 
 /// Returns the edges of a panel.
-fn sides(panel: &Panel) -> impl Iterator<Item = Side> + '_ {
+fn sides(panel: &Panel) -> impl Iterator<Item = Edge> + '_ {
     let count = panel.corners.len();
     (0..count).map(move |i| [panel.corners[i], panel.corners[(i + 1) % count]])
 }
 
 /// Returns the edge of a panel whose midpoint is nearest to a point.
-fn side(panel: &Panel, at: Point) -> Side {
-    let away = |s: &Side| {
+fn side(panel: &Panel, at: Point) -> Edge {
+    let away = |s: &Edge| {
         let [x, y] = centre(s);
         libm::hypot(x - at[0], y - at[1])
     };
@@ -211,7 +211,7 @@ fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) ->
     drawing.layer("cut", |layer| {
         cuts.iter().for_each(|cut| layer.line(cut.ends[0], cut.ends[1], &stroke(INK, pen)));
     });
-    for Style { name, colour, dashes, belongs } in STYLES {
+    for FoldStyle { name, colour, dashes, belongs } in STYLES {
         let [dash, gap] = dashes.map(|x| short(x * pen));
         let look = format!("{} stroke-dasharray=\"{dash} {gap}\"", stroke(colour, pen * 1.5));
         drawing.layer(name, |layer| {
@@ -242,7 +242,7 @@ fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) ->
 }
 
 /// The style of the fold lines of a layer.
-struct Style {
+struct FoldStyle {
     name: &'static str,
     colour: &'static str,
     /// Lengths of dash and gap, in widths of the pen.
@@ -251,10 +251,10 @@ struct Style {
     belongs: fn(f64) -> bool,
 }
 
-const STYLES: [Style; 3] = [
-    Style { name: "mountain", colour: MOUNTAIN, dashes: [6.0, 3.0], belongs: |angle| angle >= ANGLE_MIN },
-    Style { name: "valley", colour: VALLEY, dashes: [1.0, 3.0], belongs: |angle| angle <= -ANGLE_MIN },
-    Style { name: "level", colour: SOFT, dashes: [2.0, 6.0], belongs: |angle| angle.abs() < ANGLE_MIN },
+const STYLES: [FoldStyle; 3] = [
+    FoldStyle { name: "mountain", colour: MOUNTAIN, dashes: [6.0, 3.0], belongs: |angle| angle >= ANGLE_MIN },
+    FoldStyle { name: "valley", colour: VALLEY, dashes: [1.0, 3.0], belongs: |angle| angle <= -ANGLE_MIN },
+    FoldStyle { name: "level", colour: SOFT, dashes: [2.0, 6.0], belongs: |angle| angle.abs() < ANGLE_MIN },
 ];
 
 /// The distance of a letter from its edge, as a part of the way to the panel's centre.

@@ -24,12 +24,12 @@ const HEAD: f64 = 16.0;
 /// A laid-out piece of the graph; coordinates from its upper left corner.
 enum Piece {
     Label { words: String, colour: String },
-    Row(Vec<Placed>),
-    Column(Vec<Placed>),
-    Frame(String, Box<Placed>),
+    Row(Vec<LaidOut>),
+    Column(Vec<LaidOut>),
+    Frame(String, Box<LaidOut>),
 }
 
-struct Placed {
+struct LaidOut {
     piece: Piece,
     at: [f64; 2],
     size: [f64; 2],
@@ -74,13 +74,13 @@ fn names(robot: &Assembly) -> Vec<(String, Option<usize>, bool)> {
     robot.joints().map(name).collect()
 }
 
-fn label(words: String, colour: String) -> Placed {
+fn label(words: String, colour: String) -> LaidOut {
     let wide = words.chars().count() as f64 * SIZE * LETTER + 18.0;
-    Placed { piece: Piece::Label { words, colour }, at: [0.0; 2], size: [wide, TALL] }
+    LaidOut { piece: Piece::Label { words, colour }, at: [0.0; 2], size: [wide, TALL] }
 }
 
 impl Drawer<'_> {
-    fn piece(&mut self, node: &Node, depth: usize) -> Placed {
+    fn piece(&mut self, node: &Node, depth: usize) -> LaidOut {
         if depth > DEPTH_MAX || self.drawn >= ACTIONS_MAX {
             return label("...".into(), SOFT.into());
         }
@@ -111,7 +111,7 @@ impl Drawer<'_> {
         }
     }
 
-    fn action(&self, action: &Action) -> Placed {
+    fn action(&self, action: &Action) -> LaidOut {
         let time = |t: f64| quantity(t, Dimension::TIME);
         let (joint, words) = match &action.command {
             Command::Move { joint, target: Target::To(to), .. } => {
@@ -148,38 +148,38 @@ impl Drawer<'_> {
     }
 }
 
-fn row(mut pieces: Vec<Placed>) -> Placed {
+fn row(mut pieces: Vec<LaidOut>) -> LaidOut {
     let tall = pieces.iter().map(|p| p.size[1]).fold(TALL, f64::max);
     let mut x = 0.0;
     for piece in &mut pieces {
         piece.at = [x, (tall - piece.size[1]) / 2.0];
         x += piece.size[0] + BESIDE;
     }
-    Placed { piece: Piece::Row(pieces), at: [0.0; 2], size: [(x - BESIDE).max(0.0), tall] }
+    LaidOut { piece: Piece::Row(pieces), at: [0.0; 2], size: [(x - BESIDE).max(0.0), tall] }
 }
 
-fn column(mut pieces: Vec<Placed>) -> Placed {
+fn column(mut pieces: Vec<LaidOut>) -> LaidOut {
     let wide = pieces.iter().map(|p| p.size[0]).fold(0.0, f64::max);
     let mut y = 0.0;
     for piece in &mut pieces {
         piece.at = [BESIDE / 2.0 + (wide - piece.size[0]) / 2.0, y];
         y += piece.size[1] + BELOW;
     }
-    Placed { piece: Piece::Column(pieces), at: [0.0; 2], size: [wide + BESIDE, (y - BELOW).max(0.0)] }
+    LaidOut { piece: Piece::Column(pieces), at: [0.0; 2], size: [wide + BESIDE, (y - BELOW).max(0.0)] }
 }
 
-fn framed(words: String, mut inner: Placed) -> Placed {
+fn framed(words: String, mut inner: LaidOut) -> LaidOut {
     inner.at = [RIM, HEAD];
     let wide = words.chars().count() as f64 * 9.0 * LETTER + 2.0 * RIM;
     let size = [(inner.size[0] + 2.0 * RIM).max(wide), inner.size[1] + HEAD + RIM];
-    Placed { piece: Piece::Frame(words, Box::new(inner)), at: [0.0; 2], size }
+    LaidOut { piece: Piece::Frame(words, Box::new(inner)), at: [0.0; 2], size }
 }
 
-fn draw(drawing: &mut Drawing, placed: &Placed, at: [f64; 2]) {
+fn draw(drawing: &mut Drawing, placed: &LaidOut, at: [f64; 2]) {
     let [w, h] = placed.size;
     let middle = at[1] + h / 2.0;
     let pen = format!("stroke=\"{SOFT}\" stroke-width=\"1.5\"");
-    let inside = |p: &Placed| [at[0] + p.at[0], at[1] + p.at[1]];
+    let inside = |p: &LaidOut| [at[0] + p.at[0], at[1] + p.at[1]];
     match &placed.piece {
         Piece::Label { words, colour } => {
             drawing.rect(
