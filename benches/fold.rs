@@ -7,9 +7,9 @@ use modl::planners::fold::Observer;
 use modl::planners::fold::branch_and_bound::{self, Proof, optimum};
 use modl::planners::fold::enumerate::{self, census};
 use modl::planners::fold::inertia::Inertia;
-use modl::planners::fold::objective::{Conventions, Minimise, Objective};
 use modl::planners::fold::simulation::Count;
 use modl::planners::fold::sweep_collision::first_collision;
+use modl::planners::fold::{Conventions, Minimise, Objective};
 use modl::planners::fold::{Target, Weights, energy_order, local_search, steps, work_order};
 use std::time::Instant;
 

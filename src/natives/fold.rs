@@ -16,25 +16,26 @@ use crate::planners::{RequestedProgress, Solution};
 use std::rc::Rc;
 
 /// The arguments of `fold`, in the order of the declaration.
-pub const TARGET: usize = 0;
-pub const MODULE: usize = 1;
-pub const ROOT: usize = 2;
-pub const METHOD: usize = 3;
-pub const STEP: usize = 4;
+pub(super) const TARGET: usize = 0;
+pub(super) const MODULE: usize = 1;
+pub(super) const ROOT: usize = 2;
+pub(super) const METHOD: usize = 3;
+pub(super) const STEP: usize = 4;
 const SEED: usize = 5;
 const BUDGET: usize = 6;
 const MINIMISE: usize = 7;
 const INERTIA: usize = 8;
 const GRAVITY: usize = 9;
 const COUNT: usize = 10;
-pub const SEQUENCE: usize = 11;
+pub(super) const SEQUENCE: usize = 11;
 const PASSIVE: usize = 12;
 const PASSIVE_MODULE: usize = 13;
 const HINGE_RADIUS: usize = 14;
-pub const HINGES: usize = 15;
+pub(super) const HINGES: usize = 15;
 const ARGUMENTS: usize = 16;
 
-pub const TABLE: &[Native] = &[on_run("fold", ARGUMENTS, fold), on_run("random_orders", 3, random_orders)];
+pub(super) const TABLE: &[Native] =
+    &[on_run("fold", ARGUMENTS, fold), on_run("random_orders", 3, random_orders)];
 
 /// The greatest number of orders that are compared in one call.
 const ORDERS_MAX: usize = 100_000;

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// A layout with the designs of its panels, by face.
-pub struct Joined<'t> {
+pub(super) struct Joined<'t> {
     pub target: &'t Target,
     pub layout: &'t Layout,
     pub designs: &'t [Rc<Design>],
@@ -21,7 +21,7 @@ pub struct Joined<'t> {
 
 impl Joined<'_> {
     /// Returns the configuration and its robot, whose own state is the folded one.
-    pub fn design(&self, panels: &Panels) -> (Rc<Design>, Rc<Robot>) {
+    pub(super) fn design(&self, panels: &Panels) -> (Rc<Design>, Rc<Robot>) {
         let sheet = Sheet::new(self.target, panels, self.layout).expect("the planner joined it");
         let start = sheet.folded(self.target, self.layout);
         let assembly = sheet.assembly;

@@ -11,7 +11,12 @@ use crate::units::number;
 use crate::units::{Dimension, quantity};
 
 /// Returns the diagnostic of a refusal of `fold`; `causes`: the run's numbers of the plan's causes.
-pub fn diagnostic(interpreter: &Interpreter, call: &Call, causes: &[CauseId], refusal: &Refusal) -> Stop {
+pub(super) fn diagnostic(
+    interpreter: &Interpreter,
+    call: &Call,
+    causes: &[CauseId],
+    refusal: &Refusal,
+) -> Stop {
     let message = refusal.to_string();
     let error = |code| Diagnostic::error(code, message.clone());
     match refusal {
@@ -52,7 +57,7 @@ pub fn diagnostic(interpreter: &Interpreter, call: &Call, causes: &[CauseId], re
 }
 
 /// Returns the diagnostic for a step in an argument that takes less than the slowest hinge needs, s.
-pub fn too_short(call: &Call, key: usize, message: String, least: f64) -> Stop {
+pub(super) fn too_short(call: &Call, key: usize, message: String, least: f64) -> Stop {
     let least = quantity(least, Dimension::TIME);
     Diagnostic::error(code::BAD_VALUE, message)
         .label(call.at(key), "too short for the widest angle")

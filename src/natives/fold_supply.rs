@@ -19,13 +19,13 @@ const SIDES: &str = "sides";
 
 /// A module that is a panel.
 #[derive(Clone)]
-pub struct PanelDesign {
+pub(super) struct PanelDesign {
     pub design: Rc<Design>,
     pub panel: Panel,
 }
 
 /// The module in an argument, and the panels that were made of it.
-pub struct Supply<'c> {
+pub(super) struct Supply<'c> {
     call: &'c Call<'c>,
     /// The argument.
     module: usize,
@@ -37,7 +37,7 @@ pub struct Supply<'c> {
 
 impl<'c> Supply<'c> {
     /// Reads the module in an argument. One with a parameter `sides` is made to measure.
-    pub fn of(interpreter: &mut Interpreter, call: &'c Call<'c>, module: usize) -> Eval<Supply<'c>> {
+    pub(super) fn of(interpreter: &mut Interpreter, call: &'c Call<'c>, module: usize) -> Eval<Supply<'c>> {
         let design = call.instance(module)?.design.clone();
         let panel = panel_of(interpreter, call, module, &design)?;
         let params = params_of(&interpreter.program.def(design.def).kind).unwrap_or_default();
@@ -68,7 +68,7 @@ impl<'c> Supply<'c> {
     }
 
     /// Returns the panel of a face of the shape in argument `shape`.
-    pub fn panel(
+    pub(super) fn panel(
         &mut self,
         interpreter: &mut Interpreter,
         shape: usize,
@@ -91,7 +91,7 @@ impl<'c> Supply<'c> {
     }
 
     /// Refuses a face whose sides are not those of panels of one size.
-    pub fn check_side(&self, shape: usize, target: &Target, face: usize, panel: &Panel) -> Eval<()> {
+    pub(super) fn check_side(&self, shape: usize, target: &Target, face: usize, panel: &Panel) -> Eval<()> {
         let wanted = panel.sides[0];
         target.check_sides_of(face, wanted, TOLERANCES.side * wanted).map_err(|why| {
             let said = unfoldable(self.call, shape, &why).label(self.call.at(self.module), "these panels");
@@ -171,16 +171,16 @@ fn panel_of(
 }
 
 /// The panels of all faces, as designs and as numbers.
-pub struct Sheet {
+pub(super) struct Sheet {
     /// By face.
     pub designs: Vec<Rc<Design>>,
-    /// What the planner computes with.
+    /// The panels as numbers, for the planner.
     pub panels: Panels,
 }
 
 impl Sheet {
     /// Collects the module types of panels, by face; `key`: the argument that they came from.
-    pub fn of(
+    pub(super) fn of(
         interpreter: &mut Interpreter,
         call: &Call,
         key: usize,
@@ -197,7 +197,7 @@ impl Sheet {
 }
 
 /// Returns the configuration of panels, by face, without bonds and without a base.
-pub fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
+fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
     let name = |face: usize| -> Rc<str> { format!("panel[{face}]").into() };
     let panels = designs.iter().enumerate();
     let modules = panels.map(|(face, panel)| FlatModule { name: name(face), design: panel.clone() });
@@ -212,7 +212,7 @@ pub fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
 
 /// Reads the panels of the shape in argument `shape`: the faces listed in argument `listed` are made of the
 /// module in argument `passive`, which has no motors, so that two of them share no hinge.
-pub fn panels(
+pub(super) fn panels(
     interpreter: &mut Interpreter,
     supply: &mut Supply,
     [shape, listed, passive]: [usize; 3],

@@ -11,13 +11,13 @@ use crate::source::{Diagnostic, code};
 ///
 /// # Errors
 /// A fault where it is no surface of triangles, or one that does not fold.
-pub fn target(call: &Call, key: usize) -> Eval<Target> {
+pub(super) fn target(call: &Call, key: usize) -> Eval<Target> {
     let (vertices, faces) = surface(call, key)?;
     Target::new(vertices, &faces).map_err(|why| unfoldable(call, key, &why).into())
 }
 
 /// Returns the diagnostic for a shape in an argument that does not fold.
-pub fn unfoldable(call: &Call, key: usize, why: &Unfoldable) -> Diagnostic {
+pub(super) fn unfoldable(call: &Call, key: usize, why: &Unfoldable) -> Diagnostic {
     Diagnostic::error(code::UNFOLDABLE, why.to_string())
         .label(call.at(key), "does not fold")
         .hint(why.remedy())

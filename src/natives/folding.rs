@@ -35,6 +35,7 @@ pub const FOLDING: &[&str] = &[
     "hinges",
 ];
 
+/// Reads a field of a `Folding`.
 pub fn folding_field(planned: &Rc<Planned>, report: &Report, field: &str) -> Value {
     let numbers = |faces: &[usize]| Value::list(faces.iter().map(|f| Value::count(*f)).collect());
     match field {
@@ -72,6 +73,7 @@ pub fn folding_field(planned: &Rc<Planned>, report: &Report, field: &str) -> Val
 /// The fields of an `OrderSample`.
 pub const ORDER_SAMPLE: &[&str] = &["orders", "worse", "least", "mean", "greatest"];
 
+/// Reads a field of an `OrderSample`.
 pub fn sample_field(sample: &Sample, field: &str) -> Value {
     match field {
         "orders" => Value::whole(sample.orders.into()),
@@ -83,6 +85,7 @@ pub fn sample_field(sample: &Sample, field: &str) -> Value {
     }
 }
 
+/// Reads a field of a `Layout`.
 pub fn layout_field(report: &Report, field: &str) -> Value {
     let Report { target, layout, .. } = report;
     let pair = |[a, b]: [usize; 2]| Value::list(vec![Value::count(a), Value::count(b)]);

@@ -26,11 +26,13 @@ const SEED: usize = 4;
 const BUDGET: usize = 5;
 const ARGUMENTS: usize = 6;
 
+/// The built-ins of this file.
 pub const TABLE: &[Native] = &[on_run("refold", ARGUMENTS, refold)];
 
 /// The fields of a `Refolding` beside those of a plan.
 pub const REFOLDING: &[&str] = &["changes", "bound", "becomes", "energy"];
 
+/// Reads a field of a `Refolding`.
 pub fn refolding_field(report: &Report, field: &str) -> Value {
     match field {
         "changes" => Value::count(report.changes),

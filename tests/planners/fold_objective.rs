@@ -7,9 +7,9 @@ use modl::planners::fold::branch_and_bound::{Decision, NoLayout};
 use modl::planners::fold::heuristic::{Measure, preferred};
 use modl::planners::fold::inertia::{Body, Inertia};
 use modl::planners::fold::local_search::{Measured, Settings, survey};
-use modl::planners::fold::objective::{Conventions, Minimise, Objective};
 use modl::planners::fold::random_orders::sample;
 use modl::planners::fold::simulation::{Circumstances, Count, simulate};
+use modl::planners::fold::{Conventions, Minimise, Objective};
 use modl::planners::fold::{
     Layout, Proof, Target, Unfoldable, Weights, branch_and_bound, edge_exchange, energy_order, enumerate,
     steps, thickness, work_order,

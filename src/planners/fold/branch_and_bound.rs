@@ -55,7 +55,7 @@ const FLATTENING: u64 = 4;
 pub struct Settings {
     /// The root of the layout; `None`: the best of all roots.
     pub root: Option<usize>,
-    /// Whether layouts whose patterns overlap in the plane are left out.
+    /// True leaves out layouts whose patterns overlap in the plane.
     pub flat: bool,
     /// The greatest number of hinges on a path from the root; `None`: any number.
     pub height: Option<usize>,
@@ -71,7 +71,7 @@ impl Default for Settings {
     }
 }
 
-/// How far the proof of an optimum reaches.
+/// The strength of the proof of an optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
     /// No layout costs less than this one by more than `TOLERANCES.perturbation` of its energy.
@@ -89,7 +89,7 @@ pub struct Optimum {
     pub energy: f64,
     /// The lower bound on the energy of all layouts asked for, in the same unit.
     pub bound: f64,
-    /// How far the proof reaches.
+    /// The strength of the proof.
     pub proof: Proof,
     /// The roots that reach the energy up to ties, in order; those found before the budget ended.
     pub roots: Vec<usize>,
@@ -214,7 +214,7 @@ struct Search<'s, 'a, 'o> {
     perturbed: &'s Weights,
     flat: bool,
     seed: u64,
-    /// Whether the tabu search for a layout that lies flat was run.
+    /// True once the tabu search for a layout that lies flat was run.
     without_overlaps: bool,
     /// The greatest number of hinges on a path.
     height: usize,
@@ -258,7 +258,7 @@ struct NodePaths {
     multipliers: Rc<Multipliers>,
     /// The length of the next step of an ascent, as a part of the gap.
     length: f64,
-    /// Whether another ascent may raise the bound further.
+    /// True while another ascent may raise the bound further.
     rising: bool,
     /// By face and side: the number of paths that entered there at the end of the last ascent.
     uses: Vec<[u32; 3]>,
@@ -519,7 +519,7 @@ impl<'s> Search<'s, '_, '_> {
         }
     }
 
-    /// The same for layouts that lie flat: from the best layout, or by tabu search as long as there is none.
+    /// Primal heuristic for layouts that lie flat: from the best layout, or by tabu search as long as there is none.
     fn flat_start(&mut self, first: Layout) -> Layout {
         let (target, weights) = (self.target, self.weights);
         let is_flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();

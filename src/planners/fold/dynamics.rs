@@ -44,7 +44,7 @@ struct Moving {
     spinning_up: Vec3,
     /// Acceleration of the origin, less gravity.
     rising: Vec3,
-    /// What its parent exerts: force, and moment about the origin.
+    /// The force that its parent exerts, and the moment about the origin.
     force: Vec3,
     moment: Vec3,
 }

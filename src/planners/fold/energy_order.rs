@@ -72,7 +72,7 @@ pub fn means(
     means
 }
 
-/// What the hinges of a face's path spend on it.
+/// The costs of the hinges of a face's path for that face.
 #[derive(Clone)]
 struct Costs {
     /// By place in the path, from the root's child on; then by which of the later hinges of the path
@@ -134,7 +134,7 @@ impl Search<'_> {
         (slots.into_iter().flatten().collect(), energy)
     }
 
-    /// The same, sorted into what folds before the first ancestor, between the first and the second,
+    /// Returns the best order sorted into what folds before the first ancestor, between the first and the second,
     /// and so on: one list more than there are ancestors.
     fn slots(&self, face: usize, ancestors: &[usize]) -> (Vec<Vec<usize>>, f64) {
         crate::interrupt::checkpoint();

@@ -25,7 +25,7 @@ const CHUNK: usize = 8;
 pub struct Census {
     /// The number of layouts visited.
     pub layouts: u64,
-    /// Whether that is all of them; else the budget ended it.
+    /// True if these are all layouts; else the budget ended the enumeration.
     pub complete: bool,
     /// A layout of least energy, hung up at its best root; the first found.
     pub best: Layout,
@@ -46,7 +46,7 @@ pub struct Census {
 pub struct Settings {
     /// The root; `None`: all roots.
     pub root: Option<usize>,
-    /// Whether to count how often each energy occurs.
+    /// True counts how often each energy occurs.
     pub spectrum: bool,
     /// The greatest number of layouts.
     pub budget: u64,
@@ -120,7 +120,7 @@ pub fn census(
 pub struct Traversal {
     /// The number of layouts visited.
     pub layouts: u64,
-    /// Whether that is all of them.
+    /// True if these are all layouts.
     pub complete: bool,
 }
 

@@ -32,7 +32,7 @@ const STRIP_STATES_MAX: usize = 1_500_000_000;
 
 /// Layouts that were evaluated, one after the other.
 #[derive(Default)]
-pub struct Candidates {
+pub(super) struct Candidates {
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
     /// Why the first was refused.
@@ -48,8 +48,8 @@ impl Task<'_> {
     /// that no better one passes.
     ///
     /// # Errors
-    /// What holds for every layout, as [`Task::judged`] says.
-    pub fn best_accepted(
+    /// A reason that holds for every layout, as [`Task::judged`] says.
+    pub(super) fn best_accepted(
         &self,
         candidates: &mut Candidates,
         found: &Proposals,
@@ -137,8 +137,8 @@ impl Task<'_> {
     /// Returns a layout of strips that was made so that it folds with the leaves first and nothing in the way.
     ///
     /// # Errors
-    /// What holds for every layout, as [`Task::judged`] says.
-    pub fn of_strips(&self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
+    /// A reason that holds for every layout, as [`Task::judged`] says.
+    pub(super) fn of_strips(&self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
         if self.problem.hinges.is_some() || !self.observer.should_continue() {
             return Ok(None);
         }
@@ -162,7 +162,7 @@ impl Task<'_> {
     }
 
     /// Returns the outcome with the lesser value of two.
-    pub fn lesser(&self, a: Option<Outcome>, b: Option<Outcome>) -> Option<Outcome> {
+    pub(super) fn lesser(&self, a: Option<Outcome>, b: Option<Outcome>) -> Option<Outcome> {
         let value = |outcome: &Outcome| self.value(&outcome.layout, &outcome.steps);
         a.into_iter().chain(b).min_by(|a, b| value(a).total_cmp(&value(b)))
     }

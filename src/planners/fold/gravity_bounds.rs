@@ -31,7 +31,7 @@ use crate::geometry::Vec3;
 const PLACES: usize = 256;
 
 /// The torque of gravity by arc and face, N·m.
-pub struct GravityBounds {
+pub(super) struct GravityBounds {
     faces: usize,
     arcs: Vec<Arc>,
 }
@@ -40,7 +40,7 @@ pub struct GravityBounds {
 struct Arc {
     above: usize,
     below: usize,
-    /// Of its angle: in this direction a folding hinge turns.
+    /// The sign of its angle: in this direction a folding hinge turns.
     sense: f64,
     /// By face: the mean over the step, and the values at its beginning and its end.
     mean: Vec<f64>,
@@ -49,7 +49,7 @@ struct Arc {
 
 impl GravityBounds {
     /// Computes the torques of a target; `masses`: by face, kg; `gravity`: m/s².
-    pub fn new(target: &Target, masses: &[f64], gravity: f64) -> GravityBounds {
+    pub(super) fn new(target: &Target, masses: &[f64], gravity: f64) -> GravityBounds {
         let mut arcs = Vec::with_capacity(2 * target.hinges.len());
         for hinge in &target.hinges {
             crate::interrupt::checkpoint();
@@ -76,7 +76,7 @@ impl GravityBounds {
 
     /// Returns by root the lower bound on the sum of mean torques, N·m. The torque of each hinge may be
     /// counted with either sign: as it turns, or about its axis.
-    pub fn energies(&self) -> Vec<f64> {
+    pub(super) fn energies(&self) -> Vec<f64> {
         let both = [self.sums(|arc| arc.sense), self.sums(|_| 1.0)];
         let greater = |root: usize| both.iter().map(|sums| sums[root]).fold(0.0, f64::max);
         (0..self.faces).map(|root| greater(root) * (1.0 - TOLERANCES.gravity_bound)).collect()
@@ -106,7 +106,7 @@ impl GravityBounds {
 
     /// Returns the lower bound on the peak torque of layouts with this root, N·m: its hinges carry all other faces
     /// among them.
-    pub fn peak(&self, root: usize) -> f64 {
+    pub(super) fn peak(&self, root: usize) -> f64 {
         let around: Vec<&Arc> = self.arcs.iter().filter(|arc| arc.above == root).collect();
         let mut greatest: f64 = 0.0;
         for (end, turning) in [(0, true), (0, false), (1, true), (1, false)] {

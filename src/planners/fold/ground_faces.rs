@@ -14,7 +14,7 @@ pub struct Protrusion {
 
 /// Returns the face that reaches the deepest below the plane of `root`; `None` where none reaches deeper than
 /// `depth`, m.
-pub fn deepest_protrusion(target: &Target, root: usize, depth: f64) -> Option<Protrusion> {
+pub(super) fn deepest_protrusion(target: &Target, root: usize, depth: f64) -> Option<Protrusion> {
     let (down, ground) = (target.normal(root), target.centroid(root));
     let of = |face: usize| {
         let depth =

@@ -8,7 +8,7 @@ use crate::robot::{Assembly, State};
 use std::sync::Arc;
 
 /// A program of a robot, with what it is judged under.
-pub struct Motion {
+pub(crate) struct Motion {
     /// The robot that moves.
     pub robot: Assembly,
     /// Its state at the beginning.
@@ -22,15 +22,15 @@ pub struct Motion {
 }
 
 /// A motion that the judge lets through.
-pub struct Judged {
+pub(crate) struct Judged {
     /// The number of actions of the program.
     pub actions: u64,
-    /// What the judge says.
+    /// The verdict of the judge.
     pub verdict: Verdict,
 }
 
 /// Why a motion is none.
-pub enum Fault {
+pub(crate) enum Fault {
     /// It can't be scheduled.
     Schedule(behavior::Refusal),
     /// A stated duration is shorter than the limits of a joint allow.
@@ -43,7 +43,7 @@ pub enum Fault {
 ///
 /// # Errors
 /// The first [`Fault`] that is found.
-pub fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
+pub(crate) fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
     let Motion { robot, start, program, world, judge } = motion;
     let (name, bonds) = (robot.name.clone(), robot.bonds.len());
     let problem = behavior::Problem {

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 /// The number of terms, and of points at which a function is sampled.
-pub const TERMS: usize = 20;
+pub(super) const TERMS: usize = 20;
 
 /// Places at which signs are compared: more changes between two of them are missed.
 const SIGN_SAMPLES: usize = 48;
@@ -13,7 +13,7 @@ const SIGN_SAMPLES: usize = 48;
 const SECTIONS: usize = 50;
 
 /// The points and weights of Gauss-Legendre quadrature, with the polynomials there.
-pub struct Rule {
+pub(super) struct Rule {
     /// The points in -1..1.
     pub points: [f64; TERMS],
     /// By term, then by point: what a value contributes to the term.
@@ -45,18 +45,18 @@ impl Default for Rule {
 
 /// A function on -1..1, by the coefficients of its Legendre polynomials.
 #[derive(Clone, Copy, Debug)]
-pub struct Series([f64; TERMS]);
+pub(super) struct Series([f64; TERMS]);
 
 impl Rule {
     /// Returns the series of the function with these values at the points.
-    pub fn series(&self, values: &[f64; TERMS]) -> Series {
+    pub(super) fn series(&self, values: &[f64; TERMS]) -> Series {
         Series(self.terms.map(|term| term.iter().zip(values).map(|(t, v)| t * v).sum()))
     }
 }
 
 impl Series {
     /// Returns the value at a place in -1..1.
-    pub fn at(&self, x: f64) -> f64 {
+    pub(super) fn at(&self, x: f64) -> f64 {
         let p = polynomials::<TERMS>(x);
         self.0.iter().zip(&p).map(|(c, p)| c * p).sum()
     }
@@ -70,7 +70,7 @@ impl Series {
     }
 
     /// Returns mean and peak of the absolute value, parted at the roots.
-    pub fn size(&self) -> Size {
+    pub(super) fn size(&self) -> Size {
         let place = |i: usize| 2.0 * i as f64 / SIGN_SAMPLES as f64 - 1.0;
         let values: [f64; SIGN_SAMPLES + 1] = std::array::from_fn(|i| self.at(place(i)));
         let (mut sum, mut from) = (0.0, 0.0);

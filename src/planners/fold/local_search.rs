@@ -30,7 +30,7 @@ const EXCHANGES: u64 = 1_000_000;
 pub struct Settings {
     /// The faces that may be the root.
     pub roots: Vec<usize>,
-    /// Whether layouts whose patterns overlap in the plane are left out.
+    /// True leaves out layouts whose patterns overlap in the plane.
     pub flat: bool,
     /// The greatest number of pairs of a layout and a root that are measured.
     pub budget: u64,
@@ -61,7 +61,7 @@ pub struct Measured {
     pub roots: Vec<usize>,
     /// The least first value of all layouts, also of those that overlap.
     pub least: f64,
-    /// Whether every pair was visited.
+    /// True if every pair of a layout and a root was visited.
     pub complete: bool,
 }
 

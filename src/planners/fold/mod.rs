@@ -1,77 +1,89 @@
 //! Folding: from a triangle mesh to the flat pattern that folds into it for the least energy, with
 //! proof, and the order of folding. After "A Reconfiguration Strategy for Modular Robots using
-//! Origami Folding" (Yao, Belke, Cui, Paik); where it differs, the files say so.
+//! Origami Folding" (Yao, Belke, Cui, Paik, IJRR); where it differs, the files say so.
 //!
-//! A *target* is a mesh that was checked, with its hinges. A *layout* is a spanning tree of the
-//! faces, hung up at a root face that stays where it is. Units: metres, kilograms, radians; an
-//! energy is the paper's sum of mean torques (N·m) for steps of one second, and goes with the
-//! inverse square of the step's time.
+//! The entry is [`plan()`]. A *target* is a mesh that was checked, with its hinges. A *layout* is a spanning tree
+//! of the faces, hung up at a root face that stays where it is. Units: metres, kilograms, radians, newtons; an
+//! energy is the paper's sum of mean torques (N·m) for steps of one second, and goes with the inverse square of
+//! the step's time.
+//!
+//! How a plan comes about: the task checks the problem; *proposals* are layouts from branch and bound
+//! ([`branch_and_bound`], [`lagrangian`]), enumeration ([`enumerate`]), local search ([`local_search`]) or the
+//! paper's heuristic ([`heuristic`]); the *evaluation* puts them before the judge in order of their value; where
+//! none passes, layouts of strips ([`strip_layouts`]) and other orders ([`collision_free_order`]) are tried.
 #![allow(non_snake_case)]
 
+// The problem and the answer.
 mod observer;
+mod panel;
+mod plan;
+mod plate;
 mod progress_text;
+mod refusal;
+mod report;
+mod settings;
+pub(crate) mod sheet;
 mod tolerances;
 
+// The target, its layouts and their costs.
 pub mod inertia;
-pub mod layout;
+mod layout;
+mod objective;
 pub mod spanning_trees;
-pub mod target;
-pub mod unfoldable;
-pub mod weights;
+pub mod symmetry;
+mod target;
+mod unfoldable;
+mod weights;
 
+// Searches for layouts.
 pub mod branch_and_bound;
 pub mod edge_exchange;
-pub mod lagrangian;
-pub mod shortest_paths;
-pub mod symmetry;
-
-pub mod net;
-pub mod pattern;
-pub mod tabu_unfolding;
-
 pub mod enumerate;
 pub mod heuristic;
+pub mod lagrangian;
 pub mod local_search;
-pub mod spectrum;
+mod peak_torque;
+pub mod shortest_paths;
+mod spectrum;
+pub mod strip_layouts;
+mod tabu_unfolding;
 
+// The flat pattern.
+mod net;
+pub mod pattern;
+
+// Orders of folding.
+pub mod collision_free_order;
 pub mod energy_order;
-pub mod kinematics;
 pub mod random_orders;
 pub mod steps;
 pub mod work_order;
 
+// Motion: kinematics, dynamics, collisions, the ground.
 pub mod dynamics;
-pub mod gravity_bounds;
-pub mod legendre;
-pub mod objective;
-pub mod peak_torque;
+mod gravity_bounds;
+mod ground_faces;
+pub mod kinematics;
+mod legendre;
+mod load_limits;
 pub mod simulation;
-
-pub mod collision_free_order;
-pub mod ground_faces;
-pub mod load_limits;
-pub mod strip_layouts;
 pub mod sweep_collision;
 pub mod thickness;
 
-mod panel;
-mod plate;
-pub(crate) mod sheet;
-
+// From proposals to a plan that the judge lets through.
 mod evaluation;
 pub(crate) mod judgement;
-mod plan;
 mod proposals;
-mod refusal;
 mod reordering;
-mod report;
-mod settings;
 mod task;
 
 pub use branch_and_bound::{Optimum, Proof};
-pub use layout::Layout;
-pub use net::Net;
-pub use objective::{Conventions, Effort, Minimise};
+pub use ground_faces::Protrusion;
+pub use layout::{Across, Layout};
+pub use legendre::Size;
+pub use load_limits::{LoadLimits, Violation};
+pub use net::{Edge, Net};
+pub use objective::{Conventions, Effort, Minimise, Objective};
 pub use observer::Observer;
 pub use panel::{NotAPanel, Panel, Panels, equal_sides};
 pub use plan::plan;
@@ -82,7 +94,8 @@ pub use report::Report;
 pub use settings::{MassModel, Method, Problem, Sequence, Settings};
 pub use sheet::{NoHinge, Sheet};
 pub use simulation::Count;
-pub use target::{Hinge, Target};
+pub use spectrum::Spectrum;
+pub use target::{FACES_MAX, Hinge, Target};
 pub use tolerances::{TOLERANCES, Tolerances};
 pub use unfoldable::Unfoldable;
 pub use weights::Weights;

@@ -24,10 +24,10 @@ const QUINTIC_ACCELERATION: f64 = 5.773_502_691_896_258;
 /// Faces, summed over layouts, that are measured by sums over sets of faces: some seconds.
 const SUMMED_MAX: u64 = 400_000_000;
 
-/// The same for the closed form.
+/// Faces, summed over layouts, that are measured by the closed form.
 const CLOSED_MAX: u64 = 10_000_000;
 
-/// The same for simulation.
+/// Faces, summed over layouts, that are measured by simulation.
 const SIMULATED_MAX: u64 = 40_000;
 
 /// The quantity to minimise.
@@ -45,7 +45,7 @@ pub enum Minimise {
 /// The conventions of measuring that the paper leaves open, or leaves out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conventions {
-    /// How the mass of a panel is spread.
+    /// The model of how the mass of a panel is spread.
     pub inertia: Inertia,
     /// The joints whose torques count.
     pub count: Count,
@@ -244,7 +244,7 @@ fn quotient(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// From mean torques for steps of one second.
+/// Returns the effort of the closed form from mean torques for steps of one second.
 fn closed(means: impl Iterator<Item = f64> + Clone, step: f64) -> Effort {
     let by_square = 1.0 / (step * step);
     Effort {

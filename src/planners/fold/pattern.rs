@@ -14,7 +14,7 @@ pub type Point = [f64; 2];
 pub struct Pattern {
     /// By face: its corners, m.
     pub corners: Vec<[Point; 3]>,
-    /// Where all sides are equal: by face, the cell of the triangular lattice, as the sum of its
+    /// By face: the cell of the triangular lattice, where all sides are equal, as the sum of its
     /// corners.
     pub cells: Option<Vec<[i64; 2]>>,
 }
@@ -130,7 +130,7 @@ fn in_plane(target: &Target, layout: &Layout) -> Pattern {
     Pattern { corners, cells: None }
 }
 
-/// Returns whether the interiors of two counterclockwise triangles meet: no side of either parts them.
+/// Returns whether the interiors of two counterclockwise triangles meet: no side of either separates them.
 fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
     !parts(a, b) && !parts(b, a)
 }

@@ -25,7 +25,7 @@ use crate::interrupt;
 const ROUNDS: usize = 400;
 
 /// The result for one root.
-pub struct Least {
+pub(super) struct Least {
     /// The best layout found that lies flat, with its greatest mean torque, N·m for steps of one second.
     pub layout: Option<(Layout, f64)>,
     /// The lower bound for layouts with this root, N·m for steps of one second.
@@ -33,7 +33,7 @@ pub struct Least {
 }
 
 /// Searches the least greatest mean torque below `known`; `steps` counts down the faces that are assigned.
-pub fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps: &mut u64) -> Least {
+pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps: &mut u64) -> Least {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
     let share = shares(weights, &around, &faces);
@@ -66,7 +66,7 @@ pub fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps:
 
 /// Returns the lower bound on the greatest mean torque of layouts with this root that shares alone give, N·m for
 /// steps of one second.
-pub fn relaxed(target: &Target, weights: &Weights, root: usize) -> f64 {
+pub(super) fn relaxed(target: &Target, weights: &Weights, root: usize) -> f64 {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
     if around.is_empty() {
@@ -141,7 +141,7 @@ struct PartitionSearch<'t> {
     share: Vec<f64>,
     faces: Vec<usize>,
     rest: Vec<f64>,
-    /// To which of the root's hinges each face goes, in their order.
+    /// By face, in their order: the root's hinge to which it is assigned.
     dealt: Vec<usize>,
     loads: Vec<f64>,
     best: Option<(Layout, f64)>,
@@ -207,7 +207,7 @@ impl PartitionSearch<'_> {
         }
     }
 
-    /// From the root's hinges on, always the face whose path costs it least; `None` where a part is not in
+    /// Returns a greedy tree in each part, from the root's hinges on; `None` where a part is not in
     /// one piece with its hinge.
     fn grown(&self, part: &[usize]) -> Option<Layout> {
         let n = part.len();
@@ -243,7 +243,7 @@ impl PartitionSearch<'_> {
 }
 
 /// Returns by face the mean torque of its hinge with the leaves first, N·m for steps of one second.
-pub fn carried(layout: &Layout, weights: &Weights) -> Vec<f64> {
+pub(super) fn carried(layout: &Layout, weights: &Weights) -> Vec<f64> {
     let mut sums = vec![0.0; layout.parent.len()];
     for &face in &layout.order {
         let mut at = face;

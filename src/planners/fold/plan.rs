@@ -42,7 +42,7 @@ use crate::planners::{Progress, Solution};
 /// let report = &solution.report;
 /// assert!(report.optimal && report.verdict.ok());
 /// assert_eq!(report.layouts, 16.into());
-/// assert_eq!(report.steps, [[1, 2, 3]]);
+/// assert_eq!(report.steps.len(), 1);
 /// assert!(solution.body.duration() > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

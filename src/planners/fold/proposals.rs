@@ -21,7 +21,7 @@ const KEPT: usize = 4096;
 const NEXT_BEST: u64 = 4;
 
 /// Layouts that may be the answer, with what is known about them.
-pub struct Proposals {
+pub(super) struct Proposals {
     /// The best first; none that was passed over is better than those that follow.
     pub layouts: Vec<Layout>,
     /// The settings of a search for the next best; `None` where there is no such search.
@@ -31,9 +31,9 @@ pub struct Proposals {
     pub bound: f64,
     /// The least value of any layout, also of those whose patterns overlap.
     pub least: f64,
-    /// Whether it is proved that no layout that lies flat is better than the first.
+    /// True if it is proved that no layout that lies flat is better than the first.
     pub proved: bool,
-    /// Whether the list is complete: no layout that lies flat is left out before its last.
+    /// True if the list is complete: no layout that lies flat is left out before its last.
     pub listed: bool,
     /// The roots that are equally good.
     pub ties: Vec<usize>,
@@ -43,7 +43,7 @@ pub struct Proposals {
 
 impl Proposals {
     /// Returns the settings of the search for the next best layout, with its part of the budget.
-    pub fn next_best(&self) -> Option<branch_and_bound::Settings> {
+    pub(super) fn next_best(&self) -> Option<branch_and_bound::Settings> {
         self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
     }
 }
@@ -53,7 +53,7 @@ impl Task<'_> {
     ///
     /// # Errors
     /// There is no layout that lies flat, or none was found within the budget, or the method does not reach.
-    pub fn proposals(&self) -> Result<Proposals, Refusal> {
+    pub(super) fn proposals(&self) -> Result<Proposals, Refusal> {
         if let Some(pairs) = &self.problem.hinges {
             return self.given(pairs);
         }

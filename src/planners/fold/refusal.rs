@@ -8,7 +8,7 @@ use crate::plan::Failure;
 use crate::units::{Dimension, quantity};
 use std::fmt;
 
-/// Why there is no plan. Faces are numbered as in the mesh; each message names what is wrong.
+/// The reason why there is no plan. Faces are numbered as in the mesh; each message names what is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The root is no face of the target.
@@ -18,7 +18,7 @@ pub enum Refusal {
     },
     /// The shape reaches below the ground on which its root would lie.
     OffGround {
-        /// Whether the problem names the root; else no face can be the root.
+        /// True if the problem names the root; else no face can be the root.
         is_root_given: bool,
         /// The root, or the first face that was tried as the root.
         root: usize,
@@ -86,25 +86,25 @@ pub enum Refusal {
     NoFolding(Box<NoFolding>),
 }
 
-/// What is known where no folding passes the judge.
+/// The state of knowledge where no folding passes the judge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoFolding {
-    /// Why the first layout was refused; `None` where none was evaluated.
+    /// The reason why the first layout was refused; `None` where none was evaluated.
     pub first: Option<Rejection>,
-    /// What the best flat pattern would have taken.
+    /// The cost of the best flat pattern.
     pub best: BestPattern,
     /// The torque of hinges under which an order was found, where gravity binds.
     pub need: Option<TorqueNeed>,
     /// The torque that the hinges hold, N·m; `None` where no limit is stated.
     pub torque: Option<f64>,
-    /// Whether the problem has gravity.
+    /// True if the problem has gravity.
     pub is_under_gravity: bool,
 }
 
-/// Why a layout was refused.
+/// The reason why a layout was refused.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rejection {
-    /// Two thin panels meet in a step, as the collision samples show.
+    /// Two thin panels collide in a step, as the samples show.
     Meet {
         /// The two panels.
         faces: [usize; 2],

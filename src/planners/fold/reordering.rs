@@ -33,7 +33,7 @@ const PAIRS_MAX: usize = 10_000_000;
 const LIMIT_STEP: f64 = 0.02;
 
 /// The search for a layout that folds in any order.
-pub struct Reordering<'t> {
+pub(super) struct Reordering<'t> {
     task: &'t Task<'t>,
     limits: Option<LoadLimits>,
     judged: usize,
@@ -41,7 +41,7 @@ pub struct Reordering<'t> {
     samples_left: usize,
 }
 
-/// What came of a layout.
+/// The outcome of a layout.
 enum Evaluated {
     Accepted(Box<Outcome>),
     /// It folds in no order, or the judge has refused some.
@@ -56,7 +56,7 @@ enum Evaluated {
 type Ended = Option<Option<Outcome>>;
 
 impl<'t> Reordering<'t> {
-    pub fn new(task: &'t Task<'t>) -> Reordering<'t> {
+    pub(super) fn new(task: &'t Task<'t>) -> Reordering<'t> {
         let panel = &task.panels.weakest;
         let limits = (task.conventions.gravity != 0.0).then(|| LoadLimits {
             weights: task.loads(),
@@ -71,8 +71,8 @@ impl<'t> Reordering<'t> {
     /// Returns the best layout among those that are known or can be searched that folds in some order.
     ///
     /// # Errors
-    /// What holds for every layout, as [`Task::judged`] says.
-    pub fn first(&mut self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
+    /// A reason that holds for every layout, as [`Task::judged`] says.
+    pub(super) fn first(&mut self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
         let mut open = Vec::new();
         let mut ended = match found.next_best() {
             None => self.of_list(&found.layouts, 0, &mut open)?,
@@ -183,7 +183,7 @@ impl<'t> Reordering<'t> {
     ///
     /// # Errors
     /// [`Refusal::SequenceTooHigh`], as [`Task::steps`] says.
-    pub fn torque_need(&self, found: &Proposals) -> Result<Option<TorqueNeed>, Refusal> {
+    pub(super) fn torque_need(&self, found: &Proposals) -> Result<Option<TorqueNeed>, Refusal> {
         let Some(limits) = &self.limits else { return Ok(None) };
         let (target, solids) = (self.task.target, &self.task.panels.solids);
         let mut least: Option<TorqueNeed> = None;

@@ -9,7 +9,7 @@ use crate::plan::{Verdict, World};
 use crate::planners::Progress;
 use num_bigint::BigInt;
 
-/// What the planner found out about its folding.
+/// The figures of a folding and of its search.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// The target, as the problem states it.
@@ -27,7 +27,7 @@ pub struct Report {
     pub bound: f64,
     /// The least number of steps of any folding.
     pub fewest_steps: usize,
-    /// Whether it is proved that no folding that lies flat and passes the judge is better, leaves first.
+    /// True if it is proved that no folding that lies flat and passes the judge is better, leaves first.
     pub optimal: bool,
     /// The minimised quantity by the least value of any layout, 1 where nothing was given up.
     pub price: f64,

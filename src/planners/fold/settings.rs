@@ -7,7 +7,7 @@ use super::simulation::Count;
 use super::target::Target;
 use crate::plan;
 
-/// What is to be folded of what, and under which gravity.
+/// A folding problem: the surface, the panels that it is folded of, and gravity.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// The surface, in m.
@@ -80,7 +80,7 @@ pub struct Settings {
     pub sequence: Sequence,
     /// The time of each step, s; `None`: as long as the widest hinge needs.
     pub step: Option<f64>,
-    /// How the mass of a panel is spread.
+    /// The model of how the mass of a panel is spread.
     pub inertia: MassModel,
     /// The joints whose torques count.
     pub count: Count,

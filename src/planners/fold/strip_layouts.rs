@@ -8,7 +8,7 @@
 //! in the way, the cheap layouts themselves are a beginning.
 //! What still overlaps in the plane or meets on the way is separated by exchanges of one hinge for another
 //! between the two, as in [`tabu_unfolding`](super::tabu_unfolding); and what is clear is made cheaper by exchanges that
-//! keep it so. Nothing is proved, and what is looked at are samples: the judge decides.
+//! keep it so. Nothing is proved, and collisions are sampled: the judge decides.
 
 use super::edge_exchange::{self, Rules};
 use super::layout::Layout;
@@ -50,7 +50,7 @@ const CHEAP_MAX: usize = 2;
 /// Layouts whose hinges are exchanged until nothing collides.
 const SEPARATED_MAX: usize = 6;
 
-/// How often that is tried, with other random numbers.
+/// Rounds of that, with other random numbers.
 const TURNS: u64 = 8;
 
 /// Exchanges that are sampled before the best is made.
@@ -76,7 +76,7 @@ pub struct StripSearch<'t> {
     pub weights: &'t Weights,
     /// The panels with their thickness.
     pub solids: &'t Solids,
-    /// Hinges without which panels meet in the target; no cycle.
+    /// The hinges without which panels penetrate each other in the target; no cycle.
     pub required: &'t [usize],
     /// The faces that may be the root.
     pub roots: &'t [usize],

@@ -33,10 +33,10 @@ pub fn first_collision(
     steps: &[Vec<usize>],
     shrunk: f64,
 ) -> Option<Collision> {
-    let look = SweepCheck::thin(target, layout, shrunk);
+    let check = SweepCheck::thin(target, layout, shrunk);
     let mut folded = vec![false; target.faces.len()];
     steps.iter().enumerate().find_map(|(step, moving)| {
-        let found = look.pair_during(&folded, moving).map(|faces| Collision { step, faces });
+        let found = check.pair_during(&folded, moving).map(|faces| Collision { step, faces });
         moving.iter().for_each(|face| folded[*face] = true);
         found
     })
@@ -87,11 +87,11 @@ pub struct SweepCheck<'t> {
     target: &'t Target,
     layout: &'t Layout,
     form: Form,
-    /// How far the points of a face are from its middle, m.
+    /// By face: the radius of its bounding sphere about the centroid, m.
     reach: Vec<f64>,
 }
 
-/// In their places in the target.
+/// The panels in their places in the target.
 enum Form {
     Triangles(Vec<Triangle>),
     Solids(Solids),
@@ -175,7 +175,7 @@ impl<'t> SweepCheck<'t> {
         match &self.form {
             Form::Triangles(small) => {
                 let placed = |face: usize| small[face].map(|p| poses[face].transform_point(&p.into()).coords);
-                !parted(&placed(a), &placed(b))
+                !separated(&placed(a), &placed(b))
             }
             // Those on a common hinge are built to touch.
             Form::Solids(solids) => {
@@ -232,7 +232,7 @@ fn moving_against(layout: &Layout, moving: &[usize]) -> Vec<[usize; 2]> {
 }
 
 /// Separating axis test: returns whether a plane across some axis separates two triangles.
-fn parted(a: &Triangle, b: &Triangle) -> bool {
+fn separated(a: &Triangle, b: &Triangle) -> bool {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (of_a, of_b) = (edges(a), edges(b));
     let (normal_a, normal_b) = (of_a[0].cross(&of_a[1]), of_b[0].cross(&of_b[1]));

@@ -26,7 +26,7 @@ const PAIRS: usize = 64;
 const MOVES: usize = 24;
 
 /// Searches a layout that lies flat; `steps` counts down the steps of the search. `None` where none was found.
-pub fn without_overlaps(
+pub(super) fn without_overlaps(
     target: &Target,
     weights: &Weights,
     layout: Layout,
@@ -62,7 +62,7 @@ pub fn without_overlaps(
 }
 
 /// Random exchanges of hinges between two faces that overlap or collide, with a tabu list.
-pub struct TabuExchange<'t> {
+pub(super) struct TabuExchange<'t> {
     target: &'t Target,
     rng: SplitMix64,
     /// By hinge: the round in which it may come back.
@@ -71,18 +71,23 @@ pub struct TabuExchange<'t> {
 
 impl<'t> TabuExchange<'t> {
     /// Makes an empty tabu list.
-    pub fn new(target: &'t Target, seed: u64) -> TabuExchange<'t> {
+    pub(super) fn new(target: &'t Target, seed: u64) -> TabuExchange<'t> {
         TabuExchange { target, rng: SplitMix64(seed), out_until: vec![0; target.hinges.len()] }
     }
 
     /// Returns a random pair; `None` where there is none.
-    pub fn one_of(&mut self, pairs: &[[usize; 2]]) -> Option<[usize; 2]> {
+    pub(super) fn one_of(&mut self, pairs: &[[usize; 2]]) -> Option<[usize; 2]> {
         pairs.get(self.rng.below(pairs.len().max(1))).copied()
     }
 
     /// Returns a layout without one of these hinges, and which: another hinge that is not tabu joins the two parts.
     /// `None` where no such hinge does.
-    pub fn exchange(&mut self, now: &Layout, between: &[usize], round: usize) -> Option<(Layout, usize)> {
+    pub(super) fn exchange(
+        &mut self,
+        now: &Layout,
+        between: &[usize],
+        round: usize,
+    ) -> Option<(Layout, usize)> {
         let dropped = between[self.rng.below(between.len())];
         let mut ways = joining(self.target, now, dropped);
         ways.retain(|hinge| *hinge != dropped && self.out_until[*hinge] < round);
@@ -94,7 +99,7 @@ impl<'t> TabuExchange<'t> {
     }
 
     /// Makes a hinge tabu from a round on.
-    pub fn give_up(&mut self, hinge: usize, round: usize) {
+    pub(super) fn give_up(&mut self, hinge: usize, round: usize) {
         self.out_until[hinge] = round + TABU;
     }
 }

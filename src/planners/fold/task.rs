@@ -27,7 +27,7 @@ use crate::planners::Solution;
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// A planning call at work.
-pub struct Task<'p> {
+pub(super) struct Task<'p> {
     pub problem: &'p Problem,
     pub settings: &'p Settings,
     pub observer: &'p Observer<'p>,
@@ -42,7 +42,7 @@ pub struct Task<'p> {
 }
 
 /// A layout with an order that the judge lets through.
-pub struct Outcome {
+pub(super) struct Outcome {
     pub solution: Solution<Judged>,
     pub layout: Layout,
     pub steps: Vec<Vec<usize>>,
@@ -52,8 +52,8 @@ impl<'p> Task<'p> {
     /// Checks a problem and its settings.
     ///
     /// # Errors
-    /// What does not go together, and shapes that no layout folds.
-    pub fn new(
+    /// Settings that do not go together, and shapes that no layout folds.
+    pub(super) fn new(
         problem: &'p Problem,
         settings: &'p Settings,
         observer: &'p Observer<'p>,
@@ -68,7 +68,7 @@ impl<'p> Task<'p> {
     }
 
     /// By face: its weight under standard gravity, N.
-    pub fn loads(&self) -> Vec<f64> {
+    pub(super) fn loads(&self) -> Vec<f64> {
         self.panels.masses.iter().map(|mass| mass * STANDARD_GRAVITY).collect()
     }
 
@@ -76,7 +76,7 @@ impl<'p> Task<'p> {
     ///
     /// # Errors
     /// [`Refusal::SequenceTooHigh`] for the order of least energy in a high tree.
-    pub fn steps(&self, layout: &Layout) -> Result<Vec<Vec<usize>>, Refusal> {
+    pub(super) fn steps(&self, layout: &Layout) -> Result<Vec<Vec<usize>>, Refusal> {
         Ok(match self.settings.sequence {
             Sequence::LeavesFirst => steps::leaves_first(layout),
             Sequence::RootFirst => steps::root_first(layout),
@@ -94,7 +94,7 @@ impl<'p> Task<'p> {
     }
 
     /// Returns the minimised quantity of a layout that folds in these steps.
-    pub fn value(&self, layout: &Layout, steps: &[Vec<usize>]) -> f64 {
+    pub(super) fn value(&self, layout: &Layout, steps: &[Vec<usize>]) -> f64 {
         let effort = self.objective.effort(layout, steps);
         match self.settings.minimise {
             Minimise::Energy => effort.energy,
@@ -104,7 +104,7 @@ impl<'p> Task<'p> {
     }
 
     /// Returns the world of the plan: weightless, or with the root held on the ground.
-    pub fn world(&self) -> World {
+    pub(super) fn world(&self) -> World {
         if self.problem.gravity == 0.0 {
             return World::FREE;
         }
@@ -123,8 +123,8 @@ impl<'p> Task<'p> {
     /// Puts a layout that folds in these steps before the judge; the inner error is his first failure.
     ///
     /// # Errors
-    /// What holds for every layout: no hinges, steps that are too short, a program that can't be scheduled.
-    pub fn judged(
+    /// A reason that holds for every layout: no hinges, steps that are too short, a program that can't be scheduled.
+    pub(super) fn judged(
         &self,
         layout: &Layout,
         order: &[Vec<usize>],

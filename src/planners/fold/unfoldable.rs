@@ -132,7 +132,9 @@ impl fmt::Display for Unfoldable {
     }
 }
 
-/// `1, 2 and 3`
+impl std::error::Error for Unfoldable {}
+
+/// Returns `1, 2 and 3`.
 fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),

@@ -11,7 +11,7 @@ use super::inertia::{Inertia, moment_about};
 use super::target::Target;
 
 /// `∫ |s''|` of the quintic `10x³ - 15x⁴ + 6x⁵` over 0..1: twice its greatest slope.
-pub const QUINTIC: f64 = 3.75;
+pub(super) const QUINTIC: f64 = 3.75;
 
 /// The cost of every hinge for every face, N·m for a step of one second.
 #[derive(Clone, Debug)]

@@ -25,7 +25,7 @@ pub struct Lifting {
     pub work: f64,
     /// The lower bound on the work of all orders of the layout, J.
     pub bound: f64,
-    /// Whether no order takes less work than this one: always, unless a branch has more than
+    /// True if no order takes less work than this one: always, unless a branch has more than
     /// [`BRANCH_MAX`] hinges.
     pub optimal: bool,
 }
@@ -88,13 +88,13 @@ fn height(target: &Target, layout: &Layout, face: usize, pose: &Pose) -> f64 {
     target.normal(layout.root).dot(&(target.centroid(layout.root) - centroid.coords))
 }
 
-/// What hangs on one child of the root.
+/// The branch below one child of the root.
 struct Branch {
     /// Its faces; bit i of a state is face i of these.
     faces: Vec<usize>,
     /// By face of the branch: the bits of its path from the root, the root's child first.
     paths: Vec<Vec<usize>>,
-    /// By face of the branch, where all subsets are looked at: its potential energy by which bits of
+    /// By face of the branch, where all subsets are visited: its potential energy by which bits of
     /// its path have folded.
     potentials: Vec<Vec<f64>>,
     /// The leaves-first and the root-first order, with their work.

@@ -305,7 +305,7 @@ fn closing(panels: usize) -> f64 {
     })
 }
 
-/// In metres.
+/// Returns a point of the lattice in metres; `side`: the side of the panels, m.
 fn metric([i, j]: Point, side: f64) -> Vec3 {
     Vec3::new(side * (i as f64 + 0.5 * j as f64), side * libm::sqrt(0.75) * j as f64, 0.0)
 }

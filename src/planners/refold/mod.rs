@@ -1,5 +1,8 @@
 //! Refolding: from one shape to another of the same panels, through a flat sheet that unfolds from the first and
 //! folds into the second, with few changes of connections in the plane.
+//!
+//! The entry is [`plan()`]. [`sheets`] grows sheets that both shapes nearly share and bounds the number of changes,
+//! [`rearrangement`] searches strokes from one sheet to another, [`lattice_sheet`] carries them out.
 #![allow(non_snake_case)]
 
 pub mod lattice_sheet;

@@ -55,7 +55,7 @@ impl Default for Settings {
     }
 }
 
-/// What the planner found out about its refolding.
+/// The figures of a refolding and of its search.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// The number of connections that are made, and as many undone.
@@ -74,12 +74,12 @@ pub struct Report {
     pub verdict: Verdict,
 }
 
-/// Why there is no plan.
+/// The reason why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The shapes have different numbers of faces.
     Counts {
-        /// Of the first and of the second shape.
+        /// The numbers of faces of the first and of the second shape.
         faces: [usize; 2],
     },
     /// No way between sheets of the two shapes was found.
@@ -208,14 +208,14 @@ type Order = Vec<Vec<usize>>;
 struct Task<'p> {
     problem: &'p Problem,
     settings: &'p Settings,
-    /// Of the first and of the second shape.
+    /// The costs of the hinges of the first and of the second shape.
     weights: [Weights; 2],
     /// The time of a step, s.
     step: f64,
 }
 
 impl Task<'_> {
-    /// Returns orders in which no panels meet in samples: leaves first, of least energy, root first; else one
+    /// Returns orders whose samples show no collision: leaves first, of least energy, root first; else one
     /// that is searched.
     fn orders(&self, target: &Target, layout: &Layout) -> Vec<Order> {
         let panels = &self.problem.panels;

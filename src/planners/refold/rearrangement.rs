@@ -3,7 +3,7 @@
 //! Panels are alike, so a state is the cells that are covered and the pairs of them that are joined.
 //! Every stroke makes one connection, so as many are needed as the state lacks of those that are
 //! wanted. To this is added how far the panels that lie elsewhere are from the cells that are still
-//! free, and what is best by both is looked at next: the series that is found need not be the shortest.
+//! free, and the state that is best by both is expanded next: the series that is found need not be the shortest.
 
 use super::lattice_sheet::{LatticeSheet, Point, Side, Stroke, cell};
 use crate::planners::fold::sweep_collision::Solids;
@@ -83,7 +83,7 @@ pub fn rearranged(
     None
 }
 
-/// Whether nothing meets on the way into a state; folded to the other side, if it has to be.
+/// Returns whether the stroke into a state is collision-free, if need be folded to the other side.
 fn is_free(nodes: &mut [Node], at: usize, Panels { solids, side }: Panels) -> bool {
     let Some((before, stroke)) = nodes[at].from.clone() else { return true };
     let other = Stroke { angle: -stroke.angle, ..stroke.clone() };
@@ -140,7 +140,7 @@ fn steps(a: Point, b: Point) -> i64 {
     (thirds + 2) / 3
 }
 
-/// What can be done: a wanted connection at once, where there is one.
+/// Returns the strokes of a state: a wanted connection alone, where there is one that needs no folding.
 fn strokes_of(plane: &LatticeSheet, goal: &Goal) -> Vec<Stroke> {
     let worth = |bond: &[Side; 2]| usize::from(goal.bonds.contains(&joined(plane, bond)));
     let open = plane.open();

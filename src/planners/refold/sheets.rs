@@ -11,14 +11,14 @@
 
 use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};
 use super::rearrangement::{Goal, Panels, pair, rearranged};
+use crate::planners::fold::Layout;
 use crate::planners::fold::Observer;
-use crate::planners::fold::layout::Layout;
+use crate::planners::fold::Target;
 use crate::planners::fold::sweep_collision::Solids;
-use crate::planners::fold::target::Target;
 use crate::planners::random::SplitMix64;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How often growth that is stuck takes panels away before it starts again.
+/// The number of times that growth which is stuck takes panels away before it starts again.
 const RETREATS: usize = 200;
 
 /// Pairs of sheets that are tried, those first that have the most in common.
@@ -163,7 +163,7 @@ struct Pair {
 struct Laid {
     /// By face.
     corners: Vec<Corners>,
-    /// In order of number.
+    /// The hinges that fold, in order of number.
     hinges: Vec<usize>,
 }
 
@@ -290,7 +290,7 @@ struct Choice {
     corners: Corners,
     hinges: [usize; 2],
     changes: usize,
-    /// When the neighbour was placed.
+    /// The number of the neighbour in the order of placing.
     after: usize,
 }
 
@@ -323,7 +323,7 @@ impl<'t> Sheet<'t> {
         self.placed[face].expect("only panels on the sheet are asked for")
     }
 
-    /// What lies across a side in a shape, if it is not on the sheet: the face, its side, the hinge.
+    /// Returns what lies across a side in a shape, if it is not on the sheet: the face, its side, the hinge.
     fn beyond(target: &Target, face: usize, side: usize, gone: impl Fn(usize) -> bool) -> Option<[usize; 3]> {
         let index = target.sides[face][side]?;
         let hinge = &target.hinges[index];
@@ -463,7 +463,7 @@ impl<'t> Sheet<'t> {
     }
 }
 
-/// How many connections have to be made at least, `most` at most. Those that both shapes have join
+/// Returns the lower bound on the number of connections that have to be made, at most `most`. Those that both shapes have join
 /// panels to pieces, each a part of a layout of either; the other connections of the second shape
 /// are made. Whether so few pieces do is searched exhaustively, as far as the steps reach.
 fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
@@ -471,7 +471,7 @@ fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
     (0..most).find(|more| can_do_with(from, to, more + 1, &mut left)).unwrap_or(most)
 }
 
-/// Whether so many pieces do: `true` also where the steps do not suffice.
+/// Returns whether so many pieces suffice; also true where the budget does not.
 fn can_do_with(from: &Target, to: &Target, pieces: usize, left: &mut u64) -> bool {
     let n = to.faces.len();
     let mut search = Pieces { sheet: Sheet::new(from, to), closed: vec![[false; 3]; n], left };
@@ -523,7 +523,7 @@ impl Pieces<'_, '_> {
         self.sheet.joined(face, next, ahead, face, side, 0)
     }
 
-    /// Whether the faces that no panel can be continued to are no more groups than pieces are left, in
+    /// Returns whether the faces that no panel can be continued to are no more groups than pieces are left, in
     /// either shape.
     fn can_reach(&self, pieces: usize) -> bool {
         let Sheet { from, to, placed, taken, .. } = &self.sheet;
