@@ -1,41 +1,39 @@
 //! Lengths of struts whose ends go straight on: their squares are parabolas, so the extremes of lengths
 //! and rates are known in closed form.
 
-use super::judge::Leg;
+use super::judgement::Step;
 
-/// Rounding of lengths, m.
-const TOL_LENGTH: f64 = 1e-9;
-/// Rounding of rates, relative.
-const TOL_RATE: f64 = 1e-9;
-
+/// Extremes of the length of one strut on a step.
 pub struct Lengths {
-    /// The least and the greatest length with their times, m and s.
+    /// The least length, m, and its time, s.
     pub least: (f64, f64),
+    /// The greatest length, m, and its time, s.
     pub most: (f64, f64),
     /// The greatest rate, m/s.
     pub rate: f64,
 }
 
 impl Lengths {
-    /// A length outside of a range, with its time.
-    pub fn outside(&self, (low, high): (f64, f64)) -> Option<(f64, f64)> {
-        let short = (self.least.0 < low - TOL_LENGTH).then_some(self.least);
-        short.or_else(|| (self.most.0 > high + TOL_LENGTH).then_some(self.most))
+    /// Returns a length outside a range (m) by more than `tolerance`, with its time; `None` if there is none.
+    pub fn outside(&self, (low, high): (f64, f64), tolerance: f64) -> Option<(f64, f64)> {
+        let short = (self.least.0 < low - tolerance).then_some(self.least);
+        short.or_else(|| (self.most.0 > high + tolerance).then_some(self.most))
     }
 
-    pub fn too_fast(&self, limit: f64) -> bool {
-        self.rate > limit * (1.0 + TOL_RATE)
+    /// Returns true if the rate exceeds a limit (m/s) by more than a relative `tolerance`.
+    pub fn too_fast(&self, limit: f64, tolerance: f64) -> bool {
+        self.rate > limit * (1.0 + tolerance)
     }
 }
 
-/// Of the strut between nodes a and b.
-pub fn along(leg: &Leg, a: usize, b: usize) -> Lengths {
-    let (from, to) = (leg.from[a] - leg.from[b], leg.to[a] - leg.to[b]);
+/// Returns the extremes for the strut between nodes `a` and `b`, which move on straight lines.
+pub fn along(step: &Step, a: usize, b: usize) -> Lengths {
+    let (from, to) = (step.from[a] - step.from[b], step.to[a] - step.to[b]);
     let change = to - from;
     // |from + u change|² is least where its slope is zero.
     let slope = change.norm_squared();
     let u = if slope > 0.0 { (-from.dot(&change) / slope).clamp(0.0, 1.0) } else { 0.0 };
-    let time = |u: f64| leg.begins + u * leg.lasts;
+    let time = |u: f64| step.start + u * step.duration;
     let (start, end) = (from.norm(), to.norm());
     let most = if start >= end { (start, time(0.0)) } else { (end, time(1.0)) };
     // A length along a straight line is convex, so its rate is greatest at an end. At a length of
@@ -43,6 +41,6 @@ pub fn along(leg: &Leg, a: usize, b: usize) -> Lengths {
     let rate = |d: &crate::geometry::Vec3, length: f64| {
         if length > 0.0 { (change.dot(d) / length).abs() } else { change.norm() }
     };
-    let rate = rate(&from, start).max(rate(&to, end)) / leg.lasts;
+    let rate = rate(&from, start).max(rate(&to, end)) / step.duration;
     Lengths { least: ((from + change * u).norm(), time(u)), most, rate }
 }

@@ -1,16 +1,95 @@
-//! The judgement of trusses, whose plans are paths of nodes, in closed form and by bounds on how fast
-//! distances change.
+//! The judgement of trusses, whose plans are paths of nodes: in closed form, and by bounds on how fast
+//! distances change (conservative advancement).
 //!
-//! Of each step, in this order: lengths of struts and their rates, distances between struts, obstacles,
-//! shape (angles, rigidity, sums of lengths), the ground, and what the truss stands on; last the margins
-//! that the plan states at its keyframes.
+//! Between two keyframes all nodes move on straight lines at one rate, or the truss rolls over an edge as one
+//! rigid body. Of each step the checks are made in this order: lengths of struts and their rates, distances
+//! between struts, distances to obstacles, shape (angles, sums of lengths, rigidity), the ground, and static
+//! stability; last the margins that the plan states at its keyframes. Struts are line segments without thickness
+//! that keep a clearance from each other; half of a strut's mass is at each of its ends.
 
-mod around;
-mod distance;
-mod judge;
+mod checks;
+mod judgement;
 mod lengths;
-mod margins;
 mod shape;
-mod standing;
+mod stated_margins;
+mod strut_distance;
+mod support;
+mod surroundings;
+mod tolerances;
 
-pub(super) use judge::judge;
+use super::ledger::Ledger;
+use crate::geometry::{HeightField, Vec3};
+use crate::interrupt;
+use crate::plan::{CheckKind, Interpolation, NodePaths, Plan, Verdict};
+use judgement::{Judgement, Step};
+use support::Standing;
+use tolerances::Tolerances;
+
+/// Returns the verdict on a truss plan.
+pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
+    let mut ledger = Ledger::new(&plan.exemptions, paths.duration());
+    let corners = if paths.limits.angle > 0.0 { shape::corners(paths) } else { Vec::new() };
+    let strut = &plan.library.struts[paths.strut];
+    let steepest = paths.surroundings.terrain.as_ref().map_or(0.0, HeightField::steepest);
+    let mut judged = Judgement {
+        paths,
+        tolerances: Tolerances::default(),
+        corners,
+        strut,
+        obstacles: Vec::new(),
+        steepest,
+    };
+    match surroundings::obstacles(paths) {
+        Ok(obstacles) => judged.obstacles = obstacles,
+        Err(why) => ledger.fail(judged.failure(CheckKind::Form, 0.0, vec![], format!("an obstacle: {why}"))),
+    }
+    let places: Vec<Vec<Vec3>> = paths
+        .keyframes
+        .iter()
+        .map(|keyframe| keyframe.nodes.iter().map(|p| Vec3::from(*p)).collect())
+        .collect();
+    let world_at = |t: f64| {
+        let last = plan.worlds.partition_point(|w| w.from <= t).max(1) - 1;
+        plan.worlds[last].world
+    };
+    let mut standing = Standing::new(&judged);
+    judged.enclosed(&places[0], &mut ledger);
+    judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
+    for (i, keyframe) in paths.keyframes.iter().enumerate().skip(1) {
+        interrupt::progress_checkpoint(|| format!("step {i} of {}", paths.keyframes.len() - 1));
+        let begins = paths.keyframes[i - 1].time;
+        let step = Step {
+            from: places[i - 1].clone(),
+            to: places[i].clone(),
+            interpolation: keyframe.interpolation,
+            start: begins,
+            duration: keyframe.time - begins,
+        };
+        let world = world_at(begins);
+        judged.lengths(&step, &mut ledger);
+        judged.distances(&step, &mut ledger);
+        judged.obstacles(&step, &mut ledger);
+        judged.shape(&step, &mut ledger);
+        if world.has_floor() {
+            judged.ground(&step, &mut ledger);
+            if world.gravity > 0.0 {
+                standing.step(&step, &mut ledger);
+            }
+        }
+        if let Interpolation::RigidRoll { .. } = keyframe.interpolation
+            && (world.gravity == 0.0 || !world.has_floor())
+        {
+            let message = "without gravity and a ground nothing makes it roll".to_string();
+            ledger.fail(judged.failure(CheckKind::Ground, begins, vec![], message));
+        }
+    }
+    for (keyframe, x) in
+        paths.keyframes.iter().zip(&places).filter(|(keyframe, _)| !keyframe.margins.is_none())
+    {
+        if let Some(failure) = judged.margins(&keyframe.margins, x, keyframe.time, &standing) {
+            ledger.fail(failure);
+        }
+    }
+    judged.summary(&places, &standing, plan, &mut ledger);
+    ledger.finish()
+}

@@ -1,9 +1,10 @@
 //! What a plan of a truss keeps beside the limits of its struts: angles between struts that share a node,
 //! sums of lengths, and how far the truss is from losing its rigidity.
 //!
-//! Angles and sums are proved between the keyframes; rigidity is looked at where the keyframes are.
+//! Angles (by conservative advancement) and sums (by bisection) are proved between the keyframes; rigidity is
+//! sampled at the keyframes.
 
-use super::judge::{Judged, Leg};
+use super::judgement::{Judgement, Step};
 use super::lengths;
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
@@ -12,61 +13,58 @@ use crate::units::number;
 use crate::units::{Dimension, quantity};
 use nalgebra::DMatrix;
 
-/// Rounding of angles, rad, of sums, m, and of singular values.
-const TOL_ANGLE: f64 = 1e-9;
-const TOL_SUM: f64 = 1e-9;
-const TOL_RIGIDITY: f64 = 1e-9;
-/// Looks at one corner on one leg, and at one sum.
-const LOOKS_MAX: usize = 100_000;
-/// Singular values of rigid motions.
-const MOTIONS: usize = 6;
+/// Greatest number of samples of one angle, or intervals of one sum, on one step.
+const ADVANCEMENT_STEPS_MAX: usize = 100_000;
+/// Number of singular values that belong to rigid motions of the whole truss.
+const RIGID_MOTIONS: usize = 6;
 
-impl Judged<'_> {
-    pub fn shape(&self, leg: &Leg, ledger: &mut Ledger) {
-        if leg.interpolation != Interpolation::Linear {
+impl Judgement<'_> {
+    /// Checks angles, sums of lengths and rigidity on a step; a rigid roll changes none of them.
+    pub fn shape(&self, step: &Step, ledger: &mut Ledger) {
+        if step.interpolation != Interpolation::Linear {
             return;
         }
         for corner in &self.corners {
-            self.angle(leg, corner, ledger);
+            self.angle(step, corner, ledger);
         }
         for sum in &self.paths.limits.sums {
-            self.sum(leg, sum, ledger);
+            self.sum(step, sum, ledger);
         }
         if self.paths.limits.rigidity > 0.0 {
-            if leg.begins == 0.0 {
-                self.rigidity(&leg.from, 0.0, ledger);
+            if step.start == 0.0 {
+                self.rigidity(&step.from, 0.0, ledger);
             }
-            self.rigidity(&leg.to, leg.begins + leg.lasts, ledger);
+            self.rigidity(&step.to, step.start + step.duration, ledger);
         }
     }
 
-    /// The angle at a node between the directions to two others.
-    fn angle(&self, leg: &Leg, corner: &Corner, ledger: &mut Ledger) {
+    /// Checks the angle between two struts at their common node, by conservative advancement.
+    fn angle(&self, step: &Step, corner: &Corner, ledger: &mut Ledger) {
         let &Corner { node, ends: (p, q), struts: (i, j) } = corner;
         let limit = self.paths.limits.angle;
         let arm = |x: &[Vec3], end: usize| x[end] - x[node];
-        let at = |end: usize, part: f64| arm(&leg.from, end) * (1.0 - part) + arm(&leg.to, end) * part;
+        let at = |end: usize, part: f64| arm(&step.from, end) * (1.0 - part) + arm(&step.to, end) * part;
         // A direction turns at most at the speed of its end over the least length.
         let turns = |end: usize| {
-            let way = (arm(&leg.to, end) - arm(&leg.from, end)).norm();
-            way / lengths::along(leg, end, node).least.0.max(f64::MIN_POSITIVE)
+            let way = (arm(&step.to, end) - arm(&step.from, end)).norm();
+            way / lengths::along(step, end, node).least.0.max(f64::MIN_POSITIVE)
         };
         let speed = turns(p) + turns(q);
         let (mut part, mut least) = (0.0, (between(at(p, 1.0), at(q, 1.0)), 1.0));
         let mut proved = false;
-        for _ in 0..LOOKS_MAX {
+        for _ in 0..ADVANCEMENT_STEPS_MAX {
             let found = between(at(p, part), at(q, part));
             if found < least.0 {
                 least = (found, part);
             }
-            let spare = found - limit + TOL_ANGLE;
+            let spare = found - limit + self.tolerances.angle;
             proved = spare >= 0.0 && (part >= 1.0 || spare >= speed * (1.0 - part));
             if proved || spare < 0.0 {
                 break;
             }
             part = (part + spare / speed).min(1.0);
         }
-        let time = leg.begins + leg.lasts * least.1;
+        let time = step.start + step.duration * least.1;
         let names = || vec![self.strut_name(i), self.strut_name(j)];
         keep_least(&mut ledger.verdict.angle, least.0, time, names);
         if proved {
@@ -82,26 +80,28 @@ impl Judged<'_> {
         ledger.fail(Failure { value: least.0, limit, ..failure });
     }
 
-    /// Each length is between its extremes on a part of the leg; parts are halved until that is enough.
-    fn sum(&self, leg: &Leg, sum: &LengthSum, ledger: &mut Ledger) {
+    /// Checks a sum of lengths: on an interval it lies between the sums of the extremes of each length. Intervals
+    /// are bisected until that proves the limits.
+    fn sum(&self, step: &Step, sum: &LengthSum, ledger: &mut Ledger) {
         let lengths = |part: f64| -> f64 {
-            let at = |node: usize| leg.from[node] * (1.0 - part) + leg.to[node] * part;
+            let at = |node: usize| step.from[node] * (1.0 - part) + step.to[node] * part;
             let ends = sum.struts.iter().map(|&strut| self.paths.struts[strut]);
             ends.map(|(a, b)| (at(a) - at(b)).norm()).sum()
         };
+        let tolerance = self.tolerances.length_sum;
         let mut parts = vec![(0.0, 1.0)];
-        for _ in 0..LOOKS_MAX {
+        for _ in 0..ADVANCEMENT_STEPS_MAX {
             let Some((from, to)) = parts.pop() else { return };
             let (low, high) = sum.range;
             let ends = [(lengths(from), from), (lengths(to), to)];
-            let bad = ends.iter().find(|(length, _)| *length < low - TOL_SUM || *length > high + TOL_SUM);
+            let bad = ends.iter().find(|(length, _)| *length < low - tolerance || *length > high + tolerance);
             if let Some(&(length, part)) = bad {
-                return self.sum_fails(leg, sum, (length, part), ledger);
+                return self.sum_fails(step, sum, (length, part), ledger);
             }
-            let piece = Leg {
-                from: leg.from.iter().zip(&leg.to).map(|(p, q)| p * (1.0 - from) + q * from).collect(),
-                to: leg.from.iter().zip(&leg.to).map(|(p, q)| p * (1.0 - to) + q * to).collect(),
-                ..*leg
+            let piece = Step {
+                from: step.from.iter().zip(&step.to).map(|(p, q)| p * (1.0 - from) + q * from).collect(),
+                to: step.from.iter().zip(&step.to).map(|(p, q)| p * (1.0 - to) + q * to).collect(),
+                ..*step
             };
             let extremes = sum.struts.iter().map(|&strut| {
                 let (a, b) = self.paths.struts[strut];
@@ -109,15 +109,16 @@ impl Judged<'_> {
             });
             let least: f64 = extremes.map(|found| found.least.0).sum();
             // Lengths are convex, so their sum is greatest at an end.
-            if least < low - TOL_SUM {
+            if least < low - tolerance {
                 let middle = (from + to) / 2.0;
                 parts.extend([(from, middle), (middle, to)]);
             }
         }
-        self.sum_fails(leg, sum, (lengths(0.5), 0.5), ledger);
+        self.sum_fails(step, sum, (lengths(0.5), 0.5), ledger);
     }
 
-    fn sum_fails(&self, leg: &Leg, sum: &LengthSum, (length, part): (f64, f64), ledger: &mut Ledger) {
+    /// Records that a sum of lengths leaves its range.
+    fn sum_fails(&self, step: &Step, sum: &LengthSum, (length, part): (f64, f64), ledger: &mut Ledger) {
         let names: Vec<String> = sum.struts.iter().map(|&strut| self.strut_name(strut)).collect();
         let [found, low, high] = [length, sum.range.0, sum.range.1].map(|x| quantity(x, Dimension::LENGTH));
         let what = match &names[..] {
@@ -125,16 +126,17 @@ impl Judged<'_> {
             _ => format!("the lengths of {} would add up to {found}", names.join(", ")),
         };
         let message = format!("{what}; the plan keeps {low} to {high}");
-        let failure = self.failure(CheckKind::JointRange, leg.begins + part * leg.lasts, names, message);
+        let failure = self.failure(CheckKind::JointRange, step.start + part * step.duration, names, message);
         let limit = if length < sum.range.0 { sum.range.0 } else { sum.range.1 };
         ledger.fail(Failure { value: length, limit, ..failure });
     }
 
+    /// Checks the least singular value of the rigidity matrix at an instant.
     fn rigidity(&self, x: &[Vec3], time: f64, ledger: &mut Ledger) {
         let limit = self.paths.limits.rigidity;
         let weakest = weakest(self.paths, x);
         keep_least(&mut ledger.verdict.rigidity, weakest, time, Vec::new);
-        if weakest < limit - TOL_RIGIDITY {
+        if weakest < limit - self.tolerances.rigidity {
             let message = format!(
                 "the truss is near to losing its rigidity: a singular value of {}; the plan keeps {}",
                 number(weakest),
@@ -146,7 +148,8 @@ impl Judged<'_> {
     }
 }
 
-/// The least singular value but those of the motions of the whole.
+/// Returns the least singular value of the rigidity matrix that does not belong to a rigid motion of the whole
+/// truss. Rows are unit vectors along the struts, so it has no unit; 0 where the truss is not rigid.
 pub fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     let struts = &paths.struts;
     let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
@@ -160,7 +163,7 @@ pub fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     let mut squares: Vec<f64> =
         (matrix.transpose() * &matrix).symmetric_eigenvalues().iter().copied().collect();
     squares.sort_by(f64::total_cmp);
-    squares.get(MOTIONS).map_or(0.0, |square| square.max(0.0).sqrt())
+    squares.get(RIGID_MOTIONS).map_or(0.0, |square| square.max(0.0).sqrt())
 }
 
 /// Two struts that share a node.
@@ -172,14 +175,14 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// Between its struts, rad.
+    /// Returns the angle between its struts at node positions `x`, rad.
     pub fn angle(&self, x: &[Vec3]) -> f64 {
         let (p, q) = self.ends;
         between(x[p] - x[self.node], x[q] - x[self.node])
     }
 }
 
-/// In order.
+/// Returns all pairs of struts that share a node, in order of node.
 pub fn corners(paths: &NodePaths) -> Vec<Corner> {
     let mut at_node: Vec<Vec<(usize, usize)>> = vec![Vec::new(); paths.node_names.len()];
     for (strut, &(a, b)) in paths.struts.iter().enumerate() {
@@ -199,7 +202,8 @@ pub fn corners(paths: &NodePaths) -> Vec<Corner> {
     found
 }
 
-/// By the halves of the sum and the difference of unit vectors: good for small angles, too (Kahan).
+/// Returns the angle between two vectors, rad, from the norms of the sum and the difference of unit vectors:
+/// accurate for small angles, too (Kahan).
 fn between(u: Vec3, v: Vec3) -> f64 {
     let (u, v) = (u.normalize(), v.normalize());
     2.0 * libm::atan2((u - v).norm(), (u + v).norm())

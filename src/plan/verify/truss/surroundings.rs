@@ -1,32 +1,31 @@
-//! What a truss passes: obstacles that its struts keep their clearance from, and ground that is not flat.
+//! Obstacles that struts keep their clearance from, and uneven ground, by conservative advancement.
 //!
-//! Between the keyframes by conservative advancement. A convex part stays behind the plane through its nearest
+//! A convex part stays behind the plane through its nearest
 //! point, and what comes near it does so no faster than its ends, or than the farthest of its points from
 //! the line about which it rolls.
 
-use super::judge::{Judged, Leg};
+use super::judgement::{Judgement, Step};
 use crate::geometry::distance::signed_distance_within;
 use crate::geometry::{HeightField, Part, Pose, Solid, Unsound, Vec3, pose::turned};
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
-/// Distances may be less than the clearance by this much, m: rounding.
-const TOL_DISTANCE: f64 = 2e-9;
-/// Nodes on uneven ground may be this far below it, and struts farther than they may, m: rounding, and so
-/// that few looks are enough.
-const TOL_GROUND: f64 = 1e-6;
-/// Looks at one strut and one part, or at one node or strut on uneven ground, on one leg.
-const LOOKS_MAX: usize = 100_000;
+/// Greatest number of samples of one strut and one part, or of one node or strut on uneven ground, on one step.
+const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 
-/// The plan's obstacles.
+/// An obstacle of the plan's surroundings.
 pub struct Obstacle {
     solid: Solid,
-    /// As it is called.
+    /// Its name in a report.
     name: String,
 }
 
-/// `Err` for shapes that are no solids.
+/// Returns the obstacles of a plan as solids.
+///
+/// # Errors
+///
+/// The first shape that is no solid.
 pub fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
     let obstacles = paths.surroundings.obstacles.iter().enumerate();
     obstacles
@@ -34,72 +33,75 @@ pub fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
         .collect()
 }
 
-/// Where a point is at a part of a leg.
-pub fn place(leg: &Leg, node: usize, part: f64) -> Vec3 {
-    match leg.interpolation {
-        Interpolation::Linear => leg.from[node] + (leg.to[node] - leg.from[node]) * part,
+/// Returns the position of a node, m, at a part of a step from 0 to 1.
+pub fn place(step: &Step, node: usize, part: f64) -> Vec3 {
+    match step.interpolation {
+        Interpolation::Linear => step.from[node] + (step.to[node] - step.from[node]) * part,
         Interpolation::RigidRoll { edge, angle } => {
-            let origin = leg.from[edge.0];
-            let turn = turned(leg.from[edge.1] - origin, angle * part);
-            origin + turn.rotation * (leg.from[node] - origin)
+            let origin = step.from[edge.0];
+            let turn = turned(step.from[edge.1] - origin, angle * part);
+            origin + turn.rotation * (step.from[node] - origin)
         }
     }
 }
 
-/// The longest way of a node on a leg, m.
-fn way(leg: &Leg, node: usize) -> f64 {
-    match leg.interpolation {
-        Interpolation::Linear => (leg.to[node] - leg.from[node]).norm(),
+/// Returns the length of the path of a node on a step, m: an upper bound on its speed per step.
+fn way(step: &Step, node: usize) -> f64 {
+    match step.interpolation {
+        Interpolation::Linear => (step.to[node] - step.from[node]).norm(),
         Interpolation::RigidRoll { edge, angle } => {
-            let along = (leg.from[edge.1] - leg.from[edge.0]).normalize();
-            (leg.from[node] - leg.from[edge.0]).cross(&along).norm() * angle.abs()
+            let along = (step.from[edge.1] - step.from[edge.0]).normalize();
+            (step.from[node] - step.from[edge.0]).cross(&along).norm() * angle.abs()
         }
     }
 }
 
-impl Judged<'_> {
-    /// The struts of one leg beside the obstacles.
-    pub fn obstacles(&self, leg: &Leg, ledger: &mut Ledger) {
+impl Judgement<'_> {
+    /// Checks the distances of all struts to all obstacles on a step.
+    pub fn obstacles(&self, step: &Step, ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
             for strut in 0..self.paths.struts.len() {
                 for part in &obstacle.solid.parts {
-                    self.beside(leg, strut, (obstacle, part), ledger);
+                    self.beside(step, strut, (obstacle, part), ledger);
                 }
             }
         }
     }
 
-    fn beside(&self, leg: &Leg, strut: usize, (obstacle, part): (&Obstacle, &Part), ledger: &mut Ledger) {
+    /// Checks one strut against one convex part of an obstacle, by conservative advancement.
+    fn beside(&self, step: &Step, strut: usize, (obstacle, part): (&Obstacle, &Part), ledger: &mut Ledger) {
         let (a, b) = self.paths.struts[strut];
         let clearance = self.strut.clearance;
-        let fastest = way(leg, a).max(way(leg, b));
-        let (p, q) = (leg.from[a], leg.from[b]);
+        let fastest = way(step, a).max(way(step, b));
+        let (p, q) = (step.from[a], step.from[b]);
         let gap = ((p + q) / 2.0 - part.centre).norm() - (p - q).norm() / 2.0 - part.radius;
         // Twice the clearance, so that a distance is told where nothing is nearer.
         if gap > 2.0 * clearance + fastest {
             return;
         }
-        let look = |at: f64| {
-            let (p, q) = (place(leg, a, at), place(leg, b, at));
+        let sample = |at: f64| {
+            let (p, q) = (place(step, a, at), place(step, b, at));
             let segment = Part::capsule((p + q) / 2.0, (q - p) / 2.0, 0.0);
             signed_distance_within(&segment, part, &Pose::identity(), None, 2.0 * clearance + fastest)
                 .distance
         };
-        let (mut at, mut least) = (0.0, (look(1.0), 1.0));
+        let (mut at, mut least) = (0.0, (sample(1.0), 1.0));
         let mut holds = false;
-        for _ in 0..LOOKS_MAX {
-            let distance = look(at);
+        for _ in 0..ADVANCEMENT_STEPS_MAX {
+            let distance = sample(at);
             if distance < least.0 {
                 least = (distance, at);
             }
-            let spare = distance - clearance + TOL_DISTANCE;
-            holds = spare >= 0.0 && least.0 >= clearance - TOL_DISTANCE && spare >= fastest * (1.0 - at);
+            let spare = distance - clearance + self.tolerances.obstacle_distance;
+            holds = spare >= 0.0
+                && least.0 >= clearance - self.tolerances.obstacle_distance
+                && spare >= fastest * (1.0 - at);
             if holds || spare < 0.0 || at >= 1.0 {
                 break;
             }
             at = (at + spare / fastest).min(1.0);
         }
-        let time = leg.begins + leg.lasts * least.1;
+        let time = step.start + step.duration * least.1;
         let names = || vec![self.strut_name(strut), obstacle.name.clone()];
         if least.0 <= 2.0 * clearance {
             keep_least(&mut ledger.verdict.clearance, least.0, time, names);
@@ -118,7 +120,7 @@ impl Judged<'_> {
         ledger.fail(Failure { value: least.0, limit: clearance, ..failure });
     }
 
-    /// How near the struts are to the obstacles, m.
+    /// Returns the least distance of any strut to any obstacle at node positions `x`, m; `None` without obstacles.
     pub fn nearest_obstacle(&self, x: &[Vec3]) -> Option<f64> {
         let parts = || self.obstacles.iter().flat_map(|obstacle| &obstacle.solid.parts);
         let mut least = None;
@@ -136,7 +138,7 @@ impl Judged<'_> {
         least
     }
 
-    /// A truss that begins inside a hollow obstacle is in it, though it may be far from its walls.
+    /// Checks that no node begins inside an obstacle: inside a hollow one it may be far from the walls.
     pub fn enclosed(&self, x: &[Vec3], ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
             if let Some(node) = x.iter().position(|p| obstacle.solid.encloses(p)) {
@@ -148,12 +150,12 @@ impl Judged<'_> {
         }
     }
 
-    /// Nodes above uneven ground, and struts not deeper in it than they may be.
-    pub fn uneven(&self, leg: &Leg, terrain: &HeightField, ledger: &mut Ledger) {
-        let nodes = (0..leg.from.len()).map(|node| (vec![node], 0.0));
+    /// Checks that nodes stay above uneven ground, and that struts go no deeper into it than half their clearance.
+    pub fn uneven(&self, step: &Step, terrain: &HeightField, ledger: &mut Ledger) {
+        let nodes = (0..step.from.len()).map(|node| (vec![node], 0.0));
         let struts = self.paths.struts.iter().map(|&(a, b)| (vec![a, b], self.strut.clearance / 2.0));
         let found = nodes.chain(struts).filter_map(|(ends, sink)| {
-            let (depth, at) = self.below(leg, terrain, &ends, sink)?;
+            let (depth, at) = self.below(step, terrain, &ends, sink)?;
             Some((depth, at, ends))
         });
         let Some((depth, at, ends)) = found.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
@@ -167,38 +169,39 @@ impl Judged<'_> {
                 quantity(self.strut.clearance / 2.0, Dimension::LENGTH)
             ),
         };
-        let failure = self.failure(CheckKind::Ground, leg.begins + at * leg.lasts, names, message);
+        let failure = self.failure(CheckKind::Ground, step.start + at * step.duration, names, message);
         ledger.fail(Failure { value: depth, ..failure });
     }
 
-    /// How deep a node, or a strut, gets into the ground if that is deeper than `sink`, m, and where on the leg.
-    fn below(&self, leg: &Leg, terrain: &HeightField, ends: &[usize], sink: f64) -> Option<(f64, f64)> {
+    /// Returns the depth of a node, or of a strut, below the ground where it is more than `sink`, m, and the part of
+    /// the step at which it is found. By conservative advancement; `None` where it is proved to be less.
+    fn below(&self, step: &Step, terrain: &HeightField, ends: &[usize], sink: f64) -> Option<(f64, f64)> {
         // Going straight, a node is lowest above flat triangles where it crosses their sides.
-        if let (&[node], Interpolation::Linear) = (ends, leg.interpolation) {
-            let (at, height) = terrain.lowest(leg.from[node], leg.to[node]);
-            return (height < -TOL_GROUND).then_some((-height, at));
+        if let (&[node], Interpolation::Linear) = (ends, step.interpolation) {
+            let (at, height) = terrain.lowest(step.from[node], step.to[node]);
+            return (height < -self.tolerances.uneven_ground).then_some((-height, at));
         }
-        let fastest = ends.iter().map(|&node| way(leg, node)).fold(0.0, f64::max);
+        let fastest = ends.iter().map(|&node| way(step, node)).fold(0.0, f64::max);
         let falls = fastest * libm::hypot(1.0, self.steepest);
-        let look = |at: f64| match *ends {
-            [node] => terrain.above(place(leg, node, at)),
-            [a, b, ..] => terrain.lowest(place(leg, a, at), place(leg, b, at)).1,
+        let sample = |at: f64| match *ends {
+            [node] => terrain.above(place(step, node, at)),
+            [a, b, ..] => terrain.lowest(place(step, a, at), place(step, b, at)).1,
             [] => f64::INFINITY,
         };
         let mut at = 0.0;
-        for _ in 0..LOOKS_MAX {
-            let height = look(at);
-            if height < -sink - TOL_GROUND {
+        for _ in 0..ADVANCEMENT_STEPS_MAX {
+            let height = sample(at);
+            if height < -sink - self.tolerances.uneven_ground {
                 return Some((-height, at));
             }
-            let lasts = height + sink + 2.0 * TOL_GROUND;
+            let lasts = height + sink + 2.0 * self.tolerances.uneven_ground;
             if at >= 1.0 || lasts >= falls * (1.0 - at) {
-                // The end counts as every look does.
-                let last = look(1.0);
-                return (last < -sink - TOL_GROUND).then_some((-last, 1.0));
+                // The end counts as every sample does.
+                let last = sample(1.0);
+                return (last < -sink - self.tolerances.uneven_ground).then_some((-last, 1.0));
             }
             at = (at + lasts / falls).min(1.0);
         }
-        Some((-look(at), at))
+        Some((-sample(at), at))
     }
 }

@@ -1,24 +1,22 @@
-//! Whether the margins that a plan states at its keyframes are those that it has there.
+//! Comparison of the margins that a plan states at its keyframes with those found there.
 
-use super::judge::{Judged, Leg};
-use super::standing::{Standing, centre};
-use super::{distance, shape};
+use super::judgement::{Judgement, Step};
+use super::support::{Standing, centre};
+use super::{shape, strut_distance};
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
 use crate::plan::{CheckKind, Failure, Interpolation, Margins};
 use crate::units::number;
 
-/// How far a stated margin may be off: rounding, of the singular values of large trusses.
-const TOL_MARGIN: f64 = 1e-7;
-
-impl Judged<'_> {
-    /// What is wrong with the margins of a keyframe.
+impl Judgement<'_> {
+    /// Returns the failure of the first margin of a keyframe that is not as stated; `x` are the node positions at
+    /// the keyframe, m.
     pub fn margins(&self, stated: &Margins, x: &[Vec3], time: f64, standing: &Standing) -> Option<Failure> {
         let Margins { length, clearance, obstacle, support, angle, rigidity, sum } = *stated;
         let found = |stated: Option<f64>, found: &dyn Fn() -> Option<f64>, what: &'static str| {
             let stated = stated?;
             let found = found().unwrap_or(f64::INFINITY);
-            ((stated - found).abs() > TOL_MARGIN).then_some((what, stated, found))
+            ((stated - found).abs() > self.tolerances.stated_margin).then_some((what, stated, found))
         };
         let lengths = || {
             let (low, high) = self.strut.length;
@@ -32,14 +30,19 @@ impl Judged<'_> {
             (0..self.paths.struts.len()).map(one).reduce(f64::min)
         };
         let apart = || {
-            let leg = Leg {
+            let step = Step {
                 from: x.to_vec(),
                 to: x.to_vec(),
                 interpolation: Interpolation::Linear,
-                begins: time,
-                lasts: 1.0,
+                start: time,
+                duration: 1.0,
             };
-            let near = distance::nearest(self.paths, &leg, self.strut.clearance);
+            let near = strut_distance::nearest(
+                self.paths,
+                &step,
+                self.strut.clearance,
+                self.tolerances.strut_distance,
+            );
             near.iter().map(|near| near.distance - self.strut.clearance).reduce(f64::min)
         };
         let beside = || self.nearest_obstacle(x).map(|distance| distance - self.strut.clearance);

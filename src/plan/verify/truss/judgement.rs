@@ -1,0 +1,53 @@
+//! A truss plan under judgement, one of its steps, and how failures are recorded.
+
+use super::shape::Corner;
+use super::surroundings::Obstacle;
+use super::tolerances::Tolerances;
+use crate::geometry::Vec3;
+use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
+use crate::robot::Strut;
+
+/// The motion from one keyframe to the next.
+pub struct Step {
+    /// Node positions at the start, m.
+    pub from: Vec<Vec3>,
+    /// Node positions at the end, m.
+    pub to: Vec<Vec3>,
+    /// How the nodes move between the two.
+    pub interpolation: Interpolation,
+    /// The time of the start, s.
+    pub start: f64,
+    /// Seconds; positive.
+    pub duration: f64,
+}
+
+/// A truss plan under judgement.
+pub struct Judgement<'a> {
+    /// The plan's body.
+    pub paths: &'a NodePaths,
+    /// The tolerances of all checks.
+    pub tolerances: Tolerances,
+    /// The pairs of struts that share a node, if the plan limits angles; otherwise empty.
+    pub corners: Vec<Corner>,
+    /// The type of all struts.
+    pub strut: &'a Strut,
+    /// The obstacles of the plan's surroundings.
+    pub obstacles: Vec<Obstacle>,
+    /// The greatest slope of uneven ground, as a ratio; 0 on flat ground.
+    pub steepest: f64,
+}
+
+impl Judgement<'_> {
+    /// Returns the name of a strut in a report, made of the names of its nodes.
+    pub fn strut_name(&self, strut: usize) -> String {
+        let (a, b) = self.paths.struts[strut];
+        format!("{} -- {}", self.paths.node_names[a], self.paths.node_names[b])
+    }
+
+    /// Returns a failure at a time, blamed on the command behind the step that follows.
+    pub fn failure(&self, kind: CheckKind, time: f64, at: Vec<String>, message: String) -> Failure {
+        let cause =
+            self.paths.keyframes.iter().find(|keyframe| keyframe.time > time).map(|keyframe| keyframe.cause);
+        Failure { kind, time, at, blame: cause.into_iter().collect(), ..Failure::form(message) }
+    }
+}

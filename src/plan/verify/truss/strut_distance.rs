@@ -1,0 +1,87 @@
+//! Distances between struts whose ends move on straight lines, by conservative advancement (Mirtich 1996): a
+//! distance changes no faster than the ends move relative to each other, so each sample proves the clearance
+//! for some time, and the next sample is taken when that time is over.
+
+use super::judgement::Step;
+use crate::geometry::broad_phase::{Aabb, near_boxes};
+use crate::geometry::closest_points::segment_segment_distance;
+use crate::plan::NodePaths;
+
+/// Greatest number of samples for one pair on one step. A pair that stays at its clearance needs many.
+const ADVANCEMENT_STEPS_MAX: usize = 100_000;
+
+/// Two struts near each other on a step.
+pub struct NearPair {
+    /// Their indices, in ascending order.
+    pub struts: (usize, usize),
+    /// The least distance at any sample, m.
+    pub distance: f64,
+    /// Where that sample is, from 0 at the start of the step to 1 at its end.
+    pub part: f64,
+    /// True if they are proved to keep the clearance during the whole step.
+    pub holds: bool,
+}
+
+/// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the
+/// `clearance` (m), with their distances. Narrow phase: conservative advancement, with `tolerance` (m) below the
+/// clearance.
+pub fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance: f64) -> Vec<NearPair> {
+    let shares = |i: usize, j: usize| {
+        let ((a, b), (c, d)) = (paths.struts[i], paths.struts[j]);
+        a == c || a == d || b == c || b == d
+    };
+    let swept = |&(a, b): &(usize, usize)| Aabb::around([step.from[a], step.from[b], step.to[a], step.to[b]]);
+    let boxes: Vec<Aabb> = paths.struts.iter().map(swept).collect();
+    // A cell of the grid is as large as a box is in the mean.
+    let sizes: f64 = boxes.iter().map(|swept| (swept.high - swept.low).max()).sum();
+    let cell = sizes / boxes.len().max(1) as f64;
+    // Twice the clearance, so that a distance is told where nothing is nearer.
+    let reach = 2.0 * clearance;
+    let mut found = Vec::new();
+    near_boxes(&boxes, reach, cell, &mut |i, j| {
+        if !shares(i, j) {
+            found.push(pair(paths, step, (i, j), (clearance, tolerance)));
+        }
+    });
+    found.sort_by_key(|near| near.struts);
+    found
+}
+
+/// Advances along the step from sample to sample, each as far as the distance there proves the clearance.
+fn pair(
+    paths: &NodePaths,
+    step: &Step,
+    struts: (usize, usize),
+    (clearance, tolerance): (f64, f64),
+) -> NearPair {
+    let ((a, b), (c, d)) = (paths.struts[struts.0], paths.struts[struts.1]);
+    let way = |node: usize| step.to[node] - step.from[node];
+    let speed = [(a, c), (a, d), (b, c), (b, d)].map(|(p, q)| (way(p) - way(q)).norm());
+    let speed = speed.into_iter().fold(0.0, f64::max);
+    let mut near = NearPair { struts, distance: f64::INFINITY, part: 0.0, holds: false };
+    let mut part = 0.0;
+    let apart = |part: f64| {
+        let at = |node: usize| step.from[node] + way(node) * part;
+        segment_segment_distance((at(a), at(b)), (at(c), at(d)))
+    };
+    let end = apart(1.0);
+    if end < near.distance {
+        (near.distance, near.part) = (end, 1.0);
+    }
+    for _ in 0..ADVANCEMENT_STEPS_MAX {
+        let distance = apart(part);
+        if distance < near.distance {
+            (near.distance, near.part) = (distance, part);
+        }
+        let spare = distance - clearance + tolerance;
+        if spare < 0.0 {
+            return near;
+        }
+        if part >= 1.0 || spare >= speed * (1.0 - part) {
+            near.holds = true;
+            return near;
+        }
+        part = (part + spare / speed).min(1.0);
+    }
+    near
+}

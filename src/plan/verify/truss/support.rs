@@ -1,0 +1,233 @@
+//! Static stability of a truss: the centre of mass stays above the support polygon of the nodes on the ground;
+//! and rolls over an edge of that polygon, once the centre of mass is above the edge.
+
+use super::judgement::{Judgement, Step};
+use crate::geometry::{Vec3, pose::turned};
+use crate::plan::verify::ledger::{Ledger, keep_least};
+use crate::plan::verify::support_polygon::{self, Point};
+use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
+use crate::units::{Dimension, quantity};
+
+const ADVANCEMENT_STEPS_MAX: usize = 100_000;
+
+/// Judges static stability step after step, and records slip on the way.
+pub struct Standing<'a> {
+    judgement: &'a Judgement<'a>,
+    contact: f64,
+    /// Distance that each node slid over the ground, m.
+    slid: Vec<f64>,
+    /// The steepest slope that a foot stood on, as a ratio.
+    steepest: f64,
+    /// Rolls so far: their times, s, with words.
+    pub events: Vec<(f64, String)>,
+}
+
+/// Returns the centre of mass, m: half of each strut's mass is at each of its ends.
+pub fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
+    let sum: Vec3 = paths.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
+    sum / paths.struts.len().max(1) as f64
+}
+
+/// Returns the least height of a node on a step, m, and where on the step (0 to 1) it is reached.
+pub fn lowest(step: &Step, node: usize) -> (f64, f64) {
+    let (from, to) = (step.from[node], step.to[node]);
+    let ends = if from.z <= to.z { (from.z, 0.0) } else { (to.z, 1.0) };
+    let Interpolation::RigidRoll { edge, angle } = step.interpolation else { return ends };
+    // On its circle a node is lowest half a turn from where it is highest.
+    let origin = step.from[edge.0];
+    let axis = (step.from[edge.1] - origin).normalize();
+    let arm = from - origin;
+    let across = arm - axis * axis.dot(&arm);
+    let (level, ahead) = (across.z, axis.cross(&arm).z);
+    let highest = libm::atan2(ahead, level);
+    let half = std::f64::consts::PI;
+    let bottom = [highest - half, highest + half]
+        .into_iter()
+        .find(|t| 0.0 < t * angle.signum() && t.abs() < angle.abs());
+    match bottom {
+        Some(t) => (from.z - level - libm::hypot(level, ahead), t / angle),
+        None => ends,
+    }
+}
+
+impl<'a> Standing<'a> {
+    /// Returns the state before the first step.
+    pub fn new(judgement: &'a Judgement<'a>) -> Standing<'a> {
+        let paths = judgement.paths;
+        let first = &paths.keyframes[0].nodes;
+        let length = |&(a, b): &(usize, usize)| (Vec3::from(first[a]) - Vec3::from(first[b])).norm();
+        let mean = paths.struts.iter().map(length).sum::<f64>() / paths.struts.len().max(1) as f64;
+        Standing {
+            judgement,
+            contact: judgement.tolerances.contact * mean,
+            slid: vec![0.0; first.len()],
+            steepest: 0.0,
+            events: Vec::new(),
+        }
+    }
+
+    /// Returns the greatest distance that a node slid, m, and the node.
+    pub fn slid(&self) -> (f64, usize) {
+        let most = |best: (f64, usize), (node, slid): (usize, &f64)| {
+            if *slid > best.0 { (*slid, node) } else { best }
+        };
+        self.slid.iter().enumerate().fold((0.0, 0), most)
+    }
+
+    /// Returns in words what is not judged of sliding.
+    pub fn sliding(&self) -> String {
+        let words = "nodes may slide on the ground";
+        if self.steepest == 0.0 {
+            return words.to_owned();
+        }
+        let slope = quantity(libm::atan(self.steepest), Dimension::ANGLE);
+        format!(
+            "{words}; feet stand on slopes of up to {slope}, which takes friction of {:.2}",
+            self.steepest
+        )
+    }
+
+    /// Returns true if a point is on the ground, within the contact tolerance.
+    pub fn touches(&self, p: Vec3) -> bool {
+        self.judgement.paths.surroundings.above(p) <= self.contact
+    }
+
+    /// Returns true if a node is on the ground during the whole step.
+    fn stays_down(&self, step: &Step, node: usize) -> bool {
+        let (from, to) = (step.from[node], step.to[node]);
+        let mut stays = self.touches(from) && self.touches(to);
+        if let Some(terrain) =
+            self.judgement.paths.surroundings.terrain.as_ref().filter(|_| stays && from != to)
+        {
+            terrain.profile(from, to, |_, height| stays &= height <= self.contact);
+        }
+        stays
+    }
+
+    /// Judges static stability during a step.
+    pub fn step(&mut self, step: &Step, ledger: &mut Ledger) {
+        match step.interpolation {
+            Interpolation::Linear => self.straight(step, ledger),
+            Interpolation::RigidRoll { edge, angle } => self.roll(step, edge, angle, ledger),
+        }
+    }
+
+    /// It stands on the nodes that are on the ground all the interpolation: on flat ground, at both ends.
+    fn straight(&mut self, step: &Step, ledger: &mut Ledger) {
+        let feet: Vec<usize> = (0..step.from.len()).filter(|&n| self.stays_down(step, n)).collect();
+        for &node in &feet {
+            if let Some(terrain) = &self.judgement.paths.surroundings.terrain {
+                let [x, y] = terrain.slope(step.from[node].x, step.from[node].y);
+                self.steepest = self.steepest.max(libm::hypot(x, y));
+            }
+            let slid = step.to[node] - step.from[node];
+            self.slid[node] += libm::hypot(slid.x, slid.y);
+        }
+        let paths = self.judgement.paths;
+        let centre_way = centre(paths, &step.to) - centre(paths, &step.from);
+        let fastest =
+            feet.iter().map(|&n| (step.to[n] - step.from[n] - centre_way).norm()).fold(0.0, f64::max);
+        let mut part = 0.0;
+        // The last sample, until stability is proved to the end of the step.
+        let mut lost = Some((f64::NAN, step.start));
+        for _ in 0..ADVANCEMENT_STEPS_MAX {
+            let inside = self.margin(step, &feet, part);
+            let time = step.start + part * step.duration;
+            let names = || feet.iter().map(|&n| paths.node_names[n].clone()).collect();
+            keep_least(&mut ledger.verdict.margin, inside, time, names);
+            lost = Some((inside, time));
+            if inside < -self.judgement.tolerances.support_margin {
+                break;
+            }
+            if part >= 1.0 {
+                lost = None;
+                break;
+            }
+            let advance = if fastest > 0.0 {
+                (inside + 2.0 * self.judgement.tolerances.support_margin) / fastest
+            } else {
+                1.0
+            };
+            part = (part + advance).min(1.0);
+        }
+        if let Some((inside, time)) = lost {
+            let message = if inside >= -self.judgement.tolerances.support_margin {
+                "the centre of mass is so near to the rim of the support that it is not proved to stand"
+                    .to_string()
+            } else if inside.is_finite() {
+                format!(
+                    "the centre of mass is {} outside of the support",
+                    quantity(-inside, Dimension::LENGTH)
+                )
+            } else {
+                "it does not stand on three nodes".to_string()
+            };
+            let names = feet.iter().map(|&n| paths.node_names[n].clone()).collect();
+            let failure = self.judgement.failure(CheckKind::Stability, time, names, message);
+            ledger.fail(Failure { value: inside.max(-f64::MAX), ..failure });
+        }
+    }
+
+    /// Returns the stability margin at a part of the step: the distance of the centre of mass inside the support
+    /// polygon of the feet, m; negative infinity where they span no area.
+    fn margin(&self, step: &Step, feet: &[usize], part: f64) -> f64 {
+        let at = |node: usize| step.from[node] + (step.to[node] - step.from[node]) * part;
+        let paths = self.judgement.paths;
+        let middle = centre(paths, &step.from) * (1.0 - part) + centre(paths, &step.to) * part;
+        let points: Vec<Point> = feet.iter().map(|&node| [at(node).x, at(node).y]).collect();
+        let margin = support_polygon::margin(&points, [middle.x, middle.y]);
+        // On two feet, or on a row of them, nothing stands.
+        margin
+            .filter(|m| m.width > self.judgement.tolerances.support_width)
+            .map_or(f64::NEG_INFINITY, |margin| margin.distance)
+    }
+
+    /// Checks a roll over an edge of the support polygon: both ends of the edge are on the ground, all other feet
+    /// behind it, the centre of mass above it or beyond, and the rotation leads where the plan has the nodes.
+    fn roll(&mut self, step: &Step, edge: (usize, usize), angle: f64, ledger: &mut Ledger) {
+        let paths = self.judgement.paths;
+        let (origin, end) = (step.from[edge.0], step.from[edge.1]);
+        let along = end - origin;
+        let name = format!("{} -- {}", paths.node_names[edge.0], paths.node_names[edge.1]);
+        let refuse = |message: String, ledger: &mut Ledger| {
+            ledger.fail(self.judgement.failure(
+                CheckKind::Stability,
+                step.start,
+                vec![name.clone()],
+                message,
+            ));
+        };
+        let turn = turned(along, angle);
+        let off =
+            step.from.iter().zip(&step.to).map(|(p, q)| (origin + turn.rotation * (p - origin) - q).norm());
+        let off = off.fold(0.0, f64::max);
+        if off > self.judgement.tolerances.roll {
+            refuse(
+                format!("the roll over {name} leads {} elsewhere", quantity(off, Dimension::LENGTH)),
+                ledger,
+            );
+        }
+        if !self.touches(origin) || !self.touches(end) {
+            return refuse(format!("it rolls over {name}, which is not on the ground"), ledger);
+        }
+        // Signed distance beyond the edge: a positive angle lowers what is right of the edge.
+        let beyond = |p: Vec3| {
+            let side = (p.x - origin.x) * along.y - (p.y - origin.y) * along.x;
+            side * angle.signum() / libm::hypot(along.x, along.y)
+        };
+        let feet = (0..step.from.len()).filter(|&n| self.touches(step.from[n]));
+        if let Some(foot) =
+            feet.into_iter().find(|&n| beyond(step.from[n]) > self.judgement.tolerances.support_margin)
+        {
+            let foot = &paths.node_names[foot];
+            return refuse(format!("it rolls over {name}, and stands on {foot} beyond"), ledger);
+        }
+        let centre = beyond(centre(paths, &step.from));
+        if centre < -self.judgement.tolerances.support_margin {
+            let away = quantity(-centre, Dimension::LENGTH);
+            return refuse(format!("it rolls over {name}, and its centre of mass is {away} behind"), ledger);
+        }
+        self.events
+            .push((step.start, format!("rolls over {name} by {}", quantity(angle.abs(), Dimension::ANGLE))));
+    }
+}

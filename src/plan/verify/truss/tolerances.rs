@@ -1,0 +1,64 @@
+//! The tolerances of the judgement of trusses.
+
+/// Tolerances of the judgement of trusses. Lengths in metres, angles in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// Excess of a strut's length over its range. Default 1e-9 m: rounding of the plan's coordinates.
+    pub length: f64,
+    /// Relative excess of a strut's rate over its limit. Default 1e-9: rounding of the plan's coordinates and
+    /// times.
+    pub rate: f64,
+    /// Lack of an angle between two struts. Default 1e-9 rad: rounding.
+    pub angle: f64,
+    /// Excess of a sum of lengths over its range. Default 1e-9 m: rounding.
+    pub length_sum: f64,
+    /// Lack of the least singular value of the rigidity matrix. Default 1e-9: rounding.
+    pub rigidity: f64,
+    /// Lack of the clearance between two struts. Default 1e-9 m: rounding, since distances of segments are
+    /// computed in closed form.
+    pub strut_distance: f64,
+    /// Lack of the clearance between a strut and an obstacle. Default 2e-9 m: distances of convex parts are
+    /// computed by iteration, whose error adds to the rounding.
+    pub obstacle_distance: f64,
+    /// Depth of a node below flat ground. Default 1e-9 m: rounding, since the lowest point is computed in closed
+    /// form.
+    pub flat_ground: f64,
+    /// Depth of a node or strut below uneven ground beyond what it may have. Default 1e-6 m: the advancement over
+    /// a height field then needs few samples.
+    pub uneven_ground: f64,
+    /// Height up to which a node bears weight, as a part of the mean strut length at the start. Default 1e-4:
+    /// real trusses deflect.
+    pub contact: f64,
+    /// Distance of the centre of mass outside the support polygon at a sample; twice that between samples.
+    /// Default 1e-5 m: the advancement then needs few samples.
+    pub support_margin: f64,
+    /// Width below which a support polygon counts as a line. Default 1e-6 m: rounding of coordinates.
+    pub support_width: f64,
+    /// Distance between a node after a rigid roll and where the plan has it. Default 1e-6 m: the plan's angle
+    /// and coordinates are rounded separately.
+    pub roll: f64,
+    /// Difference between a margin that the plan states and the margin found. Default 1e-7: rounding of the
+    /// singular values of large trusses.
+    pub stated_margin: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Tolerances {
+        Tolerances {
+            length: 1e-9,
+            rate: 1e-9,
+            angle: 1e-9,
+            length_sum: 1e-9,
+            rigidity: 1e-9,
+            strut_distance: 1e-9,
+            obstacle_distance: 2e-9,
+            flat_ground: 1e-9,
+            uneven_ground: 1e-6,
+            contact: 1e-4,
+            support_margin: 1e-5,
+            support_width: 1e-6,
+            roll: 1e-6,
+            stated_margin: 1e-7,
+        }
+    }
+}
