@@ -112,7 +112,8 @@ impl<'a> Standing<'a> {
         }
     }
 
-    /// It stands on the nodes that are on the ground all the interpolation: on flat ground, at both ends.
+    /// Checks that the centre of mass stays above the support polygon of the nodes that are on the ground during
+    /// the whole step, by conservative advancement.
     fn straight(&mut self, step: &Step, ledger: &mut Ledger) {
         let feet: Vec<usize> = (0..step.from.len()).filter(|&n| self.stays_down(step, n)).collect();
         for &node in &feet {
