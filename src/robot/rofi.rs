@@ -51,6 +51,7 @@ pub struct Dock {
     pub face: Face,
 }
 
+/// A shoe of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
     /// Shoe A, the body of the module.
@@ -59,6 +60,7 @@ pub enum Side {
     B,
 }
 
+/// A face of a shoe that carries a dock, by its direction in the shoe's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
     /// +X.

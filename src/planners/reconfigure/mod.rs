@@ -64,7 +64,7 @@ pub struct Report {
     pub verdict: Option<Verdict>,
 }
 
-/// Why there is no plan.
+/// A reason for which there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The start and the goal have different numbers of modules.
@@ -124,18 +124,24 @@ impl Error for Refusal {}
 /// use modl::planners::{NoProgress, reconfigure};
 /// use modl::robot::{rofi, rofi_assembly};
 ///
-/// let read = |file| rofi_assembly::assembly(&rofi::read(file).expect("it is a configuration"), 0.1);
-/// let (cross, cross_state) = read("C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nE 0 A +X N -Z A 1\nE 0 A -X N -Z A 2\n");
-/// let (hook, hook_state) = read("C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nE 0 B -Z N -Z A 1\nE 1 B +X N -Z A 2\n");
+/// // Two chains of three modules, end to end with a quarter turn to the one or the other side.
+/// let twisted = |turn| {
+///     let file = format!(
+///         "C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nM 3 0 0 0\nM 4 0 0 0\nM 5 0 0 0\n\
+///         E 0 B -Z N -Z A 1\nE 1 B -Z N -Z A 2\nE 2 B -Z {turn} -Z A 3\nE 3 B -Z N -Z A 4\nE 4 B -Z N -Z A 5\n"
+///     );
+///     rofi_assembly::assembly(&rofi::read(&file).expect("the text is a configuration"), 0.1)
+/// };
+/// let ((east, east_state), (west, west_state)) = (twisted("E"), twisted("W"));
 ///
 /// let problem = reconfigure::Problem {
-///     from: reconfigure::Configuration { robot: &cross, state: &cross_state },
-///     to: reconfigure::Configuration { robot: &hook, state: &hook_state },
+///     from: reconfigure::Configuration { robot: &east, state: &east_state },
+///     to: reconfigure::Configuration { robot: &west, state: &west_state },
 ///     world: World::FREE,
 /// };
 /// let solution = reconfigure::plan(&problem, &reconfigure::Settings::default(), &mut NoProgress)?;
-/// // Two merges to the snake, and one merge backwards to the hook.
-/// assert_eq!((solution.report.both.docks, solution.report.both.undocks), (3, 3));
+/// // One merge to the snake, and one merge backwards.
+/// assert_eq!((solution.report.both.docks, solution.report.both.undocks), (2, 2));
 /// # Ok::<(), reconfigure::Refusal>(())
 /// ```
 pub fn plan(

@@ -61,14 +61,16 @@ pub struct Report {
 /// use modl::planners::{NoProgress, tosnake};
 /// use modl::robot::{rofi, rofi_assembly};
 ///
-/// // A module with another one on either side of its shoe A.
-/// let file = "C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nE 0 A +X N -Z A 1\nE 0 A -X N -Z A 2\n";
+/// // Two chains of three modules, end to end with a quarter turn.
+/// let file = "C\nM 0 0 0 0\nM 1 0 0 0\nM 2 0 0 0\nM 3 0 0 0\nM 4 0 0 0\nM 5 0 0 0\n\
+///     E 0 B -Z N -Z A 1\nE 1 B -Z N -Z A 2\nE 2 B -Z E -Z A 3\nE 3 B -Z N -Z A 4\nE 4 B -Z N -Z A 5\n";
 /// let world = rofi::read(file).expect("the text is a configuration");
 /// let (robot, start) = rofi_assembly::assembly(&world, 0.1);
 ///
 /// let problem = tosnake::Problem { robot: &robot, start: &start, world: World::FREE };
 /// let solution = tosnake::plan(&problem, &tosnake::Settings::default(), &mut NoProgress)?;
-/// assert_eq!((solution.report.docks, solution.report.undocks), (2, 2));
+/// // Their other ends dock, and the bond between them is undocked.
+/// assert_eq!((solution.report.docks, solution.report.undocks), (1, 1));
 /// assert!(solution.body.duration() > 0.0);
 /// # Ok::<(), tosnake::Refusal>(())
 /// ```

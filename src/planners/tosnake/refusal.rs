@@ -7,7 +7,7 @@ use crate::behavior;
 use std::error::Error;
 use std::fmt;
 
-/// Why there is no plan to the snake. Modules and bonds are named by their indices in the assembly.
+/// A reason for which there is no plan to the snake. Modules and bonds are named by their indices in the assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The assembly is none of RoFI modules.
@@ -37,7 +37,7 @@ pub enum Refusal {
     Schedule(behavior::Refusal),
 }
 
-/// Why an assembly is no robot of RoFI modules.
+/// A reason for which an assembly is no robot of RoFI modules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRofi {
     /// This module has other joints or ports.
@@ -46,7 +46,7 @@ pub enum NotRofi {
     Pitch(usize),
 }
 
-/// Why a configuration is no valid start.
+/// A reason for which a configuration is no valid start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InvalidStart {
     /// This module is not connected to the first.
