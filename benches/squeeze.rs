@@ -8,14 +8,14 @@
 mod lattices;
 
 use lattices::{PAPER, TERMS, judged_plan, plan_of, stages_of};
-use modl::planners::squeeze::{Refusal, Terms, Way, accordion, arms, fold, shear};
+use modl::planners::squeeze::{Motion, PlanLimits, Refusal, accordion, arms, fold, shear};
 use std::time::Instant;
 
 /// The allocator that the tool has.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-type Construction = fn(Terms, u64) -> Result<Way, Refusal>;
+type Construction = fn(PlanLimits, u64) -> Result<Motion, Refusal>;
 
 const METHODS: [(&str, Construction); 4] =
     [("accordion", accordion), ("arms", arms), ("fold", fold), ("shear", shear)];

@@ -7,15 +7,16 @@
 use crate::support::lattices::{BALANCED, PAPER, TERMS, judged, judged_plan, plan_of, stages_of, unit_cell};
 use modl::plan::lattice::{end_shapes, peak_forces};
 use modl::plan::{Body, Law, OperationError, Ratio, Stages, joined, reversed};
+use modl::planners::NoProgress;
 use modl::planners::squeeze::{
-    Demand, Found, Method, Profile, Refusal, Task, Terms, Way, accordion, arms, fold, halve, shear, squeeze,
-    to_row, unroll,
+    Method, ModelChoice, Motion, Norm, PlanLimits, Problem, Profile, Refusal, Report, Settings, accordion,
+    arms, fold, halve, shear, to_row, unroll,
 };
 use modl::robot::Cell;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-type Construction = fn(Terms, u64) -> Result<Way, Refusal>;
+type Construction = fn(PlanLimits, u64) -> Result<Motion, Refusal>;
 
 const METHODS: [(&str, Construction); 3] = [("fold", fold), ("accordion", accordion), ("shear", shear)];
 
@@ -55,10 +56,13 @@ fn each_stage_lasts_as_long_as_in_the_reference() {
             let way = construction(TERMS, n.parse().expect("a number")).expect("there is a way");
             // What does not move is no stage here.
             let moving: Vec<&Value> = expected.iter().filter(|stage| number(&stage[1]) > 0.0).collect();
-            assert_eq!(way.legs.len(), moving.len(), "{name} of {n}");
-            for (leg, stage) in way.legs.iter().zip(moving) {
-                let time = libm::sqrt(leg.time_squared.to_f64());
-                assert!(leg.name == stage[0] && near(time, number(&stage[1])), "{name} of {n}: {stage}");
+            assert_eq!(way.transitions.len(), moving.len(), "{name} of {n}");
+            for (transition, stage) in way.transitions.iter().zip(moving) {
+                let time = libm::sqrt(transition.time_squared.to_f64());
+                assert!(
+                    transition.name == stage[0] && near(time, number(&stage[1])),
+                    "{name} of {n}: {stage}"
+                );
             }
         }
     }
@@ -90,8 +94,8 @@ fn small_plans_are_those_of_the_reference_to_the_last_fraction() {
             here.sort_by_key(key);
             assert_eq!(here, boxes, "{name}");
         }
-        for (leg, stage) in way.legs.iter().zip(plan["stages"].as_array().expect("a list")) {
-            assert_eq!(leg.time_squared, fraction(&stage["T2"]), "{name}: {}", leg.name);
+        for (transition, stage) in way.transitions.iter().zip(plan["stages"].as_array().expect("a list")) {
+            assert_eq!(transition.time_squared, fraction(&stage["T2"]), "{name}: {}", transition.name);
         }
     }
 }
@@ -134,8 +138,10 @@ fn shapes_of_the_reference_become_rows_in_the_same_time() {
         let places: Vec<[i64; 2]> = shape["cells"].as_array().expect("a list").iter().map(cell).collect();
         let way = to_row(TERMS, &places, |i| i).expect("there is a way");
         assert!(near(way.duration(), number(&shape["T"])), "{}", shape["name"]);
-        for (leg, stage) in way.legs.iter().zip(shape["stages"].as_array().into_iter().flatten()) {
-            let time = libm::sqrt(leg.time_squared.to_f64());
+        for (transition, stage) in
+            way.transitions.iter().zip(shape["stages"].as_array().into_iter().flatten())
+        {
+            let time = libm::sqrt(transition.time_squared.to_f64());
             assert!(near(time, number(&stage[1])), "{}: {stage}", shape["name"]);
         }
         let stages = stages_of(way.clone(), PAPER);
@@ -244,12 +250,44 @@ fn assert_ends(body: &Body, from: &[[i64; 3]], to: &[[i64; 3]]) {
     assert_eq!(end_shapes(stages).expect("cells are on the lattice"), (settled(from), settled(to)));
 }
 
+/// A problem with its settings.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    from: &'a [[i64; 3]],
+    to: &'a [[i64; 3]],
+    method: Method,
+    demand: ModelChoice,
+    profile: Profile,
+    max_force: Option<f64>,
+    euclidean: bool,
+}
+
+/// A plan with its report.
+#[derive(Debug)]
+struct Found {
+    stages: Stages,
+    lower_bound: f64,
+    method: Method,
+    balanced: bool,
+}
+
+fn squeeze(cell: &Cell, task: &Task) -> Result<Found, Refusal> {
+    let Task { method, demand: model, profile, max_force, euclidean, .. } = *task;
+    let problem = Problem { cell: cell.clone(), start: task.from.to_vec(), goal: task.to.to_vec() };
+    let norm = if euclidean { Norm::Euclidean } else { Norm::EachAxis };
+    let settings = Settings { method, model, profile, max_force, norm };
+    let solution = modl::planners::squeeze::plan(&problem, &settings, &mut NoProgress)?;
+    let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
+    let Report { lower_bound, method, balanced, .. } = solution.report;
+    Ok(Found { stages, lower_bound, method, balanced })
+}
+
 fn task<'a>(from: &'a [[i64; 3]], to: &'a [[i64; 3]]) -> Task<'a> {
     Task {
         from,
         to,
         method: Method::Auto,
-        demand: Demand::Auto,
+        demand: ModelChoice::Auto,
         profile: Profile::BangBang,
         max_force: None,
         euclidean: false,
@@ -257,7 +295,7 @@ fn task<'a>(from: &'a [[i64; 3]], to: &'a [[i64; 3]]) -> Task<'a> {
 }
 
 fn found(task: &Task) -> Found {
-    squeeze(&unit_cell(), 0, task).expect("there is a plan")
+    squeeze(&unit_cell(), task).expect("there is a plan")
 }
 
 /// Found, judged, ends as asked, and the same backwards.
@@ -319,10 +357,10 @@ fn sets_in_space_melt_and_grow() {
         check(&task(&from, &to));
         check(&Task { method: Method::Melt, ..task(&row(count as u64), &to) });
     }
-    // A frame of a cube, whose boxes close loops, and a solid one.
+    // A header of a cube, whose boxes close loops, and a solid one.
     let edge = |p: &[i64; 3]| p.iter().filter(|&&x| x == 0 || x == 3).count() >= 2;
-    let frame: Vec<[i64; 3]> = block([4, 4, 4]).into_iter().filter(edge).collect();
-    check(&task(&frame, &block([2, 4, 4])));
+    let header: Vec<[i64; 3]> = block([4, 4, 4]).into_iter().filter(edge).collect();
+    check(&task(&header, &block([2, 4, 4])));
     check(&Task { method: Method::Melt, ..task(&block([3, 3, 3]), &row(27)) });
 }
 
@@ -348,7 +386,7 @@ fn arms_turn_up_in_balance_and_faster_than_an_accordion_folds() {
         }
     }
     let (from, to) = (row(101), column(101));
-    let balanced = found(&Task { demand: Demand::Balanced, ..task(&from, &to) });
+    let balanced = found(&Task { demand: ModelChoice::Balanced, ..task(&from, &to) });
     assert_eq!(balanced.method, Method::Arms);
 }
 
@@ -358,7 +396,7 @@ fn between_boxes_no_merge_is_missed() {
         [([4, 3, 1], [6, 2, 1]), ([3, 3, 1], [9, 1, 1]), ([5, 3, 1], [3, 5, 1]), ([4, 4, 1], [8, 2, 1])]
     {
         let (from, to) = (block(from), block(to));
-        let any = Task { demand: Demand::Paper, ..task(&from, &to) };
+        let any = Task { demand: ModelChoice::Paper, ..task(&from, &to) };
         let merged = found(&Task { method: Method::Merge, ..any });
         assert!(found(&any).stages.duration() < merged.stages.duration());
         assert!(found(&task(&from, &to)).balanced || !merged.balanced);
@@ -432,14 +470,13 @@ fn the_fastest_is_taken_that_the_model_allows() {
     let even = found(&Task { method: Method::Accordion, ..task(&long, &high) });
     assert_eq!((even.method, even.balanced), (Method::Accordion, true));
     assert!(even.stages.duration() < 1.05 * accordion(TERMS, 1000).expect("there is a way").duration());
-    let paper = found(&Task { demand: Demand::Paper, ..task(&from, &to) });
+    let paper = found(&Task { demand: ModelChoice::Paper, ..task(&from, &to) });
     assert_eq!(paper.method, Method::Shear);
     assert!(near(paper.stages.duration(), paper.lower_bound), "the shear meets the bound");
     assert!(near(paper.lower_bound, libm::sqrt(2.0 * 99.0)));
     let held = squeeze(
         &unit_cell(),
-        0,
-        &Task { demand: Demand::Balanced, method: Method::Shear, ..task(&from, &to) },
+        &Task { demand: ModelChoice::Balanced, method: Method::Shear, ..task(&from, &to) },
     );
     assert_eq!(held.expect_err("it turns"), Refusal::Unbalanced { method: Method::Shear });
 }
@@ -484,7 +521,7 @@ fn limits_of_the_cell_scale_the_plan() {
     let (from, to) = (row(64), column(64));
     // Twice the size at the same force: times grow by √2, where speed does not bind.
     let cell = Cell { size: 2.0, shrinks_to: 1.0, speed: 10.0, ..unit_cell() };
-    let quick = squeeze(&cell, 0, &task(&from, &to)).expect("there is a plan");
+    let quick = squeeze(&cell, &task(&from, &to)).expect("there is a plan");
     let unit = found(&task(&from, &to));
     assert!(near(quick.stages.time_unit, libm::sqrt(2.0)));
     assert!(quick.stages.duration() <= unit.stages.duration() * libm::sqrt(2.0) + 1e-9);
@@ -492,12 +529,12 @@ fn limits_of_the_cell_scale_the_plan() {
     // A slow cell: every stage lasts as long as its contacts need.
     let slow = Cell { speed: 0.01, ..unit_cell() };
     let fixed = Task { method: Method::Accordion, ..task(&from, &to) };
-    let slow = squeeze(&slow, 0, &fixed).expect("there is a plan");
+    let slow = squeeze(&slow, &fixed).expect("there is a plan");
     assert!(slow.stages.stages.iter().all(|stage| stage.time_squared == Ratio(40_000, 1)));
     // With stretches of constant speed it takes little more than half of that.
     let terms = Task { profile: Profile::Trapezoid, ..fixed };
     let cell = Cell { speed: 0.01, ..unit_cell() };
-    let steady = squeeze(&cell, 0, &terms).expect("there is a plan");
+    let steady = squeeze(&cell, &terms).expect("there is a plan");
     assert!(steady.stages.duration() < 0.6 * slow.stages.duration());
     let mut plan = plan_of(steady.stages);
     plan.library = std::sync::Arc::new(modl::robot::Library { cells: vec![cell], ..Default::default() });
@@ -507,9 +544,9 @@ fn limits_of_the_cell_scale_the_plan() {
     assert!(stages.stages.iter().all(|stage| matches!(stage.law, Law::Trapezoid(_))));
     // Cells that hardly shrink can't fold, and need not for the accordion.
     let stiff = Cell { shrinks_to: 0.9, ..unit_cell() };
-    assert!(squeeze(&stiff, 0, &task(&from, &to)).is_ok());
+    assert!(squeeze(&stiff, &task(&from, &to)).is_ok());
     let fold = Task { method: Method::Fold, ..task(&from, &to) };
-    assert_eq!(squeeze(&stiff, 0, &fold).expect_err("too stiff"), Refusal::Stiff { smallest: Ratio(9, 10) });
+    assert_eq!(squeeze(&stiff, &fold).expect_err("too stiff"), Refusal::Stiff { smallest: Ratio(9, 10) });
 }
 
 #[test]
@@ -517,16 +554,16 @@ fn what_is_not_covered_is_refused() {
     let mut tall = block([20, 20, 1]);
     tall.push([0, 0, 1]);
     assert_eq!(
-        squeeze(&unit_cell(), 0, &task(&row(401), &tall)).expect_err("in space"),
+        squeeze(&unit_cell(), &task(&row(401), &tall)).expect_err("in space"),
         Refusal::Solid { first: false, most: 400 }
     );
     assert_eq!(
-        squeeze(&unit_cell(), 0, &task(&row(4), &row(5))).expect_err("one more"),
+        squeeze(&unit_cell(), &task(&row(4), &row(5))).expect_err("one more"),
         Refusal::Counts { from: 4, to: 5 }
     );
     let (tee, bar) = ([[0, 0, 0], [1, 0, 0], [2, 0, 0], [1, 1, 0]], row(4));
     assert_eq!(
-        squeeze(&unit_cell(), 0, &Task { method: Method::Shear, ..task(&bar, &tee) }).expect_err("no column"),
+        squeeze(&unit_cell(), &Task { method: Method::Shear, ..task(&bar, &tee) }).expect_err("no column"),
         Refusal::Method { method: Method::Shear }
     );
 }

@@ -5,13 +5,13 @@ use modl::plan::verify::verify;
 use modl::plan::{
     Body, Cause, CellLimits, Model, Plan, Provenance, Ratio, Settings, Stages, Verdict, World, WorldFrom,
 };
-use modl::planners::squeeze::{Frame, Profile, Terms, Way};
+use modl::planners::squeeze::{Motion, PlanHeader, PlanLimits, Profile};
 use modl::robot::{Cell, Library};
 use std::sync::Arc;
 
 /// Limits of 1 in units of 1.
 pub const UNIT: CellLimits = CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE };
-pub const TERMS: Terms = Terms { limits: UNIT, profile: Profile::BangBang, euclidean: false };
+pub const TERMS: PlanLimits = PlanLimits { cell: UNIT, profile: Profile::BangBang, euclidean: false };
 pub const BALANCED: Model = Model { balanced: true, contact_force: None, euclidean: false };
 pub const PAPER: Model = Model { balanced: false, contact_force: None, euclidean: false };
 
@@ -19,8 +19,8 @@ pub fn unit_cell() -> Cell {
     Cell { name: "Unit".into(), size: 1.0, shrinks_to: 0.5, mass: 1.0, force: 1.0, speed: 1.0 }
 }
 
-pub fn stages_of(way: Way, model: Model) -> Stages {
-    way.into_stages(Frame { cell: 0, time_unit: 1.0, limits: UNIT, model })
+pub fn stages_of(motion: Motion, model: Model) -> Stages {
+    motion.into_stages(PlanHeader { cell: 0, time_unit: 1.0, limits: UNIT, model })
 }
 
 pub fn plan_of(stages: Stages) -> Plan {
@@ -50,6 +50,6 @@ pub fn judged_plan(plan: &Plan) -> Verdict {
     verify(plan)
 }
 
-pub fn judged(way: Way, model: Model) -> Verdict {
-    verify(&plan_of(stages_of(way, model)))
+pub fn judged(motion: Motion, model: Model) -> Verdict {
+    verify(&plan_of(stages_of(motion, model)))
 }

@@ -2,38 +2,43 @@
 //! array like an accordion, and the array unrolls, row after row.
 
 use super::Refusal;
-use super::domain::{Domain, Spot, WHOLE};
-use super::way::{Builder, Terms, Way};
+use super::domain::{CellState, Domain, WHOLE};
+use super::motion::{Builder, Motion, PlanLimits};
 
-/// From a row along x, cell `i` at `i`, to a column along y.
-pub fn accordion(terms: Terms, count: u64) -> Result<Way, Refusal> {
-    of_height(terms, count, rounded_root(count).max(1))
+/// Returns the motion from a row along x, cell `i` at `i`, to a column along y.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit.
+pub fn accordion(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
+    of_height(limits, count, rounded_root(count).max(1))
 }
 
-/// The same through an array whose sides are both even: mirror symmetry keeps its angular momentum at
-/// zero. `None` where there is none; of several the squarest.
-pub fn balanced_accordion(terms: Terms, count: u64) -> Option<Result<Way, Refusal>> {
+/// Returns the same motion through an array whose sides are both even, the squarest: mirror symmetry keeps its
+/// angular momentum at zero. `None` if the count has no such factors.
+pub fn balanced_accordion(limits: PlanLimits, count: u64) -> Option<Result<Motion, Refusal>> {
     let root = rounded_root(count);
     let even = |height: u64| count.is_multiple_of(height) && (count / height).is_multiple_of(2);
     let height = (1..=root / 2).rev().map(|half| 2 * half).find(|&height| even(height))?;
-    Some(of_height(terms, count, height))
+    Some(of_height(limits, count, height))
 }
 
-fn of_height(terms: Terms, count: u64, height: u64) -> Result<Way, Refusal> {
+fn of_height(limits: PlanLimits, count: u64, height: u64) -> Result<Motion, Refusal> {
     let array = Array::new(count, height);
-    let row = |i: u64| Spot::whole([i as i64, 0, 0]);
+    let row = |i: u64| CellState::whole([i as i64, 0, 0]);
     let columns = array.columns_in_turn();
-    let mut builder = Builder::new(terms, count, &columns, row)?;
-    builder.stage("y-slide", WHOLE, &columns, move |i| Spot::whole([i as i64, array.level(i), 0]))?;
-    builder
-        .stage("x-collapse", WHOLE, &columns, move |i| Spot::whole([array.column(i), array.level(i), 0]))?;
+    let mut builder = Builder::new(limits, count, &columns, row)?;
+    builder.stage("y-slide", WHOLE, &columns, move |i| CellState::whole([i as i64, array.level(i), 0]))?;
+    builder.stage("x-collapse", WHOLE, &columns, move |i| {
+        CellState::whole([array.column(i), array.level(i), 0])
+    })?;
     let rows = array.rows_in_turn();
-    builder.stage("y-unfold", WHOLE, &rows, move |i| Spot::whole([array.column(i), array.index(i), 0]))?;
-    builder.stage("x-slide", WHOLE, &rows, move |i| Spot::whole([0, array.index(i), 0]))?;
-    Ok(builder.way())
+    builder
+        .stage("y-unfold", WHOLE, &rows, move |i| CellState::whole([array.column(i), array.index(i), 0]))?;
+    builder.stage("x-slide", WHOLE, &rows, move |i| CellState::whole([0, array.index(i), 0]))?;
+    Ok(builder.motion())
 }
 
-/// Place in the column of each cell.
+/// Returns the place in the column of each cell at the end of [`accordion`].
 pub fn places_in_column(count: u64) -> Vec<u64> {
     let array = Array::new(count, rounded_root(count).max(1));
     (0..count).map(|i| array.index(i) as u64).collect()

@@ -6,40 +6,43 @@
 //! hang together with it on both sides of the corner that they turn about.
 
 use super::Refusal;
-use super::domain::{Domain, Spot, WHOLE};
-use super::way::{Builder, Terms, Way};
+use super::domain::{CellState, Domain, WHOLE};
+use super::motion::{Builder, Motion, PlanLimits};
 
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// From a row along x, cell `i` at `i`, to a column along y. At least four cells.
-pub fn arms(terms: Terms, count: u64) -> Result<Way, Refusal> {
+/// Returns the motion from a row along x, cell `i` at `i`, to a column along y. Takes at least four cells.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit.
+pub fn arms(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     let arms = Arms { count };
     let domains = arms.domains();
-    let mut builder = Builder::new(terms, count, &domains, |i| Spot::whole([i as i64, 0, 0]))?;
+    let mut builder = Builder::new(limits, count, &domains, |i| CellState::whole([i as i64, 0, 0]))?;
     builder.stage("y-slide", HALF, &domains, move |i| {
-        arms.spot(i, |k, x| ([x - WHOLE * k, HALF], [WHOLE; 2]))
+        arms.state(i, |k, x| ([x - WHOLE * k, HALF], [WHOLE; 2]))
     })?;
-    builder.twin_stages(
+    builder.two_phase_stage(
         "arms",
         WHOLE,
         &domains,
-        move |i| arms.spot(i, |k, x| ([x - QUARTER - HALF * k, QUARTER + HALF * k], [HALF; 2])),
-        move |i| arms.spot(i, |k, x| ([x - HALF, WHOLE * k], [WHOLE; 2])),
+        move |i| arms.state(i, |k, x| ([x - QUARTER - HALF * k, QUARTER + HALF * k], [HALF; 2])),
+        move |i| arms.state(i, |k, x| ([x - HALF, WHOLE * k], [WHOLE; 2])),
     )?;
     builder.stage("x-squeeze", HALF, &domains, move |i| arms.squeezed(i))?;
     builder.stage("swap-contract", HALF, &domains, move |i| arms.contracted(i))?;
     builder.stage("swap-expand", HALF, &domains, move |i| {
-        let mut spot = arms.contracted(i);
-        (spot.center[0], spot.size[0]) = (0, WHOLE);
-        spot
+        let mut state = arms.contracted(i);
+        (state.center[0], state.size[0]) = (0, WHOLE);
+        state
     })?;
     builder.stage("y-expand", HALF, &domains, move |i| {
-        let mut spot = Spot::whole([0, arms.place(i), 0]);
-        spot.center[0] = 0;
-        spot
+        let mut state = CellState::whole([0, arms.place(i), 0]);
+        state.center[0] = 0;
+        state
     })?;
-    Ok(builder.way())
+    Ok(builder.motion())
 }
 
 #[derive(Clone, Copy)]
@@ -74,29 +77,29 @@ impl Arms {
 
     /// The middle where it is, the arms where `place` says: of a left one, by its level and the place at
     /// which the arm begins.
-    fn spot(self, i: u64, place: impl Fn(i64, i64) -> ([i64; 2], [i64; 2])) -> Spot {
+    fn state(self, i: u64, place: impl Fn(i64, i64) -> ([i64; 2], [i64; 2])) -> CellState {
         let Part { level, side } = self.part(i);
         let middle = if self.is_odd() { 0 } else { HALF };
         let ([x, y], [w, h]) = if level == 0 { ([-middle, 0], [WHOLE; 2]) } else { place(level, -middle) };
-        Spot { center: [-side * x, y, HALF], size: [w, h, WHOLE] }
+        CellState { center: [-side * x, y, HALF], size: [w, h, WHOLE] }
     }
 
     /// Two columns of half the width; a lone cell in the middle stays whole.
-    fn squeezed(self, i: u64) -> Spot {
+    fn squeezed(self, i: u64) -> CellState {
         let Part { level, side } = self.part(i);
         let width = if side == 0 { WHOLE } else { HALF };
-        Spot { center: [side * QUARTER, WHOLE * level, HALF], size: [width, WHOLE, WHOLE] }
+        CellState { center: [side * QUARTER, WHOLE * level, HALF], size: [width, WHOLE, WHOLE] }
     }
 
     /// In every level one cell goes up and the other down, in the next the other way round.
-    fn contracted(self, i: u64) -> Spot {
+    fn contracted(self, i: u64) -> CellState {
         let Part { level, side } = self.part(i);
-        let mut spot = self.squeezed(i);
+        let mut state = self.squeezed(i);
         if side != 0 {
-            spot.center[1] += if self.is_up(level, side) { QUARTER } else { -QUARTER };
-            spot.size[1] = HALF;
+            state.center[1] += if self.is_up(level, side) { QUARTER } else { -QUARTER };
+            state.size[1] = HALF;
         }
-        spot
+        state
     }
 
     fn is_up(self, level: i64, side: i64) -> bool {

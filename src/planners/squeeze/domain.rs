@@ -1,45 +1,49 @@
-//! Sets of cells in closed form: numbers of cells that run with nested counters, on which places are
-//! affine.
+//! Sets of cells in closed form: arithmetic progressions of cell numbers with nested counters, on which
+//! positions are affine.
 
-/// A cell at an instant; in quarters of its size, in which all constructions move.
+/// The state of a cell at an instant, in quarters of its size, the grid of all constructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Spot {
+pub struct CellState {
+    /// The centre, quarters of a cell.
     pub center: [i64; 3],
+    /// The sides, quarters of a cell.
     pub size: [i64; 3],
 }
 
-/// A cell's size in quarters.
+/// The side of a cell at its full size, in quarters.
 pub const WHOLE: i64 = 4;
 
-impl Spot {
-    /// A whole cell at a place of the lattice.
-    pub fn whole(place: [i64; 3]) -> Spot {
-        Spot { center: place.map(|x| WHOLE * x + WHOLE / 2), size: [WHOLE; 3] }
+impl CellState {
+    /// Returns the state of a cell of full size at a place of the lattice.
+    pub fn whole(place: [i64; 3]) -> CellState {
+        CellState { center: place.map(|x| WHOLE * x + WHOLE / 2), size: [WHOLE; 3] }
     }
 }
 
-/// The cells `first + Σ stride·k`, each counter `k` in 0..count.
+/// The cells numbered `first + Σ stride·k`, each counter `k` in 0..count.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Domain {
+    /// The number of the first cell.
     pub first: u64,
     /// Count and stride, outermost first.
     pub counters: Vec<(u64, i64)>,
 }
 
 impl Domain {
-    /// The counters that count; none if the domain has no cell.
+    /// Returns the domain with counters of one value left out; `None` if it has no cell.
     pub fn new(first: u64, counters: &[(u64, i64)]) -> Option<Domain> {
         let counters: Vec<(u64, i64)> = counters.iter().copied().filter(|(count, _)| *count != 1).collect();
         counters.iter().all(|(count, _)| *count > 0).then_some(Domain { first, counters })
     }
 
+    /// Returns the number of cells.
     pub fn count(&self) -> u64 {
         self.counters.iter().map(|(count, _)| count).product()
     }
 }
 
-/// The cells `lo..hi`, in blocks whose cells share all but their low bits, by parity: on each of them
-/// every function is affine that depends on single bits and on the first.
+/// Returns the cells `lo..hi` in blocks whose numbers share all but their low bits, split by parity: on each
+/// block every function is affine that is a sum of functions of single bits and of the lowest.
 pub fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
     let mut domains = Vec::new();
     let mut at = lo;
@@ -53,7 +57,8 @@ pub fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
     domains
 }
 
-/// The cells `first + low + 2^bits·q` for all `low` of that many bits and `q` in 0..times, by parity.
+/// Returns the cells `first + low + 2^bits·q` for all `low` of that many bits and `q` in 0..times, split by
+/// parity.
 pub fn free_bits(first: u64, bits: u32, times: u64) -> Vec<Domain> {
     let counters: Vec<(u64, i64)> =
         std::iter::once((times, 1_i64 << bits)).chain((1..bits).rev().map(|bit| (2, 1_i64 << bit))).collect();

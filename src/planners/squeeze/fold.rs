@@ -11,17 +11,20 @@
 //! cell stay one row, and cells are counted.
 
 use super::Refusal;
-use super::domain::{Domain, Spot, WHOLE, by_bits, free_bits};
+use super::domain::{CellState, Domain, WHOLE, by_bits, free_bits};
+use super::motion::{Builder, Motion, PlanLimits};
 use super::ranks;
-use super::way::{Builder, Terms, Way};
 
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// From a row along x, cell `i` at `i`, to a column along y.
-pub fn fold(terms: Terms, count: u64) -> Result<Way, Refusal> {
+/// Returns the motion from a row along x, cell `i` at `i`, to a column along y.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit.
+pub fn fold(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     let folds = u64::BITS - (count - 1).leading_zeros();
-    let mut builder = Builder::new(terms, count, &parts(count, 0), |i| whole(i, 0))?;
+    let mut builder = Builder::new(limits, count, &parts(count, 0), |i| whole(i, 0))?;
     for k in 0..folds {
         // Rows of one cell, in the last fold: theirs are the cells before this one.
         let lone = if k + 1 == folds { (1 << folds) - count } else { 0 };
@@ -32,56 +35,56 @@ pub fn fold(terms: Terms, count: u64) -> Result<Way, Refusal> {
         builder.stage("swap-expand", HALF, &domains, move |i| stacked(i, k, lone))?;
         if lone > 0 {
             let (domains, rank) = ranks::of(count, folds);
-            builder.stage("y-expand", HALF, &domains, move |i| Spot::whole([0, rank(i), 0]))?;
+            builder.stage("y-expand", HALF, &domains, move |i| CellState::whole([0, rank(i), 0]))?;
         } else {
             builder.stage("y-expand", HALF, &domains, move |i| whole(i, k + 1))?;
         }
     }
-    Ok(builder.way())
+    Ok(builder.motion())
 }
 
-/// The row of a cell before fold `k`.
+/// Returns the row of a cell before fold `k`.
 pub fn row(i: u64, k: u32) -> u64 {
     let differing = if i & 1 == 1 { !i } else { i };
     // Bit 1 is the first, and the highest.
     if k == 0 { 0 } else { (differing >> 1).reverse_bits() >> (u64::BITS - k) }
 }
 
-/// Before fold `k`, and after the one before it.
-fn whole(i: u64, k: u32) -> Spot {
-    Spot::whole([(i >> k) as i64, row(i, k) as i64, 0])
+/// Returns the state of a cell before fold `k`, which is that after the one before.
+fn whole(i: u64, k: u32) -> CellState {
+    CellState::whole([(i >> k) as i64, row(i, k) as i64, 0])
 }
 
-fn squeezed(i: u64, k: u32) -> Spot {
-    let mut spot = whole(i, k);
-    spot.center[0] = HALF * (i >> k) as i64 + QUARTER;
-    spot.size[0] = HALF;
-    spot
+fn squeezed(i: u64, k: u32) -> CellState {
+    let mut state = whole(i, k);
+    state.center[0] = HALF * (i >> k) as i64 + QUARTER;
+    state.size[0] = HALF;
+    state
 }
 
-fn widened(i: u64, k: u32, lone: u64) -> Spot {
+fn widened(i: u64, k: u32, lone: u64) -> CellState {
     if i < lone { whole(i, k) } else { squeezed(i, k) }
 }
 
-fn contracted(i: u64, k: u32, lone: u64) -> Spot {
-    let mut spot = widened(i, k, lone);
+fn contracted(i: u64, k: u32, lone: u64) -> CellState {
+    let mut state = widened(i, k, lone);
     if i >= lone {
         let up = (i ^ (i >> (k + 1))) & 1 == 1;
-        spot.center[1] += if up { QUARTER } else { -QUARTER };
-        spot.size[1] = HALF;
+        state.center[1] += if up { QUARTER } else { -QUARTER };
+        state.size[1] = HALF;
     }
-    spot
+    state
 }
 
-/// Both cells of a box over its whole width.
-fn stacked(i: u64, k: u32, lone: u64) -> Spot {
-    let mut spot = contracted(i, k, lone);
-    spot.center[0] = WHOLE * (i >> (k + 1)) as i64 + HALF;
-    spot.size[0] = WHOLE;
-    spot
+/// Returns the state in which both cells of a box have its whole width.
+fn stacked(i: u64, k: u32, lone: u64) -> CellState {
+    let mut state = contracted(i, k, lone);
+    state.center[0] = WHOLE * (i >> (k + 1)) as i64 + HALF;
+    state.size[0] = WHOLE;
+    state
 }
 
-/// Domains on which everything in fold `k` is affine.
+/// Returns domains on which all states in fold `k` are affine.
 fn parts(count: u64, k: u32) -> Vec<Domain> {
     let bits = k + 2;
     let times = count >> bits;

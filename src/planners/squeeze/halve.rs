@@ -2,15 +2,16 @@
 //! doubles another, so the sides change by powers of two.
 
 use super::Refusal;
-use super::domain::{Spot, WHOLE};
-use super::explicit::Listed;
-use super::way::{Terms, Way};
+use super::domain::{CellState, WHOLE};
+use super::listed::Listed;
+use super::motion::{Motion, PlanLimits};
 
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// From a box to another with sides that differ by powers of two; `None` where they don't.
-pub fn halve(terms: Terms, from: [u64; 3], to: [u64; 3]) -> Option<Result<Way, Refusal>> {
+/// Returns the motion from a box to another whose sides, in cells, differ by powers of two; `None` if they do
+/// not.
+pub fn halve(limits: PlanLimits, from: [u64; 3], to: [u64; 3]) -> Option<Result<Motion, Refusal>> {
     let folds = folds(from, to)?;
     let mut places: Vec<[i64; 3]> = Vec::new();
     for z in 0..from[2] {
@@ -18,12 +19,12 @@ pub fn halve(terms: Terms, from: [u64; 3], to: [u64; 3]) -> Option<Result<Way, R
             places.extend((0..from[0]).map(|x| [x as i64, y as i64, z as i64]));
         }
     }
-    let mut motion = Listed::new(places.iter().map(|place| Spot::whole(*place)).collect());
+    let mut motion = Listed::new(places.iter().map(|place| CellState::whole(*place)).collect());
     for (a, b) in folds {
         fold(&mut motion, &mut places, a, b);
     }
     let numbers: Vec<u64> = (0..places.len() as u64).collect();
-    Some(motion.way(terms, &numbers))
+    Some(motion.into_motion(limits, &numbers))
 }
 
 /// Which side is halved and which doubled, the longest and the shortest first.
@@ -52,25 +53,25 @@ fn fold(motion: &mut Listed, places: &mut [[i64; 3]], a: usize, b: usize) {
     let up = |place: [i64; 3]| (place[a] + (place[a] >> 1) + place[b]) & 1;
     let names = |names: [&'static str; 3], axis: usize| names[axis];
     let at: Vec<[i64; 3]> = places.to_vec();
-    motion.stage(names(["x-squeeze", "y-squeeze", "z-squeeze"], a), |i, spot| {
-        spot.center[a] = HALF * at[i][a] + QUARTER;
-        spot.size[a] = HALF;
+    motion.stage(names(["x-squeeze", "y-squeeze", "z-squeeze"], a), |i, state| {
+        state.center[a] = HALF * at[i][a] + QUARTER;
+        state.size[a] = HALF;
     });
-    motion.stage("swap-contract", |i, spot| {
-        spot.center[b] += if up(at[i]) == 1 { QUARTER } else { -QUARTER };
-        spot.size[b] = HALF;
+    motion.stage("swap-contract", |i, state| {
+        state.center[b] += if up(at[i]) == 1 { QUARTER } else { -QUARTER };
+        state.size[b] = HALF;
     });
-    motion.stage("swap-expand", |i, spot| {
-        spot.center[a] = WHOLE * (at[i][a] >> 1) + HALF;
-        spot.size[a] = WHOLE;
+    motion.stage("swap-expand", |i, state| {
+        state.center[a] = WHOLE * (at[i][a] >> 1) + HALF;
+        state.size[a] = WHOLE;
     });
     for place in places.iter_mut() {
         let high = up(*place);
         place[a] >>= 1;
         place[b] = 2 * place[b] + high;
     }
-    motion.stage(names(["x-expand", "y-expand", "z-expand"], b), |i, spot| {
-        spot.center[b] = WHOLE * places[i][b] + HALF;
-        spot.size[b] = WHOLE;
+    motion.stage(names(["x-expand", "y-expand", "z-expand"], b), |i, state| {
+        state.center[b] = WHOLE * places[i][b] + HALF;
+        state.size[b] = WHOLE;
     });
 }

@@ -9,9 +9,9 @@
 //! (and no less: one box lets one cell pass at a time).
 
 use super::Refusal;
-use super::domain::{Spot, WHOLE};
-use super::explicit::Listed;
-use super::way::{Terms, Way};
+use super::domain::{CellState, WHOLE};
+use super::listed::Listed;
+use super::motion::{Motion, PlanLimits};
 use std::collections::{BTreeMap, BTreeSet};
 
 const HALF: i64 = WHOLE / 2;
@@ -22,8 +22,8 @@ const CONTRACT: [&str; 3] = ["swap x-contract", "swap y-contract", "swap z-contr
 const PASS: [&str; 3] = ["x-pass", "y-pass", "z-pass"];
 
 /// From a connected set to a row along x, in which cell `name(i)` is at `i`.
-pub fn melt(terms: Terms, places: &[[i64; 3]], name: impl Fn(u64) -> u64) -> Result<Way, Refusal> {
-    let start = places.iter().map(|place| Spot::whole(*place)).collect();
+pub fn melt(limits: PlanLimits, places: &[[i64; 3]], name: impl Fn(u64) -> u64) -> Result<Motion, Refusal> {
+    let start = places.iter().map(|place| CellState::whole(*place)).collect();
     let mut motion = Listed::new(start);
     let mut tree = Tree::of(places);
     let mut idle = 0;
@@ -41,7 +41,7 @@ pub fn melt(terms: Terms, places: &[[i64; 3]], name: impl Fn(u64) -> u64) -> Res
     let mut number = vec![0; places.len()];
     let row = tree.boxes[&tree.root].cells.iter().chain(&tree.row);
     row.enumerate().for_each(|(i, &cell)| number[cell] = name(i as u64));
-    motion.way(terms, &number)
+    motion.into_motion(limits, &number)
 }
 
 type Place = [i64; 3];
@@ -133,19 +133,19 @@ impl Tree {
             halves.insert(pair[0], (*place, upward));
             halves.insert(pair[1], (*place, !upward));
         }
-        motion.stage(CONTRACT[axis], |cell, spot| {
+        motion.stage(CONTRACT[axis], |cell, state| {
             if let Some((_, high)) = halves.get(&cell) {
-                spot.center[axis] += if *high { QUARTER } else { -QUARTER };
-                spot.size[axis] = HALF;
+                state.center[axis] += if *high { QUARTER } else { -QUARTER };
+                state.size[axis] = HALF;
             }
         });
         // All at once: between the two stages the cells of a pair touch along an edge only.
         let boxes = &self.boxes;
-        motion.stage("swap expand", |cell, spot| {
+        motion.stage("swap expand", |cell, state| {
             if let Some((place, _)) = halves.get(&cell) {
                 let split = boxes[place].split;
-                spot.center[split] = WHOLE * place[split] + HALF;
-                spot.size[split] = WHOLE;
+                state.center[split] = WHOLE * place[split] + HALF;
+                state.size[split] = WHOLE;
             }
         });
         for place in turning {
@@ -159,7 +159,7 @@ impl Tree {
     /// Lets leaves and halves go on along an axis, each as far as boxes in line have room.
     fn pass(&mut self, motion: &mut Listed, axis: usize) -> bool {
         let mut used: BTreeSet<Place> = BTreeSet::new();
-        let mut goals: BTreeMap<usize, Spot> = BTreeMap::new();
+        let mut goals: BTreeMap<usize, CellState> = BTreeMap::new();
         for place in self.order.clone() {
             let Some(line) = self.line(place, axis, &used) else { continue };
             used.extend(line.iter().copied());
@@ -170,9 +170,9 @@ impl Tree {
         }
         let boxes = &self.boxes;
         self.order.retain(|place| boxes.contains_key(place));
-        motion.stage(PASS[axis], |cell, spot| {
+        motion.stage(PASS[axis], |cell, state| {
             if let Some(goal) = goals.get(&cell) {
-                *spot = *goal;
+                *state = *goal;
             }
         });
         true
@@ -203,7 +203,7 @@ impl Tree {
     }
 
     /// Moves the cells of a line of boxes on by one, out to the row if it leads there.
-    fn advance(&mut self, line: &[Place], goals: &mut BTreeMap<usize, Spot>) {
+    fn advance(&mut self, line: &[Place], goals: &mut BTreeMap<usize, CellState>) {
         let (first, last) = (line[0], line[line.len() - 1]);
         let Some((axis, step, leaf)) = self.boxes.get(&first).map(|b| (b.axis, b.step, b.cells.len() == 1))
         else {
@@ -223,7 +223,7 @@ impl Tree {
             let whole = out || *place != last;
             b.cells = cells.by_ref().take(if whole { 1 } else { 2 }).collect();
             if let [cell] = b.cells[..] {
-                goals.insert(cell, Spot::whole(*place));
+                goals.insert(cell, CellState::whole(*place));
                 continue;
             }
             if step < 0 {
@@ -231,16 +231,16 @@ impl Tree {
             }
             b.split = axis;
             for (cell, side) in b.cells.iter().zip([-QUARTER, QUARTER]) {
-                let mut spot = Spot::whole(*place);
-                spot.center[axis] += side;
-                spot.size[axis] = HALF;
-                goals.insert(*cell, spot);
+                let mut state = CellState::whole(*place);
+                state.center[axis] += side;
+                state.size[axis] = HALF;
+                goals.insert(*cell, state);
             }
         }
         if out {
             self.row.splice(0..0, cells);
             for (i, &cell) in self.row.iter().enumerate() {
-                goals.insert(cell, Spot::whole(moved(self.root, X, i as i64 + 1)));
+                goals.insert(cell, CellState::whole(moved(self.root, X, i as i64 + 1)));
             }
         }
         if leaf {

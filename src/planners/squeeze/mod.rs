@@ -1,45 +1,65 @@
-//! Squeeze: kinodynamic reconfiguration of lattices of expanding cubes, after "Asymptotically optimal
-//! kinodynamic motion planning for a class of modular self-reconfigurable robots" (Reif and Slee).
+//! `squeeze`: kinodynamic reconfiguration of lattices of expanding cubes, after "Asymptotically optimal
+//! kinodynamic motion planning for a class of modular self-reconfigurable robots" (Reif and Slee). Plans are
+//! time-optimal in order: O(√n) for n cells of bounded acceleration.
 //!
 //! What is mended of the paper, what is better than it, and by which conditions plans are judged:
 //! `docs/planners/squeeze.md`.
 //!
-//! A problem is solved through a row: a way from either shape to one row, the second backwards
-//! ([`ways`]). All ways are built from configurations in closed form ([`way`]); of those that the model
-//! allows the fastest is taken ([`choose`]).
+//! A problem is solved through a row: a motion from either shape to one row, the second backwards
+//! (`candidates`). All motions are built from configurations in closed form (`motion`); of those that the
+//! model allows the fastest is taken (`selection`).
+//!
+//! ```
+//! use modl::planners::squeeze::{self, Method, Problem, Settings};
+//! use modl::planners::NoProgress;
+//! use modl::robot::Cell;
+//!
+//! let name = "Cube".to_owned();
+//! let cell = Cell { name, size: 1.0, shrinks_to: 0.5, speed: 1.0, force: 1.0, mass: 1.0 };
+//! let row: Vec<[i64; 3]> = (0..16).map(|i| [i, 0, 0]).collect();
+//! let column: Vec<[i64; 3]> = (0..16).map(|i| [0, i, 0]).collect();
+//! let problem = Problem { cell, start: row, goal: column };
+//! let settings = Settings { method: Method::Accordion, ..Settings::default() };
+//! let solution = squeeze::plan(&problem, &settings, &mut NoProgress)?;
+//! assert!(solution.report.balanced);
+//! assert!((solution.body.duration() - 14.697).abs() < 1e-3);
+//! # Ok::<(), squeeze::Refusal>(())
+//! ```
 
 mod accordion;
 mod arms;
-mod choose;
+mod candidates;
 mod domain;
-mod explicit;
 mod fold;
 mod halve;
+mod listed;
 mod melt;
+mod motion;
 mod planar;
 mod ranks;
 mod retime;
+mod selection;
 mod shape;
 mod shear;
 mod unroll;
-mod way;
-mod ways;
 
 pub use accordion::accordion;
 pub use arms::arms;
-pub use choose::squeeze;
-pub use domain::{Domain, Spot};
+pub use domain::{CellState, Domain};
 pub use fold::fold;
 pub use halve::halve;
 pub use melt::melt;
+pub use motion::{Motion, PlanHeader, PlanLimits, Profile, Transition};
 pub use planar::to_row;
+pub use selection::plan;
 pub use shear::shear;
 pub use unroll::unroll;
-pub use way::{Frame, Leg, Profile, Terms, Way};
 
-use crate::plan::{Ratio, Stages};
+use crate::plan::Ratio;
+use crate::robot::Cell;
+use std::fmt;
 
-/// How to get from one shape to the other.
+/// A construction of motions between shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// The fastest that the model allows.
@@ -49,85 +69,160 @@ pub enum Method {
     Accordion,
     /// The paper's, mended: boxes whose sides differ by powers of two, and rows of any length.
     Fold,
-    /// A row turns to a column in one go.
+    /// A row shears to a column in one stage.
     Shear,
-    /// A row to a column: its halves turn up, and merge.
+    /// A row of at least four cells to a column: its halves turn up, and merge.
     Arms,
-    /// Any connected sets in planes.
+    /// Any connected sets in planes, rows merging two by two.
     Merge,
     /// Any connected sets, in space too, one cell after another.
     Melt,
 }
 
-/// Whether something outside may turn the robot.
+/// The model of angular momentum, which decides which motions are allowed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Demand {
-    /// Balanced where such a way is known; else what turns least.
+pub enum ModelChoice {
+    /// Zero angular momentum where such a motion is known; else all but the shear, which turns most.
     #[default]
     Auto,
-    /// The angular momentum stays zero.
+    /// Zero angular momentum at all times: a free robot does not turn.
     Balanced,
-    /// The paper's: translational forces only, angular momentum is not asked for.
+    /// The paper's: translational forces only, and any angular momentum.
     Paper,
 }
 
-/// What is to be done. Places are those of the lattice.
-#[derive(Clone, Copy, Debug)]
-pub struct Task<'a> {
-    pub from: &'a [[i64; 3]],
-    pub to: &'a [[i64; 3]],
+/// A norm of accelerations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Norm {
+    /// The greatest component along an axis.
+    #[default]
+    EachAxis,
+    /// The Euclidean norm.
+    Euclidean,
+}
+
+/// Two shapes of lattice cells of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// The kind of all cells; number 0 of the plan's library.
+    pub cell: Cell,
+    /// The places of the cells at the start, in cells.
+    pub start: Vec<[i64; 3]>,
+    /// The places of the cells at the end, as many, up to a translation.
+    pub goal: Vec<[i64; 3]>,
+}
+
+/// The settings of `squeeze`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// The construction. Auto: the fastest that the model allows.
     pub method: Method,
-    pub demand: Demand,
+    /// The model of angular momentum. Auto.
+    pub model: ModelChoice,
+    /// The velocity profile of stages. Bang-bang, as in the paper.
     pub profile: Profile,
-    /// Greatest contact force, N.
+    /// The greatest contact force, N; `None`, the default, for no limit, as in the paper.
     pub max_force: Option<f64>,
-    /// Whether a cell's force bounds the length of its acceleration, not only the part along each axis.
-    pub euclidean: bool,
+    /// The norm of a cell's acceleration that its force bounds. Each axis, as in the paper.
+    pub norm: Norm,
 }
 
-/// What was found.
-#[derive(Clone, Debug)]
-pub struct Found {
-    pub stages: Stages,
-    /// Seconds.
+/// The figures of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// A lower bound on the duration of any motion between the shapes, s.
     pub lower_bound: f64,
+    /// The method that was taken.
     pub method: Method,
+    /// True if the angular momentum stays zero.
     pub balanced: bool,
-    /// Why this method, in words.
+    /// The reason for the method, in words.
     pub why: String,
+    /// The name and duration (s) of each stage.
+    pub stages: Vec<(String, f64)>,
 }
 
-/// Why there is no plan.
+/// The reason why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
+    /// The shapes differ in their number of cells.
     Counts {
+        /// Cells at the start.
         from: usize,
+        /// Cells at the end.
         to: usize,
     },
-    /// The cells shrink to more than half their size (this part of it).
+    /// The cells do not shrink to half their size, as the method needs.
     Stiff {
+        /// The part of their size that they shrink to.
         smallest: Ratio,
     },
-    /// A shape that is neither flat nor a box, of more cells than melt.
+    /// A shape is neither flat nor a box, and has too many cells to melt.
     Solid {
+        /// True if it is the start.
         first: bool,
+        /// The number of cells that melt at most.
         most: usize,
     },
     /// The method is for other shapes.
     Method {
+        /// The method that was asked for.
         method: Method,
     },
-    /// No way is known that keeps the angular momentum at zero.
+    /// No motion is known that keeps the angular momentum at zero.
     Unbalanced {
+        /// The method that was asked for.
         method: Method,
     },
-    /// Numbers beyond 64 bits, or too many cells.
+    /// A number does not fit 64 bits.
     TooLarge,
+    /// The observer ended the search before there was a plan.
+    Cancelled,
     /// The construction did not come out right: a defect of the planner.
     Defect(String),
 }
 
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let cells = |n: usize| if n == 1 { "1 cell".to_string() } else { format!("{n} cells") };
+        match self {
+            Refusal::Counts { from, to } => {
+                write!(f, "{} do not become {}: there are as many in the end", cells(*from), cells(*to))
+            }
+            Refusal::Stiff { .. } => {
+                f.write_str("the cells do not shrink to half their size, as this method needs")
+            }
+            Refusal::Solid { most, .. } => {
+                write!(f, "shapes in space of more than {most} cells are not taken to others")
+            }
+            Refusal::Method { method } => {
+                let covered = match method {
+                    Method::Shear => "`shear` takes a row to a column",
+                    Method::Arms => "`arms` takes a row of at least four cells to a column",
+                    Method::Fold => {
+                        "`fold` takes rows to columns, and boxes to boxes whose sides differ by powers of two"
+                    }
+                    Method::Accordion => "`accordion` takes rows and boxes to each other",
+                    Method::Merge => "`merge` takes shapes in a plane to each other",
+                    Method::Melt => "`melt` takes shapes of up to 400 cells to each other",
+                    Method::Auto => "no method takes the one to the other",
+                };
+                write!(f, "the method does not fit these shapes: {covered}")
+            }
+            Refusal::Unbalanced { .. } => {
+                f.write_str("no way is known on which the angular momentum stays zero")
+            }
+            Refusal::TooLarge => f.write_str("the numbers of this plan are too large to be kept exactly"),
+            Refusal::Cancelled => f.write_str("the search was ended before there was a plan"),
+            Refusal::Defect(what) => write!(f, "the planner failed: {what}"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
 impl Method {
+    /// Returns the word for it in programs.
     pub fn name(self) -> &'static str {
         match self {
             Method::Auto => "auto",

@@ -5,9 +5,9 @@
 //! width, the hairpins unfold to a zigzag, and that slides down to the row.
 
 use super::Refusal;
-use super::domain::{Spot, WHOLE};
-use super::explicit::Listed;
-use super::way::{Terms, Way};
+use super::domain::{CellState, WHOLE};
+use super::listed::Listed;
+use super::motion::{Motion, PlanLimits};
 use std::collections::BTreeMap;
 
 const HALF: i64 = WHOLE / 2;
@@ -17,16 +17,20 @@ const X: usize = 0;
 const Y: usize = 1;
 const Z: usize = 2;
 
-/// From a connected set in the plane of x and y to a row along x, in which cell `name(i)` is at `i`.
-pub fn to_row(terms: Terms, places: &[[i64; 2]], name: impl Fn(u64) -> u64) -> Result<Way, Refusal> {
+/// Returns the motion from a connected set of cells in the plane of x and y to a row along x, in which cell
+/// `name(i)` is at `i`.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit.
+pub fn to_row(limits: PlanLimits, places: &[[i64; 2]], name: impl Fn(u64) -> u64) -> Result<Motion, Refusal> {
     let low = |axis: usize| places.iter().map(|p| p[axis]).min().unwrap_or(0);
     let (left, bottom) = (low(X), low(Y));
     let places: Vec<[i64; 2]> = places.iter().map(|p| [p[0] - left, p[1] - bottom]).collect();
-    let start = places.iter().map(|p| Spot::whole([p[X], p[Y], 0])).collect();
+    let start = places.iter().map(|p| CellState::whole([p[X], p[Y], 0])).collect();
     let mut motion = Listed::new(start);
     let stacks = merge(&mut motion, &places);
     let number: Vec<u64> = unfold(&mut motion, &stacks, places.len()).into_iter().map(name).collect();
-    motion.way(terms, &number)
+    motion.into_motion(limits, &number)
 }
 
 /// The cells of each column, lowest first, by column and row.
@@ -55,45 +59,45 @@ fn merge(motion: &mut Listed, places: &[[i64; 2]]) -> Stacks {
     while rows > 1 {
         let (merging, merged) = paired(&stacks, places.len());
         let m = |i: usize| merging[i];
-        motion.stage("y-squeeze", |_, spot| {
-            spot.center[Y] /= 2;
-            spot.size[Y] = HALF;
+        motion.stage("y-squeeze", |_, state| {
+            state.center[Y] /= 2;
+            state.size[Y] = HALF;
         });
-        let widen = |i: usize, spot: &mut Spot| {
-            spot.center[Y] = WHOLE * m(i).row + HALF;
-            spot.size[Y] = WHOLE;
+        let widen = |i: usize, state: &mut CellState| {
+            state.center[Y] = WHOLE * m(i).row + HALF;
+            state.size[Y] = WHOLE;
         };
-        motion.stage("widen singles", |i, spot| {
+        motion.stage("widen singles", |i, state| {
             if !m(i).paired {
-                widen(i, spot);
+                widen(i, state);
             }
         });
         for parity in [1, 0] {
             let swaps = |i: usize| m(i).paired && m(i).level % 2 == parity;
-            motion.stage("swap z-contract", |i, spot| {
+            motion.stage("swap z-contract", |i, state| {
                 if swaps(i) {
-                    spot.center[Z] += if m(i).below { -QUARTER } else { QUARTER };
-                    spot.size[Z] = HALF;
+                    state.center[Z] += if m(i).below { -QUARTER } else { QUARTER };
+                    state.size[Z] = HALF;
                 }
             });
-            motion.stage("swap widen", |i, spot| {
+            motion.stage("swap widen", |i, state| {
                 if swaps(i) {
-                    widen(i, spot);
+                    widen(i, state);
                 }
             });
         }
         // Stacks of other heights rise at other speeds: nothing above the base may rub.
-        motion.stage("detach", |i, spot| {
+        motion.stage("detach", |i, state| {
             if m(i).place > 0 {
-                spot.size[X] = DETACHED;
-                spot.size[Y] = DETACHED;
+                state.size[X] = DETACHED;
+                state.size[Y] = DETACHED;
             }
         });
-        motion.stage("z-expand", |i, spot| {
-            spot.center[Z] = WHOLE * m(i).place + HALF;
-            spot.size[Z] = WHOLE;
+        motion.stage("z-expand", |i, state| {
+            state.center[Z] = WHOLE * m(i).place + HALF;
+            state.size[Z] = WHOLE;
         });
-        motion.stage("reattach", |_, spot| (spot.size[X], spot.size[Y]) = (WHOLE, WHOLE));
+        motion.stage("reattach", |_, state| (state.size[X], state.size[Y]) = (WHOLE, WHOLE));
         stacks = merged;
         rows = (rows + 1) / 2;
     }
@@ -156,30 +160,30 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
             }
         }
         let p = |i: usize| pins[i];
-        motion.stage("z-squeeze", |_, spot| {
-            spot.center[Z] /= 2;
-            spot.size[Z] = HALF;
+        motion.stage("z-squeeze", |_, state| {
+            state.center[Z] /= 2;
+            state.size[Z] = HALF;
         });
-        let heighten = |i: usize, spot: &mut Spot| {
-            spot.center[Z] = WHOLE * p(i).level + HALF;
-            spot.size[Z] = WHOLE;
+        let heighten = |i: usize, state: &mut CellState| {
+            state.center[Z] = WHOLE * p(i).level + HALF;
+            state.size[Z] = WHOLE;
         };
-        motion.stage("restore odd tops", |i, spot| {
+        motion.stage("restore odd tops", |i, state| {
             if p(i).alone {
-                heighten(i, spot);
+                heighten(i, state);
             }
         });
         for parity in [0, 1] {
             let opens = |i: usize| !p(i).alone && p(i).level % 2 == parity;
-            motion.stage("hairpin narrow", |i, spot| {
+            motion.stage("hairpin narrow", |i, state| {
                 if opens(i) {
-                    spot.center[X] += if p(i).left { -QUARTER } else { QUARTER };
-                    spot.size[X] = HALF;
+                    state.center[X] += if p(i).left { -QUARTER } else { QUARTER };
+                    state.size[X] = HALF;
                 }
             });
-            motion.stage("hairpin heighten", |i, spot| {
+            motion.stage("hairpin heighten", |i, state| {
                 if opens(i) {
-                    heighten(i, spot);
+                    heighten(i, state);
                 }
             });
         }
@@ -199,10 +203,10 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
             next += 1;
         }
     }
-    motion.stage("x-unfold", |i, spot| {
-        spot.center[X] = WHOLE * number[i] as i64 + HALF;
-        spot.size[X] = WHOLE;
+    motion.stage("x-unfold", |i, state| {
+        state.center[X] = WHOLE * number[i] as i64 + HALF;
+        state.size[X] = WHOLE;
     });
-    motion.stage("z-slide", |_, spot| spot.center[Z] = HALF);
+    motion.stage("z-slide", |_, state| state.center[Z] = HALF);
     number
 }

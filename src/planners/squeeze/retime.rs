@@ -1,11 +1,15 @@
-//! Stages slowed down so that no contact carries more than it may. The geometry stays.
+//! Retiming: stages slowed down so that no contact carries more than its limit. The geometry stays.
 
 use super::Refusal;
 use crate::plan::lattice::peak_forces;
 use crate::plan::{Law, Ratio, Stages};
 
-/// A stage whose greatest contact force is `f` takes `√(f / κ)` times as long under a bound `κ`. Stages
-/// that pass their speed on are slowed down alike.
+/// Slows stages down to a limit on contact forces, in units: forces fall with the square of time, so a stage
+/// whose greatest force is `f` takes `√(f / κ)` times as long under the limit `κ`. Two phases that pass their
+/// speed on are slowed down alike.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if forces can't be found.
 pub fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
     let peaks = peak_forces(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     let least: Vec<Ratio> = peaks
@@ -16,7 +20,7 @@ pub fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
         })
         .collect::<Option<_>>()
         .ok_or(Refusal::TooLarge)?;
-    // By how much each square of a time must grow.
+    // The factors by which the squares of the times must grow.
     let mut factors: Vec<Ratio> = least
         .iter()
         .zip(&stages.stages)

@@ -1,13 +1,15 @@
-//! What kind of set the cells make.
+//! The shape of a set of cells.
 
 /// Places of cells, moved so that the lowest along each axis is 0, in order.
 pub struct Shape {
+    /// The places.
     pub places: Vec<[i64; 3]>,
-    /// Sides of the box around it.
+    /// The sides of the bounding box, in cells.
     pub sides: [u64; 3],
 }
 
 impl Shape {
+    /// Returns the shape of the cells at these places.
     pub fn of(places: &[[i64; 3]]) -> Shape {
         let low = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis]).min().unwrap_or(0));
         let mut places: Vec<[i64; 3]> =
@@ -17,21 +19,23 @@ impl Shape {
         Shape { places, sides }
     }
 
+    /// Returns the number of cells.
     pub fn count(&self) -> u64 {
         self.places.len() as u64
     }
 
+    /// Returns true if the cells fill their bounding box.
     pub fn is_box(&self) -> bool {
         let volume = self.sides.iter().try_fold(1_u64, |volume, side| volume.checked_mul(*side));
         volume == Some(self.count())
     }
 
-    /// The axis of a straight row; of a lone cell, every axis.
+    /// Returns true if the cells are a straight row along an axis; a lone cell is so along every axis.
     pub fn is_row_along(&self, axis: usize) -> bool {
         self.sides[axis] == self.count()
     }
 
-    /// Whether all cells are in the plane across an axis.
+    /// Returns true if all cells are in one plane across an axis.
     pub fn is_flat_across(&self, axis: usize) -> bool {
         self.sides[axis] == 1
     }

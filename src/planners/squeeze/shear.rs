@@ -3,19 +3,22 @@
 //! torque from outside.
 
 use super::Refusal;
-use super::domain::{Domain, Spot, WHOLE};
-use super::way::{Builder, Terms, Way};
+use super::domain::{CellState, Domain, WHOLE};
+use super::motion::{Builder, Motion, PlanLimits};
 
-/// From a row along x, cell `i` at `i`, to a column along y.
-pub fn shear(terms: Terms, count: u64) -> Result<Way, Refusal> {
+/// Returns the motion from a row along x, cell `i` at `i`, to a column along y.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit.
+pub fn shear(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     let all: Vec<Domain> = Domain::new(0, &[(count, 1)]).into_iter().collect();
-    let mut builder = Builder::new(terms, count, &all, |i| Spot::whole([i as i64, 0, 0]))?;
+    let mut builder = Builder::new(limits, count, &all, |i| CellState::whole([i as i64, 0, 0]))?;
     if count > 1 {
         let half = |i: u64| {
             let place = WHOLE / 2 * i as i64;
-            Spot { center: [place, place, WHOLE / 2], size: [WHOLE / 2, WHOLE / 2, WHOLE] }
+            CellState { center: [place, place, WHOLE / 2], size: [WHOLE / 2, WHOLE / 2, WHOLE] }
         };
-        builder.twin_stages("shear", WHOLE, &all, half, |i| Spot::whole([0, i as i64, 0]))?;
+        builder.two_phase_stage("shear", WHOLE, &all, half, |i| CellState::whole([0, i as i64, 0]))?;
     }
-    Ok(builder.way())
+    Ok(builder.motion())
 }

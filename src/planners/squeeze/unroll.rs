@@ -2,11 +2,14 @@
 //! accordion, first with rods for cells, then with cells.
 
 use super::Refusal;
-use super::domain::{Domain, Spot, WHOLE};
-use super::way::{Builder, Terms, Way};
+use super::domain::{CellState, Domain, WHOLE};
+use super::motion::{Builder, Motion, PlanLimits};
 
-/// From a box with `sides` along x, y, z to a row along y, cell `i` at `i`.
-pub fn unroll(terms: Terms, sides: [u64; 3]) -> Result<Way, Refusal> {
+/// Returns the motion from a box with `sides` along x, y, z, in cells, to a row along y, cell `i` at `i`.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit.
+pub fn unroll(limits: PlanLimits, sides: [u64; 3]) -> Result<Motion, Refusal> {
     let [a, b, c] = sides;
     let (count, domains) = (a * b * c, domains(sides));
     // The row in turn, to and fro: along x within each rod, along z within each layer.
@@ -17,13 +20,13 @@ pub fn unroll(terms: Terms, sides: [u64; 3]) -> Result<Way, Refusal> {
     let x = move |i: u64| turned(i % a, rod(i), a);
     let y = move |i: u64| rod(i) / c;
     let z = move |i: u64| turned(rod(i) % c, y(i), c);
-    let spot = |x: u64, y: u64, z: u64| Spot::whole([x as i64, y as i64, z as i64]);
-    let mut builder = Builder::new(terms, count, &domains, move |i| spot(x(i), y(i), z(i)))?;
-    builder.stage("y-unfold", WHOLE, &domains, move |i| spot(x(i), rod(i), z(i)))?;
-    builder.stage("z-slide", WHOLE, &domains, move |i| spot(x(i), rod(i), 0))?;
-    builder.stage("y-unfold", WHOLE, &domains, move |i| spot(x(i), i, 0))?;
-    builder.stage("x-slide", WHOLE, &domains, move |i| spot(0, i, 0))?;
-    Ok(builder.way())
+    let state = |x: u64, y: u64, z: u64| CellState::whole([x as i64, y as i64, z as i64]);
+    let mut builder = Builder::new(limits, count, &domains, move |i| state(x(i), y(i), z(i)))?;
+    builder.stage("y-unfold", WHOLE, &domains, move |i| state(x(i), rod(i), z(i)))?;
+    builder.stage("z-slide", WHOLE, &domains, move |i| state(x(i), rod(i), 0))?;
+    builder.stage("y-unfold", WHOLE, &domains, move |i| state(x(i), i, 0))?;
+    builder.stage("x-slide", WHOLE, &domains, move |i| state(0, i, 0))?;
+    Ok(builder.motion())
 }
 
 /// By the parities of the layer and of the rod within it: these say which way to go.

@@ -1,69 +1,79 @@
-//! Ways in closed form: configurations one after another, with the least time of each stage.
+//! Motions in closed form: configurations one after another, with the least time of each transition.
 
 use super::Refusal;
-use super::domain::{Domain, Spot, WHOLE};
+use super::domain::{CellState, Domain, WHOLE};
 use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages};
 
-/// Stages between configurations that name every cell.
+/// A motion of a lattice robot: configurations of all cells with the transitions between them.
 #[derive(Clone, Debug)]
-pub struct Way {
+pub struct Motion {
+    /// The number of cells.
     pub count: u64,
-    /// One more than there are legs. About the centre of mass.
+    /// The configurations about the centre of mass, one more than there are transitions.
     pub configurations: Vec<Vec<Run>>,
-    pub legs: Vec<Leg>,
+    /// The transitions from each configuration to the next.
+    pub transitions: Vec<Transition>,
 }
 
+/// A stage of a motion, from one configuration to the next; every cell moves along a line.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
+pub struct Transition {
+    /// The name of the stage.
     pub name: &'static str,
+    /// The square of its duration, in units of time squared.
     pub time_squared: Ratio,
+    /// The time law.
     pub law: Law,
-    /// Whether the angular momentum stays zero.
+    /// True if the angular momentum stays zero.
     pub balanced: bool,
 }
 
-/// How the time of a stage is spent.
+/// The velocity profile of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Profile {
-    /// Speeding up for half the time, slowing down for the other, as in the paper.
+    /// Constant acceleration for half the time, constant deceleration for the other, as in the paper.
     #[default]
     BangBang,
-    /// With a stretch of constant speed where the speed limit binds: the least time.
+    /// With a stretch of constant speed where the speed limit is active: the least time.
     Trapezoid,
 }
 
-/// What all ways are planned under.
+/// The limits that all motions are planned under.
 #[derive(Clone, Copy, Debug)]
-pub struct Terms {
-    pub limits: CellLimits,
+pub struct PlanLimits {
+    /// The limits of a cell, in units.
+    pub cell: CellLimits,
+    /// The velocity profile.
     pub profile: Profile,
-    /// Whether the length of an acceleration is bounded, not only its part along each axis.
+    /// True if the Euclidean norm of an acceleration is bounded, not only its component along each axis.
     pub euclidean: bool,
 }
 
-/// What a way becomes part of: a plan of cells of a kind.
+/// What a motion needs to become the body of a plan.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub struct PlanHeader {
     /// The cell's index in the library.
     pub cell: usize,
-    /// Seconds of the unit of time.
+    /// The unit of time, s.
     pub time_unit: f64,
+    /// The limits of a cell, in units.
     pub limits: CellLimits,
+    /// The model that the plan is judged under.
     pub model: Model,
 }
 
-type Place<'a> = Box<dyn Fn(u64) -> Spot + 'a>;
+type Place<'a> = Box<dyn Fn(u64) -> CellState + 'a>;
 
-/// Builds a way stage by stage.
+/// Builds a motion stage by stage.
 pub struct Builder<'a> {
-    terms: Terms,
-    way: Way,
+    limits: PlanLimits,
+    motion: Motion,
     last: Place<'a>,
 }
 
-/// What moves in a stage: in quarters, before the centre of mass is held.
-struct Motion {
-    /// Greatest distance along each axis from the centre of mass's own, times `WHOLE · count`.
+/// The displacements of a stage, in quarters, before the centre of mass is held.
+struct Displacements {
+    /// The greatest displacement along each axis relative to the centre of mass, times `WHOLE · count`.
     farthest: [i128; 3],
     resized: i64,
     moves: bool,
@@ -71,84 +81,98 @@ struct Motion {
 }
 
 impl<'a> Builder<'a> {
-    /// `place` must be affine on each of the domains, which hold each of `count` cells once.
+    /// Begins at a configuration: `place` must be affine on each of the domains, which together hold each of
+    /// `count` cells once.
     pub fn new(
-        terms: Terms,
+        limits: PlanLimits,
         count: u64,
         domains: &[Domain],
-        place: impl Fn(u64) -> Spot + 'a,
+        place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<Builder<'a>, Refusal> {
         let start = runs(domains, count, &place)?;
-        let way = Way { count, configurations: vec![start], legs: vec![] };
-        Ok(Builder { terms, way, last: Box::new(place) })
+        let motion = Motion { count, configurations: vec![start], transitions: vec![] };
+        Ok(Builder { limits, motion, last: Box::new(place) })
     }
 
-    /// A stage to where `place` says. On the domains the last place and the next must be affine;
-    /// `parting` is the greatest distance (in quarters, along an axis) by which two cells move against
-    /// each other that are in contact all the while. A stage in which nothing moves is left out.
+    /// Appends a stage that takes each cell to `place`. On the domains both the last state and the next must be
+    /// affine; `parting` is the greatest distance (in quarters, along an axis) by which two cells move against
+    /// each other that stay in contact. A stage in which nothing moves is left out.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit.
     pub fn stage(
         &mut self,
         name: &'static str,
         parting: i64,
         domains: &[Domain],
-        place: impl Fn(u64) -> Spot + 'a,
+        place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<(), Refusal> {
-        let motion = Motion::of(domains, self.way.count, &self.last, &place);
+        let motion = Displacements::of(domains, self.motion.count, &self.last, &place);
         if motion.moves {
             let (time_squared, law) =
-                least_time(&self.terms, self.way.count, &motion, parting).ok_or(Refusal::TooLarge)?;
-            self.way.legs.push(Leg { name, time_squared, law, balanced: motion.balanced });
-            self.way.configurations.push(runs(domains, self.way.count, &place)?);
+                least_time(&self.limits, self.motion.count, &motion, parting).ok_or(Refusal::TooLarge)?;
+            self.motion.transitions.push(Transition { name, time_squared, law, balanced: motion.balanced });
+            self.motion.configurations.push(runs(domains, self.motion.count, &place)?);
         }
         self.last = Box::new(place);
         Ok(())
     }
 
-    /// A motion in two stages that does not rest between them: what is affine over both, with the same
-    /// displacement in each.
-    pub fn twin_stages(
+    /// Appends a two-phase motion that does not come to rest between its phases: a speed-up to `middle` and a
+    /// slow-down to `end`, with the same displacement of each cell in both.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit.
+    pub fn two_phase_stage(
         &mut self,
         name: &'static str,
         parting: i64,
         domains: &[Domain],
-        middle: impl Fn(u64) -> Spot + 'a,
-        end: impl Fn(u64) -> Spot + 'a,
+        middle: impl Fn(u64) -> CellState + 'a,
+        end: impl Fn(u64) -> CellState + 'a,
     ) -> Result<(), Refusal> {
-        let whole = Motion::of(domains, self.way.count, &self.last, &end);
-        let resized = 2 * Motion::of(domains, self.way.count, &self.last, &middle).resized;
-        let terms = Terms { profile: Profile::Trapezoid, ..self.terms };
+        let whole = Displacements::of(domains, self.motion.count, &self.last, &end);
+        let resized = 2 * Displacements::of(domains, self.motion.count, &self.last, &middle).resized;
+        let limits = PlanLimits { profile: Profile::Trapezoid, ..self.limits };
         let (time, law) =
-            least_time(&terms, self.way.count, &whole, parting.max(resized)).ok_or(Refusal::TooLarge)?;
+            least_time(&limits, self.motion.count, &whole, parting.max(resized)).ok_or(Refusal::TooLarge)?;
         let half = Ratio::new(time.0.into(), 4 * i128::from(time.1)).ok_or(Refusal::TooLarge)?;
         let ramp = law.ramps().0.times(Ratio(2, 1)).ok_or(Refusal::TooLarge)?;
         for (law, place) in
-            [(Law::SpeedUp(ramp), &middle as &dyn Fn(u64) -> Spot), (Law::SlowDown(ramp), &end)]
+            [(Law::SpeedUp(ramp), &middle as &dyn Fn(u64) -> CellState), (Law::SlowDown(ramp), &end)]
         {
-            self.way.legs.push(Leg { name, time_squared: half, law, balanced: whole.balanced });
-            self.way.configurations.push(runs(domains, self.way.count, &place)?);
+            self.motion.transitions.push(Transition {
+                name,
+                time_squared: half,
+                law,
+                balanced: whole.balanced,
+            });
+            self.motion.configurations.push(runs(domains, self.motion.count, &place)?);
         }
         self.last = Box::new(end);
         Ok(())
     }
 
-    pub fn way(self) -> Way {
-        self.way
+    /// Returns the motion.
+    pub fn motion(self) -> Motion {
+        self.motion
     }
 }
 
-/// Square of the least time in which cells can move as they do and part (or change
-/// their sizes) by `parting / WHOLE`, with the law that does it.
-fn least_time(terms: &Terms, count: u64, motion: &Motion, parting: i64) -> Option<(Ratio, Law)> {
+/// Returns the square of the least time in which cells can make these displacements and part (or change their
+/// sizes) by `parting / WHOLE`, with the time law that does it: at unit acceleration a distance D takes
+/// T² = 4D, bang-bang.
+fn least_time(limits: &PlanLimits, count: u64, motion: &Displacements, parting: i64) -> Option<(Ratio, Law)> {
     let parting = parting.max(motion.resized);
-    let distance = motion.distance(terms, count)?;
+    let distance = motion.distance(limits, count)?;
     let parting_squared = Ratio::new(i128::from(parting) * i128::from(parting), i128::from(WHOLE * WHOLE))?;
-    let speed = terms.limits.speed_squared;
+    let speed = limits.cell.speed_squared;
     // The square of the time for the parting at full speed.
     let coasting = parting_squared.times(Ratio(speed.1, speed.0))?;
     if coasting.order(distance).is_le() {
         return Some((distance.times(Ratio(4, 1))?, Law::BangBang));
     }
-    if terms.profile == Profile::Trapezoid && distance.0 > 0 {
+    if limits.profile == Profile::Trapezoid && distance.0 > 0 {
         let trapezoid = || {
             // T = c + D/c, where c is the time at full speed; a ramp takes D/c of it.
             let square = Ratio::new(
@@ -171,15 +195,15 @@ fn plus(a: Ratio, b: Ratio) -> Option<Ratio> {
     Ratio::new(product(a.0, b.1).checked_add(product(b.0, a.1))?, product(a.1, b.1))
 }
 
-/// An affine function of a domain's counters: its value at the first cell, and the steps.
+/// The state of cells as an affine function of a domain's counters.
 struct Affine {
-    first: Spot,
-    /// For each counter, along each axis.
+    first: CellState,
+    /// The increment of the centre for each counter, along each axis.
     steps: Vec<[i64; 3]>,
 }
 
 impl Affine {
-    fn of(domain: &Domain, place: &dyn Fn(u64) -> Spot) -> Affine {
+    fn of(domain: &Domain, place: &dyn Fn(u64) -> CellState) -> Affine {
         let first = place(domain.first);
         let step = |&(_, stride): &(u64, i64)| {
             let next = place((domain.first as i64 + stride) as u64);
@@ -188,7 +212,7 @@ impl Affine {
         Affine { first, steps: domain.counters.iter().map(step).collect() }
     }
 
-    /// The sum of the centres along an axis over the domain.
+    /// Returns the sum of the centres along an axis over the domain.
     fn sum(&self, domain: &Domain, axis: usize) -> i128 {
         let count = i128::from(domain.count());
         // Every second factor of count · (c - 1) is even, for c divides the count.
@@ -199,8 +223,8 @@ impl Affine {
     }
 }
 
-/// The configuration about its centre of mass.
-fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> Spot) -> Result<Vec<Run>, Refusal> {
+/// Returns the configuration about its centre of mass, as arithmetic runs.
+fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> CellState) -> Result<Vec<Run>, Refusal> {
     crate::interrupt::checkpoint();
     let affine: Vec<Affine> = domains.iter().map(|domain| Affine::of(domain, place)).collect();
     let sum = |axis| domains.iter().zip(&affine).map(|(d, a)| a.sum(d, axis)).sum::<i128>();
@@ -226,16 +250,16 @@ fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> Spot) -> Result<V
     domains.iter().zip(&affine).map(run).collect()
 }
 
-/// Into so many parts a distance along several axes is rounded, up: its square is no square number.
+/// The denominator to which a distance along several axes is rounded up: its square is no square number.
 const ROOT_PARTS: i128 = 1 << 16;
 
-impl Motion {
-    /// What bounds the acceleration: the greatest distance along an axis, or at most the length of the
-    /// greatest along all.
-    fn distance(&self, terms: &Terms, count: u64) -> Option<Ratio> {
+impl Displacements {
+    /// Returns the distance that bounds the acceleration, in cells: the greatest along an axis, or an upper bound
+    /// on the greatest Euclidean one.
+    fn distance(&self, limits: &PlanLimits, count: u64) -> Option<Ratio> {
         let whole = i128::from(WHOLE) * i128::from(count);
         let most = self.farthest.into_iter().max().unwrap_or(0);
-        if !terms.euclidean || self.farthest.iter().sum::<i128>() == most {
+        if !limits.euclidean || self.farthest.iter().sum::<i128>() == most {
             return Ratio::new(most, whole);
         }
         let square = self.farthest.iter().try_fold(0_i128, |sum, reach| {
@@ -250,18 +274,20 @@ impl Motion {
     fn of(
         domains: &[Domain],
         count: u64,
-        before: &dyn Fn(u64) -> Spot,
-        after: &dyn Fn(u64) -> Spot,
-    ) -> Motion {
+        before: &dyn Fn(u64) -> CellState,
+        after: &dyn Fn(u64) -> CellState,
+    ) -> Displacements {
         let ends: Vec<(Affine, Affine)> =
             domains.iter().map(|d| (Affine::of(d, before), Affine::of(d, after))).collect();
         let sum = |axis: usize| {
             let moved = |(d, (a, b)): (&Domain, &(Affine, Affine))| b.sum(d, axis) - a.sum(d, axis);
             domains.iter().zip(&ends).map(moved).sum::<i128>()
         };
+        // The centre of mass would drift by this; all displacements are relative to it.
         let drift = [sum(0), sum(1), sum(2)];
-        let mut motion = Motion { farthest: [0; 3], resized: 0, moves: false, balanced: true };
-        // Twelve times the sum of place times displacement, as a cross product; both from the origin.
+        let mut motion = Displacements { farthest: [0; 3], resized: 0, moves: false, balanced: true };
+        // Twelve times the sum of position × displacement over all cells, about the origin: the angular
+        // momentum but for the common time law.
         let mut turning = [0_i128; 3];
         let mut places = [0_i128; 3];
         for (domain, (a, b)) in domains.iter().zip(&ends) {
@@ -297,7 +323,7 @@ impl Motion {
             }
         }
         motion.moves = motion.farthest != [0; 3] || motion.resized > 0;
-        // About the centre of mass, which is held.
+        // The same about the centre of mass, which is held.
         let about = |axis: usize| {
             let (y, z) = ((axis + 1) % 3, (axis + 2) % 3);
             i128::from(count) * turning[axis] - 12 * (places[y] * drift[z] - places[z] * drift[y])
@@ -307,29 +333,29 @@ impl Motion {
     }
 }
 
-impl Way {
-    /// A way that goes nowhere.
-    pub fn rest(count: u64, domains: &[Domain], place: impl Fn(u64) -> Spot) -> Result<Way, Refusal> {
-        Ok(Way { count, configurations: vec![runs(domains, count, &place)?], legs: vec![] })
+impl Motion {
+    /// Returns the motion of no transitions at a configuration.
+    pub fn rest(count: u64, domains: &[Domain], place: impl Fn(u64) -> CellState) -> Result<Motion, Refusal> {
+        Ok(Motion { count, configurations: vec![runs(domains, count, &place)?], transitions: vec![] })
     }
 
-    /// From the end to the start.
-    pub fn reversed(mut self) -> Way {
+    /// Returns the motion from the end to the start, time laws reversed.
+    pub fn reversed(mut self) -> Motion {
         self.configurations.reverse();
-        self.legs.reverse();
-        self.legs.iter_mut().for_each(|leg| leg.law = leg.law.reversed());
+        self.transitions.reverse();
+        self.transitions.iter_mut().for_each(|transition| transition.law = transition.law.reversed());
         self
     }
 
-    /// This way, then another that begins where it ends.
-    pub fn then(mut self, next: Way) -> Way {
+    /// Returns this motion, then another that begins where it ends.
+    pub fn then(mut self, next: Motion) -> Motion {
         self.configurations.extend(next.configurations.into_iter().skip(1));
-        self.legs.extend(next.legs);
+        self.transitions.extend(next.transitions);
         self
     }
 
-    /// The axes in another order: what was along axis `k` is along `to[k]`.
-    pub fn turned(mut self, to: [usize; 3]) -> Way {
+    /// Returns the motion with its axes permuted: what was along axis `k` is along `to[k]`.
+    pub fn turned(mut self, to: [usize; 3]) -> Motion {
         let turn = |ratios: [Ratio; 3]| {
             let mut turned = ratios;
             (0..3).for_each(|k| turned[to[k]] = ratios[k]);
@@ -343,34 +369,37 @@ impl Way {
         self
     }
 
-    /// The body of a plan; its one cause is 0.
-    pub fn into_stages(self, frame: Frame) -> Stages {
+    /// Returns the motion as the body of a plan; its one cause is 0.
+    pub fn into_stages(self, header: PlanHeader) -> Stages {
         let mut configurations = self.configurations.into_iter();
         let start = configurations.next().unwrap_or_default();
-        let stage = |(leg, end): (Leg, Vec<Run>)| Stage {
-            name: leg.name.into(),
-            time_squared: leg.time_squared,
-            law: leg.law,
+        let stage = |(transition, end): (Transition, Vec<Run>)| Stage {
+            name: transition.name.into(),
+            time_squared: transition.time_squared,
+            law: transition.law,
             end,
             cause: CauseId(0),
         };
         Stages {
-            cell: frame.cell,
+            cell: header.cell,
             count: self.count,
-            time_unit: frame.time_unit,
-            limits: frame.limits,
-            model: frame.model,
+            time_unit: header.time_unit,
+            limits: header.limits,
+            model: header.model,
             start,
-            stages: self.legs.into_iter().zip(configurations).map(stage).collect(),
+            stages: self.transitions.into_iter().zip(configurations).map(stage).collect(),
         }
     }
 
-    /// In units of time.
+    /// Returns the duration, in units of time.
     pub fn duration(&self) -> f64 {
-        self.legs.iter().fold(0.0, |time, leg| time + libm::sqrt(leg.time_squared.to_f64()))
+        self.transitions
+            .iter()
+            .fold(0.0, |time, transition| time + libm::sqrt(transition.time_squared.to_f64()))
     }
 
+    /// Returns true if the angular momentum stays zero all the way.
     pub fn is_balanced(&self) -> bool {
-        self.legs.iter().all(|leg| leg.balanced)
+        self.transitions.iter().all(|transition| transition.balanced)
     }
 }

@@ -1,0 +1,173 @@
+//! The planner itself: shapes to candidates, and the fastest that the model allows.
+
+use super::candidates::{Candidate, MELT_MAX, candidates};
+use super::motion::{Motion, PlanHeader, PlanLimits};
+use super::retime::retime;
+use super::shape::Shape;
+use super::{Method, ModelChoice, Norm, Problem, Refusal, Report, Settings};
+use crate::plan::lattice::{end_shapes, time_lower_bound};
+use crate::plan::{Body, CellLimits, Model, Ratio, Stages};
+use crate::planners::{Progress, Solution};
+use crate::robot::Cell;
+use crate::units::{Dimension, quantity};
+
+/// The relative error to which limits are rounded, to the safe side, so that they are short rational numbers.
+const ROUNDING: f64 = 1e-12;
+/// Squared speeds beyond this, in units, are as good as none: no plan reaches them.
+const SPEED_SQUARED_MAX: f64 = 1e6;
+
+/// Plans a motion from one shape to the other: the fastest candidate that the model allows. The body is lattice
+/// stages, in exact rational numbers of cells and units of time.
+///
+/// # Errors
+/// [`Refusal`], of which [`Refusal::Defect`] is a failure of the planner, not of the problem.
+pub fn plan(
+    problem: &Problem,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Solution<Report>, Refusal> {
+    if problem.start.len() != problem.goal.len() {
+        return Err(Refusal::Counts { from: problem.start.len(), to: problem.goal.len() });
+    }
+    let (from, to) = (Shape::of(&problem.start), Shape::of(&problem.goal));
+    let units = Units::of(&problem.cell, settings)?;
+    // All candidates that the model allows, the fastest first.
+    let euclidean = settings.norm == Norm::Euclidean;
+    let limits = PlanLimits { cell: units.cell, profile: settings.profile, euclidean };
+    let candidates = candidates(limits, &from, &to, settings.method)?;
+    if candidates.is_empty() {
+        return Err(not_covered(settings, &from, units.cell));
+    }
+    let candidates = allowed(candidates, settings)?;
+    let (method, balanced, stages) = fastest(candidates, &units, settings, progress)?;
+    // The plan begins and ends as it should, exactly.
+    check_ends(&stages, &from, &to)?;
+    let lower_bound = time_lower_bound(&stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+    let why = why(settings, method, balanced);
+    let named = stages.stages.iter().map(|stage| (stage.name.clone(), stage.duration() * stages.time_unit));
+    let report = Report { lower_bound, method, balanced, why, stages: named.collect() };
+    Ok(Solution { body: Body::Stages(stages), program: None, report })
+}
+
+/// The limits of a cell in units of its size, mass and greatest acceleration.
+struct Units {
+    /// The unit of time, s: √(size · mass / force).
+    time: f64,
+    cell: CellLimits,
+    contact_force: Option<Ratio>,
+}
+
+impl Units {
+    fn of(cell: &Cell, settings: &Settings) -> Result<Units, Refusal> {
+        let time = libm::sqrt(cell.size * cell.mass / cell.force);
+        let unit_speed = cell.size / time;
+        let above = |x: f64| Ratio::simplest(x, x * (1.0 + ROUNDING)).ok_or(Refusal::TooLarge);
+        let below = |x: f64| Ratio::simplest(x * (1.0 - ROUNDING), x).ok_or(Refusal::TooLarge);
+        let speed = cell.speed / unit_speed;
+        let limits = CellLimits {
+            smallest: above(cell.shrinks_to / cell.size)?,
+            speed_squared: below((speed * speed).min(SPEED_SQUARED_MAX))?,
+        };
+        let unit_force = cell.mass * cell.size / time / time;
+        let contact_force = settings.max_force.map(|force| below(force / unit_force)).transpose()?;
+        Ok(Units { time, cell: limits, contact_force })
+    }
+}
+
+/// Returns the candidates that the model of angular momentum allows, sorted by duration.
+fn allowed(candidates: Vec<Candidate>, settings: &Settings) -> Result<Vec<Candidate>, Refusal> {
+    let any_balanced = candidates.iter().any(|candidate| candidate.motion.is_balanced());
+    if settings.model == ModelChoice::Balanced && !any_balanced {
+        return Err(Refusal::Unbalanced { method: settings.method });
+    }
+    let allowed = |candidate: &Candidate| match settings.model {
+        ModelChoice::Paper => true,
+        ModelChoice::Auto | ModelChoice::Balanced if any_balanced => candidate.motion.is_balanced(),
+        // A shear turns the whole robot by a quarter; the others do so by a little.
+        ModelChoice::Auto | ModelChoice::Balanced => {
+            candidate.method != Method::Shear || settings.method == Method::Shear
+        }
+    };
+    let mut candidates: Vec<Candidate> = candidates.into_iter().filter(allowed).collect();
+    candidates.sort_by(|a, b| a.motion.duration().total_cmp(&b.motion.duration()));
+    Ok(candidates)
+}
+
+/// Returns the fastest of the candidates, which are sorted by duration, once a limit on contact forces has
+/// slowed them down.
+fn fastest(
+    candidates: Vec<Candidate>,
+    units: &Units,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<(Method, bool, Stages), Refusal> {
+    let stages_of = |motion: Motion, balanced: bool| {
+        let euclidean = settings.norm == Norm::Euclidean;
+        let model = Model { balanced, contact_force: units.contact_force, euclidean };
+        motion.into_stages(PlanHeader { cell: 0, time_unit: units.time, limits: units.cell, model })
+    };
+    let mut best: Option<(Method, bool, Stages)> = None;
+    for candidate in candidates {
+        progress.report(&|| match &best {
+            Some((method, _, stages)) => {
+                format!("{} takes {}", method.name(), quantity(stages.duration(), Dimension::TIME))
+            }
+            None => format!("trying {}", candidate.method.name()),
+        });
+        if !progress.should_continue() {
+            return best.ok_or(Refusal::Cancelled);
+        }
+        let time = |stages: &Stages| stages.duration() / units.time;
+        // A limit on forces only slows a plan down: no later candidate is faster.
+        if best.as_ref().is_some_and(|(_, _, stages)| time(stages) <= candidate.motion.duration()) {
+            break;
+        }
+        let balanced = candidate.motion.is_balanced();
+        // In the paper's model the judge does not ask for balance.
+        let mut stages = stages_of(candidate.motion, balanced && settings.model != ModelChoice::Paper);
+        if let Some(force) = units.contact_force {
+            retime(&mut stages, force)?;
+        }
+        if best.as_ref().is_none_or(|(_, _, least)| time(&stages) < time(least)) {
+            best = Some((candidate.method, balanced, stages));
+        }
+    }
+    best.ok_or(Refusal::Method { method: settings.method })
+}
+
+/// Returns the reason why no construction applies.
+fn not_covered(settings: &Settings, from: &Shape, limits: CellLimits) -> Refusal {
+    if limits.smallest.order(Ratio(1, 2)).is_gt() && settings.method != Method::Accordion {
+        return Refusal::Stiff { smallest: limits.smallest };
+    }
+    let covered = |shape: &Shape| shape.is_box() || (0..3).any(|axis| shape.is_flat_across(axis));
+    if settings.method == Method::Auto {
+        return Refusal::Solid { first: !covered(from), most: MELT_MAX };
+    }
+    Refusal::Method { method: settings.method }
+}
+
+/// Checks that the plan begins and ends in the two shapes: exactly, up to a translation.
+fn check_ends(stages: &Stages, from: &Shape, to: &Shape) -> Result<(), Refusal> {
+    let (start, end) = end_shapes(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+    if start != from.places || end != to.places {
+        return Err(Refusal::Defect("the plan does not lead from the one shape to the other".into()));
+    }
+    Ok(())
+}
+
+/// Returns the reason for a method, in words.
+fn why(settings: &Settings, method: Method, balanced: bool) -> String {
+    let name = method.name();
+    match (settings.method, settings.model, balanced) {
+        (Method::Auto, ModelChoice::Paper, _) => format!("{name}: the fastest way in the paper's model"),
+        (Method::Auto, _, true) => format!("{name}: the fastest way that nothing outside has to turn"),
+        (Method::Auto, _, false) => {
+            format!("{name}: no way is known that keeps the angular momentum at zero; this one turns little")
+        }
+        (_, _, true) => format!("{name}, as asked for; its angular momentum stays zero"),
+        (_, _, false) => {
+            format!("{name}, as asked for; something outside has to hold the robot from turning")
+        }
+    }
+}
