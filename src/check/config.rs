@@ -173,7 +173,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks an `allow` clause.
+    /// Checks an exemption of an `allows` clause; reports an unknown one.
     fn exemption(&mut self, scope: &mut Scope, e: &'a ast::Exemption) -> Option<Exemption> {
         let known = ["unstable", "slip", "collision", "overload"];
         let part = Type::AnyOf(Family::Config);

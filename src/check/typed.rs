@@ -171,7 +171,7 @@ pub struct RecordField {
 pub struct ConnectorDef {
     /// The connectors that mate with it, with the spans of their names.
     pub mates: Vec<(DefId, Span)>,
-    /// The turns at which it mates: a list of angles; `None` if the clause is missing.
+    /// The number of turns at which it mates, evenly over a full turn; `None` if the clause is missing.
     pub turns: Option<Expr>,
     /// The greatest forces and torques that it holds; the type of an expression tells which.
     pub holds: Vec<Expr>,
@@ -259,7 +259,7 @@ pub struct LinkDef {
     pub shape: Expr,
     /// The shape for collisions, if it is another.
     pub collides: Option<Expr>,
-    /// The pose of the shape in the module's frame.
+    /// The pose of the shape in the link's frame.
     pub at: Option<Placement>,
 }
 
@@ -479,7 +479,7 @@ pub struct BehaviorDef {
     pub frame: usize,
 }
 
-/// An `allow` clause of a behaviour: a check of the judge that may fail.
+/// An exemption of a behaviour (`allows`): a check of the judge that may fail.
 #[derive(Clone, Debug)]
 pub struct Exemption {
     /// The check, with what it is restricted to.

@@ -128,7 +128,7 @@ pub struct UseName {
     pub rename: Option<Name>,
 }
 
-/// `let name: type = value`
+/// A declaration of a value: `let name: type = value`.
 #[derive(Clone, Debug)]
 pub struct Let {
     /// Its name.
@@ -139,7 +139,7 @@ pub struct Let {
     pub value: Expr,
 }
 
-/// `fn name(params) -> result = body`
+/// A function: `fn name(params) -> result = body`.
 #[derive(Clone, Debug)]
 pub struct Fn {
     /// Its name.
@@ -251,7 +251,7 @@ pub struct UnitExpr {
 
 // Connectors, modules, cells and struts.
 
-/// `connector Name { clauses }`
+/// A connector: `connector Name { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Connector {
     /// Its name.
@@ -265,7 +265,7 @@ pub struct Connector {
 pub enum ConnectorClause {
     /// `mates Socket`, `mates Plug, Socket` is two clauses' worth of names.
     Mates(Vec<Name>),
-    /// `turns [0deg, 90deg]`
+    /// `turns 4`: the number of turns at which it mates.
     Turns(Expr),
     /// `holds 88N`, `holds 1.9N*m`
     Holds(Expr),
@@ -277,7 +277,7 @@ pub enum ConnectorClause {
     Error,
 }
 
-/// `module Name(params) { clauses }`
+/// A module: `module Name(params) { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Module {
     /// Its name.
@@ -377,7 +377,7 @@ pub struct Facts {
 
 // Configurations.
 
-/// `config Name(params) closed { clauses }`
+/// A configuration: `config Name(params) closed { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Config {
     /// Its name.
@@ -452,7 +452,7 @@ pub enum PartCount {
     Each { binder: Name, range: Expr },
 }
 
-/// `behavior name(params) allows exemptions = body`
+/// A behaviour of a configuration: `behavior name(params) allows exemptions = body`.
 #[derive(Clone, Debug)]
 pub struct Behavior {
     /// Its name.
@@ -476,7 +476,7 @@ pub struct Exemption {
     pub span: Span,
 }
 
-/// `require condition, message`
+/// A requirement: `require condition, message`.
 #[derive(Clone, Debug)]
 pub struct Require {
     /// Its span.
@@ -509,7 +509,7 @@ pub enum PathStep {
 
 // Lattices and trusses.
 
-/// `lattice Name(params) of cell = value`
+/// A lattice: `lattice Name(params) of cell = value`.
 #[derive(Clone, Debug)]
 pub struct Lattice {
     /// Its name.
@@ -522,7 +522,7 @@ pub struct Lattice {
     pub value: Expr,
 }
 
-/// `truss Name(params) of strut { clauses }`, or `= value` instead of clauses.
+/// A truss: `truss Name(params) of strut { clauses }`, or `= value` instead of clauses.
 #[derive(Clone, Debug)]
 pub struct Truss {
     /// Its name.
@@ -574,7 +574,7 @@ pub enum TrussClauseKind {
 
 // Statements and expressions.
 
-/// `test "name" { statements }`
+/// A test: `test "name" { statements }`.
 #[derive(Clone, Debug)]
 pub struct Test {
     /// The name, a text without interpolation.

@@ -27,29 +27,29 @@ impl Tall {
 
 /// The binding powers of operators, loosest first.
 mod power {
-    /// `x => e`
+    /// The binding power of `x => e`.
     pub(super) const LAMBDA: u8 = 1;
-    /// `or` and `else`
+    /// The binding power of `or` and `else`.
     pub(super) const OR: u8 = 2;
-    /// `and`
+    /// The binding power of `and`.
     pub(super) const AND: u8 = 3;
-    /// `not`
+    /// The binding power of `not`.
     pub(super) const NOT: u8 = 4;
-    /// `==`, `<` and the other comparisons
+    /// The binding power of `==`, `<` and the other comparisons.
     pub(super) const COMPARISON: u8 = 5;
-    /// `<->`
+    /// The binding power of `<->`.
     pub(super) const MATED: u8 = 6;
-    /// `..`
+    /// The binding power of `..`.
     pub(super) const RANGE: u8 = 7;
-    /// `++`
+    /// The binding power of `++`.
     pub(super) const JOIN: u8 = 8;
-    /// `+` and `-`
+    /// The binding power of `+` and `-`.
     pub(super) const SUM: u8 = 9;
-    /// `*`, `/` and `%`
+    /// The binding power of `*`, `/` and `%`.
     pub(super) const PRODUCT: u8 = 10;
-    /// `+` and `-` before an operand
+    /// The binding power of `+` and `-` before an operand.
     pub(super) const SIGN: u8 = 11;
-    /// `^`
+    /// The binding power of `^`.
     pub(super) const POWER: u8 = 12;
 }
 
@@ -267,7 +267,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Field { object: Box::new(object.expr), field }, object.height)
     }
 
-    /// Builds arguments.
+    /// Builds the arguments of a call.
     pub(super) fn args(&mut self, node: Node) -> Vec<Arg> {
         self.tall_args(node).0
     }

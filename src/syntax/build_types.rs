@@ -6,7 +6,7 @@ use super::parse::{NESTING_MAX, Node, Rule};
 use crate::source::{Span, code};
 
 impl Builder<'_> {
-    /// Builds parameters.
+    /// Builds the parameters of a declaration, variadic ones included.
     pub(super) fn params(&mut self, node: Node) -> Vec<Param> {
         node.into_inner().map(|param| self.param(param)).collect()
     }
@@ -48,7 +48,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Builds a type.
+    /// Builds a type; reports one that is nested too deeply.
     pub(super) fn ty(&mut self, node: Node) -> TypeExpr {
         let span = self.span(&node);
         if self.type_depth >= NESTING_MAX {
