@@ -12,7 +12,7 @@ use crate::plan::{Action, CauseId, Command, Dock, DockKind, Profile, Target};
 use crate::robot::{Bond, JointId, PortRef};
 use std::sync::Arc;
 
-/// When the action ends by itself, and the joint to hold if it ends before.
+/// The time at which an action ends by itself, and the joint to hold if it ends before.
 type Begun = (Option<f64>, Option<(JointId, CauseId)>);
 
 impl Run<'_> {
@@ -197,7 +197,7 @@ impl Run<'_> {
         self.motions[joint.0 as usize].cut(self.now)
     }
 
-    /// What a joint can do, if it takes commands.
+    /// Returns the speed and acceleration limits of a joint that takes commands.
     fn able(&self, joint: JointId) -> Result<MotionLimits, Reason> {
         let facts = &self.facts[joint.0 as usize];
         match facts.uncommandable {

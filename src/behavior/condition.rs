@@ -140,7 +140,7 @@ fn pieces(signal: Signal, view: &View, t0: f64, t1: f64) -> Vec<SignalPiece> {
     }
 }
 
-/// When a piece of a signal crosses a value.
+/// Returns the times at which a piece of a signal crosses a value.
 fn crossings(piece: &SignalPiece, value: f64) -> Vec<f64> {
     let control: Vec<f64> = piece.control.iter().map(|c| c - value).collect();
     if control.len() == 2 {

@@ -36,7 +36,7 @@ pub struct Conflicts {
     pub errors: Vec<Conflict>,
     /// Equal setpoints: a warning. Each pair of causes once.
     pub warnings: Vec<Conflict>,
-    /// Whether more than [`PAIRS_MAX`] pairs of a kind were found, and the rest dropped.
+    /// `true` where more than [`PAIRS_MAX`] pairs of a kind were found, and the rest dropped.
     pub more: bool,
     /// Nodes visited and table entries handled: the measure of the work.
     pub work: usize,
@@ -69,7 +69,7 @@ pub fn conflicts(program: &Arc<Node>) -> Conflicts {
     search.found
 }
 
-/// What is commanded under a node, by joint.
+/// The commands under a node, by joint.
 type Table<'a> = BTreeMap<JointId, Commanded<'a>>;
 
 /// One command to a joint, and one with another setpoint.

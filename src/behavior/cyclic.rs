@@ -189,10 +189,10 @@ struct Round {
 /// A joint's part in a round.
 struct Moved {
     joint: JointId,
-    /// Where the round begins.
+    /// The position at which the round begins, rad or m.
     begins: f64,
     segments: Vec<Segment>,
-    /// Whether the joint must be there, or may do the same from elsewhere.
+    /// `true` where the joint must begin there, `false` where it may do the same from elsewhere.
     absolute: bool,
 }
 
@@ -227,7 +227,7 @@ fn absolute_joints(body: &Arc<Node>) -> BTreeSet<JointId> {
     absolute.collect()
 }
 
-/// What in a body can't be shifted or scaled.
+/// Returns the part of a behaviour that cannot be shifted or scaled, if there is one.
 fn not_cyclic(body: &Arc<Node>) -> Option<&'static str> {
     Graph::of(body).actions().find_map(|Action { command, until, timeout, .. }| match command {
         _ if until.is_some() => Some("a condition"),
@@ -238,7 +238,7 @@ fn not_cyclic(body: &Arc<Node>) -> Option<&'static str> {
     })
 }
 
-/// Whether any joint moves.
+/// Returns `true` where any joint moves.
 fn moves(played: &Played) -> bool {
     let segments = played.tracks.iter().flat_map(|track| &track.segments);
     segments.into_iter().any(|s| s.control.iter().any(|q| *q != s.control[0]))

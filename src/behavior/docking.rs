@@ -15,7 +15,7 @@ pub(super) fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option
 /// position of its hinge in rad, if the connector has one.
 ///
 /// # Errors
-/// Where a port is taken, the connectors do not mate, or nothing connects the parts of the two ports.
+/// Refuses ports that are taken, that do not mate, or whose parts of the robot nothing connects.
 pub(super) fn docked(
     robot: &Assembly,
     holds: &[bool],

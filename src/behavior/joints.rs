@@ -7,11 +7,11 @@ use crate::robot::{Assembly, JointKind, JointOwner, Limits, ModuleType};
 pub(super) struct JointFacts {
     /// Path name, such as `leg[2].m[0].tilt`.
     pub(super) name: String,
-    /// Where the joint lives.
+    /// The module or the bond that the joint belongs to.
     pub(super) owner: JointOwner,
     /// The reason why it takes no commands, if it takes none.
     pub(super) uncommandable: Option<Uncommandable>,
-    /// Whether it moves along its axis, in metres.
+    /// `true` for a joint that moves along its axis, in metres.
     pub(super) prismatic: bool,
     /// Lowest and highest position; `None` is a continuous joint.
     pub(super) range: Option<(f64, f64)>,

@@ -17,7 +17,7 @@ pub struct Issue {
     pub cause: CauseId,
     /// Which of the command's arguments is at fault.
     pub part: Part,
-    /// What is asked for that cannot be had.
+    /// The demand that cannot be met.
     pub kind: IssueKind,
 }
 
@@ -42,7 +42,7 @@ pub enum Part {
     Ports,
 }
 
-/// What a command asks for that cannot be had, in SI units; joints and ports by path name.
+/// The demand of a command that cannot be met, in SI units; joints and ports by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum IssueKind {
     /// The position is outside the joint's range.
@@ -53,7 +53,7 @@ pub enum IssueKind {
         position: f64,
         /// The lowest and the highest position, rad or m.
         range: (f64, f64),
-        /// Whether the joint moves along its axis, in metres.
+        /// `true` for a joint that moves along its axis, in metres.
         prismatic: bool,
     },
     /// The speed is more than the joint, or a motor that drives it, can do.
@@ -64,7 +64,7 @@ pub enum IssueKind {
         speed: f64,
         /// The greatest speed, rad/s or m/s.
         limit: f64,
-        /// Whether the joint moves along its axis, in metres.
+        /// `true` for a joint that moves along its axis, in metres.
         prismatic: bool,
     },
     /// The duration is shorter than the joint's limits allow, s.

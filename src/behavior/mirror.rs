@@ -49,7 +49,7 @@ impl std::fmt::Display for MirrorError {
 /// Returns the mirror image of a behaviour; `holds` has a flag for every bond of the robot.
 ///
 /// # Errors
-/// Where a joint has no image, or where the behaviour docks or undocks.
+/// Refuses a joint without an image, and behaviours that dock or undock.
 pub fn mirrored(
     robot: &Assembly,
     holds: &[bool],
@@ -80,7 +80,7 @@ pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(Joi
     marks.iter().map(|mark| mark.as_ref().and_then(|m| mirror.image(m, &marks))).collect()
 }
 
-/// What tells a joint from others: in the frame of the base, all joints at zero.
+/// The features that tell a joint from others, in the frame of the base, all joints at zero.
 struct Mark {
     kind: usize,
     prismatic: bool,

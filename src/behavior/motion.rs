@@ -14,7 +14,7 @@ pub(super) struct Motion {
     ahead: VecDeque<Segment>,
     /// Turning without end once `ahead` is over.
     turning: Option<Turning>,
-    /// Where it is when `ahead` is over, or was when nothing is.
+    /// The position after `ahead`, rad or m.
     rest: f64,
     /// The command in force.
     pub(super) command: Option<(Command, CauseId)>,
@@ -116,7 +116,7 @@ impl Motion {
         self.turning
     }
 
-    /// When the last commanded piece ends; `None` at rest.
+    /// Returns the time at which the last commanded piece ends; `None` at rest.
     pub(super) fn ends(&self) -> Option<f64> {
         self.ahead.back().map(|s| s.end)
     }

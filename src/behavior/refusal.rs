@@ -1,6 +1,6 @@
 //! Refusals of scheduling: why a behaviour is no plan, and which action is to blame.
 
-use super::Uncommandable;
+use super::joints::Uncommandable;
 use crate::plan::CauseId;
 use crate::units::{Dimension, quantity};
 
@@ -9,7 +9,7 @@ use crate::units::{Dimension, quantity};
 pub struct Refusal {
     /// The action to blame; `None` where it is the behaviour as a whole.
     pub cause: Option<CauseId>,
-    /// What cannot be done.
+    /// The reason.
     pub reason: Reason,
 }
 
@@ -39,9 +39,9 @@ pub enum Reason {
     Jump {
         /// The path name of the joint.
         joint: String,
-        /// Where the joint is, rad or m.
+        /// The position of the joint, rad or m.
         at: f64,
-        /// Where the function begins, rad or m.
+        /// The position at which the function begins, rad or m.
         begins: f64,
     },
     /// The joint moves too fast to be stopped within the duration of the move that takes over.
@@ -97,14 +97,14 @@ pub enum Reason {
     },
     /// A phase or stretch holds something that can't be shifted or scaled.
     NotCyclic {
-        /// What it holds.
+        /// The part that cannot be shifted or scaled.
         what: &'static str,
     },
     /// A piece of motion shorter than a tick of time.
     TooShort,
     /// A limit was reached.
     Limit {
-        /// What is counted.
+        /// The things that are counted.
         what: &'static str,
         /// The most there may be.
         limit: u64,

@@ -30,7 +30,7 @@ pub(super) struct Run<'a> {
     pub(super) actions: u64,
     pub(super) steps: u64,
     pub(super) segments: u64,
-    /// How many phases and stretches this run is inside of.
+    /// The number of phases and stretches that this run is inside of.
     pub(super) cycles: u64,
     tasks: Vec<Task<'a>>,
     frames: Vec<Frame<'a>>,
@@ -44,7 +44,7 @@ pub(super) struct Run<'a> {
     done: bool,
 }
 
-/// What a run leaves.
+/// The result of a run.
 pub(super) struct Played {
     pub(super) robot: Arc<Assembly>,
     pub(super) tracks: Vec<Track>,

@@ -73,9 +73,9 @@ pub struct Scheduled {
     pub tracks: Tracks,
     /// The behaviour itself, which a robot executes.
     pub program: Program,
-    /// What parts of the motion are excused from.
+    /// The parts of the motion that are excused from a check.
     pub exemptions: Vec<Exemption>,
-    /// Whether times depend on what sensors would say: then they are those of the undisturbed run.
+    /// `true` where times depend on what sensors would say: then they are those of the undisturbed run.
     pub nominal: bool,
     /// Actions executed, repetitions included.
     pub actions: u64,
@@ -91,7 +91,7 @@ pub struct Scheduled {
 /// holds, or a limit of the settings is reached.
 ///
 /// # Panics
-/// Where the start has not one position for every joint and one flag for every bond.
+/// Panics unless the start has one position for every joint and one flag for every bond.
 pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
     let Problem { robot, start, program, start_causes, bond_causes, settings } = problem;
     let graph = Graph::of(&program);

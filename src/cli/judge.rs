@@ -7,7 +7,7 @@ use super::terminal::{cancelled, listen_for_cancel, print};
 use super::verdict;
 use super::{CallError, Ending};
 use crate::behavior::unfaithful;
-use crate::plan::{self, Body, CheckKind, Plan, Status, Verdict, Worst};
+use crate::plan::{self, CheckKind, Plan, Status, Verdict, Worst};
 use crate::source::{Diagnostic, Sources, Span, code};
 use std::path::{Path, PathBuf};
 
@@ -84,7 +84,7 @@ pub(super) fn judged(plan: &Plan) -> Verdict {
             .notes
             .push("the verdict that the file brings along is another, and was not believed".to_owned());
     }
-    if plan.program.is_none() && matches!(plan.body, Body::Tracks(_)) {
+    if plan.program.is_none() && plan.body.tracks().is_some() {
         verdict.notes.push("there is no program: a robot has to follow the positions themselves".to_owned());
     }
     verdict

@@ -6,7 +6,7 @@ use super::report::{self, Report};
 use super::terminal::{listen_for_cancel, print_error};
 use super::{CallError, Ending, judge, output};
 use crate::interpret::WriteError;
-use crate::plan::{Body, Plan};
+use crate::plan::Plan;
 use crate::view::{self, RenderInput};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -61,10 +61,8 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
 
 /// Returns the title of a page.
 fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
-    match &plan.body {
-        Body::Tracks(tracks) if !tracks.robot.name.is_empty() => &tracks.robot.name,
-        _ => stem,
-    }
+    let name = plan.body.tracks().map(|tracks| tracks.robot.name.as_str());
+    name.filter(|name| !name.is_empty()).unwrap_or(stem)
 }
 
 /// Opens a page in the system's browser. Fails if no program for it can be started.

@@ -8,7 +8,7 @@ use crate::interpret::planning::Planned;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Behavior;
 use crate::interpret::verdicts::failure_line;
-use crate::plan::{Action, Body, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
+use crate::plan::{Action, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner};
 use crate::source::{FileId, Span};
 use crate::units::{Dimension, quantity};
@@ -98,13 +98,14 @@ impl Interpreter<'_> {
 
 /// What moves when: a joint, or the whole of what has no joints.
 fn rows(planned: &Planned, duration: f64) -> Vec<(String, String)> {
-    match (&planned.plan.body, &planned.body) {
-        (Body::Tracks(tracks), Some(robot)) => {
+    match (planned.plan.body.tracks(), &planned.body) {
+        (Some(tracks), Some(robot)) => {
             let names = Names::of(robot);
             let moving = tracks.tracks.iter().filter(|track| !track.segments.is_empty());
             moving.map(|track| (names.joint(track.joint), marks(track, duration))).collect()
         }
-        (body, _) => {
+        _ => {
+            let body = &planned.plan.body;
             let mut marks = vec!['─'; SKETCH_WIDTH];
             for instant in body.instants() {
                 marks[column(instant, duration).min(SKETCH_WIDTH - 1)] = '│';

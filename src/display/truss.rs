@@ -6,7 +6,7 @@ use crate::geometry::Vec3;
 use crate::interpret::design::Design;
 use crate::interpret::planning::Planned;
 use crate::natives::truss::Trussed;
-use crate::plan::{Body, NodePaths};
+use crate::plan::NodePaths;
 use crate::planners::morph;
 use crate::units::number;
 use crate::units::{Dimension, quantity};
@@ -84,7 +84,7 @@ pub fn made(planned: &Planned) -> Vec<String> {
         ],
         None => Vec::new(),
     };
-    if let Body::NodePaths(paths) = &planned.plan.body {
+    if let Some(paths) = planned.plan.body.node_paths() {
         lines.extend(before_and_after(paths));
     }
     lines

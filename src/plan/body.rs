@@ -39,7 +39,7 @@ pub enum Snapshot {
 /// One body followed by another.
 pub(super) struct Appended {
     pub(super) body: Body,
-    /// How to say of the first robot what was said of the second, where robots have names.
+    /// The map of the second robot's names to those of the first, where robots have names.
     pub(super) remap: Option<Remap>,
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct CauseId(pub u32);
 
-/// What in the source commands a piece of motion, or sets a piece of the start pose.
+/// A place in the source that commands a piece of motion, or sets a piece of the start pose.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cause {

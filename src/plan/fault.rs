@@ -16,7 +16,7 @@ use std::fmt;
 pub enum PlanFault {
     /// An index into a list of things of one sort that is too large for the list.
     Index {
-        /// What the list holds.
+        /// The sort of things in the list.
         what: &'static str,
         /// Its index.
         index: usize,
@@ -37,7 +37,7 @@ pub enum PlanFault {
     Unwritable {
         /// The part of the plan.
         part: &'static str,
-        /// What no file can hold.
+        /// The value that no file can hold.
         value: Unwritable,
     },
     /// The first world does not hold from 0 on.
@@ -101,11 +101,11 @@ pub enum PlanFault {
     },
     /// A name in a file that contradicts the index which it stands beside.
     Name {
-        /// What has the name.
+        /// The sort of the thing that has the name.
         what: &'static str,
         /// Its index.
         index: usize,
-        /// What the file states.
+        /// The text of the file.
         stated: String,
         /// The name of what the index stands for.
         name: String,
@@ -117,9 +117,9 @@ pub enum PlanFault {
     },
     /// A world that states other dynamics than those under which plans of this family are judged.
     Dynamics {
-        /// What the file states.
+        /// The text of the file.
         stated: DynamicsModel,
-        /// What plans of this family are judged under.
+        /// The dynamics that plans of this family are judged under.
         judged: DynamicsModel,
     },
     /// A fault of a module type or a connector.
@@ -257,7 +257,7 @@ pub enum TracksFault {
         time: f64,
         /// The index of the bond.
         bond: usize,
-        /// Whether it holds before.
+        /// `true` where it holds before.
         holds: bool,
     },
     /// A joint that is moved beyond this, rad or m.

@@ -18,7 +18,7 @@ pub enum Unwritable {
         /// The name of the field.
         field: &'static str,
     },
-    /// What a value says of itself that cannot be written.
+    /// Another reason, in the words of the value itself.
     Other(String),
 }
 

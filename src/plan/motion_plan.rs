@@ -12,23 +12,23 @@ use std::sync::Arc;
 /// A verified motion of a robot, whatever made it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// What made the plan, and what was done to it since.
+    /// The origin of the plan, and the changes since.
     pub provenance: Provenance,
     /// In order of time; each part of a concatenation keeps the world it was planned for.
     pub worlds: Vec<WorldFrom>,
-    /// How strictly it is judged.
+    /// The settings of the judge.
     pub settings: Settings,
     /// The module types, connectors, cells and struts that the body refers to by index.
     pub library: Arc<Library>,
     /// The motion.
     pub body: Body,
-    /// What a position-servo robot executes; `None` for planned bodies without one.
+    /// The program that a position-servo robot executes; `None` for planned bodies without one.
     pub program: Option<Program>,
-    /// Whether times depend on what sensors would say: then they hold for the undisturbed run.
+    /// `true` where times depend on what sensors would say: then they hold for the undisturbed run.
     pub nominal: bool,
     /// The commands of the source that move something, by [`CauseId`](super::CauseId).
     pub causes: Vec<Cause>,
-    /// What parts of the plan are excused from.
+    /// The parts of the plan that are excused from a check.
     pub exemptions: Vec<Exemption>,
     /// Of the last verification; recomputed whenever it matters.
     pub verdict: Option<Verdict>,

@@ -79,13 +79,13 @@ pub struct Action {
     pub until: Option<Condition>,
     /// T, in seconds.
     pub timeout: Option<f64>,
-    /// What follows the timeout.
+    /// The continuation after the timeout.
     pub otherwise: Otherwise,
     /// The command of the source that this comes from.
     pub cause: CauseId,
 }
 
-/// What an action commands: a controller (J) and a setpoint (X), a pause, or a change of the bonds.
+/// The command of an action: a controller (J) and a setpoint (X), a pause, or a change of the bonds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
@@ -93,7 +93,7 @@ pub enum Command {
     Move {
         /// The joint.
         joint: JointId,
-        /// Where to.
+        /// The end.
         target: Target,
         /// Seconds, or `None`.
         duration: Option<f64>,
@@ -129,7 +129,7 @@ pub enum Command {
         /// The port that docks.
         b: PortRef,
     },
-    /// What is docked at a port is undocked.
+    /// The bond at a port ceases to hold.
     Undock {
         /// One of the two ports of the bond.
         port: PortRef,
@@ -158,7 +158,7 @@ pub enum Profile {
     Linear,
 }
 
-/// What follows a timeout before `until` held.
+/// The continuation after a timeout before `until` held.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Otherwise {
     /// The next action begins: the paper's meaning.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What made the plan.
+/// The origin of a plan: what made it, and what was done to it since.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
@@ -15,12 +15,12 @@ pub struct Provenance {
     pub seed: Option<u64>,
     /// The limit that was set for the search, in the steps that the planner counts.
     pub budget: Option<u64>,
-    /// What the planner proved of every plan for the same task; nothing of a plan changed since.
+    /// A bound that the planner proved of every plan for the same task; none of a plan changed since.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<Bound>,
     /// The tool that planned it, with its version: `modl 0.1.0`.
     pub tool: String,
-    /// What was done to the plan since, in order.
+    /// The changes since, in order.
     pub history: Vec<Change>,
 }
 
@@ -49,9 +49,9 @@ pub enum Change {
     Joined {
         /// Seconds.
         at: f64,
-        /// What of the other plan's modules had another name here: (its name there, its name here).
+        /// The modules of the other plan with another name here: (name there, name here).
         renamed: Vec<(String, String)>,
-        /// How the other plan had been changed before.
+        /// The changes of the other plan before.
         appended: Vec<Change>,
     },
     /// The program was given up, and why.

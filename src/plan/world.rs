@@ -4,7 +4,7 @@ use super::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is under the robot, and what it does to the base.
+/// The ground under the robot, and its hold on the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ground {
@@ -19,13 +19,13 @@ pub enum Ground {
     Off,
 }
 
-/// What is assumed of the surroundings.
+/// The assumptions about the surroundings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct World {
     /// m/s², downwards; 0 is weightless.
     pub gravity: f64,
-    /// What is under the robot.
+    /// The ground under the robot.
     pub ground: Ground,
     /// Factor on the friction of every link.
     pub friction: f64,

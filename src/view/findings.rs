@@ -4,7 +4,7 @@ use super::input::RenderInput;
 use super::number::{number, vector};
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
-use crate::plan::{Body, Cause, CheckKind, Failure, Plan, Verdict, Worst};
+use crate::plan::{Cause, CheckKind, Failure, Plan, Verdict, Worst};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
@@ -73,7 +73,7 @@ pub(super) fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
 
 /// Returns the indices of the modules with these names, or with links, joints or ports of these names.
 fn modules(names: &[String], plan: &Plan) -> Vec<usize> {
-    let Body::Tracks(tracks) = &plan.body else { return vec![] };
+    let Some(tracks) = plan.body.tracks() else { return vec![] };
     let mut found = Vec::new();
     for name in names {
         let belongs =
@@ -117,11 +117,7 @@ fn short_length(x: f64) -> f64 {
 /// Returns the summary line below the title of a page.
 pub(super) fn summary(input: &RenderInput) -> String {
     let plan = input.plan;
-    let (count, what) = match &plan.body {
-        Body::Tracks(tracks) => (tracks.robot.modules.len() as u64, "module"),
-        Body::Stages(stages) => (stages.count, "cell"),
-        Body::NodePaths(paths) => (paths.struts.len() as u64, "strut"),
-    };
+    let (count, what) = plan.body.units();
     let mut parts = vec![format!("{count} {what}{}", if count == 1 { "" } else { "s" })];
     let duration = plan.body.duration();
     if duration > 0.0 {

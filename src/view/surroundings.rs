@@ -2,7 +2,7 @@
 //! on.
 
 use crate::geometry::{HeightField, Placed, Pose, Shape, Vec3};
-use crate::plan::{Body, NodePaths, Plan};
+use crate::plan::{NodePaths, Plan};
 
 /// The most grid squares of terrain that are drawn in each direction.
 const SQUARES_MAX: usize = 48;
@@ -11,7 +11,7 @@ const AROUND: f64 = 0.5;
 
 /// Returns whether a level floor is drawn: the world has a floor, and no terrain replaces it.
 pub(super) fn floor(plan: &Plan) -> bool {
-    let uneven = matches!(&plan.body, Body::NodePaths(paths) if paths.surroundings.terrain.is_some());
+    let uneven = plan.body.node_paths().is_some_and(|paths| paths.surroundings.terrain.is_some());
     !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor())
 }
 

@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// What the first field of every plan file says.
+/// The text of the first field of every plan file.
 pub(super) const FORMAT: &str = "modl plan";
 /// The version of the schema that is written.
 pub(super) const VERSION: u32 = 2;
@@ -47,10 +47,10 @@ pub(super) struct PlanJson<'a> {
     /// In order of time.
     worlds: Vec<WorldFromJson>,
     settings: Settings,
-    /// Whether times depend on what sensors would say: then they hold for the undisturbed run.
+    /// `true` where times depend on what sensors would say: then they hold for the undisturbed run.
     nominal: bool,
     library: Arc<Library>,
-    /// What the indices inside the library stand for.
+    /// The names of what the indices inside the library stand for.
     names: LibraryNamesJson,
     body: BodyJson<'a>,
     program: Option<ProgramJson<'a>>,
@@ -68,7 +68,7 @@ struct WorldFromJson {
     world: WorldJson,
 }
 
-/// What is assumed of the surroundings, and of how forces and motion go together.
+/// The assumptions about the surroundings, and about how forces and motion go together.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "World", deny_unknown_fields)]
 struct WorldJson {
@@ -77,11 +77,11 @@ struct WorldJson {
     ground: Ground,
     /// Factor on the friction of every link.
     friction: f64,
-    /// What the verdict rests on.
+    /// The law of forces and motion that the verdict rests on.
     dynamics: DynamicsModel,
 }
 
-/// What a stretch of the plan is excused from. The end of the whole plan never is.
+/// A stretch of the plan that is excused from a check. The end of the whole plan never is.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Exemption", deny_unknown_fields)]
 struct ExemptionJson {

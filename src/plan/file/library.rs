@@ -5,7 +5,7 @@ use crate::robot::{Library, ModuleType};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What the indices inside the library stand for, in the order of the library.
+/// The names of what the indices inside the library stand for, in the order of the library.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "LibraryNames", deny_unknown_fields)]
 pub(super) struct LibraryNamesJson {

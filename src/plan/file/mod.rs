@@ -15,14 +15,14 @@ use sha2::{Digest, Sha256};
 /// Longest text that is read, bytes.
 pub const TEXT_MAX: usize = 1 << 31;
 
-/// Why a plan can't be written or read.
+/// The reason why a plan cannot be written or read, with its place in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileError {
     /// From 1; 0 where the fault has no place in the text.
     pub line: usize,
     /// From 1, in bytes; 0 where the fault has no place in the text.
     pub column: usize,
-    /// What is wrong, in words.
+    /// The reason, in words.
     pub message: String,
 }
 
@@ -52,7 +52,7 @@ impl From<serde_json::Error> for FileError {
 /// Returns a plan as text.
 ///
 /// # Errors
-/// Where a number is not finite, which JSON cannot hold.
+/// Refuses numbers that are not finite, which JSON cannot hold.
 pub fn write(plan: &Plan) -> Result<String, FileError> {
     let json = PlanJson::of(plan);
     finite::check(&json).map_err(|fault| FileError::whole(fault.to_string()))?;
@@ -66,7 +66,7 @@ pub fn write(plan: &Plan) -> Result<String, FileError> {
 /// file is refused where it uses what was added.
 ///
 /// # Errors
-/// Where the text is no plan of a known version, or where the plan has a [`PlanFault`](super::PlanFault).
+/// Refuses a text that is no plan of a known version, and a plan with a [`PlanFault`](super::PlanFault).
 pub fn read(text: &str) -> Result<Plan, FileError> {
     if text.len() > TEXT_MAX {
         return Err(FileError::whole(format!("the file is longer than {TEXT_MAX} bytes")));

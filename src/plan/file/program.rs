@@ -77,7 +77,7 @@ struct ActionJson<'a> {
     cause: CauseId,
 }
 
-/// What follows a timeout.
+/// The continuation after a timeout.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Otherwise", rename_all = "snake_case", deny_unknown_fields)]
 enum OtherwiseJson {

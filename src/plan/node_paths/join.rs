@@ -13,7 +13,7 @@ pub const TOL_JOIN_NODE: f64 = 1e-6;
 /// Returns the first paths and then the second, whose causes come behind `causes` others.
 ///
 /// # Errors
-/// Where the trusses, their surroundings or the places of their nodes differ.
+/// Refuses trusses that differ in their struts, in their surroundings, or in the places of their nodes.
 pub(in crate::plan) fn joined(
     a: &NodePaths,
     b: &NodePaths,

@@ -23,7 +23,7 @@ pub(in crate::plan) struct NodePathsJson<'a> {
     strut_ends: Vec<(String, String)>,
     /// In order of time; the first at 0.
     keyframes: Cow<'a, [Keyframe]>,
-    /// What it keeps beside the limits of its struts.
+    /// The limits beside those of its struts.
     #[serde(default, skip_serializing_if = "is_no_limit")]
     limits: Cow<'a, TrussLimits>,
     #[serde(default, skip_serializing_if = "is_nothing_around")]

@@ -19,10 +19,10 @@ pub struct NodePaths {
     pub struts: Vec<(usize, usize)>,
     /// In order of time; the first at 0.
     pub keyframes: Vec<Keyframe>,
-    /// What it keeps beside the limits of its struts.
+    /// The limits beside those of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
-    /// What is around the truss.
+    /// Obstacles and terrain.
     #[serde(default, skip_serializing_if = "Surroundings::is_none")]
     pub surroundings: Surroundings,
 }
@@ -39,7 +39,7 @@ pub struct Keyframe {
     pub nodes: Vec<[f64; 3]>,
     /// The command of the source that this comes from.
     pub cause: CauseId,
-    /// By how much the truss keeps its limits here, as the planner states it.
+    /// The margins from its limits at this keyframe, as the planner states them.
     #[serde(default, skip_serializing_if = "Margins::is_none")]
     pub margins: Margins,
 }

@@ -13,7 +13,8 @@ use crate::plan::operation_error::OperationError;
 /// others.
 ///
 /// # Errors
-/// Where the cells, their numbers or their shapes differ, or where 64 bits do not hold the numbers.
+/// Refuses lattices of other cells, of another number of cells or of another shape, and numbers that 64 bits do
+/// not hold.
 pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
     if a.count != b.count {
         return Err(OperationError::CellCounts { first: a.count, second: b.count });

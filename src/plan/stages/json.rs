@@ -15,15 +15,15 @@ pub(in crate::plan) struct StagesJson<'a> {
     cell: usize,
     /// The name of that cell type.
     cell_name: String,
-    /// How many cells there are.
+    /// The number of cells.
     count: u64,
     /// Seconds of one unit of time: that in which the greatest force brings a cell from rest to one
     /// cell size a unit of time.
     time_unit: f64,
     limits: CellLimits,
-    /// What the cells' forces are bound to.
+    /// The bounds on the cells' forces.
     model: Model,
-    /// Where every cell is at the start. Of two runs that name a cell the later holds.
+    /// The place of every cell at the start. Of two runs that name a cell the later holds.
     start: Cow<'a, [Run]>,
     stages: Cow<'a, [Stage]>,
 }

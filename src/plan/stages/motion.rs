@@ -16,22 +16,22 @@ use serde::{Deserialize, Serialize};
 pub struct Stages {
     /// Index in [`Library::cells`](crate::robot::Library).
     pub cell: usize,
-    /// How many cells there are.
+    /// The number of cells.
     pub count: u64,
     /// Seconds of one unit of time: that in which the greatest force brings a cell from rest to one
     /// cell size a unit of time.
     pub time_unit: f64,
-    /// What a cell can do.
+    /// The least size and the greatest speed of a cell.
     pub limits: CellLimits,
-    /// What the cells' forces are bound to.
+    /// The bounds on the cells' forces.
     pub model: Model,
-    /// Where every cell is at the start. Of two runs that name a cell the later holds.
+    /// The place of every cell at the start. Of two runs that name a cell the later holds.
     pub start: Vec<Run>,
     /// In order of time.
     pub stages: Vec<Stage>,
 }
 
-/// What a cell can do, in units of its size and of [`Stages::time_unit`]; its greatest force gives it
+/// The limits of a cell, in units of its size and of [`Stages::time_unit`]; its greatest force gives it
 /// an acceleration of 1 along each axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -66,13 +66,13 @@ pub struct Model {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
-    /// What it does, in the planner's words, such as `x-squeeze`.
+    /// The name of the motion, in the planner's words, such as `x-squeeze`.
     pub name: String,
     /// Square of its duration in units of time: a rational number, where the duration is its root.
     pub time_squared: Ratio,
     /// The time law that all cells share.
     pub law: Law,
-    /// Where cells are at the end of the stage.
+    /// The places of cells at the end of the stage.
     pub end: Vec<Run>,
     /// The command of the source that this comes from.
     pub cause: CauseId,
@@ -116,9 +116,9 @@ pub struct Run {
 pub struct Counter {
     /// `k` runs through 0..count; at least 1.
     pub count: u64,
-    /// What one step of `k` adds to the number of the cell.
+    /// The change of the cell's number for one step of `k`.
     pub stride: i64,
-    /// What one step of `k` adds to the centre along x, y, z.
+    /// The change of the centre along x, y, z for one step of `k`.
     pub step: [Ratio; 3],
 }
 
@@ -191,7 +191,7 @@ impl Stage {
 }
 
 impl Run {
-    /// How many cells it holds.
+    /// Returns the number of cells that it holds.
     pub fn count(&self) -> u64 {
         self.counters.iter().map(|c| c.count).product()
     }

@@ -3,7 +3,7 @@
 use super::motion::Stages;
 use crate::plan::operation_error::OperationError;
 
-/// How far from the border of a stage a cut may be, s: what rounding explains.
+/// The greatest distance of a cut from the border of a stage, s: rounding.
 const TOL_STAGE_BORDER: f64 = 1e-9;
 
 impl Stages {

@@ -47,7 +47,7 @@ struct RobotJson<'a> {
     base: usize,
     /// The name of that module.
     base_name: String,
-    /// Whether the connections may close loops.
+    /// `true` where the connections may close loops.
     closed: bool,
 }
 

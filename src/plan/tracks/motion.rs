@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct Tracks {
     /// The robot, with every bond that exists at some time.
     pub robot: Assembly,
-    /// The pose before the first motion; which bonds hold.
+    /// The joint positions and bonds before the first motion.
     pub start: State,
     /// At most one a joint, in order of joint. A joint without a track keeps its start position.
     pub tracks: Vec<Track>,
@@ -68,7 +68,7 @@ pub enum DockKind {
 pub struct Dock {
     /// Seconds.
     pub time: f64,
-    /// Whether it begins or ceases to hold.
+    /// The change.
     pub kind: DockKind,
     /// Index in the assembly's bonds.
     pub bond: usize,

@@ -21,7 +21,7 @@ pub struct Remap {
     bonds: Vec<usize>,
     /// For every joint of B.
     joints: Vec<JointId>,
-    /// What to add to a cause.
+    /// The number to add to the index of a cause.
     causes: u32,
 }
 

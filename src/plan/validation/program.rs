@@ -7,7 +7,7 @@ use crate::plan::visit::Graph;
 use crate::plan::world::ExemptionKind;
 use crate::robot::{Assembly, JointId, PortRef};
 
-/// What a program may name: a robot's joints and ports, and the causes of a plan.
+/// The things that a program may name: a robot's joints and ports, and the causes of a plan.
 pub(super) struct Names<'a> {
     robot: &'a Assembly,
     joints: usize,
