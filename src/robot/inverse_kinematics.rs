@@ -19,7 +19,7 @@ use super::assembly::{Assembly, JointOwner};
 use super::jacobian::{LinkFrame, geometric_jacobian};
 use super::kinematics::Kinematics;
 use super::library::JointKind;
-use super::step::Motion;
+use super::step::{Motion, Step};
 use crate::geometry::rigid_transform::rotation_vector;
 use crate::geometry::{Pose, RigidTransform, Vec3};
 use crate::interrupt;
@@ -376,24 +376,29 @@ fn limits(robot: &Assembly, start: &[f64]) -> Vec<(f64, f64)> {
     robot.joints().zip(start).map(of).collect()
 }
 
-/// Returns a bound on the distance from the held link's origin to the frame's, whatever the joints do, m.
+/// Returns a bound on the distance from the held link's origin to the frame's, whatever the joints do, m: the sum of the
+/// distances from axis to axis within each link, and of what slides travel.
 fn chain_length(task: &Reach, path: &[usize], limits: &[(f64, f64)]) -> f64 {
-    let own = task.frame.X_LF.translation.vector.norm();
-    let of = |pair: &[usize]| {
-        let (step, _) = task.kinematics.step_between(pair[0], pair[1]);
-        let travel = match step.motion {
-            Motion::Along(_) => {
-                let most = |&(joint, factor): &(usize, f64)| {
-                    let (low, high): (f64, f64) = limits[joint];
-                    factor.abs() * low.abs().max(high.abs())
-                };
-                step.terms().iter().map(most).sum()
-            }
-            _ => 0.0,
-        };
-        step.shift.norm() + step.offset.norm() + travel
+    let (mut length, mut last) = (0.0, Vec3::zeros());
+    for pair in path.windows(2) {
+        let (step, sign) = task.kinematics.step_between(pair[0], pair[1]);
+        // The point of the axis that both links carry, in the frame of the one and of the other.
+        let (in_parent, in_child) = (step.shift, -step.offset);
+        let (here, there) = if sign > 0.0 { (in_parent, in_child) } else { (in_child, in_parent) };
+        length += (here - last).norm() + travel(step, limits);
+        last = there;
+    }
+    length + (task.frame.X_LF.translation.vector - last).norm()
+}
+
+/// Returns the distance by which a slide can be off its zero, m; 0 for other joints.
+fn travel(step: &Step, limits: &[(f64, f64)]) -> f64 {
+    let Motion::Along(_) = step.motion else { return 0.0 };
+    let most = |&(joint, factor): &(usize, f64)| {
+        let (low, high) = limits[joint];
+        factor.abs() * low.abs().max(high.abs())
     };
-    own + path.windows(2).map(of).sum::<f64>()
+    step.terms().iter().map(most).sum()
 }
 
 struct FrameProblem<'a> {

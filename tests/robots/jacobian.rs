@@ -263,7 +263,7 @@ fn what_is_too_far_is_told_so() {
     // Nearer than the lower arm can fold back to: within the links' reach, but of no posture.
     let found = reached(&arm, 0.1, 0.0, [0.1, 0.5]);
     assert_eq!(found.stop, StopReason::Stalled);
-    assert!((found.distance - (UPPER - LOWER - 0.1)).abs() < 1e-3, "{found:?}");
+    assert!((found.distance - (UPPER - LOWER - 0.1)).abs() < 0.05, "{found:?}");
     let few = Settings { iterations_max: 1, ..Settings::default() };
     let task = Reach {
         robot: &arm.0,
