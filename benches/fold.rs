@@ -76,7 +76,7 @@ fn main() {
 /// What one layout takes: measured in closed form, simulated, looked at for collisions, ordered.
 fn dynamics(truth: &serde_json::Value) {
     println!(
-        "\n| shape | closed form | simulated | quick look | order (MI) | peak torque, all layouts and roots |"
+        "\n| shape | closed form | simulated | collision check | order (MI) | peak torque, all layouts and roots |"
     );
     println!("|---|---|---|---|---|---|");
     for name in ["tetrahedron", "octahedron", "quadruped_turtle", "icosahedron"] {

@@ -150,6 +150,7 @@ pub(crate) fn search<'a>(
     observer: &Observer,
 ) -> Result<Optimum, NoLayout> {
     let n = target.faces.len();
+    // Roots to search: one of each orbit of the target's symmetries.
     let plain = ShortestPaths::new(target, weights);
     let equals = match settings.root {
         Some(root) => vec![root; n],
@@ -159,6 +160,7 @@ pub(crate) fn search<'a>(
         Some(root) => vec![root],
         None => (0..n).filter(|face| equals[*face] == *face).collect(),
     };
+    // Perturbed costs tell ties apart.
     let least = asked.iter().map(|root| plain.bound(*root)).fold(f64::INFINITY, f64::min);
     // Where nothing costs anything, any perturbation will do.
     let slack = if least > 0.0 { TOLERANCES.perturbation * least } else { TOLERANCES.perturbation };
@@ -184,6 +186,7 @@ pub(crate) fn search<'a>(
         budget_left: settings.budget,
         observer,
     };
+    // The queue begins with one node for each root, under the bound of shortest paths.
     for root in asked {
         search.push(Node { root, bound: plain.bound(root), number: 0, ways: None });
     }
@@ -191,6 +194,7 @@ pub(crate) fn search<'a>(
     routes.longest = search.height;
     let mut bounds = Bounds { routes, relaxation: None };
     search.run(&mut bounds);
+    // What holds for a root holds for its orbit.
     let equals: Vec<Option<usize>> = match settings.root {
         Some(root) => (0..n).map(|face| (face == root).then_some(root)).collect(),
         None => equals.into_iter().map(Some).collect(),

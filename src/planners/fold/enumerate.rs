@@ -79,6 +79,7 @@ pub fn census(
         visited += 1;
         let least = best.as_ref().map(|(least, ..)| *least);
         observer.report(|| progress_text::counted(visited, &all, "layouts", least));
+        // Energies of the layout with every root, from one of them.
         tree.hang(hinges);
         tree.energies(&sums, &mut energies);
         for (root, &energy) in energies.iter().enumerate() {
@@ -87,6 +88,7 @@ pub fn census(
             }
             by_root[root] = by_root[root].min(energy);
             greatest = f64::max(greatest, energy);
+            // The incumbent and its ties.
             match &mut best {
                 Some((least, ..)) if energy > *least * (1.0 + TOLERANCES.tie) => {}
                 Some((least, ..)) if energy >= *least * (1.0 - TOLERANCES.tie) => ties += 1,
@@ -183,6 +185,7 @@ impl<V: FnMut(&[usize])> Walk<'_, V> {
                 at += 1;
                 continue;
             }
+            // The hinge joins two components; it is needed where no later hinge does.
             let joined = groups[a] | groups[b];
             let needed = !self.reaches(at + 1, a, b, &groups);
             let mut together = groups;
@@ -191,6 +194,7 @@ impl<V: FnMut(&[usize])> Walk<'_, V> {
                 together[rest.trailing_zeros() as usize] = joined;
                 rest &= rest - 1;
             }
+            // Branch with the hinge, then go on without it.
             self.kept.push(at);
             if needed && self.kept.len() + 1 < n {
                 // Without a choice there is no need to go deeper.

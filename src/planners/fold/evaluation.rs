@@ -1,7 +1,6 @@
 //! Best-first search for a layout that the judge lets through in the order that the settings ask for.
 
-use super::Proof;
-use super::branch_and_bound::{self, Decision};
+use super::branch_and_bound::{self, Decision, Proof};
 use super::layout::Layout;
 use super::proposals::Proposals;
 use super::refusal::{Refusal, Rejection};

@@ -79,6 +79,7 @@ pub fn survey(
     let mut roots: Vec<usize> = settings.roots.iter().map(|root| equals[*root]).collect();
     roots.sort_unstable();
     roots.dedup();
+    // Enumeration where the budget reaches all pairs, else local search.
     let pairs = spanning_trees::layouts(target) * roots.len();
     let mut kept = Kept { target, settings, best: Vec::new(), ties: vec![0; n], least: f64::INFINITY };
     let most = settings.prefilter.map_or(settings.budget, |prefilter| prefilter.budget.max(settings.budget));
@@ -93,6 +94,7 @@ pub fn survey(
             if let Some((_, peaks)) = &mut prefilter {
                 peaks.hang(hinges);
             }
+            // The prefilter skips pairs that are worse than all that are kept.
             for &root in &roots {
                 if let Some((scale, peaks)) = &prefilter
                     && kept.is_full_of_less_than(peaks.greatest(root) * scale)
@@ -109,6 +111,7 @@ pub fn survey(
         improve(&mut kept, weights, &roots, value);
     }
     let Kept { best, ties, least, .. } = kept;
+    // What holds for a root holds for those equal to it by symmetry.
     let asked = settings.roots.iter().copied();
     let roots = asked.clone().filter(|root| ties[equals[*root]] > 0).collect();
     let ties = asked.map(|root| ties[equals[root]]).sum();

@@ -1,7 +1,6 @@
 //! Layouts that are proposed to the judge, by the method that the objective allows.
 
-use super::Proof;
-use super::branch_and_bound::{self, NoLayout, Optimum};
+use super::branch_and_bound::{self, NoLayout, Optimum, Proof};
 use super::enumerate::{self, TooManyFaces};
 use super::heuristic::{self, Measure};
 use super::layout::Layout;

@@ -60,6 +60,7 @@ pub fn simulate(
         crate::interrupt::checkpoint();
         let mut sizes = vec![Size::default(); faces];
         for middle in HALVES {
+            // Inverse dynamics at the Gauss points of half a step.
             for (i, point) in rule.points.iter().enumerate() {
                 let at = quintic(middle + 0.25 * point, circumstances.step);
                 for &face in step {
@@ -74,12 +75,14 @@ pub fn simulate(
                 dynamics.torques(|face| hinging[face], &mut torques);
                 values.iter_mut().zip(&torques).for_each(|(values, torque)| values[i] = *torque);
             }
+            // Mean and peak of the absolute torque, from the Legendre series.
             for (size, values) in sizes.iter_mut().zip(&values) {
                 let half = Series::size(&rule.series(values));
                 size.mean += half.mean / 2.0;
                 size.peak = size.peak.max(half.peak);
             }
         }
+        // From here on the hinges of the step are locked.
         for &face in step {
             hinging[face] = Hinging { angle: angle(face), ..Hinging::default() };
         }

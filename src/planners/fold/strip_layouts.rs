@@ -288,15 +288,15 @@ impl StripSearch<'_> {
 }
 
 /// Connected components of faces (union-find).
-pub struct Pieces(
+pub struct Components(
     /// By face: the least face that it is joined to.
     Vec<usize>,
 );
 
-impl Pieces {
+impl Components {
     /// Makes one component of each face.
-    pub fn new(faces: usize) -> Pieces {
-        Pieces((0..faces).collect())
+    pub fn new(faces: usize) -> Components {
+        Components((0..faces).collect())
     }
 
     /// Joins the components of two faces; returns whether they were apart.
@@ -311,7 +311,7 @@ impl Pieces {
 fn heaviest_tree(target: &Target, worths: &[f64]) -> Vec<usize> {
     let mut by_worth: Vec<usize> = (0..worths.len()).collect();
     by_worth.sort_by(|a, b| worths[*b].total_cmp(&worths[*a]));
-    let mut pieces = Pieces::new(target.faces.len());
-    by_worth.retain(|hinge| pieces.join(target.hinges[*hinge].faces));
+    let mut components = Components::new(target.faces.len());
+    by_worth.retain(|hinge| components.join(target.hinges[*hinge].faces));
     by_worth
 }

@@ -13,7 +13,7 @@ use super::refusal::Refusal;
 use super::settings::{Method, Problem, Sequence, Settings};
 use super::sheet::Sheet;
 use super::steps;
-use super::strip_layouts::Pieces;
+use super::strip_layouts::Components;
 use super::sweep_collision;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
@@ -198,10 +198,10 @@ fn compatible(problem: &Problem, settings: &Settings, conventions: &Conventions)
 /// Panels that share no edge penetrate each other, or the hinges close a ring, so that no layout has them all.
 fn required_hinges(target: &Target, panels: &Panels) -> Result<Vec<usize>, Refusal> {
     let mut hinges = Vec::new();
-    let mut pieces = Pieces::new(target.faces.len());
+    let mut components = Components::new(target.faces.len());
     for faces @ [a, b] in sweep_collision::target_collisions(target, &panels.solids) {
         let hinge = target.hinge_between(a, b).ok_or(Refusal::Interpenetrating { faces })?;
-        if !pieces.join(faces) {
+        if !components.join(faces) {
             return Err(Refusal::ClosedRing { faces });
         }
         hinges.push(hinge);

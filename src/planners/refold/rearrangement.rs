@@ -24,7 +24,7 @@ pub struct Goal {
 
 /// The panels, for collision samples.
 #[derive(Clone, Copy)]
-pub struct Panels<'p> {
+pub struct PanelSolids<'p> {
     /// Their collision parts.
     pub solids: &'p Solids,
     /// The length of their sides, m.
@@ -49,7 +49,7 @@ struct Node {
 pub fn rearranged(
     start: &LatticeSheet,
     goal: &Goal,
-    panels: Panels,
+    panels: PanelSolids,
     most: usize,
     steps: usize,
 ) -> Option<(Vec<Stroke>, LatticeSheet)> {
@@ -84,7 +84,7 @@ pub fn rearranged(
 }
 
 /// Returns whether the stroke into a state is collision-free, if need be folded to the other side.
-fn is_free(nodes: &mut [Node], at: usize, Panels { solids, side }: Panels) -> bool {
+fn is_free(nodes: &mut [Node], at: usize, PanelSolids { solids, side }: PanelSolids) -> bool {
     let Some((before, stroke)) = nodes[at].from.clone() else { return true };
     let other = Stroke { angle: -stroke.angle, ..stroke.clone() };
     let free = [stroke, other].into_iter().find(|s| nodes[before].plane.is_free(s, solids, side));

@@ -10,7 +10,7 @@
 //! among equals as long as the budget lasts.
 
 use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};
-use super::rearrangement::{Goal, Panels, pair, rearranged};
+use super::rearrangement::{Goal, PanelSolids, pair, rearranged};
 use crate::planners::fold::Layout;
 use crate::planners::fold::Observer;
 use crate::planners::fold::Target;
@@ -110,6 +110,7 @@ pub fn sheets(
     if n != to.faces.len() {
         return Err(NoRefolding::Counts);
     }
+    // Random growth: pairs of sheets that have the most in common.
     let mut left = settings.budget / 2;
     let mut random = Random(SplitMix64(settings.seed));
     let mut pairs: Vec<(usize, Pair)> = Vec::new();
@@ -130,8 +131,9 @@ pub fn sheets(
             pairs.truncate(TRIED);
         }
     }
+    // Strokes between the sheets of each pair, by best-first search.
     let (a, b) = (from.corners(0)[0], from.corners(0)[1]);
-    let panels = Panels { solids, side: (b - a).norm() };
+    let panels = PanelSolids { solids, side: (b - a).norm() };
     let mut best: Vec<(usize, f64, Refolding)> = Vec::new();
     let tried = (STEPS_IN_ALL_MAX / (STEPS_MAX * n)).max(1);
     for (_, pair) in pairs.iter().take(tried) {
@@ -143,6 +145,7 @@ pub fn sheets(
     }
     best.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     best.truncate(settings.kept);
+    // The lower bound, with the other half of the budget.
     let least = best.first().map(|found| found.0);
     let bound = bound(from, to, least.unwrap_or(n), settings.budget / 2);
     if least.is_none() {
@@ -190,7 +193,7 @@ impl Pair {
         stray + self.to.joined(to).filter(|pair| !joined.contains(pair)).count()
     }
 
-    fn refolding(&self, from: &Target, to: &Target, panels: Panels, most: usize) -> Option<Refolding> {
+    fn refolding(&self, from: &Target, to: &Target, panels: PanelSolids, most: usize) -> Option<Refolding> {
         let bonds = self.from.hinges.iter().map(|hinge| {
             let hinge = &from.hinges[*hinge];
             let [a, b] = [0, 1].map(|end| (hinge.faces[end], hinge.sides[end]));
@@ -474,18 +477,18 @@ fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
 /// Returns whether so many pieces suffice; also true where the budget does not.
 fn can_do_with(from: &Target, to: &Target, pieces: usize, left: &mut u64) -> bool {
     let n = to.faces.len();
-    let mut search = Pieces { sheet: Sheet::new(from, to), closed: vec![[false; 3]; n], left };
+    let mut search = PieceSearch { sheet: Sheet::new(from, to), closed: vec![[false; 3]; n], left };
     search.begun(n, pieces)
 }
 
-struct Pieces<'t, 'l> {
+struct PieceSearch<'t, 'l> {
     sheet: Sheet<'t>,
     /// Sides of faces of the first shape across which no piece goes on.
     closed: Vec<[bool; 3]>,
     left: &'l mut u64,
 }
 
-impl Pieces<'_, '_> {
+impl PieceSearch<'_, '_> {
     /// Begins a piece with the first face that is in none. As deep as there are sides.
     fn begun(&mut self, missing: usize, pieces: usize) -> bool {
         if missing == 0 || *self.left == 0 {
