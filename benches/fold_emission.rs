@@ -4,7 +4,7 @@
 //! least of several runs; the judgement of its plan alone; the file's size.
 
 use modl::check::check;
-use modl::interpret::{self, Host, Mode, Options, WriteError};
+use modl::interpret::{Host, Mode, Options, WriteError};
 use modl::plan::{file, verify};
 use modl::source::{Files, ReadError};
 use std::borrow::Cow;
@@ -45,7 +45,7 @@ fn main() {
         let mut host = Kept(Vec::new());
         let whole = least(|| {
             let checked = check(&files, "main.mod");
-            let outcome = interpret::run(&checked, Mode::Run, &files, &mut host, &Options::default());
+            let outcome = modl::execute::run(&checked, Mode::Run, &files, &mut host, &Options::default());
             assert!(outcome.diagnostics.iter().all(|d| !d.is_error()), "{:?}", outcome.diagnostics.first());
         });
         let plan = file::read(std::str::from_utf8(&host.0).expect("JSON is text")).expect("it reads back");

@@ -5,7 +5,7 @@
 mod generate;
 
 use modl::check::check;
-use modl::interpret::{self, Host, Mode, Options, WriteError};
+use modl::interpret::{Host, Mode, Options, WriteError};
 use modl::source::{FileId, Files, ReadError};
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
@@ -29,7 +29,7 @@ fn main() {
     report("types", &text, || drop(check(&files, "main.mod")));
     report("check", &text, || {
         let checked = check(&files, "main.mod");
-        let outcome = interpret::run(&checked, Mode::Check, &files, &mut Silent, &Options::default());
+        let outcome = modl::execute::run(&checked, Mode::Check, &files, &mut Silent, &Options::default());
         assert!(outcome.diagnostics.iter().all(|d| !d.is_error()), "{:?}", outcome.diagnostics.first());
     });
 }

@@ -14,7 +14,7 @@
 #[path = "../tests/support/replay.rs"]
 mod replay;
 
-use modl::interpret::{self, Host, Mode, Options, WriteError};
+use modl::interpret::{Host, Mode, Options, WriteError};
 use modl::plan::{Body, file};
 use modl::source::{Files, ReadError};
 use replay::Replay;
@@ -169,7 +169,7 @@ fn planned(instance: &Instance, asked: &Asked, replays: bool) -> Row {
     let files = Memory(vec![("main.mod", program), ("x.rofi", instance.text.clone())]);
     let checked = modl::check::check(&files, "main.mod");
     let mut host = Clock::default();
-    let outcome = interpret::run(&checked, Mode::Run, &files, &mut host, &Options::default());
+    let outcome = modl::execute::run(&checked, Mode::Run, &files, &mut host, &Options::default());
     let mut row = Row { name: instance.name.clone(), modules: instance.modules, ..Row::default() };
     row.planning = host.planned.unwrap_or(host.ended) - host.begun;
     row.outcome = match &host.plan[..] {

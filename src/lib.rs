@@ -32,6 +32,8 @@ pub mod display;
 
 pub mod natives;
 
+pub mod execute;
+
 pub mod document;
 pub mod session;
 

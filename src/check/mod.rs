@@ -38,7 +38,7 @@ use typed::DefId;
 pub use load::{Entry, why_unreadable};
 pub use meaning::Meaning;
 pub use typed::Program;
-pub use types::Type;
+pub use types::{Choice, Type};
 
 /// The result of checking a file with all that it imports.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use super::disk::Project;
 use super::terminal::Terminal;
 use crate::check::{self, Checked, Entry};
 use crate::document::examples::examples;
-use crate::interpret::{self, Host, Mode, Options, WriteError};
+use crate::interpret::{Host, Mode, Options, WriteError};
 use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, Files};
 
@@ -67,7 +67,7 @@ pub(super) fn run(
         if !diagnostics.iter().any(Diagnostic::is_error) {
             let mode = if example.only_checked { Mode::Check } else { Mode::Run };
             let mut host = Silent(terminal.cancel_state());
-            let mut outcome = interpret::run(&checked, mode, project as &dyn Files, &mut host, options);
+            let mut outcome = crate::execute::run(&checked, mode, project as &dyn Files, &mut host, options);
             diagnostics.append(&mut outcome.diagnostics);
             cancelled = outcome.cancelled;
         }

@@ -8,7 +8,7 @@ use super::watch::Watched;
 use super::{CallError, Ending, examples};
 
 use crate::check;
-use crate::interpret::{self, Limits, Mode, Options, Outcome, TestResult};
+use crate::interpret::{Limits, Mode, Options, Outcome, TestResult};
 use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -110,7 +110,7 @@ fn one(
     let mut outcome = Outcome::default();
     // The sound parts of a wrong program are checked further, but nothing of it is run.
     if matches!(task, Task::Check) || !diagnostics.iter().any(Diagnostic::is_error) {
-        outcome = interpret::run(
+        outcome = crate::execute::run(
             &checked,
             mode(task),
             project as &dyn Files,

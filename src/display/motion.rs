@@ -2,9 +2,9 @@
 
 use super::pretty::{Branch, counted};
 use super::truss;
-use crate::elaborate::robot_of::Robot;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::plan_value::PlanValue;
+use crate::interpret::robot::Robot;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Behavior;
 use crate::interpret::verdicts::failure_line;
@@ -31,7 +31,7 @@ const TOL_INSTANT: f64 = 1e-9;
 
 impl Interpreter<'_> {
     /// The tree of a behaviour with its times, as far as it can be planned from the start pose.
-    pub fn portrait_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
+    pub(super) fn display_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
         let Some(design) = behavior.robot.clone() else {
             return Ok("a behaviour that moves no robot".to_owned());
         };
@@ -67,7 +67,7 @@ impl Interpreter<'_> {
     }
 
     /// A sketch of a plan's time with its verdict.
-    pub fn portrait_plan(&mut self, planned: &Rc<Planned>) -> Eval<String> {
+    pub(super) fn display_plan(&mut self, planned: &Rc<PlanValue>) -> Eval<String> {
         let duration = planned.plan.body.duration();
         let settings = self.judge_settings();
         let verdict = self.judge(planned, settings, None);
@@ -97,7 +97,7 @@ impl Interpreter<'_> {
 }
 
 /// What moves when: a joint, or the whole of what has no joints.
-fn rows(planned: &Planned, duration: f64) -> Vec<(String, String)> {
+fn rows(planned: &PlanValue, duration: f64) -> Vec<(String, String)> {
     match (planned.plan.body.tracks(), &planned.body) {
         (Some(tracks), Some(robot)) => {
             let names = Names::of(robot);

@@ -6,24 +6,29 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
+use crate::natives::folding::LayoutValue;
+use std::any::Any;
 
-/// Lines of a portrait; what is beyond is counted.
+/// Lines of a display; what is beyond is counted.
 pub const LINES_MAX: usize = 40;
 
 impl Interpreter<'_> {
     /// A value over as many lines as it needs, the first of which can stand alone.
-    pub fn portrait(&mut self, value: &Value) -> Eval<String> {
+    pub(super) fn display_value(&mut self, value: &Value) -> Eval<String> {
         Ok(match value {
             Value::Text(text) => quoted(text),
-            Value::Instance(instance) => self.portrait_instance(instance)?,
-            Value::Behavior(behavior) => self.portrait_behavior(behavior)?,
+            Value::Instance(instance) => self.display_instance(instance)?,
+            Value::Behavior(behavior) => self.display_behavior(behavior)?,
             Value::Cells(cells) => shape::cells(cells),
             Value::Record(record) => match &**record {
-                Record::Plan(planned) => self.portrait_plan(planned)?,
-                Record::Layout(planned) => match &planned.folded {
-                    Some(folded) => shape::pattern(folded),
-                    None => self.show(value),
-                },
+                Record::Plan(planned) => self.display_plan(planned)?,
+                Record::Native(record) => {
+                    let record: &dyn Any = record.as_ref();
+                    match record.downcast_ref::<LayoutValue>() {
+                        Some(layout) => shape::pattern(layout.report()),
+                        None => self.show(value),
+                    }
+                }
                 _ => self.show(value),
             },
             Value::List(elements) if elements.iter().any(|e| matches!(e, Value::Text(_))) => {

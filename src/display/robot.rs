@@ -16,7 +16,7 @@ use std::rc::Rc;
 const ELEMENTS_DRAWN: usize = 3;
 
 impl Interpreter<'_> {
-    pub fn portrait_instance(&mut self, instance: &Rc<Instance>) -> Eval<String> {
+    pub(super) fn display_instance(&mut self, instance: &Rc<Instance>) -> Eval<String> {
         let design = &instance.design;
         Ok(match &design.kind {
             DesignKind::Module(module) => self.module_tree(instance, module).drawn(),
@@ -138,7 +138,7 @@ impl Interpreter<'_> {
     }
 
     /// What was declared, in one line.
-    pub fn declaration_line(&mut self, def: DefId) -> Eval<String> {
+    pub(super) fn describe_declaration_line(&mut self, def: DefId) -> Eval<String> {
         let program = self.program;
         let declared = program.def(def);
         let name = declared.name;

@@ -1,13 +1,12 @@
 //! Trusses as pictures of dots, seen from the front and from above, and what their plans achieve.
 
 use super::pretty::counted;
-use crate::elaborate::truss::TrussDesign;
 use crate::geometry::Vec3;
 use crate::interpret::design::Design;
-use crate::interpret::planning::Planned;
-use crate::natives::truss::Trussed;
+use crate::interpret::design::TrussDesign;
+use crate::interpret::plan_value::PlanValue;
 use crate::plan::NodePaths;
-use crate::planners::morph;
+use crate::planners::{locomote, morph};
 use crate::units::number;
 use crate::units::{Dimension, quantity};
 
@@ -57,33 +56,31 @@ pub fn truss(design: &Design, truss: &TrussDesign) -> String {
 }
 
 /// What a planner says of its plan, and the truss before and after.
-pub fn made(planned: &Planned) -> Vec<String> {
+pub fn made(planned: &PlanValue) -> Vec<String> {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
-    let mut lines = match &planned.trussed {
-        Some(Trussed::Morphed(morph::Report { distance, start, ended, .. })) => vec![
-            format!(
-                "  {} from the target at the start, {} at the end",
-                metres(start.target_to_surface),
-                metres(distance.target_to_surface)
-            ),
-            format!(
-                "  {} at worst, {} from the target to the truss; ended: {ended}",
-                metres(distance.worst),
-                metres(distance.surface_to_target)
-            ),
-        ],
-        Some(Trussed::Travelled(report)) => vec![
-            format!(
-                "  {} travelled, {}, {}, {} reached",
-                metres(report.distance),
-                counted(report.rolls, "roll"),
-                counted(report.footholds, "foothold"),
-                counted(report.reached, "point")
-            ),
-            format!("  {} of slip; ended: {}", metres(report.slip), report.ended),
-        ],
-        None => Vec::new(),
-    };
+    let mut lines = Vec::new();
+    if let Some(morph::Report { distance, start, ended, .. }) = planned.report() {
+        lines.push(format!(
+            "  {} from the target at the start, {} at the end",
+            metres(start.target_to_surface),
+            metres(distance.target_to_surface)
+        ));
+        lines.push(format!(
+            "  {} at worst, {} from the target to the truss; ended: {ended}",
+            metres(distance.worst),
+            metres(distance.surface_to_target)
+        ));
+    }
+    if let Some(report) = planned.report::<locomote::Report>() {
+        lines.push(format!(
+            "  {} travelled, {}, {}, {} reached",
+            metres(report.distance),
+            counted(report.rolls, "roll"),
+            counted(report.footholds, "foothold"),
+            counted(report.reached, "point")
+        ));
+        lines.push(format!("  {} of slip; ended: {}", metres(report.slip), report.ended));
+    }
     if let Some(paths) = planned.plan.body.node_paths() {
         lines.extend(before_and_after(paths));
     }

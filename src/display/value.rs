@@ -14,7 +14,7 @@ const ELEMENTS_SHOWN: usize = 1000;
 const COORDINATE_ROUNDING: f64 = 1e-12;
 
 impl Interpreter<'_> {
-    pub fn show(&self, value: &Value) -> String {
+    pub(super) fn show_value(&self, value: &Value) -> String {
         match value {
             Value::Unknown => "?".into(),
             Value::Nothing => "nothing".into(),
@@ -31,7 +31,7 @@ impl Interpreter<'_> {
             Value::List(elements) => self.show_list(elements),
             Value::Vec3(v, d) => show_vector(v, *d),
             Value::Pose(pose) => show_pose(pose),
-            Value::Range(ends) => format!("{}..{}", self.show(&ends.0), self.show(&ends.1)),
+            Value::Range(ends) => format!("{}..{}", self.show_value(&ends.0), self.show_value(&ends.1)),
             Value::Fn(callable) => match &**callable {
                 Callable::Lambda { .. } => "a function".into(),
                 Callable::Def(def) => format!("the function {}", self.name(*def)),
@@ -54,7 +54,8 @@ impl Interpreter<'_> {
     }
 
     fn show_list(&self, elements: &[Value]) -> String {
-        let mut shown: Vec<String> = elements.iter().take(ELEMENTS_SHOWN).map(|e| self.show(e)).collect();
+        let mut shown: Vec<String> =
+            elements.iter().take(ELEMENTS_SHOWN).map(|e| self.show_value(e)).collect();
         if elements.len() > ELEMENTS_SHOWN {
             shown.push(format!("and {} more", elements.len() - ELEMENTS_SHOWN));
         }
@@ -80,13 +81,7 @@ impl Interpreter<'_> {
             Record::Frame(nodes, struts) => {
                 format!("a frame of {} nodes and {} struts", nodes.len(), struts.len())
             }
-            Record::Layout(planned) => {
-                let panels = planned.folded.as_ref().map_or(0, |folded| folded.target.faces.len());
-                format!("a flat pattern of {panels} panels")
-            }
-            Record::Orders(sample) => {
-                format!("{} of {} orders take more energy", sample.worse, sample.orders)
-            }
+            Record::Native(record) => record.show(),
             Record::Rigidity(design) => match &design.kind {
                 crate::interpret::design::DesignKind::Truss(truss) => {
                     let r = &truss.rigidity;

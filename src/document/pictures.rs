@@ -3,7 +3,7 @@
 
 use super::outline::{Page, PageEntry};
 use crate::check::{self, Entry};
-use crate::interpret::{self, Host, Mode, Options, WriteError};
+use crate::interpret::{Host, Mode, Options, WriteError};
 use crate::interrupt::CancelState;
 use crate::source::Files;
 
@@ -83,6 +83,6 @@ fn asked(entry: &PageEntry, import: &str, files: &dyn Files, cancel_state: &Canc
     let mut answers = Answers { lines: Vec::new(), picture: None, cancel_state: cancel_state.clone() };
     // A robot that falls is drawn, too: no verdict is claimed.
     let options = Options { picture: Some(SIZE), ..Options::default() };
-    interpret::run(&checked, Mode::Run, files, &mut answers, &options);
+    crate::execute::run(&checked, Mode::Run, files, &mut answers, &options);
     Some(answers)
 }

@@ -21,7 +21,7 @@ pub struct Deferred<'d> {
 }
 
 impl Interpreter<'_> {
-    pub fn elaborate_config(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
+    pub(super) fn elaborate_config(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let config = design.config().expect("made as a configuration");
         let this = self.whole(design);
         let complete = self.elaborate_parts(def, design, config, &this)?;
@@ -306,14 +306,14 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    pub fn check_requirements(&mut self, requirements: Vec<Deferred>) -> Eval<()> {
+    pub(super) fn check_requirements(&mut self, requirements: Vec<Deferred>) -> Eval<()> {
         for Deferred { require, mut frame } in requirements {
             self.check_requirement(require, &mut frame)?;
         }
         Ok(())
     }
 
-    pub fn check_requirement(&mut self, require: &Require, frame: &mut Frame) -> Eval<()> {
+    pub(super) fn check_requirement(&mut self, require: &Require, frame: &mut Frame) -> Eval<()> {
         if !matches!(self.eval(&require.condition, frame)?, Value::Bool(false)) {
             return Ok(());
         }

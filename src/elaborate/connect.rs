@@ -1,7 +1,8 @@
 //! Whether a connection can be made: free ports, connectors that mate, an allowed turn, no loop.
 
-use super::connector::ConnectorDesign;
 use crate::check::typed::{ConfigDef, Expr};
+use crate::interpret::design::ConnectorDesign;
+use crate::interpret::design::shorten;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
@@ -17,12 +18,10 @@ const TURN_TOLERANCE: f64 = 1e-9;
 /// Loops may miss closing by this much, m and rad: rounding, not slack.
 const CLOSURE_DISTANCE_MAX: f64 = 1e-6;
 const CLOSURE_ANGLE_MAX: f64 = 1e-6;
-/// Most names that a message lists.
-const NAMES_SHOWN: usize = 12;
 
 impl Interpreter<'_> {
     /// `connect a -- b turn t`
-    pub fn connect(
+    pub(super) fn connect(
         &mut self,
         config: &ConfigDesign,
         a: &Expr,
@@ -93,7 +92,7 @@ impl Interpreter<'_> {
         Err(diagnostic.into())
     }
 
-    pub fn connector_at(&mut self, port: &PortValue) -> Eval<Option<Rc<ConnectorDesign>>> {
+    pub(super) fn connector_at(&mut self, port: &PortValue) -> Eval<Option<Rc<ConnectorDesign>>> {
         let design = port.robot.module_at(port.module);
         let module = design.module().expect("only modules have ports of their own");
         let def = module.connectors[module.module.ports[port.port].connector];
@@ -154,7 +153,7 @@ impl Interpreter<'_> {
     }
 
     /// Every module must hang together with the first.
-    pub fn check_connected(
+    pub(super) fn check_connected(
         &mut self,
         def: &ConfigDef,
         design: &Rc<Design>,
@@ -191,7 +190,7 @@ impl Interpreter<'_> {
     }
 
     /// Loops that are declared must meet.
-    pub fn check_closure(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
+    pub(super) fn check_closure(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let Some(closed) = def.closed else { return Ok(()) };
         if design.broken.get() {
             return Ok(());
@@ -284,15 +283,6 @@ pub fn free_ports<'c>(
         .map(|port| kind.ports[port].name.clone())
         .collect();
     free.into_iter()
-}
-
-/// A list of names that does not grow beyond what can be read.
-pub fn shorten(names: &[String]) -> String {
-    if names.len() <= NAMES_SHOWN {
-        return names.join(", ");
-    }
-    let rest = names.len() - (NAMES_SHOWN - 1);
-    format!("{} and {rest} more", names[..NAMES_SHOWN - 1].join(", "))
 }
 
 fn article(name: &str) -> &'static str {

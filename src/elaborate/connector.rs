@@ -1,6 +1,7 @@
 //! Connectors: what mates with what, at which turns.
 
 use crate::check::typed::{ConnectorDef, DefId, DefKind, Expr};
+use crate::interpret::design::ConnectorDesign;
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop, fault};
@@ -15,16 +16,9 @@ const TURNS_MAX: i64 = 3600;
 /// Orientation that docking tolerates where `capture` states only a distance: as much as there is.
 const CAPTURE_ANGLE_DEFAULT: f64 = std::f64::consts::PI;
 
-pub struct ConnectorDesign {
-    pub def: DefId,
-    /// Its `mates` are empty here: they are declarations, below.
-    pub connector: Connector,
-    pub mates: Vec<DefId>,
-}
-
 impl Interpreter<'_> {
     /// The connector of a declaration, elaborated once; `None` where it is not sound.
-    pub fn connector(&mut self, def: DefId) -> Eval<Option<Rc<ConnectorDesign>>> {
+    pub(super) fn connector(&mut self, def: DefId) -> Eval<Option<Rc<ConnectorDesign>>> {
         let index = def.0 as usize;
         if let Some(known) = &self.connectors[index] {
             return Ok(known.clone());
@@ -109,7 +103,7 @@ impl Interpreter<'_> {
     }
 
     /// The built-in of this name.
-    pub fn native_named(&self, key: &str) -> Option<DefId> {
+    pub(super) fn native_named(&self, key: &str) -> Option<DefId> {
         let is_it = |kind: &DefKind| matches!(kind, DefKind::Native(native) if native.key == key);
         let index = self.program.defs.iter().position(|def| is_it(&def.kind))?;
         Some(DefId(u32::try_from(index).expect("declarations are counted in 32 bits")))
@@ -142,7 +136,7 @@ impl Interpreter<'_> {
     }
 
     /// The value of an expression that must be a positive number.
-    pub fn positive(&mut self, expr: &Expr, what: &str, frame: &mut Frame) -> Eval<f64> {
+    pub(super) fn positive(&mut self, expr: &Expr, what: &str, frame: &mut Frame) -> Eval<f64> {
         match self.eval(expr, frame)?.as_number() {
             Some(x) if x > 0.0 => Ok(x),
             // An unknown value has been reported already; any stands in for it.

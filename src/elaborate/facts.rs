@@ -14,7 +14,7 @@ const CELL_FACTS: [&str; 5] = ["size", "shrinks_to", "mass", "max_force", "max_s
 const STRUT_FACTS: [&str; 5] = ["length", "max_speed", "max_force", "mass", "clearance"];
 
 impl Interpreter<'_> {
-    pub fn elaborate_cell(
+    pub(super) fn elaborate_cell(
         &mut self,
         facts: &FactsDef,
         def: DefId,
@@ -34,7 +34,7 @@ impl Interpreter<'_> {
         Ok((!self.failed_since(mark)).then_some(DesignKind::Cell(cell)))
     }
 
-    pub fn elaborate_strut(
+    pub(super) fn elaborate_strut(
         &mut self,
         facts: &FactsDef,
         def: DefId,

@@ -1,6 +1,6 @@
 //! Joints that live in connections: the hinges of connectors such as Mori's edges.
 
-use super::connector::ConnectorDesign;
+use crate::interpret::design::ConnectorDesign;
 use crate::interpret::design::Design;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::Eval;
@@ -12,7 +12,7 @@ use std::rc::Rc;
 
 impl Interpreter<'_> {
     /// The joint of the connection at a port, from whichever of its two sides it is named.
-    pub fn hinge_of(&mut self, port: &PortValue, span: Span) -> Eval<Value> {
+    pub(super) fn find_hinge(&mut self, port: &PortValue, span: Span) -> Eval<Value> {
         let at = (port.module, port.port);
         let bond = port.robot.config().and_then(|config| config.taken.borrow().get(&at).copied());
         let no_hinge = |label: &str| {
@@ -34,7 +34,7 @@ impl Interpreter<'_> {
     }
 
     /// What the joint of a connection can do.
-    pub fn hinge_limits(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Limits> {
+    pub(super) fn hinge_limits(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Limits> {
         let connector = self.connector_of(robot, bond)?;
         let hinge = connector.and_then(|connector| connector.connector.hinge.as_ref().map(|h| h.limits));
         Ok(hinge.unwrap_or_default())

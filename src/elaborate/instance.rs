@@ -13,14 +13,7 @@ use std::rc::Rc;
 
 impl Interpreter<'_> {
     /// `Walker(bend: 35deg)`
-    pub fn instantiate(
-        &mut self,
-        def: DefId,
-        args: &[Option<Expr>],
-        span: Span,
-        frame: &mut Frame,
-    ) -> Eval<Value> {
-        let args = self.eval_args(args, span, frame)?;
+    pub(super) fn make_instance(&mut self, def: DefId, args: Args, span: Span) -> Eval<Value> {
         Ok(match self.design_of(def, args, span)? {
             Some(design) if !design.broken.get() => Value::Instance(self.whole(&design)),
             _ => Value::Unknown,
@@ -100,7 +93,7 @@ impl Interpreter<'_> {
 
     /// An instance that has arguments and nothing else: what the expressions of a body see before
     /// there is a body.
-    pub fn shell(&self, def: DefId, args: Vec<Value>) -> Rc<Instance> {
+    pub(super) fn shell(&self, def: DefId, args: Vec<Value>) -> Rc<Instance> {
         let design = Design {
             def,
             name: self.name(def).to_string(),

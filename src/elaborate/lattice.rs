@@ -1,8 +1,7 @@
 //! Lattices: cells of one kind in an arrangement that hangs together.
 
 use crate::check::typed::{DefId, LatticeDef};
-use crate::interpret::cells::Cells;
-use crate::interpret::design::{Design, DesignKind, Instance};
+use crate::interpret::design::{DesignKind, Instance, LatticeDesign};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
@@ -10,14 +9,8 @@ use crate::interpret::value::Value;
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
-pub struct LatticeDesign {
-    /// The cell.
-    pub of: Rc<Design>,
-    pub cells: Rc<Cells>,
-}
-
 impl Interpreter<'_> {
-    pub fn elaborate_lattice(
+    pub(super) fn elaborate_lattice(
         &mut self,
         lattice: &LatticeDef,
         def: DefId,

@@ -4,6 +4,7 @@
 //! joints and ports ([`module`]), configurations of modules ([`config`], [`connect`]), lattices of cells
 //! ([`lattice`], [`facts`]), trusses ([`truss`]). The right wing gets them as robots ([`robot_of`]).
 
+mod check;
 pub mod config;
 pub mod connect;
 pub mod connector;
@@ -15,3 +16,45 @@ pub mod module;
 pub mod robot_of;
 pub mod sweep;
 pub mod truss;
+
+use crate::check::typed::DefId;
+use crate::interpret::call::Args;
+use crate::interpret::design::Design;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::robot::Robot;
+use crate::interpret::stop::Eval;
+use crate::interpret::value::{PortValue, Value};
+use crate::source::Span;
+use std::rc::Rc;
+
+/// Returns an instance of a declaration with these arguments; unknown where it is broken.
+///
+/// # Errors
+/// A fault where the declaration needs itself, or a halt.
+pub fn instantiate(interpreter: &mut Interpreter, def: DefId, args: Args, span: Span) -> Eval<Value> {
+    interpreter.make_instance(def, args, span)
+}
+
+/// Returns the robot of a design that is complete; `None` where it is broken or no robot.
+///
+/// # Errors
+/// A halt, or a fault of a declaration that the robot needs.
+pub fn robot_of(interpreter: &mut Interpreter, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
+    interpreter.assemble_robot(design)
+}
+
+/// Returns the joint of the connection at a port.
+///
+/// # Errors
+/// A fault where nothing is connected there, or the connection does not turn.
+pub fn hinge_of(interpreter: &mut Interpreter, port: &PortValue, span: Span) -> Eval<Value> {
+    interpreter.find_hinge(port, span)
+}
+
+/// Elaborates a declaration with its defaults, and evaluates all that its body declares.
+///
+/// # Errors
+/// A halt; faults are reported.
+pub fn check_declaration(interpreter: &mut Interpreter, def: DefId) -> Eval<()> {
+    interpreter.elaborate_with_defaults(def)
+}

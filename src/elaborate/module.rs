@@ -1,16 +1,16 @@
 //! Modules: Definition IV.1, (D, X, A, K), from a declaration to a module type.
 
-use super::connector::ConnectorDesign;
 use crate::check::typed::{
     DefId, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement, PortClause,
 };
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::soundness::SIZE_MAX;
 use crate::geometry::{Pose, Vec3};
+use crate::interpret::design::ConnectorDesign;
 use crate::interpret::design::{DesignKind, Instance, ModuleDesign};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};
 use crate::robot::{Joint, JointKind, Limits, Link, ModuleType, Motor, Port, mass};
 use crate::source::{Diagnostic, Span, code};
@@ -38,7 +38,7 @@ struct Draft<'d> {
 
 impl Interpreter<'_> {
     /// `None` where the module is not sound, which has been reported.
-    pub fn elaborate_module(
+    pub(super) fn elaborate_module(
         &mut self,
         def: &ModuleDef,
         id: DefId,
@@ -66,18 +66,6 @@ impl Interpreter<'_> {
             joint_dimensions: def.joints.iter().map(|joint| joint.dimension).collect(),
             robot: OnceCell::new(),
         })))
-    }
-
-    /// Runs a step whose fault does not hinder the next.
-    pub fn attempt<T>(&mut self, step: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<Option<T>> {
-        match step(self) {
-            Ok(value) => Ok(Some(value)),
-            Err(Stop::Fault(diagnostic)) => {
-                self.report(*diagnostic);
-                Ok(None)
-            }
-            Err(halt) => Err(halt),
-        }
     }
 
     fn draft<'d>(&mut self, def: &'d ModuleDef, title: &str, frame: &mut Frame) -> Eval<Draft<'d>> {
@@ -141,7 +129,7 @@ impl Interpreter<'_> {
     }
 
     /// `at [x, y, z] turned(Z, 90deg)`
-    pub fn placement(&mut self, at: Option<&Placement>, frame: &mut Frame) -> Eval<Pose> {
+    pub(super) fn placement(&mut self, at: Option<&Placement>, frame: &mut Frame) -> Eval<Pose> {
         let Some(at) = at else { return Ok(Pose::identity()) };
         let mut pose = match self.eval(&at.position, frame)? {
             Value::Vec3(position, _) if position.iter().any(|c| c.abs() > SIZE_MAX) => {

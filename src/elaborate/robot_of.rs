@@ -5,11 +5,9 @@ use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
 use crate::interpret::design::{Design, DesignKind, PartElement};
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::robot::{Robot, joint_index};
 use crate::interpret::stop::Eval;
-use crate::interpret::value::{JointValue, PortValue};
-use crate::robot::{
-    Assembly, Bond, JointId, JointOwner, Kinematics, Library, ModuleInstance, PortRef, Residual, State,
-};
+use crate::robot::{Assembly, Bond, Kinematics, Library, ModuleInstance, PortRef, State};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -19,53 +17,9 @@ const TIE_DISTANCE: f64 = 1e-9;
 /// Parts whose masses differ by less than this part are equally heavy.
 const TIE_MASS: f64 = 1e-9;
 
-pub struct Robot {
-    pub assembly: Arc<Assembly>,
-    /// Joints as `set`, all bonds, the base module's body at the origin.
-    pub start: State,
-    pub kinematics: Kinematics,
-    /// Poses of all links in the start state.
-    pub poses: Vec<Pose>,
-}
-
-impl Robot {
-    pub fn joint(&self, joint: &JointValue) -> JointId {
-        self.joint_of(joint.owner)
-    }
-
-    pub fn joint_of(&self, owner: JointOwner) -> JointId {
-        let index = joint_index(&self.kinematics, owner);
-        JointId(u32::try_from(index).expect("joints are counted in 32 bits"))
-    }
-
-    /// The path name of a joint.
-    pub fn joint_name(&self, joint: JointId) -> String {
-        let owner = self.assembly.joints().nth(joint.0 as usize);
-        owner.map_or_else(String::new, |owner| self.assembly.joint_name(owner))
-    }
-
-    pub fn residuals(&self) -> Vec<Residual> {
-        self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
-    }
-
-    /// Centre of mass in the frame of the base module (m), and mass (kg).
-    pub fn centre_of_mass(&self) -> (Vec3, f64) {
-        self.kinematics.centre_of_mass(&self.assembly, &self.poses)
-    }
-
-    /// The pose of a port in the frame of the base module.
-    pub fn port_pose(&self, port: &PortValue) -> Pose {
-        self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
-    }
-}
-
-pub fn port_ref(port: &PortValue) -> PortRef {
-    PortRef { module: port.module, port: port.port }
-}
-
 impl Interpreter<'_> {
     /// The robot of a design that is complete; `None` where it is broken or no robot.
-    pub fn robot_of(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
+    pub(super) fn assemble_robot(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
         let cell = match &design.kind {
             DesignKind::Module(module) => &module.robot,
             DesignKind::Config(config) if config.complete.get() && !design.broken.get() => &config.robot,
@@ -135,7 +89,7 @@ impl Interpreter<'_> {
         let mut candidates = Vec::new();
         let heavy = elements.iter().zip(&masses).filter(|(_, mass)| **mass >= heaviest);
         for (part, _) in heavy.filter(|(part, _)| part.design.module_count() > 0) {
-            let base = self.robot_of(&part.design)?.map_or(0, |robot| robot.assembly.base);
+            let base = self.assemble_robot(&part.design)?.map_or(0, |robot| robot.assembly.base);
             candidates.push(part.offset + base);
         }
         Ok(candidates)
@@ -187,13 +141,6 @@ impl Interpreter<'_> {
             waiting.extend(design.mates.iter().copied());
         }
         Ok(Some(all))
-    }
-}
-
-fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
-    match owner {
-        JointOwner::Module { module, joint } => kinematics.joint(module, joint),
-        JointOwner::Bond(bond) => kinematics.hinge(bond).expect("only hinges are named"),
     }
 }
 

@@ -1,18 +1,17 @@
 //! Trusses: nodes and struts of one kind, rigid in their start pose.
 
 use super::config::Deferred;
-use super::connect::shorten;
 use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::segment_segment_distance;
-use crate::interpret::design::{Design, DesignKind, Instance};
+use crate::interpret::design::{Design, DesignKind, Instance, Node, TrussDesign};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
 use crate::interrupt;
 use crate::robot::Strut;
-use crate::robot::truss::{self, Rigidity};
+use crate::robot::truss;
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
@@ -30,24 +29,6 @@ const NODES_AT_ONCE: usize = 100;
 /// Free motions of a truss that is not rigid that are told.
 const MOTIONS_TOLD: usize = 6;
 
-pub struct TrussDesign {
-    /// The strut.
-    pub of: Rc<Design>,
-    pub nodes: Vec<Node>,
-    pub struts: Vec<(usize, usize)>,
-    pub rigidity: Rigidity,
-}
-
-#[derive(Clone)]
-pub struct Node {
-    /// `ring[3]`
-    pub name: String,
-    /// `ring`
-    pub group: Option<Symbol>,
-    pub place: Vec3,
-    span: Span,
-}
-
 /// A truss while its body is read; struts with where they stand.
 #[derive(Default)]
 struct Draft {
@@ -55,22 +36,8 @@ struct Draft {
     struts: Vec<(usize, usize, Span)>,
 }
 
-impl TrussDesign {
-    pub fn strut_name(&self, strut: usize) -> String {
-        let (a, b) = self.struts[strut];
-        format!("{} -- {}", self.nodes[a].name, self.nodes[b].name)
-    }
-
-    pub fn strut_kind(&self) -> Option<&Strut> {
-        match &self.of.kind {
-            DesignKind::Strut(strut) => Some(strut),
-            _ => None,
-        }
-    }
-}
-
 impl Interpreter<'_> {
-    pub fn elaborate_truss(
+    pub(super) fn elaborate_truss(
         &mut self,
         def: &TrussDef,
         id: DefId,
@@ -324,18 +291,6 @@ impl Interpreter<'_> {
         }
         Ok(())
     }
-
-    /// The place of a node, or of all nodes of an array.
-    pub fn node_member(&self, instance: &Rc<Instance>, name: Symbol) -> Value {
-        let DesignKind::Truss(truss) = &instance.design.kind else { return Value::Unknown };
-        let place = |node: &Node| Value::Vec3(node.place, Dimension::LENGTH);
-        let mut of_group = truss.nodes.iter().filter(|n| n.group == Some(name)).peekable();
-        match of_group.peek() {
-            Some(node) if node.name == name.as_str() => place(node),
-            Some(_) => Value::list(of_group.map(place).collect()),
-            None => Value::Unknown,
-        }
-    }
 }
 
 /// Nodes at the place of an earlier one, with that.
@@ -355,25 +310,11 @@ fn not_rigid(truss: &TrussDesign, name: Span) -> Diagnostic {
     let count = rigidity.free.len();
     let motions = if count == 1 { "1 free motion".to_string() } else { format!("{count} free motions") };
     let mut diagnostic = Diagnostic::error(code::NOT_RIGID, message).label(name, motions);
-    for (index, motion) in free_motions(truss).into_iter().take(MOTIONS_TOLD).enumerate() {
+    for (index, motion) in truss.free_motions().into_iter().take(MOTIONS_TOLD).enumerate() {
         diagnostic = diagnostic.hint(format!("free motion {}: {motion}", index + 1));
     }
     if count > MOTIONS_TOLD {
         diagnostic = diagnostic.hint(format!("and {} more free motions", count - MOTIONS_TOLD));
     }
     diagnostic.hint("add struts between nodes that move against each other")
-}
-
-/// Each free motion in words: the nodes that move, and where to.
-pub fn free_motions(truss: &TrussDesign) -> Vec<String> {
-    let moves = |(node, d): &(usize, Vec3)| {
-        let axis = ["x", "y", "z"];
-        let along: Vec<String> = (0..3)
-            .filter(|&k| d[k].abs() > 0.005)
-            .map(|k| format!("{}{:.2}", axis[k], d[k]).replacen(axis[k], &format!("{} ", axis[k]), 1))
-            .collect();
-        format!("{} ({})", truss.nodes[*node].name, along.join(", "))
-    };
-    let motions = truss.rigidity.free.iter();
-    motions.map(|m| shorten(&m.nodes.iter().map(moves).collect::<Vec<_>>())).collect()
 }

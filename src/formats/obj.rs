@@ -4,10 +4,14 @@
 //! out before the crate sees it: so its numbers are never looked up, and the file is one object whose
 //! vertices are shared.
 
-use super::mesh_file::{Fault, Read, line_of};
+use super::content::{Content, Fault, line_of};
 use tobj::{LoadError, LoadOptions};
 
-pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+/// Reads a file.
+///
+/// # Errors
+/// The fault in words.
+pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let plain = plain(bytes);
     let mut rest: &[u8] = &plain;
     let options = LoadOptions { ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
@@ -21,7 +25,7 @@ pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
             other => format!("line {line}: {other}"),
         }
     })?;
-    let mut read = Read::default();
+    let mut read = Content::default();
     for model in models {
         let (mesh, first) = (model.mesh, read.vertices.len());
         read.vertices.extend(mesh.positions.chunks_exact(3).map(|p| [p[0], p[1], p[2]]));

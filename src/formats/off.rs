@@ -3,12 +3,16 @@
 //! A reader of our own, for no crate reads the format and says where it fails. Colours and normals
 //! that follow on a line are left out.
 
-use super::mesh_file::{Fault, Read};
+use super::content::{Content, Fault};
 
 /// First words of the variants that are read: plain, and with colours or normals behind the vertices.
 const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
 
-pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+/// Reads a file.
+///
+/// # Errors
+/// The fault in words.
+pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_string())?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.split('#').next().unwrap_or("")));
@@ -36,7 +40,7 @@ pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
         word.parse().map_err(|_| format!("line {number}: `{}` is no number of {what}", shown(word)))
     };
     let (vertices, faces) = (count("vertices")?, count("faces")?);
-    let mut read = Read::default();
+    let mut read = Content::default();
     for _ in 0..vertices {
         let (number, line) =
             lines.next().ok_or_else(|| missing("vertices", read.vertices.len(), vertices))?;

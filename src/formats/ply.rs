@@ -1,17 +1,21 @@
 //! Meshes from PLY files, in text and binary.
 
-use super::mesh_file::{Fault, Read};
+use super::content::{Content, Fault};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 
 /// A message of the crate may quote the file; so much of it is shown.
 const SHOWN: usize = 120;
 
-pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+/// Reads a file.
+///
+/// # Errors
+/// The fault in words.
+pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let mut reader = Reader::new(bytes);
     let parser = Parser::<Row>::new();
     let header = parser.read_header(&mut reader).map_err(|error| said(&error))?;
-    let mut read = Read::default();
+    let mut read = Content::default();
     for element in header.elements.values() {
         // A row takes a byte at least, or a short file could ask for any number of them.
         let left = reader.get_ref().len();

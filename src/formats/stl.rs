@@ -3,7 +3,7 @@
 //! A reader of our own: the kept crate takes every file that begins with `solid` for text, which many
 //! binary files do, reads the first solid only, and doesn't say in which line it stopped.
 
-use super::mesh_file::{Fault, Read};
+use super::content::{Content, Fault};
 use std::collections::HashMap;
 
 /// Bytes of the header of a binary file, and of one triangle.
@@ -11,7 +11,11 @@ const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// Corners at one place are one vertex.
-pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+/// Reads a file.
+///
+/// # Errors
+/// The fault in words.
+pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let count = bytes.get(80..HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let corners = match count {
         Some(count) if bytes.len() == HEADER + TRIANGLE * count => binary(&bytes[HEADER..]),
@@ -47,7 +51,7 @@ fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, Fault> {
     Ok(corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
 }
 
-fn shared(corners: &[[[f32; 3]; 3]]) -> Read {
+fn shared(corners: &[[[f32; 3]; 3]]) -> Content {
     let mut vertices = Vec::new();
     let mut known: HashMap<[u32; 3], usize> = HashMap::new();
     let mut vertex = |corner: &[f32; 3]| {
@@ -59,5 +63,5 @@ fn shared(corners: &[[[f32; 3]; 3]]) -> Read {
         })
     };
     let faces = corners.iter().map(|t| t.iter().map(&mut vertex).collect()).collect();
-    Read { vertices, faces }
+    Content { vertices, faces }
 }

@@ -3,12 +3,16 @@
 //! A reader of our own, for the format is no more than that. What else is on a line, a colour or a
 //! normal, is left out; so is what follows a `#`.
 
-use super::mesh_file::{Fault, Read};
+use super::content::{Content, Fault};
 
-pub fn read(bytes: &[u8]) -> Result<Read, Fault> {
+/// Reads a file.
+///
+/// # Errors
+/// The fault in words.
+pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_string())?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut read = Read::default();
+    let mut read = Content::default();
     for (i, line) in text.lines().enumerate() {
         let line = line.split('#').next().unwrap_or("");
         let words: Vec<&str> = line

@@ -4,12 +4,12 @@ use super::causes::CauseRecord;
 use super::design::Design;
 use super::eval::Frame;
 use super::interpreter::Interpreter;
+use super::robot::{Robot, port_ref};
 use super::stop::{Eval, Stop, fault};
-use super::value::{Behavior, ConditionValue, JointValue, PortValue, Value};
+use super::value::{Behavior, ConditionValue, JointValue, Value};
 use crate::behavior::{self, Conflict, Issue, IssueKind, Part};
 use crate::check::typed::{Exemption, ExemptionKind};
-use crate::elaborate::robot_of::{Robot, port_ref};
-use crate::plan::{self, CauseId, Condition, Node};
+use crate::plan::{self, Action, CauseId, Condition, Node, Otherwise};
 use crate::source::{Code, Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
@@ -175,11 +175,21 @@ impl Interpreter<'_> {
         let subject = joint.name();
         self.cause(span, args, &subject)
     }
+}
 
-    /// Whether two ports are of one robot.
-    pub fn common_ports(&self, a: &PortValue, b: &PortValue, span: Span) -> Eval<Option<Rc<Design>>> {
-        self.common_robot(Some(&a.robot), Some(&b.robot), span)
-    }
+/// Returns `action else b`; `None` where `action` is no single action with a timeout.
+pub fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
+    let Node::Action(action) = action else { return None };
+    let mut action = action.clone();
+    action.timeout?;
+    action.otherwise = match &**otherwise {
+        Node::Series(nodes) if nodes.is_empty() => Otherwise::Proceed,
+        Node::Action(Action { otherwise: Otherwise::Abort(message), timeout: Some(0.0), .. }) => {
+            Otherwise::Abort(message.clone())
+        }
+        _ => Otherwise::Node(otherwise.clone()),
+    };
+    Some(Node::Action(action))
 }
 
 pub fn with_instance(label: String, record: &CauseRecord) -> String {

@@ -1,15 +1,15 @@
 //! Calls: of functions, built-ins, function values and behaviours.
 
+use super::behavior::with_otherwise;
 use super::design::Instance;
 use super::eval::Frame;
 use super::host::Mode;
 use super::interpreter::Interpreter;
-use super::stop::{Eval, Stop, fault};
+use super::native::{Call, Effect};
+use super::stop::{Eval, fault};
 use super::value::{Behavior, Callable, Value};
 use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param};
-use crate::natives::{self, Effect};
-use crate::plan::{Node, Target};
-use crate::source::{ReadError, Span, Symbol, code};
+use crate::source::{Span, Symbol, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -18,13 +18,6 @@ pub struct Args {
     pub values: Vec<Option<Value>>,
     /// Where each argument stands; the whole call for those left out.
     pub spans: Vec<Span>,
-}
-
-/// A call of a built-in with all arguments evaluated.
-pub struct Call<'c> {
-    pub span: Span,
-    pub args: &'c [Value],
-    pub spans: &'c [Span],
 }
 
 impl Args {
@@ -135,7 +128,7 @@ impl Interpreter<'_> {
         let mut frame = Frame::new(native.frame.max(native.params.len()), None);
         self.fill(&native.params, args, &mut frame)?;
         let values = &frame.slots[..native.params.len()];
-        let entry = natives::find(native.key).expect("a test holds bodies to declarations");
+        let entry = (self.routines.native)(native.key).expect("a test holds bodies to declarations");
         if self.mode == Mode::Check && entry.effect == Effect::OnRun {
             self.check_arguments(values)?;
             return Ok(Value::Unknown);
@@ -143,7 +136,7 @@ impl Interpreter<'_> {
         if values.iter().any(Value::is_unknown) {
             return Ok(Value::Unknown);
         }
-        (entry.body)(self, &Call { span, args: values, spans: &spans })
+        (entry.body)(self, &Call { span, native: entry, params: &native.params, args: values, spans: &spans })
     }
 
     /// What can be said without a run about behaviours that a statement hands on.
@@ -209,201 +202,9 @@ impl Interpreter<'_> {
             return Ok(Value::Unknown);
         };
         let robot = self.common_robot(action.robot.as_ref(), otherwise.robot.as_ref(), span)?;
-        let node = natives::with_otherwise(&action.node, &otherwise.node).ok_or_else(|| {
+        let node = with_otherwise(&action.node, &otherwise.node).ok_or_else(|| {
             fault(code::BAD_ACTION, span, "only an action with a timeout has an `else`", "no single action")
         })?;
         Ok(Value::Behavior(Rc::new(Behavior { robot, node: Arc::new(node) })))
-    }
-}
-
-impl Call<'_> {
-    /// The span of an argument; of the call where it was left out.
-    pub fn at(&self, index: usize) -> Span {
-        self.spans.get(index).copied().unwrap_or(self.span)
-    }
-
-    pub fn arg(&self, index: usize) -> &Value {
-        self.args.get(index).unwrap_or(&Value::Missing)
-    }
-
-    /// A fault about an argument.
-    pub fn refuse(&self, index: usize, message: impl Into<String>) -> Stop {
-        let message = message.into();
-        fault(code::BAD_VALUE, self.at(index), message.clone(), message)
-    }
-
-    /// `check` lets through only arguments that fit; this is the net under it.
-    fn unfit(&self, index: usize, wanted: &str) -> Stop {
-        self.refuse(index, format!("{wanted} is wanted here"))
-    }
-
-    pub fn number(&self, index: usize) -> Eval<f64> {
-        self.arg(index).as_number().ok_or_else(|| self.unfit(index, "a number"))
-    }
-
-    /// A number, or nothing.
-    pub fn number_if(&self, index: usize) -> Eval<Option<f64>> {
-        match self.arg(index) {
-            Value::Missing => Ok(None),
-            _ => self.number(index).map(Some),
-        }
-    }
-
-    /// A number above zero.
-    pub fn positive(&self, index: usize, what: &str) -> Eval<f64> {
-        let x = self.number(index)?;
-        if x > 0.0 { Ok(x) } else { Err(self.refuse(index, format!("{what} must be positive"))) }
-    }
-
-    pub fn positive_if(&self, index: usize, what: &str) -> Eval<Option<f64>> {
-        match self.arg(index) {
-            Value::Missing => Ok(None),
-            _ => self.positive(index, what).map(Some),
-        }
-    }
-
-    /// A whole number of at least zero that a machine word holds.
-    pub fn count(&self, index: usize, what: &str) -> Eval<usize> {
-        match self.arg(index) {
-            Value::Int(n) => {
-                usize::try_from(*n).map_err(|_| self.refuse(index, format!("{what} must not be negative")))
-            }
-            Value::Big(_) => Err(self.refuse(index, format!("{what} is too large"))),
-            _ => Err(self.unfit(index, "a whole number")),
-        }
-    }
-
-    pub fn text(&self, index: usize) -> Eval<&str> {
-        match self.arg(index) {
-            Value::Text(text) => Ok(text),
-            _ => Err(self.unfit(index, "a text")),
-        }
-    }
-
-    pub fn truth(&self, index: usize) -> Eval<bool> {
-        match self.arg(index) {
-            Value::Bool(b) => Ok(*b),
-            Value::Missing => Ok(false),
-            _ => Err(self.unfit(index, "`true` or `false`")),
-        }
-    }
-
-    pub fn word(&self, index: usize) -> Option<&'static str> {
-        match self.arg(index) {
-            Value::Word(word) => Some(word.as_str()),
-            _ => None,
-        }
-    }
-
-    pub fn list(&self, index: usize) -> Eval<&Rc<Vec<Value>>> {
-        match self.arg(index) {
-            Value::List(list) => Ok(list),
-            _ => Err(self.unfit(index, "a list")),
-        }
-    }
-
-    pub fn vec3(&self, index: usize) -> Eval<crate::geometry::Vec3> {
-        match self.arg(index) {
-            Value::Vec3(v, _) => Ok(*v),
-            _ => Err(self.unfit(index, "a vector")),
-        }
-    }
-
-    pub fn function(&self, index: usize) -> Eval<&Rc<Callable>> {
-        match self.arg(index) {
-            Value::Fn(function) => Ok(function),
-            _ => Err(self.unfit(index, "a function")),
-        }
-    }
-
-    pub fn instance(&self, index: usize) -> Eval<&Rc<Instance>> {
-        match self.arg(index) {
-            Value::Instance(instance) => Ok(instance),
-            _ => Err(self.unfit(index, "a robot or a part")),
-        }
-    }
-
-    pub fn joint(&self, index: usize) -> Eval<&super::value::JointValue> {
-        match self.arg(index) {
-            Value::Joint(joint) => Ok(joint),
-            _ => Err(self.unfit(index, "a joint")),
-        }
-    }
-
-    pub fn port(&self, index: usize) -> Eval<&super::value::PortValue> {
-        match self.arg(index) {
-            Value::Port(port) => Ok(port),
-            _ => Err(self.unfit(index, "a port")),
-        }
-    }
-
-    pub fn behavior(&self, index: usize) -> Eval<&Rc<Behavior>> {
-        match self.arg(index) {
-            Value::Behavior(behavior) => Ok(behavior),
-            _ => Err(self.unfit(index, "a behaviour")),
-        }
-    }
-
-    /// A range of quantities, low to high.
-    pub fn range(&self, index: usize) -> Eval<(f64, f64)> {
-        match self.arg(index) {
-            Value::Range(ends) => match (ends.0.as_number(), ends.1.as_number()) {
-                (Some(a), Some(b)) => Ok((a, b)),
-                _ => Err(self.unfit(index, "a range")),
-            },
-            _ => Err(self.unfit(index, "a range")),
-        }
-    }
-
-    pub fn range_if(&self, index: usize) -> Eval<Option<(f64, f64)>> {
-        match self.arg(index) {
-            Value::Missing => Ok(None),
-            _ => self.range(index).map(Some),
-        }
-    }
-
-    pub fn is_missing(&self, index: usize) -> bool {
-        matches!(self.arg(index), Value::Missing)
-    }
-}
-
-impl Node {
-    /// The single action that this is.
-    pub fn as_action(&self) -> Option<&crate::plan::Action> {
-        match self {
-            Node::Action(action) => Some(action),
-            _ => None,
-        }
-    }
-}
-
-impl Target {
-    pub fn amount(self) -> f64 {
-        match self {
-            Target::To(x) | Target::By(x) => x,
-        }
-    }
-}
-
-impl Interpreter<'_> {
-    /// The file of the project that an argument names, relative to the file of the call: its path from
-    /// the project's root, and its bytes.
-    pub fn project_file(&mut self, call: &Call, index: usize) -> Eval<(String, Vec<u8>)> {
-        let name = call.text(index)?;
-        let from = &self.sources.file(call.at(index).file).name;
-        let Some(path) = crate::source::files::join(from, name) else {
-            let message = format!("`{name}` leads out of the project");
-            return Err(fault(code::OUTSIDE_PROJECT, call.at(index), message, "outside of the project"));
-        };
-        let bytes = self.stage.read(&path).map_err(|error| {
-            let why = match error {
-                ReadError::NotFound => "there is no such file".to_string(),
-                ReadError::Outside => "it leads out of the project".to_string(),
-                ReadError::TooLarge(limit) => format!("it is larger than {limit} bytes"),
-                ReadError::Failed(why) => why,
-            };
-            fault(code::CANNOT_READ, call.at(index), format!("`{path}` can't be read: {why}"), why)
-        })?;
-        Ok((path, bytes))
     }
 }

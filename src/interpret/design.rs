@@ -4,17 +4,21 @@
 //! An instance is a design at a place of a robot, the outermost design: joints and ports of a part
 //! are joints and ports of the whole.
 
-use super::interpreter::Lazy;
-use super::value::{JointValue, PortValue, Value};
+use super::cells::Cells;
+use super::robot::Robot;
+use super::value::{JointValue, Lazy, PortValue, Value};
 use crate::check::typed::DefId;
-use crate::elaborate::lattice::LatticeDesign;
-use crate::elaborate::robot_of::Robot;
-use crate::elaborate::truss::TrussDesign;
-use crate::robot::{Cell, JointOwner, ModuleType, Strut};
-use crate::source::Span;
+use crate::geometry::Vec3;
+use crate::robot::truss::Rigidity;
+use crate::robot::{Cell, Connector, JointOwner, ModuleType, Strut};
+use crate::source::{Span, Symbol};
+use crate::units::Dimension;
 use std::cell::{Cell as Flag, OnceCell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
+
+/// Most names that a message lists.
+const NAMES_SHOWN: usize = 12;
 
 pub struct Design {
     pub def: DefId,
@@ -43,7 +47,7 @@ pub struct ModuleDesign {
     /// First port and number of ports of every [`ModuleDef::ports`](crate::check::typed::ModuleDef).
     pub port_groups: Vec<(usize, usize)>,
     /// Dimension of each joint's position.
-    pub joint_dimensions: Vec<crate::units::Dimension>,
+    pub joint_dimensions: Vec<Dimension>,
     pub robot: OnceCell<Option<Rc<Robot>>>,
 }
 
@@ -111,6 +115,90 @@ pub struct SetRecord {
     pub value: f64,
     pub span: Span,
     pub instance: Rc<str>,
+}
+
+/// A lattice: cells of one kind in an arrangement.
+pub struct LatticeDesign {
+    /// The cell.
+    pub of: Rc<Design>,
+    /// The places of the cells.
+    pub cells: Rc<Cells>,
+}
+
+/// A truss: nodes, and struts of one kind between them.
+pub struct TrussDesign {
+    /// The strut.
+    pub of: Rc<Design>,
+    /// The nodes, in the order of the declaration.
+    pub nodes: Vec<Node>,
+    /// The ends of each strut.
+    pub struts: Vec<(usize, usize)>,
+    /// The rank of the rigidity matrix in the start pose, and what follows from it.
+    pub rigidity: Rigidity,
+}
+
+/// A node of a truss.
+#[derive(Clone)]
+pub struct Node {
+    /// `ring[3]`
+    pub name: String,
+    /// `ring`
+    pub group: Option<Symbol>,
+    /// The place in the start pose, m.
+    pub place: Vec3,
+    /// The clause that declares it.
+    pub span: Span,
+}
+
+impl TrussDesign {
+    /// Returns the names of both ends of a strut.
+    pub fn strut_name(&self, strut: usize) -> String {
+        let (a, b) = self.struts[strut];
+        format!("{} -- {}", self.nodes[a].name, self.nodes[b].name)
+    }
+
+    /// Returns the kind of the struts.
+    pub fn strut_kind(&self) -> Option<&Strut> {
+        match &self.of.kind {
+            DesignKind::Strut(strut) => Some(strut),
+            _ => None,
+        }
+    }
+
+    /// Returns each free motion in words: the nodes that move, and where to.
+    pub fn free_motions(&self) -> Vec<String> {
+        let moves = |(node, d): &(usize, Vec3)| {
+            let axis = ["x", "y", "z"];
+            let along: Vec<String> = (0..3)
+                .filter(|&k| d[k].abs() > 0.005)
+                .map(|k| format!("{}{:.2}", axis[k], d[k]).replacen(axis[k], &format!("{} ", axis[k]), 1))
+                .collect();
+            format!("{} ({})", self.nodes[*node].name, along.join(", "))
+        };
+        let motions = self.rigidity.free.iter();
+        motions.map(|m| shorten(&m.nodes.iter().map(moves).collect::<Vec<_>>())).collect()
+    }
+
+    /// Returns the place of a node, or of all nodes of an array; `None` where there is no such node.
+    pub fn place_of(&self, name: Symbol) -> Option<Value> {
+        let place = |node: &Node| Value::Vec3(node.place, Dimension::LENGTH);
+        let mut of_group = self.nodes.iter().filter(|n| n.group == Some(name)).peekable();
+        match of_group.peek() {
+            Some(node) if node.name == name.as_str() => Some(place(node)),
+            Some(_) => Some(Value::list(of_group.map(place).collect())),
+            None => None,
+        }
+    }
+}
+
+/// A connector, elaborated.
+pub struct ConnectorDesign {
+    /// The declaration.
+    pub def: DefId,
+    /// Its `mates` are empty here: they are declarations, below.
+    pub connector: Connector,
+    /// The connectors that it docks with.
+    pub mates: Vec<DefId>,
 }
 
 /// Which modules hang together: a forest that grows (union and find).
@@ -351,4 +439,13 @@ pub fn join_path(a: &str, b: &str) -> Rc<str> {
         (_, true) => a.into(),
         _ => format!("{a}.{b}").into(),
     }
+}
+
+/// A list of names that does not grow beyond what can be read.
+pub fn shorten(names: &[String]) -> String {
+    if names.len() <= NAMES_SHOWN {
+        return names.join(", ");
+    }
+    let rest = names.len() - (NAMES_SHOWN - 1);
+    format!("{} and {rest} more", names[..NAMES_SHOWN - 1].join(", "))
 }

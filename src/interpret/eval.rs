@@ -1,9 +1,9 @@
 //! Expressions to values.
 
-use super::design::Instance;
-use super::interpreter::{Interpreter, Lazy};
+use super::design::{DesignKind, Instance};
+use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
-use super::value::{Callable, Value};
+use super::value::{Callable, Lazy, Value};
 use crate::check::typed::{Clause, DefId, DefKind, Expr, ExprKind, Local, MemberId};
 use crate::source::{Diagnostic, Span, code};
 use std::rc::Rc;
@@ -80,7 +80,7 @@ impl Interpreter<'_> {
             }
             ExprKind::Port { object, port } => self.eval_port(object, *port, frame),
             ExprKind::Hinge(port) => match self.eval(port, frame)? {
-                Value::Port(port) => self.hinge_of(&port, span),
+                Value::Port(port) => (self.routines.hinge_of)(self, &port, span),
                 _ => Ok(Value::Unknown),
             },
             ExprKind::Field { object, field } => match self.eval(object, frame)? {
@@ -149,7 +149,10 @@ impl Interpreter<'_> {
                     }
                 }
             }
-            ExprKind::Instance { def, args } => self.instantiate(*def, args, span, frame),
+            ExprKind::Instance { def, args } => {
+                let args = self.eval_args(args, span, frame)?;
+                (self.routines.instantiate)(self, *def, args, span)
+            }
         }
     }
 
@@ -387,7 +390,10 @@ impl Interpreter<'_> {
                 this.check_port_count(count.as_ref(), &ports, value.span, &mut frame)?;
                 Ok(ports)
             }),
-            MemberKind::Node => Ok(self.node_member(instance, declared.name)),
+            MemberKind::Node => {
+                let DesignKind::Truss(truss) = &instance.design.kind else { return Ok(Value::Unknown) };
+                Ok(truss.place_of(declared.name).unwrap_or(Value::Unknown))
+            }
             MemberKind::Behavior(behavior) => {
                 Ok(Value::Fn(Rc::new(Callable::Behavior { object: instance.clone(), behavior: *behavior })))
             }

@@ -1,15 +1,15 @@
 //! The state of a run: what has been computed, what was reported, where evaluation is.
 
 use super::causes::Causes;
-use super::design::{Design, Instance};
+use super::design::{ConnectorDesign, Design, Instance};
 use super::host::{Limits, Mode, Options, TestResult};
-use super::planning::Planned;
+use super::plan_value::PlanValue;
+use super::routines::Routines;
 use super::stage::Stage;
 use super::stop::{Eval, Stop};
-use super::value::Value;
+use super::value::{Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{DefId, Program};
-use crate::elaborate::connector::ConnectorDesign;
 use crate::interrupt;
 use crate::planners::tosnake::SearchCache;
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
@@ -24,6 +24,7 @@ const CALLS_SHOWN: usize = 4;
 const NESTING_MAX: usize = 40_000;
 
 pub struct Interpreter<'a> {
+    pub routines: &'a Routines,
     pub program: &'a Program,
     pub sources: &'a Sources,
     pub options: &'a Options,
@@ -31,7 +32,7 @@ pub struct Interpreter<'a> {
     pub stage: Stage,
     pub causes: Causes,
     /// The last plans; see [`super::planning`].
-    pub plans: Vec<Rc<Planned>>,
+    pub plans: Vec<Rc<PlanValue>>,
     /// Ways to the snake that were found.
     pub search_cache: SearchCache,
     /// Exemptions of the user's own files that were judged, and whether any plan needed them.
@@ -61,15 +62,6 @@ pub struct Interpreter<'a> {
     nesting: usize,
 }
 
-/// A value that is computed when it is first needed.
-#[derive(Clone, Debug, Default)]
-pub enum Lazy {
-    #[default]
-    Waiting,
-    Running,
-    Done(Value),
-}
-
 /// A call of something that a user or the library wrote.
 #[derive(Clone, Debug)]
 pub struct CallSite {
@@ -87,9 +79,16 @@ pub struct Binder {
 }
 
 impl<'a> Interpreter<'a> {
-    pub fn new(checked: &'a Checked, mode: Mode, options: &'a Options, stage: Stage) -> Interpreter<'a> {
+    pub fn new(
+        routines: &'a Routines,
+        checked: &'a Checked,
+        mode: Mode,
+        options: &'a Options,
+        stage: Stage,
+    ) -> Interpreter<'a> {
         let count = checked.program.defs.len();
         Interpreter {
+            routines,
             program: &checked.program,
             sources: &checked.sources,
             options,
@@ -243,6 +242,18 @@ impl<'a> Interpreter<'a> {
     /// Whether an error was found since `mark` (a count of errors), reported before or not.
     pub fn failed_since(&self, mark: usize) -> bool {
         self.errors > mark
+    }
+
+    /// Runs a step whose fault is reported and does not hinder the next; a halt passes.
+    pub fn attempt<T>(&mut self, step: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<Option<T>> {
+        match step(self) {
+            Ok(value) => Ok(Some(value)),
+            Err(Stop::Fault(diagnostic)) => {
+                self.report(*diagnostic);
+                Ok(None)
+            }
+            Err(halt) => Err(halt),
+        }
     }
 
     /// Turns a fault into a report and an unknown value; a halt passes.

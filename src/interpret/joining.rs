@@ -1,7 +1,8 @@
 //! Plans out of plans: one after another, backwards, a stretch of one.
 
 use super::interpreter::Interpreter;
-use super::planning::{Beginning, Planned};
+use super::plan_value::PlanValue;
+use super::planning::Beginning;
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
@@ -28,20 +29,20 @@ impl Interpreter<'_> {
         let plan = plan::joined(&first.plan, &second.plan).map_err(|unfit| unfitting(&unfit, span))?;
         let causes = first.causes.iter().chain(&second.causes).copied().collect();
         let actions = first.actions + second.actions;
-        let joined = Planned::new(first.robot.clone(), first.body.clone(), plan, causes, actions);
+        let joined = PlanValue::new(first.robot.clone(), first.body.clone(), plan, causes, actions);
         Ok(Value::Record(Rc::new(Record::Plan(Rc::new(joined)))))
     }
 
     /// A plan of the same robot made from another.
     pub fn changed(
         &mut self,
-        planned: &Rc<Planned>,
+        planned: &Rc<PlanValue>,
         change: impl FnOnce(&Plan) -> Result<Plan, OperationError>,
         span: Span,
-    ) -> Eval<Rc<Planned>> {
+    ) -> Eval<Rc<PlanValue>> {
         let plan = change(&planned.plan).map_err(|unfit| unfitting(&unfit, span))?;
         let (robot, body) = (planned.robot.clone(), planned.body.clone());
-        Ok(Rc::new(Planned::new(robot, body, plan, planned.causes.clone(), planned.actions)))
+        Ok(Rc::new(PlanValue::new(robot, body, plan, planned.causes.clone(), planned.actions)))
     }
 }
 

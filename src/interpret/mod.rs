@@ -16,24 +16,28 @@ pub mod eval;
 pub mod interpreter;
 pub mod operators;
 
+pub mod argument;
 pub mod call;
+pub mod native;
 pub mod statements;
 
 pub mod design;
+pub mod robot;
 
 pub mod cells;
 
 pub mod behavior;
 pub mod causes;
 pub mod joining;
+pub mod plan_value;
 pub mod planning;
 pub mod record;
 pub mod verdicts;
 
+pub mod routines;
 pub mod run;
 
 pub mod session;
 
 pub use host::{Host, Limits, Mode, Options, Outcome, TestResult, WriteError};
-pub use record::fields_of;
 pub use run::run;

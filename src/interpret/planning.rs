@@ -3,127 +3,30 @@
 use super::causes::PlanCauses;
 use super::design::Design;
 use super::interpreter::Interpreter;
+use super::plan_value::{Judged, PlanValue};
 use super::record::{Record, StateValue, first_world};
+use super::robot::Robot;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Behavior, Value};
 use crate::behavior::{self, Problem, Scheduled};
-use crate::elaborate::robot_of::Robot;
 use crate::geometry::Vec3;
-use crate::natives::squeeze::Squeezed;
-use crate::natives::truss::Trussed;
 use crate::plan::{
     Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
 };
-use crate::planners::{fold, refold, tosnake};
 use crate::robot::{JointId, Library, State};
 use crate::source::{Span, code};
-use std::cell::{OnceCell, RefCell};
+use std::cell::OnceCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
 /// Plans that are kept, so that `verify` and `emit` of one behaviour plan and judge it once.
 const KEPT_MAX: usize = 32;
 
-/// A plan with what the language knows about it.
-pub struct Planned {
-    pub robot: Rc<Design>,
-    /// Of articulated robots.
-    pub body: Option<Rc<Robot>>,
-    pub plan: Plan,
-    /// The run's numbers of the plan's causes.
-    pub causes: Vec<CauseId>,
-    pub actions: u64,
-    /// What `squeeze` says of it.
-    pub squeezed: Option<Squeezed>,
-    /// What `fold` says of it.
-    pub folded: Option<fold::Report>,
-    /// What `refold` says of it.
-    pub refolded: Option<refold::Report>,
-    /// What `tosnake` and `reconfigure` say of it.
-    pub unwound: Option<tosnake::Report>,
-    /// What `morph` or `locomote` says of it.
-    pub trussed: Option<Trussed>,
-    /// Verdicts so far.
-    judged: RefCell<Vec<Judged>>,
-}
-
-/// A verdict with what it was given under.
-struct Judged {
-    settings: Settings,
-    worlds: Vec<WorldFrom>,
-    verdict: Rc<Verdict>,
-}
-
 /// Who set the start pose: joints, and bonds by index.
 #[derive(Default)]
 struct StartCauses {
     joints: Vec<(JointId, CauseId)>,
     bonds: Vec<(usize, CauseId)>,
-}
-
-impl std::fmt::Debug for Planned {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "a plan of {}", self.robot.name)
-    }
-}
-
-impl Planned {
-    pub fn new(
-        robot: Rc<Design>,
-        body: Option<Rc<Robot>>,
-        plan: Plan,
-        causes: Vec<CauseId>,
-        actions: u64,
-    ) -> Planned {
-        Planned {
-            robot,
-            body,
-            plan,
-            causes,
-            actions,
-            squeezed: None,
-            folded: None,
-            refolded: None,
-            unwound: None,
-            trussed: None,
-            judged: RefCell::default(),
-        }
-    }
-
-    pub fn with_squeezed(self, squeezed: Squeezed) -> Planned {
-        Planned { squeezed: Some(squeezed), ..self }
-    }
-
-    pub fn with_folded(self, folded: fold::Report) -> Planned {
-        Planned { folded: Some(folded), ..self }
-    }
-
-    pub fn with_refolded(self, refolded: refold::Report) -> Planned {
-        Planned { refolded: Some(refolded), ..self }
-    }
-
-    pub fn with_unwound(self, unwound: tosnake::Report) -> Planned {
-        Planned { unwound: Some(unwound), ..self }
-    }
-
-    pub fn with_trussed(self, trussed: Trussed) -> Planned {
-        Planned { trussed: Some(trussed), ..self }
-    }
-
-    /// Keeps the verdict that a planner got on this plan, under the plan's own settings and worlds.
-    pub fn remember_verdict(&self, verdict: Verdict) {
-        let (settings, worlds) = (self.plan.settings, self.plan.worlds.clone());
-        self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
-    }
-
-    pub fn actions(&self) -> usize {
-        usize::try_from(self.actions).unwrap_or(usize::MAX)
-    }
-
-    /// Stretches between one change of commands and the next.
-    pub fn steps(&self) -> usize {
-        self.plan.body.instants().len().saturating_sub(1)
-    }
 }
 
 /// Where a behaviour begins (else the robot's start pose), and under which world.
@@ -136,7 +39,7 @@ pub struct Beginning {
 impl Interpreter<'_> {
     /// The plan of a behaviour from the start pose of its robot; `None` where something is wrong
     /// with it, which has been reported.
-    pub fn plan_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<Option<Rc<Planned>>> {
+    pub fn plan_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<Option<Rc<PlanValue>>> {
         self.plan_from(behavior, Beginning::default(), span)
     }
 
@@ -145,7 +48,7 @@ impl Interpreter<'_> {
         behavior: &Behavior,
         beginning: Beginning,
         span: Span,
-    ) -> Eval<Option<Rc<Planned>>> {
+    ) -> Eval<Option<Rc<PlanValue>>> {
         if self.mode == super::host::Mode::Check {
             self.check_behavior(behavior)?;
             return Ok(None);
@@ -194,12 +97,12 @@ impl Interpreter<'_> {
         scheduled: Scheduled,
         causes: &PlanCauses,
         world: World,
-    ) -> (Planned, Vec<behavior::Issue>) {
+    ) -> (PlanValue, Vec<behavior::Issue>) {
         let Scheduled { tracks, program, exemptions, nominal, actions, issues } = scheduled;
         let library = tracks.robot.library.clone();
         let bare = self.bare_plan("behavior", Body::Tracks(tracks), library, world, causes);
         let plan = Plan { program: Some(program), nominal, exemptions, ..bare };
-        (Planned::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
+        (PlanValue::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
     }
 
     /// A plan without a program, and without a verdict. Without a planner nobody planned it.
@@ -257,8 +160,8 @@ impl Interpreter<'_> {
         start: &State,
         world: &World,
         causes: &[CauseId],
-    ) -> Option<Rc<Planned>> {
-        let same = |planned: &&Rc<Planned>| {
+    ) -> Option<Rc<PlanValue>> {
+        let same = |planned: &&Rc<PlanValue>| {
             let plan = &planned.plan;
             let Some(tracks) = plan.body.tracks() else { return false };
             Rc::ptr_eq(&planned.robot, design)
@@ -270,7 +173,7 @@ impl Interpreter<'_> {
         self.plans.iter().find(same).cloned()
     }
 
-    fn keep_plan(&mut self, planned: Rc<Planned>) {
+    fn keep_plan(&mut self, planned: Rc<PlanValue>) {
         if self.plans.len() >= KEPT_MAX {
             self.plans.remove(0);
         }
@@ -320,7 +223,7 @@ impl Interpreter<'_> {
     }
 
     /// A robot in its start pose as a plan that lasts no time.
-    pub fn plan_pose(&mut self, design: &Rc<Design>, world: World) -> Eval<Option<Rc<Planned>>> {
+    pub fn plan_pose(&mut self, design: &Rc<Design>, world: World) -> Eval<Option<Rc<PlanValue>>> {
         let Some(robot) = self.robot_of(design)? else { return Ok(None) };
         let mut causes = PlanCauses::default();
         let set = self.start_causes(design, &robot, &mut causes);
@@ -345,7 +248,7 @@ impl Interpreter<'_> {
     }
 
     /// The verdict on a plan under these options; each asked for once.
-    pub fn judge(&mut self, planned: &Planned, settings: Settings, world: Option<World>) -> Rc<Verdict> {
+    pub fn judge(&mut self, planned: &PlanValue, settings: Settings, world: Option<World>) -> Rc<Verdict> {
         let worlds = match world {
             Some(world) => vec![WorldFrom { from: 0.0, world }],
             None => planned.plan.worlds.clone(),
@@ -362,7 +265,7 @@ impl Interpreter<'_> {
     }
 
     /// The state at a time; refused where there are no joints, at the place that asks.
-    pub fn state_at(&mut self, planned: &Rc<Planned>, time: f64, span: Span) -> Eval<Value> {
+    pub fn state_at(&mut self, planned: &Rc<PlanValue>, time: f64, span: Span) -> Eval<Value> {
         let Some(body) = &planned.body else {
             let message = "a state is one of joints, and this robot has none";
             return Err(fault(code::BAD_VALUE, span, message, "no joints; `show(.., at: ..)` draws it"));
@@ -380,11 +283,12 @@ impl Interpreter<'_> {
     }
 
     /// The plan that a value is or gives.
-    pub fn plan_of(&mut self, value: &Value, span: Span) -> Eval<Option<Rc<Planned>>> {
+    pub fn plan_of(&mut self, value: &Value, span: Span) -> Eval<Option<Rc<PlanValue>>> {
         match value {
             Value::Behavior(behavior) => self.plan_behavior(behavior, span),
             Value::Record(record) => match &**record {
-                Record::Plan(planned) | Record::Layout(planned) => Ok(Some(planned.clone())),
+                Record::Plan(planned) => Ok(Some(planned.clone())),
+                Record::Native(record) => Ok(record.plan().cloned()),
                 _ => Ok(None),
             },
             Value::Instance(instance) => self.plan_pose(&instance.robot, World::default()),

@@ -1,115 +1,124 @@
-//! Records: what built-ins give back, and the fields by which it is asked.
+//! Records: values with fields that built-ins give back, and how each field is read.
 
-use super::design::Design;
+use super::argument::Choice;
+use super::design::{Design, DesignKind, TrussDesign};
 use super::interpreter::Interpreter;
-use super::planning::Planned;
+use super::plan_value::PlanValue;
+use super::robot::Robot;
 use super::stop::Eval;
 use super::value::Value;
 use super::verdicts;
-use crate::elaborate::robot_of::Robot;
-use crate::elaborate::truss::free_motions;
 use crate::geometry::{Pose, Vec3};
-use crate::natives::folding::{FOLDING, ORDER_SAMPLE, folding_field, layout_field, sample_field};
-use crate::natives::refold::{REFOLDING, refolding_field};
-use crate::natives::squeeze::Squeezed;
-use crate::natives::tosnake::{UNWINDING, unwinding_field};
-use crate::natives::truss::{MORPHING, TRAVEL};
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{Ground, Plan, Verdict, World, Worst};
-use crate::planners::fold::random_orders::Sample;
 use crate::robot::State;
 use crate::source::{Span, Symbol};
-use crate::units::{Dimension, quantity};
+use crate::units::Dimension;
+use std::any::Any;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
+/// A value with fields.
 #[derive(Debug)]
 pub enum Record {
-    Plan(Rc<Planned>),
+    /// A `Plan`, or what a planner makes of it.
+    Plan(Rc<PlanValue>),
+    /// A `Report` of the judge.
     Report(Rc<Verdict>),
+    /// A `State`.
     State(StateValue),
+    /// A `World`.
     World(World),
-    /// Nodes and struts.
+    /// A `Frame`: nodes and struts.
     Frame(Vec<Vec3>, Vec<(usize, usize)>),
-    /// Of a truss.
+    /// The `Rigidity` of a truss.
     Rigidity(Rc<Design>),
-    /// The flat pattern of a plan that folds it.
-    Layout(Rc<Planned>),
-    /// What random orders of folding take.
-    Orders(Sample),
+    /// A record that the file of a native defines.
+    Native(Rc<dyn NativeRecord>),
+}
+
+/// A record that the file of a native defines, with its fields and how it is shown.
+pub trait NativeRecord: Any + std::fmt::Debug {
+    /// Reads a field that the declaration has.
+    fn read(&self, field: &str) -> Value;
+
+    /// Returns the record on one line, as `print` shows it.
+    fn show(&self) -> String;
+
+    /// Returns the plan that the record is about and stands for.
+    fn plan(&self) -> Option<&Rc<PlanValue>> {
+        None
+    }
 }
 
 /// A state of a robot, with when and where it was taken.
 pub struct StateValue {
+    /// The robot.
     pub robot: Rc<Design>,
+    /// The robot as an assembly.
     pub body: Rc<Robot>,
+    /// Positions of the joints, and the bonds that hold.
     pub state: State,
+    /// The time in the plan, s.
     pub time: f64,
-    pub planned: Rc<Planned>,
+    /// The plan that it was taken from.
+    pub planned: Rc<PlanValue>,
     /// Where the base is in the world, once it was asked for.
     pub base: OnceCell<Pose>,
 }
 
-const ACCELERATION: Dimension = Dimension::ACCELERATION;
-const ENERGY: Dimension = Dimension::TORQUE;
+/// A field of a record, with the function that reads it.
+pub type Field<T> = (&'static str, fn(&T) -> Value);
+
+/// Reads a field from its table.
+pub fn read_field<T>(fields: &[Field<T>], record: &T, field: &str) -> Value {
+    let found = fields.iter().find(|(name, _)| *name == field);
+    found.map_or_else(|| unreachable!("`check` knows no field `{field}` here"), |(_, read)| read(record))
+}
+
+/// Returns the names of a table's fields.
+pub fn field_names<T>(fields: &[Field<T>]) -> Vec<&'static str> {
+    fields.iter().map(|(name, _)| *name).collect()
+}
 
 impl Interpreter<'_> {
-    /// A field of a record; a behaviour is asked as the plan that it gives.
+    /// Reads a field of a record; a behaviour is asked as the plan that it gives.
+    ///
+    /// # Errors
+    /// A fault where the behaviour can't be planned.
     pub fn field(&mut self, value: &Value, field: Symbol, span: Span) -> Eval<Value> {
+        let field = field.as_str();
         match value {
             Value::Behavior(behavior) => match self.plan_behavior(behavior, span)? {
-                Some(planned) => self.plan_field(&planned, field.as_str(), span),
+                Some(planned) => self.plan_field(&planned, field, span),
                 None => Ok(Value::Unknown),
             },
             Value::Record(record) => Ok(match &**record {
-                Record::Plan(planned) if planned.trussed.as_ref().is_some_and(|t| t.has(field.as_str())) => {
-                    let trussed = planned.trussed.as_ref().expect("it was asked");
-                    self.trussed_field(planned, trussed, field.as_str())
+                Record::Plan(planned) => return self.plan_field(planned, field, span),
+                Record::Report(verdict) => read_field(REPORT, verdict, field),
+                Record::State(state) => read_field(STATE, state, field),
+                Record::World(world) => read_field(WORLD, world, field),
+                Record::Frame(..) => read_field(FRAME, record.as_ref(), field),
+                Record::Rigidity(design) => {
+                    let DesignKind::Truss(truss) = &design.kind else {
+                        unreachable!("only trusses are asked")
+                    };
+                    read_field(RIGIDITY, truss, field)
                 }
-                Record::Plan(planned) => match &planned.squeezed {
-                    Some(squeezed) if SQUEEZING.contains(&field.as_str()) => {
-                        self.squeezing_field(planned, squeezed, field.as_str())
-                    }
-                    _ => match &planned.folded {
-                        Some(folded) if FOLDING.contains(&field.as_str()) => {
-                            folding_field(planned, folded, field.as_str())
-                        }
-                        _ => match &planned.refolded {
-                            Some(refolded) if REFOLDING.contains(&field.as_str()) => {
-                                refolding_field(refolded, field.as_str())
-                            }
-                            _ => match &planned.unwound {
-                                Some(unwound) if UNWINDING.contains(&field.as_str()) => {
-                                    unwinding_field(unwound, field.as_str())
-                                }
-                                _ => self.plan_field(planned, field.as_str(), span)?,
-                            },
-                        },
-                    },
-                },
-                Record::Layout(planned) => match &planned.folded {
-                    Some(folded) => layout_field(folded, field.as_str()),
-                    None => Value::Unknown,
-                },
-                Record::Orders(sample) => sample_field(sample, field.as_str()),
-                Record::Report(verdict) => report_field(verdict, field.as_str()),
-                Record::State(state) => state.field(field.as_str()),
-                Record::World(world) => world_field(world, field.as_str()),
-                Record::Frame(nodes, struts) => frame_field(nodes, struts, field.as_str()),
-                Record::Rigidity(truss) => rigidity_field(truss, field.as_str()),
+                Record::Native(record) => record.read(field),
             }),
-            Value::Vec3(v, dimension) => Ok(match field.as_str() {
+            Value::Vec3(v, dimension) => Ok(match field {
                 "x" => Value::Quantity(v.x, *dimension),
                 "y" => Value::Quantity(v.y, *dimension),
                 "z" => Value::Quantity(v.z, *dimension),
                 other => unreachable!("check knows no field `{other}` of a vector"),
             }),
-            Value::Range(ends) => Ok(match field.as_str() {
+            Value::Range(ends) => Ok(match field {
                 "from" => ends.0.clone(),
                 "to" => ends.1.clone(),
                 other => unreachable!("check knows no field `{other}` of a range"),
             }),
-            Value::Pose(pose) => Ok(match field.as_str() {
+            Value::Pose(pose) => Ok(match field {
                 "position" => Value::Vec3(pose.translation.vector, Dimension::LENGTH),
                 other => unreachable!("check knows no field `{other}` of a pose"),
             }),
@@ -117,140 +126,118 @@ impl Interpreter<'_> {
         }
     }
 
-    fn plan_field(&mut self, planned: &Rc<Planned>, field: &str, span: Span) -> Eval<Value> {
-        Ok(match field {
-            "duration" => Value::time(planned.plan.body.duration()),
-            "actions" => Value::count(planned.actions()),
-            "steps" => Value::count(planned.steps()),
-            "start" => self.state_at(planned, 0.0, span)?,
-            "end" => self.state_at(planned, planned.plan.body.duration(), span)?,
-            "assumes" => Value::Record(Rc::new(Record::World(first_world(&planned.plan)))),
-            _ => Value::Unknown,
-        })
+    fn plan_field(&mut self, plan: &Rc<PlanValue>, field: &str, span: Span) -> Eval<Value> {
+        let reported = plan.any_report().and_then(|report| report.read(self, plan, field));
+        if let Some(value) = reported {
+            return Ok(value);
+        }
+        let found = PLAN.iter().find(|(name, _)| *name == field);
+        let (_, read) =
+            found.unwrap_or_else(|| unreachable!("`check` knows no field `{field}` of this plan"));
+        read(self, plan, span)
     }
 }
 
-/// The fields of a `Squeezing` beside those of a plan.
-const SQUEEZING: &[&str] = &[
-    "lower_bound",
-    "ratio",
-    "peak_force",
-    "peak_speed",
-    "peak_energy",
-    "angular_momentum",
-    "balanced",
-    "method",
-    "why",
-    "stages",
+/// A field of a plan.
+type PlanField = (&'static str, fn(&mut Interpreter, &Rc<PlanValue>, Span) -> Eval<Value>);
+
+const PLAN: &[PlanField] = &[
+    ("duration", |_, plan, _| Ok(Value::time(plan.plan.body.duration()))),
+    ("actions", |_, plan, _| Ok(Value::count(plan.actions()))),
+    ("steps", |_, plan, _| Ok(Value::count(plan.steps()))),
+    ("start", |interpreter, plan, span| interpreter.state_at(plan, 0.0, span)),
+    ("end", |interpreter, plan, span| interpreter.state_at(plan, plan.plan.body.duration(), span)),
+    ("assumes", |_, plan, _| Ok(Value::Record(Rc::new(Record::World(first_world(&plan.plan)))))),
 ];
 
-impl Interpreter<'_> {
-    fn squeezing_field(&mut self, planned: &Rc<Planned>, squeezed: &Squeezed, field: &str) -> Value {
-        // What cells go through is what the judge found.
-        let dynamics = |interpreter: &mut Self| {
-            let settings = interpreter.judge_settings();
-            interpreter.judge(planned, settings, None).dynamics.unwrap_or_default()
-        };
-        match field {
-            "lower_bound" => Value::time(squeezed.lower_bound),
-            "ratio" if squeezed.lower_bound > 0.0 => {
-                Value::number(planned.plan.body.duration() / squeezed.lower_bound)
-            }
-            "ratio" => Value::number(1.0),
-            "peak_force" => Value::Quantity(dynamics(self).peak_force, Dimension::FORCE),
-            "peak_speed" => Value::Quantity(dynamics(self).peak_speed, Dimension::SPEED),
-            "peak_energy" => Value::Quantity(dynamics(self).peak_energy, ENERGY),
-            "angular_momentum" => {
-                Value::Quantity(dynamics(self).angular_momentum, Dimension::ANGULAR_MOMENTUM)
-            }
-            "balanced" => Value::Bool(squeezed.balanced),
-            "method" => Value::text(squeezed.method.name()),
-            "why" => Value::text(squeezed.why.clone()),
-            "stages" => {
-                let line = |(name, duration): &(String, f64)| {
-                    Value::text(format!("{name}: {}", quantity(*duration, Dimension::TIME)))
-                };
-                Value::list(squeezed.stages.iter().map(line).collect())
-            }
-            _ => Value::Unknown,
-        }
+const REPORT: &[Field<Rc<Verdict>>] = &[
+    ("ok", |verdict| Value::Bool(verdict.ok())),
+    ("clearance", |verdict| worst(verdict.clearance.as_ref(), Dimension::LENGTH)),
+    ("margin", |verdict| worst(verdict.margin.as_ref(), Dimension::LENGTH)),
+    ("torque_margin", |verdict| worst(verdict.torque_margin.as_ref(), Dimension::NUMBER)),
+    ("bond_margin", |verdict| worst(verdict.bond_margin.as_ref(), Dimension::NUMBER)),
+    ("speed_margin", |verdict| worst(verdict.speed_margin.as_ref(), Dimension::NUMBER)),
+    ("angle", |verdict| worst(verdict.angle.as_ref(), Dimension::ANGLE)),
+    ("rigidity", |verdict| worst(verdict.rigidity.as_ref(), Dimension::NUMBER)),
+    ("travel", |verdict| Value::length(libm::hypot(verdict.travel[0], verdict.travel[1]))),
+    ("displacement", |verdict| Value::Vec3(Vec3::from(verdict.travel), Dimension::LENGTH)),
+    ("heading", |verdict| Value::Quantity(verdict.heading, Dimension::ANGLE)),
+    ("slip", |verdict| Value::length(verdict.slip.as_ref().map_or(0.0, |w| w.value))),
+    ("duration", |verdict| Value::time(verdict.duration)),
+    ("energy", |verdict| Value::Quantity(verdict.energy, Dimension::TORQUE)),
+    ("samples", |verdict| Value::count(verdict.samples)),
+    ("failures", |verdict| texts(verdict.failures.iter().map(verdicts::failure_line))),
+    ("checks", |verdict| texts(verdict.checks.iter().map(verdicts::check_line))),
+    ("worst", |verdict| texts(verdicts::worst_lines(verdict))),
+    ("notes", |verdict| texts(verdict.notes.clone())),
+];
+
+/// Returns a margin; one that nothing limits is infinite: larger than whatever it is compared with.
+fn worst(worst: Option<&Worst>, dimension: Dimension) -> Value {
+    Value::Quantity(worst.map_or(f64::INFINITY, |w| w.value), dimension)
+}
+
+fn texts(texts: impl IntoIterator<Item = String>) -> Value {
+    Value::list(texts.into_iter().map(Value::text).collect())
+}
+
+const STATE: &[Field<StateValue>] = &[
+    ("time", |state| Value::time(state.time)),
+    ("base", |state| Value::Pose(Rc::new(state.base()))),
+    ("com", |state| {
+        let (com, _) = state.body.kinematics.centre_of_mass(&state.body.assembly, &state.poses());
+        Value::Vec3(com, Dimension::LENGTH)
+    }),
+];
+
+const WORLD: &[Field<World>] = &[
+    ("gravity", |world| Value::Quantity(world.gravity, Dimension::ACCELERATION)),
+    ("ground", |world| Value::text(world.ground.word())),
+    ("friction", |world| Value::number(world.friction)),
+];
+
+const FRAME: &[Field<Record>] = &[
+    ("nodes", |record| {
+        Value::list(frame(record).0.iter().map(|p| Value::Vec3(*p, Dimension::LENGTH)).collect())
+    }),
+    ("struts", |record| {
+        let pair = |(a, b): &(usize, usize)| Value::list(vec![Value::count(*a), Value::count(*b)]);
+        Value::list(frame(record).1.iter().map(pair).collect())
+    }),
+];
+
+/// Returns the nodes and struts of a frame.
+fn frame(record: &Record) -> (&[Vec3], &[(usize, usize)]) {
+    match record {
+        Record::Frame(nodes, struts) => (nodes, struts),
+        _ => unreachable!("only frames are asked"),
     }
 }
 
+const RIGIDITY: &[Field<TrussDesign>] = &[
+    ("rigid", |truss| Value::Bool(truss.rigidity.rigid())),
+    ("rank", |truss| Value::count(truss.rigidity.rank)),
+    ("self_stresses", |truss| Value::count(truss.rigidity.self_stresses)),
+    ("weakest", |truss| Value::number(truss.rigidity.weakest)),
+    ("redundant", |truss| texts(truss.rigidity.redundant.iter().map(|&strut| truss.strut_name(strut)))),
+    ("free_motions", |truss| texts(truss.free_motions())),
+];
+
+/// Returns the fields of the records that no native's file defines, to be compared with the declarations.
+pub fn fields() -> Vec<(&'static str, Vec<&'static str>)> {
+    vec![
+        ("Plan", PLAN.iter().map(|(name, _)| *name).collect()),
+        ("Report", field_names(REPORT)),
+        ("State", field_names(STATE)),
+        ("World", field_names(WORLD)),
+        ("Frame", field_names(FRAME)),
+        ("Rigidity", field_names(RIGIDITY)),
+    ]
+}
+
+/// Returns the world that a plan assumes from its beginning.
 pub fn first_world(plan: &Plan) -> World {
     plan.worlds.first().map_or_else(World::default, |from| from.world)
-}
-
-/// The names of a record's fields, as Rust has them; the tests compare them with the declarations.
-pub fn fields_of(record: &str) -> Option<&'static [&'static str]> {
-    Some(match record {
-        "Plan" => &["duration", "actions", "steps", "start", "end", "assumes"],
-        "Squeezing" => SQUEEZING,
-        "Folding" => FOLDING,
-        "OrderSample" => ORDER_SAMPLE,
-        "Refolding" => REFOLDING,
-        "Unwinding" => UNWINDING,
-        "Morphing" => MORPHING,
-        "Travel" => TRAVEL,
-        "Layout" => &["panels", "hinges", "overlaps"],
-        "Report" => &[
-            "ok",
-            "clearance",
-            "margin",
-            "torque_margin",
-            "bond_margin",
-            "speed_margin",
-            "angle",
-            "rigidity",
-            "travel",
-            "displacement",
-            "heading",
-            "slip",
-            "duration",
-            "energy",
-            "samples",
-            "failures",
-            "checks",
-            "worst",
-            "notes",
-        ],
-        "State" => &["time", "base", "com"],
-        "World" => &["gravity", "ground", "friction"],
-        "Frame" => &["nodes", "struts"],
-        "Rigidity" => &["rigid", "rank", "self_stresses", "weakest", "redundant", "free_motions"],
-        _ => return None,
-    })
-}
-
-fn report_field(verdict: &Verdict, field: &str) -> Value {
-    // A margin that nothing limits is infinite: larger than whatever it is compared with.
-    let worst = |worst: &Option<Worst>, dimension| {
-        Value::Quantity(worst.as_ref().map_or(f64::INFINITY, |w| w.value), dimension)
-    };
-    let texts = |texts: Vec<String>| Value::list(texts.into_iter().map(Value::text).collect());
-    let [x, y, z] = verdict.travel;
-    match field {
-        "ok" => Value::Bool(verdict.ok()),
-        "clearance" => worst(&verdict.clearance, Dimension::LENGTH),
-        "margin" => worst(&verdict.margin, Dimension::LENGTH),
-        "torque_margin" => worst(&verdict.torque_margin, Dimension::NUMBER),
-        "bond_margin" => worst(&verdict.bond_margin, Dimension::NUMBER),
-        "speed_margin" => worst(&verdict.speed_margin, Dimension::NUMBER),
-        "angle" => worst(&verdict.angle, Dimension::ANGLE),
-        "rigidity" => worst(&verdict.rigidity, Dimension::NUMBER),
-        "travel" => Value::length(libm::hypot(x, y)),
-        "displacement" => Value::Vec3(Vec3::new(x, y, z), Dimension::LENGTH),
-        "heading" => Value::Quantity(verdict.heading, Dimension::ANGLE),
-        "slip" => Value::length(verdict.slip.as_ref().map_or(0.0, |w| w.value)),
-        "duration" => Value::time(verdict.duration),
-        "energy" => Value::Quantity(verdict.energy, ENERGY),
-        "samples" => Value::count(verdict.samples),
-        "failures" => texts(verdict.failures.iter().map(verdicts::failure_line).collect()),
-        "checks" => texts(verdict.checks.iter().map(verdicts::check_line).collect()),
-        "worst" => texts(verdicts::worst_lines(verdict)),
-        "notes" => texts(verdict.notes.clone()),
-        _ => Value::Unknown,
-    }
 }
 
 impl std::fmt::Debug for StateValue {
@@ -260,19 +247,6 @@ impl std::fmt::Debug for StateValue {
 }
 
 impl StateValue {
-    fn field(&self, field: &str) -> Value {
-        match field {
-            "time" => Value::time(self.time),
-            "base" => Value::Pose(Rc::new(self.base())),
-            "com" => {
-                let poses = self.poses();
-                let (com, _) = self.body.kinematics.centre_of_mass(&self.body.assembly, &poses);
-                Value::Vec3(com, Dimension::LENGTH)
-            }
-            _ => Value::Unknown,
-        }
-    }
-
     /// World poses of all links.
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
@@ -296,31 +270,6 @@ impl StateValue {
     }
 }
 
-fn world_field(world: &World, field: &str) -> Value {
-    match field {
-        "gravity" => Value::Quantity(world.gravity, ACCELERATION),
-        "ground" => Value::text(match world.ground {
-            Ground::Settle => "settle",
-            Ground::Fixed => "fixed",
-            Ground::Held => "held",
-            Ground::Off => "off",
-        }),
-        "friction" => Value::number(world.friction),
-        _ => Value::Unknown,
-    }
-}
-
-fn frame_field(nodes: &[Vec3], struts: &[(usize, usize)], field: &str) -> Value {
-    match field {
-        "nodes" => Value::list(nodes.iter().map(|p| Value::Vec3(*p, Dimension::LENGTH)).collect()),
-        "struts" => {
-            let pair = |(a, b): &(usize, usize)| Value::list(vec![Value::count(*a), Value::count(*b)]);
-            Value::list(struts.iter().map(pair).collect())
-        }
-        _ => Value::Unknown,
-    }
-}
-
 /// Nodes, and struts by pairs of nodes.
 type NodesAndStruts = (Vec<Vec3>, Vec<(usize, usize)>);
 
@@ -332,21 +281,5 @@ pub fn frame_parts(value: &Value) -> Option<NodesAndStruts> {
             _ => None,
         },
         _ => None,
-    }
-}
-
-fn rigidity_field(design: &Rc<Design>, field: &str) -> Value {
-    let super::design::DesignKind::Truss(truss) = &design.kind else { return Value::Unknown };
-    let rigidity = &truss.rigidity;
-    match field {
-        "rigid" => Value::Bool(rigidity.rigid()),
-        "rank" => Value::count(rigidity.rank),
-        "self_stresses" => Value::count(rigidity.self_stresses),
-        "weakest" => Value::number(rigidity.weakest),
-        "redundant" => {
-            Value::list(rigidity.redundant.iter().map(|&s| Value::text(truss.strut_name(s))).collect())
-        }
-        "free_motions" => Value::list(free_motions(truss).into_iter().map(Value::text).collect()),
-        _ => Value::Unknown,
     }
 }

@@ -4,17 +4,17 @@
 //! cost of a few pointers: an entry that fails, or is taken back, leaves the copy.
 
 use super::causes::Causes;
-use super::design::Design;
+use super::design::{ConnectorDesign, Design};
 use super::eval::Frame;
 use super::host::{Host, Mode, Options};
-use super::interpreter::{Interpreter, Lazy};
-use super::planning::Planned;
+use super::interpreter::Interpreter;
+use super::plan_value::PlanValue;
+use super::routines::Routines;
 use super::stage::{Stage, Standing};
 use super::stop::Eval;
-use super::value::Value;
+use super::value::{Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Stmt, StmtKind, Test};
-use crate::elaborate::connector::ConnectorDesign;
 use crate::interrupt::{self, CancelState};
 use crate::planners::tosnake::SearchCache;
 use crate::source::{Diagnostic, FileId, Files, Span, code};
@@ -84,10 +84,11 @@ pub struct Answer {
 }
 
 impl Evaluator {
-    pub fn new(cancel_state: CancelState) -> Evaluator {
-        Evaluator(Standing::new(cancel_state, |stage| {
+    /// Starts an evaluator on a thread of its own.
+    pub fn new(routines: &'static Routines, cancel_state: CancelState) -> Evaluator {
+        Evaluator(Standing::new(cancel_state, move |stage| {
             let (mut memory, mut before) = (Memory::default(), Vec::new());
-            move |task| work(&task, &stage, &mut memory, &mut before)
+            move |task| work(routines, &task, &stage, &mut memory, &mut before)
         }))
     }
 
@@ -115,20 +116,26 @@ struct Memory {
     globals: Vec<Lazy>,
     designs: Vec<Vec<Rc<Design>>>,
     connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
-    plans: Vec<Rc<Planned>>,
+    plans: Vec<Rc<PlanValue>>,
     search_cache: SearchCache,
     causes: Causes,
     exemptions: BTreeMap<Span, bool>,
 }
 
-fn work(task: &Task, stage: &Stage, memory: &mut Memory, before: &mut Vec<Memory>) -> Answer {
+fn work(
+    routines: &Routines,
+    task: &Task,
+    stage: &Stage,
+    memory: &mut Memory,
+    before: &mut Vec<Memory>,
+) -> Answer {
     match &task.work {
         Work::Enter(entered) => {
             let enter = |interpreter: &mut Interpreter| {
                 interpreter.check_all(&entered.check)?;
                 interpreter.enter(entered)
             };
-            let (mut answer, after) = evaluate(task, &entered.stale, stage, memory, enter);
+            let (mut answer, after) = evaluate(routines, task, &entered.stale, stage, memory, enter);
             if let Some(after) = after.filter(|_| answer.ok && entered.keep) {
                 answer.kept = true;
                 before.push(std::mem::replace(memory, after));
@@ -139,7 +146,7 @@ fn work(task: &Task, stage: &Stage, memory: &mut Memory, before: &mut Vec<Memory
         }
         Work::Reload { check, stale } => {
             let again = |interpreter: &mut Interpreter| interpreter.check_all(check);
-            let (mut answer, after) = evaluate(task, stale, stage, memory, again);
+            let (mut answer, after) = evaluate(routines, task, stale, stage, memory, again);
             if let Some(after) = after.filter(|_| answer.ok) {
                 answer.kept = true;
                 (*memory, *before) = (after, Vec::new());
@@ -158,13 +165,14 @@ fn work(task: &Task, stage: &Stage, memory: &mut Memory, before: &mut Vec<Memory
 }
 
 fn evaluate(
+    routines: &Routines,
     task: &Task,
     stale: &[DefId],
     stage: &Stage,
     memory: &Memory,
     work: impl FnOnce(&mut Interpreter) -> Eval<()>,
 ) -> (Answer, Option<Memory>) {
-    let mut interpreter = Interpreter::new(&task.checked, Mode::Run, &task.options, stage.clone());
+    let mut interpreter = Interpreter::new(routines, &task.checked, Mode::Run, &task.options, stage.clone());
     interpreter.resume(memory.clone(), stale);
     let caught = catch_unwind(AssertUnwindSafe(|| {
         interrupt::catch(&stage.cancel_state, stage.progress_sink(), || work(&mut interpreter))
@@ -237,7 +245,7 @@ impl<'a> Interpreter<'a> {
     }
 
     fn check_all(&mut self, defs: &[DefId]) -> Eval<()> {
-        defs.iter().try_for_each(|def| self.check_def(*def))
+        defs.iter().try_for_each(|def| self.check_declaration(*def))
     }
 
     /// Evaluates an entry piece by piece, up to the first that fails.
@@ -281,9 +289,9 @@ impl<'a> Interpreter<'a> {
         let program = self.program;
         let declared = program.def(def);
         let DefKind::Let(binding) = &declared.kind else {
-            self.check_def(def)?;
+            self.check_declaration(def)?;
             if self.errors == 0 && tell == Tell::All {
-                let line = self.declaration_line(def)?;
+                let line = (self.routines.describe_declaration)(self, def)?;
                 self.stage.print(line);
             }
             return Ok(());
@@ -306,14 +314,14 @@ impl<'a> Interpreter<'a> {
         if self.errors > 0 || tell == Tell::Nothing || matches!(value, Value::Nothing) {
             return Ok(());
         }
-        let portrait = self.portrait(value)?;
+        let display = self.display(value)?;
         // An instance is called by its type.
         let shown = match tell {
-            Tell::All if !matches!(value, Value::Instance(_)) => match portrait.split_once('\n') {
-                None => format!("{portrait}: {}", self.program.type_name(&expr.ty)),
+            Tell::All if !matches!(value, Value::Instance(_)) => match display.split_once('\n') {
+                None => format!("{display}: {}", self.program.type_name(&expr.ty)),
                 Some((head, rest)) => format!("{head}: {}\n{rest}", self.program.type_name(&expr.ty)),
             },
-            _ => portrait,
+            _ => display,
         };
         self.stage.print(shown);
         Ok(())

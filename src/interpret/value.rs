@@ -55,6 +55,18 @@ pub enum Value {
     Record(Rc<Record>),
 }
 
+/// A value that is computed when it is first needed.
+#[derive(Clone, Debug, Default)]
+pub enum Lazy {
+    /// Not asked for yet.
+    #[default]
+    Waiting,
+    /// Being computed: who asks for it now is a part of it.
+    Running,
+    /// Computed; unknown where that failed.
+    Done(Value),
+}
+
 /// What can be called through a value.
 #[derive(Debug)]
 pub enum Callable {

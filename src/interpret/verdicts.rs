@@ -3,7 +3,7 @@
 use super::behavior::{in_library, with_instance};
 use super::causes::CauseRecord;
 use super::interpreter::Interpreter;
-use super::planning::Planned;
+use super::plan_value::PlanValue;
 use super::stop::Stop;
 use crate::behavior::{Reason, Refusal};
 use crate::plan::{CauseId, Check, CheckKind, ExemptionKind, Failure, Settings, Verdict, Worst};
@@ -89,7 +89,13 @@ impl Interpreter<'_> {
     /// Reports the failures at what is to blame for them: one finding for all of a kind that the same
     /// commands caused. What is found after a fall follows from it and is not told. `page` is the file
     /// that shows them.
-    pub fn report_failures(&mut self, planned: &Planned, verdict: &Verdict, span: Span, page: Option<&str>) {
+    pub fn report_failures(
+        &mut self,
+        planned: &PlanValue,
+        verdict: &Verdict,
+        span: Span,
+        page: Option<&str>,
+    ) {
         let fall = verdict.failures.iter().filter(|f| f.kind == CheckKind::Stability).map(|f| f.time);
         let fall = fall.fold(f64::INFINITY, f64::min);
         let mut told: Vec<(&Failure, Vec<&Failure>)> = Vec::new();
@@ -115,7 +121,7 @@ impl Interpreter<'_> {
         }
     }
 
-    fn failure(&self, planned: &Planned, failure: &Failure, span: Span) -> Diagnostic {
+    fn failure(&self, planned: &PlanValue, failure: &Failure, span: Span) -> Diagnostic {
         let time = seconds(failure.time);
         let message = if failure.message.contains(&time) {
             failure.message.clone()
@@ -150,7 +156,7 @@ impl Interpreter<'_> {
     }
 
     /// Remembers which exemptions were needed: one clause covers many intervals and many plans.
-    pub fn note_exemptions(&mut self, planned: &Planned, verdict: &Verdict) {
+    pub fn note_exemptions(&mut self, planned: &PlanValue, verdict: &Verdict) {
         for (index, exemption) in planned.plan.exemptions.iter().enumerate() {
             let needed = !verdict.unneeded_exemptions.contains(&index);
             let span = self.causes.get(planned.causes[exemption.cause.0 as usize]).span;
@@ -177,7 +183,7 @@ impl Interpreter<'_> {
     }
 
     /// What a plan was excused from and by which looser options, to be printed when it is written.
-    pub fn excuses(&self, planned: &Planned, settings: &Settings) -> Vec<String> {
+    pub fn excuses(&self, planned: &PlanValue, settings: &Settings) -> Vec<String> {
         let strict = self.judge_settings();
         let mut lines = Vec::new();
         if settings.unstable_for > strict.unstable_for {

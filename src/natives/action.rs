@@ -1,14 +1,17 @@
 //! Built-ins that make behaviours: actions, the paper's (J, X, ξ, T), and their composition.
 
-use super::{Native, pure};
+use super::Native;
 use crate::behavior::mirror::{Plane, mirrored};
 use crate::behavior::{Part, gait};
-use crate::elaborate::robot_of::port_ref;
-use crate::interpret::call::Call;
+use crate::interpret::argument::{Choice, Positive, parameters};
 use crate::interpret::design::Design;
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
+use crate::interpret::robot::port_ref;
 use crate::interpret::stop::{Eval, fault};
-use crate::interpret::value::{Behavior, Callable, ConditionValue, JointValue, SignalValue, Value};
+use crate::interpret::value::{
+    Behavior, Callable, ConditionValue, JointValue, PortValue, SignalValue, Value,
+};
 use crate::plan::{Action, Command, Condition, Node, Otherwise, Profile, Signal, Target};
 use crate::robot::JointId;
 use crate::source::{Span, code};
@@ -16,25 +19,41 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 pub const TABLE: &[Native] = &[
-    pure("move", 7, move_joint),
-    pure("spin", 5, spin),
-    pure("follow", 3, follow),
-    pure("wait", 2, wait),
-    pure("dock", 2, dock),
-    pure("undock", 1, undock),
-    pure("abort", 1, abort),
-    pure("angle", 1, |i, call| signal(i, call, Signal::Angle)),
-    pure("speed", 1, |i, call| signal(i, call, Signal::Speed)),
-    pure("elapsed", 0, |_, _| Ok(signal_value(None, Signal::Elapsed))),
-    pure("docked", 1, docked),
-    pure("Sc", 1, |i, call| compose(i, call, Node::Series)),
-    pure("Pc", 1, |i, call| compose(i, call, Node::Parallel)),
-    pure("repeat", 2, repeat),
-    pure("phase", 2, phase),
-    pure("stretch", 2, stretch),
-    pure("cycle", 4, cycle),
-    pure("mirror", 2, mirror),
-    pure("table", 4, table),
+    Native::pure(
+        "move",
+        parameters![joint: &JointValue, to: Option<f64>, by: Option<f64>, in: Option<Positive>, profile: Profile, until: Option<&ConditionValue>, timeout: Option<Positive>],
+        move_joint,
+    ),
+    Native::pure(
+        "spin",
+        parameters![joint: &JointValue, speed: f64, for: Option<Positive>, until: Option<&ConditionValue>, timeout: Option<Positive>],
+        spin,
+    ),
+    Native::pure("follow", parameters![joint: &JointValue, path: &Rc<Callable>, for: Positive], follow),
+    Native::pure("wait", parameters![time: f64, until: Option<&ConditionValue>], wait),
+    Native::pure("dock", parameters![a: &PortValue, b: &PortValue], dock),
+    Native::pure("undock", parameters![port: &PortValue], undock),
+    Native::pure("abort", parameters![message: &str], abort),
+    Native::pure("angle", parameters![joint: &JointValue], |i, call| signal(i, call, Signal::Angle)),
+    Native::pure("speed", parameters![joint: &JointValue], |i, call| signal(i, call, Signal::Speed)),
+    Native::pure("elapsed", parameters![], |_, _| Ok(signal_value(None, Signal::Elapsed))),
+    Native::pure("docked", parameters![port: &PortValue], docked),
+    Native::pure("Sc", parameters![behaviors: &[Value]], |i, call| compose(i, call, Node::Series)),
+    Native::pure("Pc", parameters![behaviors: &[Value]], |i, call| compose(i, call, Node::Parallel)),
+    Native::pure("repeat", parameters![behavior: &Rc<Behavior>, times: usize], repeat),
+    Native::pure("phase", parameters![behavior: &Rc<Behavior>, shift: f64], phase),
+    Native::pure("stretch", parameters![behavior: &Rc<Behavior>, to: Positive], stretch),
+    Native::pure(
+        "cycle",
+        parameters![behaviors: &[Value], phases: &[Value], period: Positive, times: usize],
+        cycle,
+    ),
+    Native::pure("mirror", parameters![behavior: &Rc<Behavior>, across: Plane], mirror),
+    Native::pure(
+        "table",
+        parameters![joints: &[Value], step: Positive, unit: AngleUnit, rows: &[Value]],
+        table,
+    ),
 ];
 
 /// Time between two points of a followed function, s, and the fewest points of one.
@@ -44,6 +63,36 @@ const FOLLOW_POINTS_MIN: f64 = 8.0;
 const FOLLOW_POINTS_MAX: f64 = 100_000.0;
 /// Part of a step over which the speed of a followed function is measured.
 const FOLLOW_SLOPE: f64 = 1e-3;
+
+impl Choice for Profile {
+    const WORDS: &'static [(&'static str, Profile)] =
+        &[("smooth", Profile::Smooth), ("trapezoid", Profile::Trapezoid), ("linear", Profile::Linear)];
+}
+
+impl Choice for Plane {
+    const WORDS: &'static [(&'static str, Plane)] =
+        &[("XY", Plane::XY), ("XZ", Plane::XZ), ("YZ", Plane::YZ)];
+}
+
+/// The unit of the numbers of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum AngleUnit {
+    Degree,
+    Radian,
+    Turn,
+}
+
+impl Choice for AngleUnit {
+    const WORDS: &'static [(&'static str, AngleUnit)] =
+        &[("deg", AngleUnit::Degree), ("rad", AngleUnit::Radian), ("turn", AngleUnit::Turn)];
+}
+
+impl AngleUnit {
+    /// Returns the unit in radians.
+    fn radians(self) -> f64 {
+        crate::units::unit(self.word()).expect("the words are units").factor
+    }
+}
 
 fn behavior(robot: Option<Rc<Design>>, node: Node) -> Value {
     Value::Behavior(Rc::new(Behavior { robot, node: Arc::new(node) }))
@@ -57,23 +106,15 @@ struct Extras {
 }
 
 impl Extras {
-    /// `until` and `timeout` at these parameters; the condition must be about the same robot.
-    fn read(
-        interpreter: &Interpreter,
-        call: &Call,
-        robot: Option<&Rc<Design>>,
-        until: usize,
-        timeout: usize,
-    ) -> Eval<Extras> {
-        let condition = match call.arg(until) {
-            Value::Condition(condition) => {
-                interpreter.common_robot(robot, condition.robot.as_ref(), call.at(until))?;
-                Some(condition.condition.clone())
-            }
-            _ => None,
-        };
-        let parts = vec![(Part::Until, call.at(until)), (Part::Timeout, call.at(timeout))];
-        Ok(Extras { until: condition, timeout: call.positive_if(timeout, "a timeout")?, parts })
+    /// Reads `until` and `timeout`; the condition must be about the same robot.
+    fn read(interpreter: &Interpreter, call: &Call, robot: Option<&Rc<Design>>) -> Eval<Extras> {
+        let condition: Option<&ConditionValue> = call.get("until")?;
+        if let Some(condition) = condition {
+            interpreter.common_robot(robot, condition.robot.as_ref(), call.at("until"))?;
+        }
+        let until = condition.map(|condition| condition.condition.clone());
+        let parts = vec![(Part::Until, call.at("until")), (Part::Timeout, call.at("timeout"))];
+        Ok(Extras { until, timeout: call.positive_if("timeout", "a timeout")?, parts })
     }
 }
 
@@ -82,10 +123,11 @@ fn joint_action(
     interpreter: &mut Interpreter,
     call: &Call,
     joint: &JointValue,
+    at: Span,
     extras: Extras,
     command: impl FnOnce(JointId) -> Command,
 ) -> Eval<Value> {
-    let Some(robot) = interpreter.robot_at(&joint.robot, call.at(0))? else { return Ok(Value::Unknown) };
+    let Some(robot) = interpreter.robot_at(&joint.robot, at)? else { return Ok(Value::Unknown) };
     let cause = interpreter.action_cause(call.span, extras.parts, joint);
     let action = Action {
         command: command(robot.joint(joint)),
@@ -98,47 +140,64 @@ fn joint_action(
 }
 
 fn move_joint(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let joint = call.joint(0)?;
-    let (target, at) = match (call.number_if(1)?, call.number_if(2)?) {
-        (Some(to), None) => (Target::To(to), call.at(1)),
-        (None, Some(by)) => (Target::By(by), call.at(2)),
+    let joint = call.get::<&JointValue>("joint")?;
+    let (target, at) = match (call.get::<Option<f64>>("to")?, call.get::<Option<f64>>("by")?) {
+        (Some(to), None) => (Target::To(to), call.at("to")),
+        (None, Some(by)) => (Target::By(by), call.at("by")),
         (None, None) => return Err(bad_action(call.span, "`move` wants `to:` or `by:`", "where to?")),
         (Some(_), Some(_)) => {
-            return Err(bad_action(call.at(2), "`move` wants `to:` or `by:`, not both", "one too many"));
+            return Err(bad_action(call.at("by"), "`move` wants `to:` or `by:`, not both", "one too many"));
         }
     };
-    let duration = call.positive_if(3, "the duration of a motion")?;
-    let profile = match call.word(4) {
-        Some("trapezoid") => Profile::Trapezoid,
-        Some("linear") => Profile::Linear,
-        _ => Profile::Smooth,
-    };
-    let mut extras = Extras::read(interpreter, call, Some(&joint.robot), 5, 6)?;
-    extras.parts.extend([(Part::Joint, call.at(0)), (Part::Target, at), (Part::Duration, call.at(3))]);
+    let duration = call.positive_if("in", "the duration of a motion")?;
+    let profile: Profile = call.get("profile")?;
+    let mut extras = Extras::read(interpreter, call, Some(&joint.robot))?;
+    extras.parts.extend([
+        (Part::Joint, call.at("joint")),
+        (Part::Target, at),
+        (Part::Duration, call.at("in")),
+    ]);
     extras.parts.push((Part::Speed, at));
-    joint_action(interpreter, call, joint, extras, |joint| Command::Move { joint, target, duration, profile })
+    joint_action(interpreter, call, joint, call.at("joint"), extras, |joint| Command::Move {
+        joint,
+        target,
+        duration,
+        profile,
+    })
 }
 
 fn spin(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let joint = call.joint(0)?;
-    let speed = call.number(1)?;
-    let duration = call.positive_if(2, "the duration of a motion")?;
-    let mut extras = Extras::read(interpreter, call, Some(&joint.robot), 3, 4)?;
-    extras.parts.extend([(Part::Joint, call.at(0)), (Part::Speed, call.at(1)), (Part::Duration, call.at(2))]);
-    joint_action(interpreter, call, joint, extras, |joint| Command::Spin { joint, speed, duration })
+    let joint = call.get::<&JointValue>("joint")?;
+    let speed = call.get::<f64>("speed")?;
+    let duration = call.positive_if("for", "the duration of a motion")?;
+    let mut extras = Extras::read(interpreter, call, Some(&joint.robot))?;
+    extras.parts.extend([
+        (Part::Joint, call.at("joint")),
+        (Part::Speed, call.at("speed")),
+        (Part::Duration, call.at("for")),
+    ]);
+    joint_action(interpreter, call, joint, call.at("joint"), extras, |joint| Command::Spin {
+        joint,
+        speed,
+        duration,
+    })
 }
 
 fn follow(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let joint = call.joint(0)?;
-    let duration = call.positive(2, "the duration of a motion")?;
-    let Some(keyframes) = sample(interpreter, call, call.function(1)?.clone(), duration)? else {
+    let joint = call.get::<&JointValue>("joint")?;
+    let duration = call.positive("for", "the duration of a motion")?;
+    let Some(keyframes) = sample(interpreter, call, call.get::<&Rc<Callable>>("path")?.clone(), duration)?
+    else {
         return Ok(Value::Unknown);
     };
     let parts =
         [(Part::Joint, 0), (Part::Keyframes, 1), (Part::Target, 1), (Part::Speed, 1), (Part::Duration, 2)];
     let parts = parts.map(|(part, index)| (part, call.at(index))).to_vec();
     let extras = Extras { until: None, timeout: None, parts };
-    joint_action(interpreter, call, joint, extras, |joint| Command::Follow { joint, keyframes })
+    joint_action(interpreter, call, joint, call.at("joint"), extras, |joint| Command::Follow {
+        joint,
+        keyframes,
+    })
 }
 
 /// Positions and speeds of a function of time at even steps; `None` where a value is unknown.
@@ -150,12 +209,12 @@ fn sample(
 ) -> Eval<Option<Vec<[f64; 3]>>> {
     let count = libm::ceil(duration / FOLLOW_STEP).max(FOLLOW_POINTS_MIN);
     if count > FOLLOW_POINTS_MAX {
-        return Err(call.refuse(2, "this is too long to follow a function"));
+        return Err(call.refuse("for", "this is too long to follow a function"));
     }
     let step = duration / count;
     let near = step * FOLLOW_SLOPE;
     let mut at = |t: f64| -> Eval<Option<f64>> {
-        Ok(interpreter.apply(&function, vec![Value::time(t)], call.at(1))?.as_number())
+        Ok(interpreter.apply(&function, vec![Value::time(t)], call.at("path"))?.as_number())
     };
     let mut keyframes = Vec::new();
     for k in 0..=count as usize {
@@ -188,15 +247,14 @@ fn one_sided(
 }
 
 fn wait(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let duration = call.number(0)?;
+    let duration = call.get::<f64>("time")?;
     if duration < 0.0 {
-        return Err(call.refuse(0, "a time to wait must not be negative"));
+        return Err(call.refuse("time", "a time to wait must not be negative"));
     }
-    let (until, robot) = match call.arg(1) {
-        Value::Condition(condition) => (Some(condition.condition.clone()), condition.robot.clone()),
-        _ => (None, None),
-    };
-    let parts = vec![(Part::Duration, call.at(0)), (Part::Until, call.at(1))];
+    let condition: Option<&ConditionValue> = call.get("until")?;
+    let until = condition.map(|condition| condition.condition.clone());
+    let robot = condition.and_then(|condition| condition.robot.clone());
+    let parts = vec![(Part::Duration, call.at("time")), (Part::Until, call.at("until"))];
     let cause = interpreter.cause(call.span, parts, "");
     let command = Command::Wait { duration };
     let action = Action { command, until, timeout: None, otherwise: Otherwise::Proceed, cause };
@@ -204,7 +262,7 @@ fn wait(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn dock(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (a, b) = (call.port(0)?, call.port(1)?);
+    let (a, b) = (call.get::<&PortValue>("a")?, call.get::<&PortValue>("b")?);
     let robot = interpreter.common_robot(Some(&a.robot), Some(&b.robot), call.span)?;
     let command = Command::Dock { a: port_ref(a), b: port_ref(b) };
     let subject = format!("{} -- {}", a.name(), b.name());
@@ -215,16 +273,16 @@ fn dock(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn undock(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let port = call.port(0)?;
+    let port = call.get::<&PortValue>("port")?;
     let command = Command::Undock { port: port_ref(port) };
-    let cause = interpreter.cause(call.span, vec![(Part::Ports, call.at(0))], &port.name());
+    let cause = interpreter.cause(call.span, vec![(Part::Ports, call.at("port"))], &port.name());
     let action = Action { command, until: None, timeout: None, otherwise: Otherwise::Proceed, cause };
     Ok(behavior(Some(port.robot.clone()), Node::Action(action)))
 }
 
 /// An action that has no time to wait and aborts at once: `else` takes its message.
 fn abort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let otherwise = Otherwise::Abort(call.text(0)?.to_string());
+    let otherwise = Otherwise::Abort(call.get::<&str>("message")?.to_string());
     let cause = interpreter.cause(call.span, Vec::new(), "");
     let never =
         Condition::Compare { signal: Signal::Elapsed, compare: crate::plan::Compare::Less, value: 0.0 };
@@ -233,32 +291,20 @@ fn abort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(behavior(None, Node::Action(action)))
 }
 
-/// `action else b`; `None` where `action` is no single action with a timeout.
-pub fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
-    let mut action = action.as_action()?.clone();
-    action.timeout?;
-    action.otherwise = match &**otherwise {
-        Node::Series(nodes) if nodes.is_empty() => Otherwise::Proceed,
-        Node::Action(Action { otherwise: Otherwise::Abort(message), timeout: Some(0.0), .. }) => {
-            Otherwise::Abort(message.clone())
-        }
-        _ => Otherwise::Node(otherwise.clone()),
-    };
-    Some(Node::Action(action))
-}
-
 fn signal_value(robot: Option<Rc<Design>>, signal: Signal) -> Value {
     Value::Signal(Rc::new(SignalValue { robot, signal }))
 }
 
 fn signal(interpreter: &mut Interpreter, call: &Call, make: fn(JointId) -> Signal) -> Eval<Value> {
-    let joint = call.joint(0)?;
-    let Some(robot) = interpreter.robot_at(&joint.robot, call.at(0))? else { return Ok(Value::Unknown) };
+    let joint: &JointValue = call.get("joint")?;
+    let Some(robot) = interpreter.robot_at(&joint.robot, call.at("joint"))? else {
+        return Ok(Value::Unknown);
+    };
     Ok(signal_value(Some(joint.robot.clone()), make(robot.joint(joint))))
 }
 
 fn docked(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let port = call.port(0)?;
+    let port = call.get::<&PortValue>("port")?;
     let condition = Condition::Docked(port_ref(port));
     Ok(Value::Condition(Rc::new(ConditionValue { robot: Some(port.robot.clone()), condition })))
 }
@@ -266,8 +312,10 @@ fn docked(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn compose(interpreter: &mut Interpreter, call: &Call, make: fn(Vec<Arc<Node>>) -> Node) -> Eval<Value> {
     let mut robot = None;
     let mut nodes = Vec::new();
-    for part in call.list(0)?.iter() {
-        let Value::Behavior(part) = part else { return Err(call.refuse(0, "behaviours are wanted")) };
+    for part in call.get::<&[Value]>("behaviors")?.iter() {
+        let Value::Behavior(part) = part else {
+            return Err(call.refuse("behaviors", "behaviours are wanted"));
+        };
         robot = interpreter.common_robot(robot.as_ref(), part.robot.as_ref(), call.span)?;
         nodes.push(part.node.clone());
     }
@@ -275,14 +323,14 @@ fn compose(interpreter: &mut Interpreter, call: &Call, make: fn(Vec<Arc<Node>>) 
 }
 
 fn repeat(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let body = call.behavior(0)?;
-    let times = call.count(1, "the number of repetitions")? as u64;
+    let body = call.get::<&Rc<Behavior>>("behavior")?;
+    let times = call.count("times", "the number of repetitions")? as u64;
     Ok(behavior(body.robot.clone(), Node::Repeat { body: body.node.clone(), times }))
 }
 
 fn phase(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let body = call.behavior(0)?;
-    let shift = call.number(1)?;
+    let body = call.get::<&Rc<Behavior>>("behavior")?;
+    let shift = call.get::<f64>("shift")?;
     let cause = interpreter.cause(call.span, Vec::new(), "");
     // A whole cycle more is the same place in the cycle.
     let shift = shift - libm::floor(shift);
@@ -290,76 +338,74 @@ fn phase(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn stretch(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let body = call.behavior(0)?;
-    let duration = call.positive(1, "the duration of a behaviour")?;
-    let cause = interpreter.cause(call.span, vec![(Part::Duration, call.at(1))], "");
+    let body = call.get::<&Rc<Behavior>>("behavior")?;
+    let duration = call.positive("to", "the duration of a behaviour")?;
+    let cause = interpreter.cause(call.span, vec![(Part::Duration, call.at("to"))], "");
     Ok(behavior(body.robot.clone(), Node::Stretch { body: body.node.clone(), duration, cause }))
 }
 
 fn cycle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (bodies, phases) = (call.list(0)?, call.list(1)?);
+    let (bodies, phases) = (call.get::<&[Value]>("behaviors")?, call.get::<&[Value]>("phases")?);
     if bodies.len() != phases.len() {
         let message = format!("{} behaviours and {} phases", bodies.len(), phases.len());
-        return Err(call.refuse(1, message));
+        return Err(call.refuse("phases", message));
     }
-    let duration = call.positive(2, "the period of a cycle")?;
-    let times = call.count(3, "the number of cycles")? as u64;
+    let duration = call.positive("period", "the period of a cycle")?;
+    let times = call.count("times", "the number of cycles")? as u64;
     let mut robot = None;
-    let cause = interpreter.cause(call.span, vec![(Part::Duration, call.at(2))], "");
+    let cause = interpreter.cause(call.span, vec![(Part::Duration, call.at("period"))], "");
     let mut parts = Vec::new();
     for (body, phase) in bodies.iter().zip(phases.iter()) {
         let (Value::Behavior(body), Some(shift)) = (body, phase.as_number()) else {
-            return Err(call.refuse(0, "behaviours and their phases are wanted"));
+            return Err(call.refuse("behaviors", "behaviours and their phases are wanted"));
         };
-        robot = interpreter.common_robot(robot.as_ref(), body.robot.as_ref(), call.at(0))?;
+        robot = interpreter.common_robot(robot.as_ref(), body.robot.as_ref(), call.at("behaviors"))?;
         parts.push((body.node.clone(), shift - libm::floor(shift)));
     }
     Ok(behavior(robot, gait::cycle(&parts, duration, times, cause)))
 }
 
 fn mirror(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let body = call.behavior(0)?;
+    let body = call.get::<&Rc<Behavior>>("behavior")?;
     let Some(design) = &body.robot else { return Ok(behavior(None, (*body.node).clone())) };
     let Some(robot) = interpreter.robot_at(design, call.span)? else { return Ok(Value::Unknown) };
-    let plane = match call.word(1) {
-        Some("XY") => Plane::XY,
-        Some("YZ") => Plane::YZ,
-        _ => Plane::XZ,
-    };
+    let plane: Plane = call.get("across")?;
     let holds = vec![true; robot.assembly.bonds.len()];
     match mirrored(&robot.assembly, &holds, &body.node, plane) {
         Ok(node) => Ok(behavior(body.robot.clone(), (*node).clone())),
-        Err(lopsided) => Err(call.refuse(1, lopsided.to_string())),
+        Err(lopsided) => Err(call.refuse("across", lopsided.to_string())),
     }
 }
 
 fn table(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let joints = call.list(0)?;
-    let step = call.positive(1, "the time of a row")?;
-    let unit = crate::units::unit(call.word(2).unwrap_or("deg")).map_or(1.0, |unit| unit.factor);
+    let joints = call.get::<&[Value]>("joints")?;
+    let step = call.positive("step", "the time of a row")?;
+    let unit = call.get::<AngleUnit>("unit")?.radians();
     let mut robot = None;
     let mut rows = Vec::new();
-    for (number, row) in call.list(3)?.iter().enumerate() {
-        let Value::List(row) = row else { return Err(call.refuse(3, "rows of numbers are wanted")) };
+    for (number, row) in call.get::<&[Value]>("rows")?.iter().enumerate() {
+        let Value::List(row) = row else { return Err(call.refuse("rows", "rows of numbers are wanted")) };
         if row.len() != joints.len() {
             let message = format!("row {number} has {} numbers for {} joints", row.len(), joints.len());
-            return Err(call.refuse(3, message));
+            return Err(call.refuse("rows", message));
         }
         let mut actions = vec![Arc::new(hold(interpreter, call, step))];
         for (joint, position) in joints.iter().zip(row.iter()) {
             let (Value::Joint(joint), Some(position)) = (joint, position.as_number()) else { continue };
-            let parts = [(Part::Joint, 0), (Part::Duration, 1), (Part::Target, 3), (Part::Speed, 3)];
-            let parts = parts.map(|(part, index)| (part, call.at(index))).to_vec();
+            let parts = [
+                (Part::Joint, "joints"),
+                (Part::Duration, "step"),
+                (Part::Target, "rows"),
+                (Part::Speed, "rows"),
+            ];
+            let parts = parts.map(|(part, name)| (part, call.at(name))).to_vec();
             let extras = Extras { until: None, timeout: None, parts };
             let target = Target::To(crate::units::to_si(position, unit));
-            let action = joint_action(interpreter, call, joint, extras, |joint| Command::Move {
-                joint,
-                target,
-                duration: Some(step),
-                profile: Profile::Smooth,
+            let action = joint_action(interpreter, call, joint, call.at("joints"), extras, |joint| {
+                Command::Move { joint, target, duration: Some(step), profile: Profile::Smooth }
             })?;
             let Value::Behavior(action) = action else { return Ok(Value::Unknown) };
-            robot = interpreter.common_robot(robot.as_ref(), action.robot.as_ref(), call.at(0))?;
+            robot = interpreter.common_robot(robot.as_ref(), action.robot.as_ref(), call.at("joints"))?;
             actions.push(action.node.clone());
         }
         rows.push(Arc::new(Node::Parallel(actions)));

@@ -1,12 +1,13 @@
 //! Built-ins that arrange cells, build frames of trusses, and make meshes and clouds.
 
+use super::Native;
+use super::mesh_file;
 use super::shape::points;
-use super::{Native, pure};
-use crate::formats::mesh_file;
 use crate::geometry::{HeightField, Vec3, subdivide};
-use crate::interpret::call::Call;
+use crate::interpret::argument::{Positive, arguments, parameters};
 use crate::interpret::cells::{self, BadCell, Cells};
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
 use crate::interpret::record::Record;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Mesh, Value};
@@ -15,25 +16,31 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 pub const TABLE: &[Native] = &[
-    pure("row", 1, |i, call| block(i, call, [call.count(0, "a number of cells")?, 1, 1])),
-    pure("column", 1, |i, call| block(i, call, [1, call.count(0, "a number of cells")?, 1])),
-    pure("block", 3, |i, call| {
-        let count = |k| call.count(k, "a number of cells");
-        block(i, call, [count(0)?, count(1)?, count(2)?])
+    Native::pure("row", parameters![n: usize], |i, call| {
+        block(i, call, [call.count("n", "a number of cells")?, 1, 1])
     }),
-    pure("cells", 1, drawn),
-    pure("layers", 1, layers),
-    pure("octet", 3, octet),
-    pure("tetrahelix", 2, tetrahelix),
-    pure("from_mesh", 1, from_mesh),
-    pure("polyhedron", 2, polyhedron),
-    pure("faces", 1, faces),
-    pure("load_mesh", 2, load_mesh),
-    pure("load_cloud", 2, load_cloud),
-    pure("subdivided", 2, subdivided),
-    pure("on_sphere", 2, on_sphere),
-    pure("terrain", 3, terrain),
-    pure("cloud", 1, |_, call| Ok(Value::Cloud(Rc::new(points(call, 0)?)))),
+    Native::pure("column", parameters![n: usize], |i, call| {
+        block(i, call, [1, call.count("n", "a number of cells")?, 1])
+    }),
+    Native::pure("block", parameters![x: usize, y: usize, z: usize], |i, call| {
+        let count = |side| call.count(side, "a number of cells");
+        block(i, call, [count("x")?, count("y")?, count("z")?])
+    }),
+    Native::pure("cells", parameters![text: &str], drawn),
+    Native::pure("layers", parameters![texts: &[Value]], layers),
+    Native::pure("octet", OctetArguments::PARAMETERS, octet),
+    Native::pure("tetrahelix", parameters![n: usize, edge: Positive], tetrahelix),
+    Native::pure("from_mesh", parameters![mesh: &Mesh], from_mesh),
+    Native::pure("polyhedron", parameters![vertices: &[Value], faces: &[Value]], polyhedron),
+    Native::pure("faces", parameters![of: &Mesh], faces),
+    Native::pure("load_mesh", parameters![file: &str, scale: Positive], load_mesh),
+    Native::pure("load_cloud", parameters![file: &str, scale: Positive], load_cloud),
+    Native::pure("subdivided", parameters![mesh: &Mesh, parts: usize], subdivided),
+    Native::pure("on_sphere", parameters![mesh: &Mesh, radius: Positive], on_sphere),
+    Native::pure("terrain", parameters![heights: &[Value], spacing: Positive, centre: Vec3], terrain),
+    Native::pure("cloud", parameters![points: &[Value]], |_, call| {
+        Ok(Value::Cloud(Rc::new(points(call, "points")?)))
+    }),
 ];
 
 /// Divisions of an octet truss: more have more nodes than a truss may.
@@ -50,26 +57,31 @@ fn block(interpreter: &mut Interpreter, call: &Call, size: [usize; 3]) -> Eval<V
 }
 
 fn drawn(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let text = call.text(0)?;
-    let places = cells::layer(text, 0).map_err(|bad| bad_cell(interpreter, call.at(0), text, bad))?;
-    arrangement(interpreter, call, places)
+    let text = call.get::<&str>("text")?;
+    let places = cells::layer(text, 0).map_err(|bad| bad_cell(interpreter, call.at("text"), text, bad))?;
+    arrangement(interpreter, call, "text", places)
 }
 
 fn layers(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut places = Vec::new();
-    for (z, text) in call.list(0)?.iter().enumerate() {
-        let Value::Text(text) = text else { return Err(call.refuse(0, "texts are wanted")) };
+    for (z, text) in call.get::<&[Value]>("texts")?.iter().enumerate() {
+        let Value::Text(text) = text else { return Err(call.refuse("texts", "texts are wanted")) };
         let layer =
-            cells::layer(text, z as i64).map_err(|bad| bad_cell(interpreter, call.at(0), text, bad))?;
+            cells::layer(text, z as i64).map_err(|bad| bad_cell(interpreter, call.at("texts"), text, bad))?;
         places.extend(layer);
     }
-    arrangement(interpreter, call, places)
+    arrangement(interpreter, call, "texts", places)
 }
 
-fn arrangement(interpreter: &mut Interpreter, call: &Call, places: Vec<[i64; 3]>) -> Eval<Value> {
+fn arrangement(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    drawn: &str,
+    places: Vec<[i64; 3]>,
+) -> Eval<Value> {
     interpreter.check_list(places.len(), call.span)?;
     if places.is_empty() {
-        return Err(fault(code::BAD_LATTICE, call.at(0), "no cell is drawn", "`#` is a cell"));
+        return Err(fault(code::BAD_LATTICE, call.at(drawn), "no cell is drawn", "`#` is a cell"));
     }
     Ok(Value::Cells(Rc::new(Cells { places })))
 }
@@ -122,14 +134,24 @@ fn frame(nodes: Vec<Vec3>, struts: Vec<(usize, usize)>) -> Value {
     Value::Record(Rc::new(Record::Frame(nodes, struts)))
 }
 
+arguments! {
+    /// The arguments of `octet`.
+    struct OctetArguments {
+        /// The length of an edge of the whole, m.
+        edge: Positive as "the edge",
+        /// The number of parts of an edge.
+        divisions: usize as "the number of divisions",
+        /// Whether nodes inside are kept.
+        interior: bool,
+    }
+}
+
 /// Points `i e1 + j e2 + k e3` with i + j + k ≤ divisions, joined where they are one division apart.
 fn octet(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let edge = call.positive(0, "the edge")?;
-    let divisions = call.count(1, "the number of divisions")?;
+    let OctetArguments { edge: Positive(edge), divisions, interior } = OctetArguments::read(call)?;
     if !(1..=DIVISIONS_MAX).contains(&divisions) {
-        return Err(call.refuse(1, format!("1 to {DIVISIONS_MAX} divisions are possible")));
+        return Err(call.refuse("divisions", format!("1 to {DIVISIONS_MAX} divisions are possible")));
     }
-    let interior = call.truth(2)?;
     let n = divisions as i64;
     let mut index: BTreeMap<[i64; 3], usize> = BTreeMap::new();
     for k in 0..=n {
@@ -169,11 +191,11 @@ fn neighbours([k, j, i]: [i64; 3]) -> Vec<[i64; 3]> {
 
 /// The helix of Boerdijk and Coxeter: each point and the next three are a regular tetrahedron.
 fn tetrahelix(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let count = call.count(0, "the number of tetrahedra")?;
+    let count = call.count("n", "the number of tetrahedra")?;
     if !(1..=HELIX_MAX).contains(&count) {
-        return Err(call.refuse(0, format!("1 to {HELIX_MAX} tetrahedra are possible")));
+        return Err(call.refuse("n", format!("1 to {HELIX_MAX} tetrahedra are possible")));
     }
-    let edge = call.positive(1, "the edge")?;
+    let edge = call.positive("edge", "the edge")?;
     let radius = edge * 3.0 * libm::sqrt(3.0) / 10.0;
     let (rise, turn) = (edge / libm::sqrt(10.0), libm::acos(-2.0 / 3.0));
     let point = |k: usize| {
@@ -185,15 +207,8 @@ fn tetrahelix(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(frame(nodes, struts.filter(|(_, b)| *b < count + 3).collect()))
 }
 
-fn mesh_of<'c>(call: &'c Call) -> Eval<&'c Mesh> {
-    match call.arg(0) {
-        Value::Mesh(mesh) => Ok(mesh),
-        _ => Err(call.refuse(0, "a mesh is wanted")),
-    }
-}
-
 fn from_mesh(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let mesh = mesh_of(call)?;
+    let mesh: &Mesh = call.get("mesh")?;
     let mut edges = BTreeSet::new();
     for face in &mesh.faces {
         for (index, &a) in face.iter().enumerate() {
@@ -205,10 +220,12 @@ fn from_mesh(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn polyhedron(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let vertices = points(call, 0)?;
+    let vertices = points(call, "vertices")?;
     let mut faces = Vec::new();
-    for (number, face) in call.list(1)?.iter().enumerate() {
-        let Value::List(places) = face else { return Err(call.refuse(1, "lists of places are wanted")) };
+    for (number, face) in call.get::<&[Value]>("faces")?.iter().enumerate() {
+        let Value::List(places) = face else {
+            return Err(call.refuse("faces", "lists of places are wanted"));
+        };
         let place = |value: &Value| match value {
             Value::Int(n) => usize::try_from(*n).ok().filter(|n| *n < vertices.len()),
             _ => None,
@@ -221,7 +238,7 @@ fn polyhedron(_: &mut Interpreter, call: &Call) -> Eval<Value> {
             )
         })?;
         if face.len() < 3 {
-            return Err(call.refuse(1, format!("face {number} has fewer than three corners")));
+            return Err(call.refuse("faces", format!("face {number} has fewer than three corners")));
         }
         faces.push(face);
     }
@@ -229,54 +246,56 @@ fn polyhedron(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn faces(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    Ok(Value::count(mesh_of(call)?.faces.len()))
+    Ok(Value::count(call.get::<&Mesh>("of")?.faces.len()))
 }
 
 fn load_mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let scale = call.positive(1, "the scale of a mesh")?;
-    let (_, mesh) = mesh_file::read(interpreter, call, 0, scale)?;
+    let scale = call.positive("scale", "the scale of a mesh")?;
+    let (_, mesh) = mesh_file::read(interpreter, call, "file", scale)?;
     Ok(Value::Mesh(Rc::new(mesh)))
 }
 
 fn load_cloud(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let scale = call.positive(1, "the scale of a cloud")?;
-    Ok(Value::Cloud(Rc::new(mesh_file::read_cloud(interpreter, call, 0, scale)?)))
+    let scale = call.positive("scale", "the scale of a cloud")?;
+    Ok(Value::Cloud(Rc::new(mesh_file::read_cloud(interpreter, call, "file", scale)?)))
 }
 
 fn terrain(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut heights = Vec::new();
     let mut columns = None;
-    let centre = call.vec3(2)?;
-    for (row, list) in call.list(0)?.iter().enumerate() {
-        let Value::List(list) = list else { return Err(call.refuse(0, "rows of heights are wanted")) };
+    let centre = call.get::<Vec3>("centre")?;
+    for (row, list) in call.get::<&[Value]>("heights")?.iter().enumerate() {
+        let Value::List(list) = list else {
+            return Err(call.refuse("heights", "rows of heights are wanted"));
+        };
         if *columns.get_or_insert(list.len()) != list.len() {
             let wanted = columns.unwrap_or(0);
             let message = format!("row {row} has {} heights, the rows before have {wanted}", list.len());
-            return Err(call.refuse(0, message));
+            return Err(call.refuse("heights", message));
         }
         heights.extend(list.iter().filter_map(|height| Some(height.as_number()? + centre.z)));
     }
     interpreter.check_list(heights.len(), call.span)?;
-    let spacing = call.positive(1, "the spacing of heights")?;
+    let spacing = call.positive("spacing", "the spacing of heights")?;
     let columns = columns.unwrap_or(0);
     let rows = heights.len().checked_div(columns).unwrap_or(0);
     let from = |count: usize, middle: f64| middle - spacing * (count.max(1) - 1) as f64 / 2.0;
     let corner = [from(columns, centre.x), from(rows, centre.y)];
     let field = HeightField { corner, spacing, columns, heights };
     match field.fault() {
-        Some(fault) => Err(call.refuse(0, fault)),
+        Some(fault) => Err(call.refuse("heights", fault)),
         None => Ok(Value::Terrain(Rc::new(field))),
     }
 }
 
 fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let mesh = mesh_of(call)?;
-    let parts = call.count(1, "a number of parts")?;
+    let mesh: &Mesh = call.get("mesh")?;
+    let parts = call.count("parts", "a number of parts")?;
     let triangle = |face: &Vec<usize>| <[usize; 3]>::try_from(face.as_slice()).ok();
     let triangles: Option<Vec<[usize; 3]>> = mesh.faces.iter().map(triangle).collect();
-    let triangles = triangles.ok_or_else(|| call.refuse(0, "only triangles can be subdivided"))?;
+    let triangles = triangles.ok_or_else(|| call.refuse("mesh", "only triangles can be subdivided"))?;
     if parts == 0 {
-        return Err(call.refuse(1, "an edge has at least one part"));
+        return Err(call.refuse("parts", "an edge has at least one part"));
     }
     let faces = parts.checked_mul(parts).and_then(|squared| squared.checked_mul(triangles.len()));
     interpreter.check_list(faces.unwrap_or(usize::MAX), call.span)?;
@@ -285,10 +304,10 @@ fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn on_sphere(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let mesh = mesh_of(call)?;
-    let radius = call.positive(1, "the radius")?;
+    let mesh: &Mesh = call.get("mesh")?;
+    let radius = call.positive("radius", "the radius")?;
     let out = |p: &Vec3| p.try_normalize(0.0).map(|direction| direction * radius);
     let vertices: Option<Vec<Vec3>> = mesh.vertices.iter().map(out).collect();
-    let vertices = vertices.ok_or_else(|| call.refuse(0, "a vertex at the origin has no direction"))?;
+    let vertices = vertices.ok_or_else(|| call.refuse("mesh", "a vertex at the origin has no direction"))?;
     Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: mesh.faces.clone() })))
 }

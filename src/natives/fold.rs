@@ -3,10 +3,11 @@
 use super::fold_design::Joined;
 use super::fold_refusal::diagnostic;
 use super::fold_supply::{self, Sheet, Supply};
+use super::folding::OrderSample;
 use super::{Native, fold_surface, on_run};
-use crate::interpret::call::Call;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::PlanValue;
 use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
@@ -58,9 +59,9 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     plan.provenance.seed = Some(settings.seed);
     let energetic = settings.minimise == Minimise::Energy && report.bound > 0.0;
     plan.provenance.bound = energetic.then_some(Bound::FoldingEnergy(report.bound));
-    let planned = Planned::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
+    let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
     planned.remember_verdict(report.verdict.clone());
-    let planned = planned.with_folded(report);
+    let planned = planned.with_report(report);
     Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))))
 }
 
@@ -129,7 +130,7 @@ fn pairs(call: &Call) -> Eval<Vec<[usize; 2]>> {
 fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Value::Record(record) = call.arg(0) else { return Ok(Value::Unknown) };
     let Record::Plan(planned) = &**record else { return Ok(Value::Unknown) };
-    let Some(folded) = &planned.folded else { return Ok(Value::Unknown) };
+    let Some(folded) = planned.report::<fold::Report>() else { return Ok(Value::Unknown) };
     let orders = call.count(1, "how many orders")?;
     if orders == 0 || orders > ORDERS_MAX {
         return Err(call.refuse(1, format!("from 1 to {ORDERS_MAX} orders are compared")));
@@ -137,5 +138,5 @@ fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let seed = call.count(2, "a seed")? as u64;
     crate::interrupt::start_task(format!("comparing {orders} orders"));
     let found = folded.random_orders(orders as u64, seed, &mut RequestedProgress);
-    Ok(Value::Record(Rc::new(Record::Orders(found))))
+    Ok(Value::Record(Rc::new(Record::Native(Rc::new(OrderSample(found))))))
 }

@@ -1,8 +1,8 @@
 //! Panels joined by the hinges of a layout, as a configuration of the language.
 
-use crate::elaborate::robot_of::Robot;
 use crate::geometry::Pose;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule};
+use crate::interpret::robot::Robot;
 use crate::planners::fold::{Layout, Panels, Sheet, Target};
 use crate::robot::Kinematics;
 use crate::source::Span;

@@ -1,8 +1,8 @@
 //! Refusals of the folding planner as diagnostics at the arguments that they are about.
 
 use super::fold::{HINGES, METHOD, MODULE, ROOT, SEQUENCE, STEP, TARGET};
-use crate::interpret::call::Call;
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
 use crate::interpret::stop::{Stop, fault};
 use crate::plan::CauseId;
 use crate::planners::fold::{BestPattern, Minimise, NoFolding, Refusal, TorqueNeed};

@@ -2,9 +2,10 @@
 
 use super::fold_surface::unfoldable;
 use crate::elaborate::instance::params_of;
-use crate::interpret::call::{Args, Call};
+use crate::interpret::call::Args;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, FlatModule};
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::planners::fold::{Panel, Panels, TOLERANCES, Target, equal_sides};

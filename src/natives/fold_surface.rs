@@ -1,7 +1,7 @@
 //! The surface that `fold` and `refold` are given.
 
 use crate::geometry::{Placed, Shape, Vec3};
-use crate::interpret::call::Call;
+use crate::interpret::native::Call;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::planners::fold::{Target, Unfoldable};

@@ -1,8 +1,8 @@
-//! The fields of a `Folding` beside those of a plan, and of what belongs to it.
+//! The records of folding: the fields of a `Folding` beside those of a plan, `Layout` and `OrderSample`.
 
 use crate::interpret::design::Instance;
-use crate::interpret::planning::Planned;
-use crate::interpret::record::Record;
+use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
+use crate::interpret::record::{Field, NativeRecord, Record, field_names, read_field};
 use crate::interpret::value::{JointValue, Value};
 use crate::planners::fold::pattern::Pattern;
 use crate::planners::fold::{Report, Sample};
@@ -12,90 +12,114 @@ use std::rc::Rc;
 
 const ENERGY: Dimension = Dimension::TORQUE;
 
-/// The fields of a `Folding` beside those of a plan.
-pub const FOLDING: &[&str] = &[
-    "plan",
-    "layout",
-    "layouts",
-    "energy",
-    "peak_torque",
-    "bound",
-    "gap",
-    "fewest_steps",
-    "optimal",
-    "price",
-    "ties",
-    "tied",
-    "root",
-    "order",
-    "lifting",
-    "lifting_bound",
-    "too_thick",
-    "robot",
-    "hinges",
-];
-
-/// Reads a field of a `Folding`.
-pub fn folding_field(planned: &Rc<Planned>, report: &Report, field: &str) -> Value {
-    let numbers = |faces: &[usize]| Value::list(faces.iter().map(|f| Value::count(*f)).collect());
-    match field {
-        "plan" => Value::Record(Rc::new(Record::Plan(planned.clone()))),
-        "layout" => Value::Record(Rc::new(Record::Layout(planned.clone()))),
-        "layouts" => Value::whole(report.layouts.clone()),
-        "energy" => Value::Quantity(report.effort.energy, ENERGY),
-        "peak_torque" => Value::Quantity(report.effort.peak, ENERGY),
-        "bound" => Value::Quantity(report.bound, ENERGY),
-        "fewest_steps" => Value::count(report.fewest_steps),
-        "gap" => Value::number(report.gap()),
-        "optimal" => Value::Bool(report.optimal),
-        "price" => Value::number(report.price),
-        "ties" => numbers(&report.ties),
-        "tied" => Value::whole(report.tied.into()),
-        "root" => Value::count(report.layout.root),
-        "order" => Value::list(report.steps.iter().map(|step| numbers(step)).collect()),
-        "lifting" => Value::Quantity(report.lifting, ENERGY),
-        "lifting_bound" => Value::Quantity(report.lifting_bound, ENERGY),
-        "too_thick" => numbers(&report.too_thick),
-        "robot" => Value::Instance(Instance::whole(planned.robot.clone())),
-        "hinges" => {
-            let layout = &report.layout;
-            // The bonds of the robot stand in the order of their faces, behind the root.
-            let bond = |hinge| layout.order[1..].iter().position(|face| layout.hinge[*face] == Some(hinge));
-            let owners = layout.hinges().into_iter().filter_map(bond).map(JointOwner::Bond);
-            let joint =
-                |owner| JointValue { robot: planned.robot.clone(), owner, dimension: Dimension::ANGLE };
-            Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
-        }
-        _ => Value::Unknown,
-    }
+impl ReportFields for Report {
+    const FIELDS: &'static [ReportField<Report>] = &[
+        ("plan", |_, plan, _| Value::Record(Rc::new(Record::Plan(plan.clone())))),
+        ("layout", |_, plan, _| Value::Record(Rc::new(Record::Native(Rc::new(LayoutValue(plan.clone())))))),
+        ("layouts", |_, _, report| Value::whole(report.layouts.clone())),
+        ("energy", |_, _, report| Value::Quantity(report.effort.energy, ENERGY)),
+        ("peak_torque", |_, _, report| Value::Quantity(report.effort.peak, ENERGY)),
+        ("bound", |_, _, report| Value::Quantity(report.bound, ENERGY)),
+        ("gap", |_, _, report| Value::number(report.gap())),
+        ("fewest_steps", |_, _, report| Value::count(report.fewest_steps)),
+        ("optimal", |_, _, report| Value::Bool(report.optimal)),
+        ("price", |_, _, report| Value::number(report.price)),
+        ("ties", |_, _, report| numbers(&report.ties)),
+        ("tied", |_, _, report| Value::whole(report.tied.into())),
+        ("root", |_, _, report| Value::count(report.layout.root)),
+        ("order", |_, _, report| Value::list(report.steps.iter().map(|step| numbers(step)).collect())),
+        ("lifting", |_, _, report| Value::Quantity(report.lifting, ENERGY)),
+        ("lifting_bound", |_, _, report| Value::Quantity(report.lifting_bound, ENERGY)),
+        ("too_thick", |_, _, report| numbers(&report.too_thick)),
+        ("robot", |_, plan, _| Value::Instance(Instance::whole(plan.robot.clone()))),
+        ("hinges", |_, plan, report| hinges(plan, report)),
+    ];
 }
+
+fn numbers(faces: &[usize]) -> Value {
+    Value::list(faces.iter().map(|face| Value::count(*face)).collect())
+}
+
+/// Returns the joints of the folding robot in the order of the layout's hinges.
+fn hinges(plan: &PlanValue, report: &Report) -> Value {
+    let layout = &report.layout;
+    // The bonds of the robot stand in the order of their faces, behind the root.
+    let bond = |hinge| layout.order[1..].iter().position(|face| layout.hinge[*face] == Some(hinge));
+    let owners = layout.hinges().into_iter().filter_map(bond).map(JointOwner::Bond);
+    let joint = |owner| JointValue { robot: plan.robot.clone(), owner, dimension: Dimension::ANGLE };
+    Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
+}
+
+/// The energies that random orders of folding take.
+#[derive(Debug)]
+pub struct OrderSample(pub Sample);
 
 /// The fields of an `OrderSample`.
-pub const ORDER_SAMPLE: &[&str] = &["orders", "worse", "least", "mean", "greatest"];
+const ORDER_SAMPLE: &[Field<Sample>] = &[
+    ("orders", |sample| Value::whole(sample.orders.into())),
+    ("worse", |sample| Value::number(sample.worse as f64 / sample.orders as f64)),
+    ("least", |sample| Value::Quantity(sample.least, ENERGY)),
+    ("mean", |sample| Value::Quantity(sample.mean, ENERGY)),
+    ("greatest", |sample| Value::Quantity(sample.greatest, ENERGY)),
+];
 
-/// Reads a field of an `OrderSample`.
-pub fn sample_field(sample: &Sample, field: &str) -> Value {
-    match field {
-        "orders" => Value::whole(sample.orders.into()),
-        "worse" => Value::number(sample.worse as f64 / sample.orders as f64),
-        "least" => Value::Quantity(sample.least, ENERGY),
-        "mean" => Value::Quantity(sample.mean, ENERGY),
-        "greatest" => Value::Quantity(sample.greatest, ENERGY),
-        _ => Value::Unknown,
+impl NativeRecord for OrderSample {
+    fn read(&self, field: &str) -> Value {
+        read_field(ORDER_SAMPLE, &self.0, field)
+    }
+
+    fn show(&self) -> String {
+        format!("{} of {} orders take more energy", self.0.worse, self.0.orders)
     }
 }
 
-/// Reads a field of a `Layout`.
-pub fn layout_field(report: &Report, field: &str) -> Value {
-    let Report { target, layout, .. } = report;
-    let pair = |[a, b]: [usize; 2]| Value::list(vec![Value::count(a), Value::count(b)]);
-    match field {
-        "panels" => Value::count(target.faces.len()),
-        "hinges" => {
-            let hinges = layout.hinges();
-            Value::list(hinges.into_iter().map(|hinge| pair(target.hinges[hinge].faces)).collect())
-        }
-        "overlaps" => Value::list(Pattern::of(target, layout).overlaps().into_iter().map(pair).collect()),
-        _ => Value::Unknown,
+/// The flat pattern of a plan that folds it.
+#[derive(Debug)]
+pub struct LayoutValue(Rc<PlanValue>);
+
+impl LayoutValue {
+    /// Returns the report of the folding that begins with the pattern.
+    pub fn report(&self) -> &Report {
+        self.0.report().expect("only plans that fold have a layout")
     }
+}
+
+impl NativeRecord for LayoutValue {
+    fn read(&self, field: &str) -> Value {
+        read_field(LAYOUT, self.report(), field)
+    }
+
+    fn show(&self) -> String {
+        format!("a flat pattern of {} panels", self.report().target.faces.len())
+    }
+
+    fn plan(&self) -> Option<&Rc<PlanValue>> {
+        Some(&self.0)
+    }
+}
+
+/// The fields of a `Layout`.
+const LAYOUT: &[Field<Report>] = &[
+    ("panels", |report| Value::count(report.target.faces.len())),
+    ("hinges", |report| {
+        let hinges = report.layout.hinges();
+        Value::list(hinges.into_iter().map(|hinge| pair(report.target.hinges[hinge].faces)).collect())
+    }),
+    ("overlaps", |report| {
+        let overlaps = Pattern::of(&report.target, &report.layout).overlaps();
+        Value::list(overlaps.into_iter().map(pair).collect())
+    }),
+];
+
+fn pair([a, b]: [usize; 2]) -> Value {
+    Value::list(vec![Value::count(a), Value::count(b)])
+}
+
+/// Returns the records of folding with the names of their fields.
+pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
+    vec![
+        ("Folding", Report::names()),
+        ("Layout", field_names(LAYOUT)),
+        ("OrderSample", field_names(ORDER_SAMPLE)),
+    ]
 }

@@ -1,27 +1,40 @@
 //! Built-ins about lists and texts.
 
+use super::Native;
 use super::math::order;
-use super::{Native, pure};
-use crate::interpret::call::Call;
+use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use std::cmp::Ordering;
 
 pub const TABLE: &[Native] = &[
-    pure("len", 1, |_, call| Ok(Value::count(call.list(0)?.len()))),
-    pure("first", 1, |_, call| Ok(Value::optional(call.list(0)?.first().cloned()))),
-    pure("last", 1, |_, call| Ok(Value::optional(call.list(0)?.last().cloned()))),
-    pure("slice", 2, slice),
-    pure("reversed", 1, |_, call| Ok(Value::list(call.list(0)?.iter().rev().cloned().collect()))),
-    pure("sorted", 1, sorted),
-    pure("flatten", 1, flatten),
-    pure("contains", 2, contains),
-    pure("any", 1, |_, call| Ok(Value::Bool(call.list(0)?.iter().any(is_true)))),
-    pure("all", 1, |_, call| Ok(Value::Bool(call.list(0)?.iter().all(is_true)))),
-    pure("join", 2, join),
-    pure("split", 2, split),
-    pure("characters", 1, characters),
+    Native::pure("len", parameters![list: &[Value]], |_, call| {
+        Ok(Value::count(call.get::<&[Value]>("list")?.len()))
+    }),
+    Native::pure("first", parameters![list: &[Value]], |_, call| {
+        Ok(Value::optional(call.get::<&[Value]>("list")?.first().cloned()))
+    }),
+    Native::pure("last", parameters![list: &[Value]], |_, call| {
+        Ok(Value::optional(call.get::<&[Value]>("list")?.last().cloned()))
+    }),
+    Native::pure("slice", parameters![list: &[Value], places: (f64, f64)], slice),
+    Native::pure("reversed", parameters![list: &[Value]], |_, call| {
+        Ok(Value::list(call.get::<&[Value]>("list")?.iter().rev().cloned().collect()))
+    }),
+    Native::pure("sorted", parameters![list: &[Value]], sorted),
+    Native::pure("flatten", parameters![lists: &[Value]], flatten),
+    Native::pure("contains", parameters![list: &[Value], item: &Value], contains),
+    Native::pure("any", parameters![list: &[Value]], |_, call| {
+        Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().any(is_true)))
+    }),
+    Native::pure("all", parameters![list: &[Value]], |_, call| {
+        Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().all(is_true)))
+    }),
+    Native::pure("join", parameters![list: &[Value], with: &str], join),
+    Native::pure("split", parameters![text: &str, on: &str], split),
+    Native::pure("characters", parameters![text: &str], characters),
 ];
 
 fn is_true(value: &Value) -> bool {
@@ -29,24 +42,26 @@ fn is_true(value: &Value) -> bool {
 }
 
 fn slice(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let list = call.list(0)?;
-    let (from, to) = call.range(1)?;
+    let list = call.get::<&[Value]>("list")?;
+    let (from, to) = call.get::<(f64, f64)>("places")?;
     if !(0.0 <= from && from <= to && to <= list.len() as f64) {
         let count = list.len();
-        return Err(call.refuse(1, format!("this range leads out of the list, which has {count} elements")));
+        return Err(
+            call.refuse("places", format!("this range leads out of the list, which has {count} elements"))
+        );
     }
     Ok(Value::list(list[from as usize..to as usize].to_vec()))
 }
 
 fn sorted(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let mut list = call.list(0)?.to_vec();
+    let mut list = call.get::<&[Value]>("list")?.to_vec();
     list.sort_by(|a, b| order(a, b).unwrap_or(Ordering::Equal));
     Ok(Value::list(list))
 }
 
 fn flatten(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut all = Vec::new();
-    for inner in call.list(0)?.iter() {
+    for inner in call.get::<&[Value]>("lists")?.iter() {
         if let Value::List(inner) = inner {
             interpreter.check_list(all.len() + inner.len(), call.span)?;
             all.extend(inner.iter().cloned());
@@ -56,14 +71,14 @@ fn flatten(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn contains(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let item = call.arg(1);
-    Ok(Value::Bool(call.list(0)?.iter().any(|value| value.same(item) == Some(true))))
+    let item = call.arg("item");
+    Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().any(|value| value.same(item) == Some(true))))
 }
 
 fn join(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut text = String::new();
-    let between = call.text(1)?;
-    for (index, piece) in call.list(0)?.iter().enumerate() {
+    let between = call.get::<&str>("with")?;
+    for (index, piece) in call.get::<&[Value]>("list")?.iter().enumerate() {
         if index > 0 {
             text.push_str(between);
         }
@@ -76,17 +91,17 @@ fn join(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn split(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let on = call.text(1)?;
+    let on = call.get::<&str>("on")?;
     if on.is_empty() {
-        return Err(call.refuse(1, "the text to split at must not be empty"));
+        return Err(call.refuse("on", "the text to split at must not be empty"));
     }
-    let pieces: Vec<Value> = call.text(0)?.split(on).map(Value::text).collect();
+    let pieces: Vec<Value> = call.get::<&str>("text")?.split(on).map(Value::text).collect();
     interpreter.check_list(pieces.len(), call.span)?;
     Ok(Value::list(pieces))
 }
 
 fn characters(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let text = call.text(0)?;
+    let text = call.get::<&str>("text")?;
     interpreter.check_list(text.chars().count(), call.span)?;
     Ok(Value::list(text.chars().map(|c| Value::text(c.to_string())).collect()))
 }

@@ -1,8 +1,10 @@
 //! Built-ins about numbers, vectors and poses.
 
-use super::{Native, pure};
-use crate::interpret::call::Call;
+use super::Native;
+use crate::geometry::{Pose, Vec3};
+use crate::interpret::argument::{Positive, parameters};
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
 use crate::source::code;
@@ -13,31 +15,39 @@ use num_traits::{FromPrimitive, Signed, Zero};
 use std::cmp::Ordering;
 
 pub const TABLE: &[Native] = &[
-    pure("abs", 1, abs),
-    pure("sign", 1, sign),
-    pure("min", 1, |_, call| extreme(call, Ordering::Less)),
-    pure("max", 1, |_, call| extreme(call, Ordering::Greater)),
-    pure("clamp", 2, clamp),
-    pure("sqrt", 1, sqrt),
-    pure("sin", 1, |_, call| to_number(call, libm::sin)),
-    pure("cos", 1, |_, call| to_number(call, libm::cos)),
-    pure("tan", 1, |_, call| to_number(call, libm::tan)),
-    pure("asin", 1, |_, call| from_ratio(call, libm::asin)),
-    pure("acos", 1, |_, call| from_ratio(call, libm::acos)),
-    pure("atan", 1, |_, call| Ok(angle(libm::atan(call.number(0)?)))),
-    pure("atan2", 2, |_, call| Ok(angle(libm::atan2(call.number(0)?, call.number(1)?)))),
-    pure("exp", 1, |_, call| finite(call, libm::exp(call.number(0)?))),
-    pure("ln", 1, |_, call| Ok(Value::number(libm::log(call.positive(0, "what `ln` takes")?)))),
-    pure("floor", 1, |_, call| whole(call, libm::floor)),
-    pure("ceil", 1, |_, call| whole(call, libm::ceil)),
-    pure("round", 1, |_, call| whole(call, libm::round)),
-    pure("div", 2, div),
-    pure("sum", 1, sum),
-    pure("norm", 1, norm),
-    pure("dot", 2, dot),
-    pure("cross", 2, cross),
-    pure("position", 1, |_, call| Ok(Value::Vec3(pose(call)?.translation.vector, Dimension::LENGTH))),
-    pure("direction", 2, |_, call| Ok(Value::Vec3(pose(call)?.rotation * call.vec3(1)?, Dimension::NUMBER))),
+    Native::pure("abs", parameters![x: &Value], abs),
+    Native::pure("sign", parameters![x: f64], sign),
+    Native::pure("min", parameters![values: &[Value]], |_, call| extreme(call, Ordering::Less)),
+    Native::pure("max", parameters![values: &[Value]], |_, call| extreme(call, Ordering::Greater)),
+    Native::pure("clamp", parameters![x: f64, to: (f64, f64)], clamp),
+    Native::pure("sqrt", parameters![x: f64], sqrt),
+    Native::pure("sin", parameters![x: f64], |_, call| to_number(call, libm::sin)),
+    Native::pure("cos", parameters![x: f64], |_, call| to_number(call, libm::cos)),
+    Native::pure("tan", parameters![x: f64], |_, call| to_number(call, libm::tan)),
+    Native::pure("asin", parameters![x: f64], |_, call| from_ratio(call, libm::asin)),
+    Native::pure("acos", parameters![x: f64], |_, call| from_ratio(call, libm::acos)),
+    Native::pure("atan", parameters![x: f64], |_, call| Ok(angle(libm::atan(call.get::<f64>("x")?)))),
+    Native::pure("atan2", parameters![y: f64, x: f64], |_, call| {
+        Ok(angle(libm::atan2(call.get::<f64>("y")?, call.get::<f64>("x")?)))
+    }),
+    Native::pure("exp", parameters![x: f64], |_, call| finite(call, libm::exp(call.get::<f64>("x")?))),
+    Native::pure("ln", parameters![x: Positive], |_, call| {
+        Ok(Value::number(libm::log(call.positive("x", "what `ln` takes")?)))
+    }),
+    Native::pure("floor", parameters![x: f64], |_, call| whole(call, libm::floor)),
+    Native::pure("ceil", parameters![x: f64], |_, call| whole(call, libm::ceil)),
+    Native::pure("round", parameters![x: f64], |_, call| whole(call, libm::round)),
+    Native::pure("div", parameters![a: &Value, b: &Value], div),
+    Native::pure("sum", parameters![list: &[Value]], sum),
+    Native::pure("norm", parameters![v: Vec3], norm),
+    Native::pure("dot", parameters![a: Vec3, b: Vec3], dot),
+    Native::pure("cross", parameters![a: Vec3, b: Vec3], cross),
+    Native::pure("position", parameters![pose: Pose], |_, call| {
+        Ok(Value::Vec3(call.get::<Pose>("pose")?.translation.vector, Dimension::LENGTH))
+    }),
+    Native::pure("direction", parameters![pose: Pose, axis: Vec3], |_, call| {
+        Ok(Value::Vec3(call.get::<Pose>("pose")?.rotation * call.get::<Vec3>("axis")?, Dimension::NUMBER))
+    }),
 ];
 
 fn angle(x: f64) -> Value {
@@ -45,52 +55,53 @@ fn angle(x: f64) -> Value {
 }
 
 fn finite(call: &Call, x: f64) -> Eval<Value> {
-    if x.is_finite() { Ok(Value::number(x)) } else { Err(call.refuse(0, "the result is no finite number")) }
+    if x.is_finite() { Ok(Value::number(x)) } else { Err(call.refuse("x", "the result is no finite number")) }
 }
 
 fn to_number(call: &Call, function: fn(f64) -> f64) -> Eval<Value> {
-    finite(call, function(call.number(0)?))
+    finite(call, function(call.get("x")?))
 }
 
 /// Of a number in -1..1, an angle.
 fn from_ratio(call: &Call, function: fn(f64) -> f64) -> Eval<Value> {
-    let x = call.number(0)?;
-    if (-1.0..=1.0).contains(&x) { Ok(angle(function(x))) } else { Err(call.refuse(0, "outside -1..1")) }
+    let x: f64 = call.get("x")?;
+    if (-1.0..=1.0).contains(&x) { Ok(angle(function(x))) } else { Err(call.refuse("x", "outside -1..1")) }
 }
 
 fn whole(call: &Call, function: fn(f64) -> f64) -> Eval<Value> {
-    match call.arg(0) {
-        Value::Int(_) | Value::Big(_) => Ok(call.arg(0).clone()),
+    match call.arg("x") {
+        whole @ (Value::Int(_) | Value::Big(_)) => Ok(whole.clone()),
         _ => {
-            let x = function(call.number(0)?);
-            BigInt::from_f64(x).map(Value::whole).ok_or_else(|| call.refuse(0, "no finite number"))
+            let x = function(call.get("x")?);
+            BigInt::from_f64(x).map(Value::whole).ok_or_else(|| call.refuse("x", "no finite number"))
         }
     }
 }
 
 fn abs(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    match call.arg(0) {
+    match call.arg("x") {
         Value::Quantity(x, d) => Ok(Value::Quantity(x.abs(), *d)),
-        other => {
-            other.as_big().map(|n| Value::whole(n.abs())).ok_or_else(|| call.refuse(0, "a number is wanted"))
-        }
+        other => other
+            .as_big()
+            .map(|n| Value::whole(n.abs()))
+            .ok_or_else(|| call.refuse("x", "a number is wanted")),
     }
 }
 
 fn sign(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let x = call.number(0)?;
+    let x = call.get::<f64>("x")?;
     Ok(Value::Int(if x > 0.0 { 1 } else { -i64::from(x < 0.0) }))
 }
 
 fn extreme(call: &Call, wanted: Ordering) -> Eval<Value> {
-    let list = call.list(0)?;
+    let list: &[Value] = call.get("values")?;
     let mut best: Option<&Value> = None;
     for value in list.iter() {
         if best.is_none_or(|b| order(value, b) == Some(wanted)) {
             best = Some(value);
         }
     }
-    best.cloned().ok_or_else(|| call.refuse(0, "an empty list has neither least nor greatest"))
+    best.cloned().ok_or_else(|| call.refuse("values", "an empty list has neither least nor greatest"))
 }
 
 /// Exact among whole numbers.
@@ -103,30 +114,30 @@ pub fn order(a: &Value, b: &Value) -> Option<Ordering> {
 }
 
 fn clamp(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (low, high) = call.range(1)?;
+    let (low, high) = call.get::<(f64, f64)>("to")?;
     if low > high {
-        return Err(call.refuse(1, "the range ends before it begins"));
+        return Err(call.refuse("to", "the range ends before it begins"));
     }
-    let dimension = call.arg(0).as_dimension().unwrap_or(Dimension::NUMBER);
-    Ok(Value::Quantity(call.number(0)?.clamp(low, high), dimension))
+    let dimension = call.arg("x").as_dimension().unwrap_or(Dimension::NUMBER);
+    Ok(Value::Quantity(call.get::<f64>("x")?.clamp(low, high), dimension))
 }
 
 fn sqrt(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let x = call.number(0)?;
-    let dimension = call.arg(0).as_dimension().and_then(Dimension::root);
+    let x = call.get::<f64>("x")?;
+    let dimension = call.arg("x").as_dimension().and_then(Dimension::root);
     match dimension {
         Some(dimension) if x >= 0.0 => Ok(Value::Quantity(libm::sqrt(x), dimension)),
-        Some(_) => Err(call.refuse(0, "a negative number has no square root")),
-        None => Err(call.refuse(0, "the square root has no dimension")),
+        Some(_) => Err(call.refuse("x", "a negative number has no square root")),
+        None => Err(call.refuse("x", "the square root has no dimension")),
     }
 }
 
 fn div(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (Some(a), Some(b)) = (call.arg(0).as_big(), call.arg(1).as_big()) else {
-        return Err(call.refuse(0, "whole numbers are wanted"));
+    let (Some(a), Some(b)) = (call.arg("a").as_big(), call.arg("b").as_big()) else {
+        return Err(call.refuse("a", "whole numbers are wanted"));
     };
     if b.is_zero() {
-        return Err(fault(code::DIVISION_BY_ZERO, call.at(1), "division by zero", "this is zero"));
+        return Err(fault(code::DIVISION_BY_ZERO, call.at("b"), "division by zero", "this is zero"));
     }
     // Euclidean: the remainder is never negative.
     let quotient = a.div_floor(&b);
@@ -135,7 +146,7 @@ fn div(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn sum(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let list = call.list(0)?;
+    let list = call.get::<&[Value]>("list")?;
     if list.iter().all(|v| v.as_big().is_some()) {
         return Ok(Value::whole(list.iter().filter_map(Value::as_big).sum()));
     }
@@ -143,35 +154,28 @@ fn sum(_: &mut Interpreter, call: &Call) -> Eval<Value> {
         Value::Quantity(_, d) => Some(*d),
         _ => None,
     });
-    let total = list.iter().map(|v| v.as_number().ok_or_else(|| call.refuse(0, "numbers are wanted")));
+    let total = list.iter().map(|v| v.as_number().ok_or_else(|| call.refuse("list", "numbers are wanted")));
     let total = total.sum::<Result<f64, Stop>>()?;
     Ok(Value::Quantity(total, dimension.unwrap_or(Dimension::NUMBER)))
 }
 
-fn vector_dimension(call: &Call, index: usize) -> Dimension {
-    call.arg(index).as_dimension().unwrap_or(Dimension::NUMBER)
+fn vector_dimension(call: &Call, vector: &str) -> Dimension {
+    call.arg(vector).as_dimension().unwrap_or(Dimension::NUMBER)
 }
 
 fn norm(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    Ok(Value::Quantity(call.vec3(0)?.norm(), vector_dimension(call, 0)))
+    Ok(Value::Quantity(call.get::<Vec3>("v")?.norm(), vector_dimension(call, "v")))
 }
 
 fn product_dimension(call: &Call) -> Eval<Dimension> {
-    let product = vector_dimension(call, 0).times(vector_dimension(call, 1));
-    product.ok_or_else(|| call.refuse(0, "the product has no dimension"))
+    let product = vector_dimension(call, "a").times(vector_dimension(call, "b"));
+    product.ok_or_else(|| call.refuse("a", "the product has no dimension"))
 }
 
 fn dot(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    Ok(Value::Quantity(call.vec3(0)?.dot(&call.vec3(1)?), product_dimension(call)?))
+    Ok(Value::Quantity(call.get::<Vec3>("a")?.dot(&call.get::<Vec3>("b")?), product_dimension(call)?))
 }
 
 fn cross(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    Ok(Value::Vec3(call.vec3(0)?.cross(&call.vec3(1)?), product_dimension(call)?))
-}
-
-fn pose(call: &Call) -> Eval<crate::geometry::Pose> {
-    match call.arg(0) {
-        Value::Pose(pose) => Ok(**pose),
-        _ => Err(call.refuse(0, "a pose is wanted")),
-    }
+    Ok(Value::Vec3(call.get::<Vec3>("a")?.cross(&call.get::<Vec3>("b")?), product_dimension(call)?))
 }

@@ -13,6 +13,7 @@ mod fold_surface;
 pub mod folding;
 mod list;
 mod math;
+mod mesh_file;
 mod plan;
 pub mod refold;
 mod robot;
@@ -26,71 +27,79 @@ pub mod truss;
 mod truss_around;
 mod truss_limits;
 
-use crate::interpret::call::Call;
 use crate::interpret::interpreter::Interpreter;
+pub use crate::interpret::native::Native;
+use crate::interpret::native::{Effect, NativeBody};
+use crate::interpret::plan_value::ReportFields;
+use crate::interpret::record::fields;
 use crate::interpret::stop::Eval;
-use crate::interpret::value::Value;
 use crate::source::Symbol;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-pub use action::with_otherwise;
-
-/// When a built-in does its work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effect {
-    /// Whenever it is called.
-    None,
-    /// Only when the program is run: `modl check` evaluates its arguments and no more.
-    OnRun,
+/// A built-in that reads its arguments by number and does its work whenever it is called.
+pub const fn pure(key: &'static str, params: usize, body: NativeBody) -> Native {
+    Native { key, parameters: &[], numbered: Some(params), effect: Effect::None, body }
 }
 
-pub struct Native {
-    /// `move`, or `Plan.at` for a method, which takes its object first.
-    pub key: &'static str,
-    pub params: usize,
-    pub effect: Effect,
-    pub body: fn(&mut Interpreter, &Call) -> Eval<Value>,
+/// A built-in that reads its arguments by number and that only a run carries out.
+pub const fn on_run(key: &'static str, params: usize, body: NativeBody) -> Native {
+    Native { key, parameters: &[], numbered: Some(params), effect: Effect::OnRun, body }
 }
 
-/// A built-in that does its work whenever it is called.
-pub const fn pure(
-    key: &'static str,
-    params: usize,
-    body: fn(&mut Interpreter, &Call) -> Eval<Value>,
-) -> Native {
-    Native { key, params, effect: Effect::None, body }
+/// The natives of one file, with the records that it defines.
+struct Subject {
+    natives: &'static [Native],
+    records: fn() -> Vec<(&'static str, Vec<&'static str>)>,
 }
 
-/// A built-in that only a run carries out.
-pub const fn on_run(
-    key: &'static str,
-    params: usize,
-    body: fn(&mut Interpreter, &Call) -> Eval<Value>,
-) -> Native {
-    Native { key, params, effect: Effect::OnRun, body }
+/// Returns a subject that defines no records.
+const fn natives(natives: &'static [Native]) -> Subject {
+    Subject { natives, records: Vec::new }
 }
 
-/// All built-ins, one table a subject.
+/// One line for each file.
+const SUBJECTS: &[Subject] = &[
+    natives(math::TABLE),
+    natives(list::TABLE),
+    natives(shape::TABLE),
+    natives(family::TABLE),
+    natives(robot::TABLE),
+    natives(action::TABLE),
+    natives(plan::TABLE),
+    natives(show::TABLE),
+    natives(save::TABLE),
+    natives(rofi::TABLE),
+    Subject { natives: fold::TABLE, records: folding::records },
+    Subject {
+        natives: refold::TABLE,
+        records: || vec![("Refolding", <crate::planners::refold::Report as ReportFields>::names())],
+    },
+    Subject { natives: squeeze::TABLE, records: || vec![("Squeezing", squeeze::Squeezed::names())] },
+    Subject {
+        natives: tosnake::TABLE,
+        records: || vec![("Unwinding", <crate::planners::tosnake::Report as ReportFields>::names())],
+    },
+    Subject { natives: truss::TABLE, records: truss::records },
+];
+
+/// All built-ins.
 pub fn all() -> impl Iterator<Item = &'static Native> {
-    let tables: [&'static [Native]; 15] = [
-        math::TABLE,
-        list::TABLE,
-        refold::TABLE,
-        rofi::TABLE,
-        save::TABLE,
-        shape::TABLE,
-        family::TABLE,
-        robot::TABLE,
-        action::TABLE,
-        plan::TABLE,
-        squeeze::TABLE,
-        tosnake::TABLE,
-        truss::TABLE,
-        fold::TABLE,
-        show::TABLE,
-    ];
-    tables.into_iter().flatten()
+    SUBJECTS.iter().flat_map(|subject| subject.natives)
+}
+
+/// Returns the names of a record's fields, as Rust has them; a test compares them with the declaration.
+pub fn fields_of(record: &str) -> Option<Vec<&'static str>> {
+    let all = SUBJECTS.iter().flat_map(|subject| (subject.records)()).chain(fields());
+    all.into_iter().find(|(name, _)| *name == record).map(|(_, fields)| fields)
+}
+
+/// Draws every robot, lattice and truss that the program declares, with its defaults.
+///
+/// # Errors
+/// A halt, or a fault where a page can't be written.
+pub fn draw_declared(interpreter: &mut Interpreter) -> Eval<()> {
+    interpreter.draw_declarations()
 }
 
 static BY_KEY: LazyLock<HashMap<Symbol, &'static Native>> =

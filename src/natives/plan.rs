@@ -1,37 +1,59 @@
 //! Built-ins that plan, judge, print and write.
 
+use super::Native;
 use super::show::Form;
-use super::{Native, on_run, pure};
 use crate::behavior::{self, Problem};
-use crate::interpret::call::Call;
+use crate::interpret::argument::{Choice, Off, Positive, WordOr, parameters};
+use crate::interpret::design::Instance;
 use crate::interpret::host::WriteError;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::{Beginning, Planned};
+use crate::interpret::native::{Call, Key};
+use crate::interpret::plan_value::PlanValue;
+use crate::interpret::planning::Beginning;
 use crate::interpret::record::Record;
+use crate::interpret::record::StateValue;
 use crate::interpret::stop::{Eval, Stop, fault};
-use crate::interpret::value::Value;
+use crate::interpret::value::{Behavior, Value};
 use crate::interpret::verdicts::failure_line;
 use crate::plan::{self, CauseId, Ground, Node, Plan, Provenance, Settings, Stability, World};
 use crate::robot::{Assembly, State};
-use crate::source::{Diagnostic, code, files};
+use crate::source::{Diagnostic, Span, code, files};
 use crate::view;
 use std::rc::Rc;
 use std::sync::Arc;
 
 pub const TABLE: &[Native] = &[
-    on_run("print", 1, print),
-    on_run("emit", 5, emit),
-    pure("world", 3, world),
-    on_run("plan", 3, plan_behavior),
-    on_run("load_plan", 2, load_plan),
-    on_run("reverse", 1, reverse),
-    on_run("verify", 5, verify),
-    on_run("Plan.at", 2, plan_at),
-    on_run("Plan.slice", 2, plan_slice),
+    Native::on_run("print", parameters![values: &[Value]], print),
+    Native::on_run(
+        "emit",
+        parameters![what: &Value, file: &str, sample: Positive, unstable_for: f64, stability: Stability],
+        emit,
+    ),
+    Native::pure("world", parameters![ground: Ground, gravity: WordOr<Off, f64>, friction: f64], world),
+    Native::on_run(
+        "plan",
+        parameters![behavior: &Rc<Behavior>, from: Option<&StateValue>, world: Option<World>],
+        plan_behavior,
+    ),
+    Native::on_run("load_plan", parameters![file: &str, robot: &Rc<Instance>], load_plan),
+    Native::on_run("reverse", parameters![plan: &Value], reverse),
+    Native::on_run(
+        "verify",
+        parameters![what: &Value, sample: Positive, unstable_for: f64, stability: Stability, world: Option<World>],
+        verify,
+    ),
+    Native::on_run("Plan.at", parameters![self: &Value, time: f64], plan_at),
+    Native::on_run("Plan.slice", parameters![self: &Value, times: (f64, f64)], plan_slice),
 ];
 
+impl Choice for Stability {
+    const WORDS: &'static [(&'static str, Stability)] =
+        &[("footprint", Stability::Footprint), ("centres", Stability::Centres)];
+}
+
 fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let shown: Vec<String> = call.list(0)?.iter().map(|value| interpreter.show(value)).collect();
+    let shown: Vec<String> =
+        call.get::<&[Value]>("values")?.iter().map(|value| interpreter.show(value)).collect();
     let line = shown.join(" ");
     interpreter.check_text(line.len(), call.span)?;
     interpreter.stage.print(line);
@@ -39,63 +61,50 @@ fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let ground = match call.word(0) {
-        Some("fixed") => Ground::Fixed,
-        Some("held") => Ground::Held,
-        Some("off") => Ground::Off,
-        _ => Ground::Settle,
+    let ground: Ground = call.get("ground")?;
+    let gravity = match call.get("gravity")? {
+        WordOr::Word(Off) => 0.0,
+        WordOr::Value(gravity) => gravity,
     };
-    let gravity = if call.word(1) == Some("off") { 0.0 } else { call.number(1)? };
-    let friction = call.number(2)?;
+    let friction = call.get::<f64>("friction")?;
     if gravity < 0.0 {
-        return Err(call.refuse(1, "gravity acts downwards, so it can't be negative"));
+        return Err(call.refuse("gravity", "gravity acts downwards, so it can't be negative"));
     }
     if friction < 0.0 {
-        return Err(call.refuse(2, "friction must not be negative"));
+        return Err(call.refuse("friction", "friction must not be negative"));
     }
     if ground == Ground::Settle && gravity == 0.0 {
-        return Err(
-            call.refuse(1, "without gravity nothing rests on the ground: `ground: off`, `held` or `fixed`")
-        );
+        return Err(call.refuse(
+            "gravity",
+            "without gravity nothing rests on the ground: `ground: off`, `held` or `fixed`",
+        ));
     }
     Ok(Value::Record(Rc::new(Record::World(World { gravity, ground, friction }))))
 }
 
-fn world_at(call: &Call, index: usize) -> Option<World> {
-    match call.arg(index) {
-        Value::Record(record) => match &**record {
-            Record::World(world) => Some(*world),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-fn planned_value(planned: Option<Rc<Planned>>) -> Value {
+fn planned_value(planned: Option<Rc<PlanValue>>) -> Value {
     planned.map_or(Value::Unknown, |planned| Value::Record(Rc::new(Record::Plan(planned))))
 }
 
 fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let behavior = call.behavior(0)?.clone();
+    let behavior = call.get::<&Rc<Behavior>>("behavior")?.clone();
     let mut beginning = Beginning::default();
-    if let Value::Record(record) = call.arg(1)
-        && let Record::State(state) = &**record
-    {
-        interpreter.common_robot(behavior.robot.as_ref(), Some(&state.robot), call.at(1))?;
+    if let Some(state) = call.get::<Option<&StateValue>>("from")? {
+        interpreter.common_robot(behavior.robot.as_ref(), Some(&state.robot), call.at("from"))?;
         beginning.start = Some(state.state.clone());
     }
-    if let Some(world) = world_at(call, 2) {
+    if let Some(world) = call.get("world")? {
         beginning.world = world;
     }
     Ok(planned_value(interpreter.plan_from(&behavior, beginning, call.span)?))
 }
 
-fn plan_argument(interpreter: &mut Interpreter, call: &Call, index: usize) -> Eval<Option<Rc<Planned>>> {
-    interpreter.plan_of(call.arg(index), call.at(index))
+fn plan_argument(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<Rc<PlanValue>>> {
+    interpreter.plan_of(call.arg(name), call.at(name))
 }
 
 fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let Some(planned) = plan_argument(interpreter, call, "plan")? else { return Ok(Value::Unknown) };
     let reversed = interpreter.changed(&planned, |plan| Ok(plan::reversed(plan)), call.span)?;
     Ok(planned_value(Some(reversed)))
 }
@@ -104,11 +113,11 @@ fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// it goes on where a plan of this robot ends that does nothing.
 fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, bytes) = interpreter.project_file(call, 0)?;
-    let design = call.instance(1)?.design.clone();
-    let Some(robot) = interpreter.robot_at(&design, call.at(1))? else { return Ok(Value::Unknown) };
+    let design = call.get::<&Rc<Instance>>("robot")?.design.clone();
+    let Some(robot) = interpreter.robot_at(&design, call.at("robot"))? else { return Ok(Value::Unknown) };
     let unsound = |why: &str| {
         let message = format!("`{path}` is no sound plan file: {why}");
-        fault(code::BAD_PLAN_FILE, call.at(0), message, why)
+        fault(code::BAD_PLAN_FILE, call.at("file"), message, why)
     };
     let text = String::from_utf8(bytes).map_err(|_| unsound("it is not UTF-8 text"))?;
     let stored = plan::file::read(&text).map_err(|error| unsound(&error.to_string()))?;
@@ -136,75 +145,80 @@ fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (begun, _) = interpreter.assemble_plan(design.clone(), robot.clone(), nothing, &causes, world);
     let mut plan = plan::joined(&begun.plan, &stored).map_err(|unfit| {
         let message = format!("the plan in `{path}` does not begin with this robot: {unfit}");
-        fault(code::NO_MATCH, call.at(1), message, "another robot, or in another posture")
+        fault(code::NO_MATCH, call.at("robot"), message, "another robot, or in another posture")
     })?;
     let Provenance { planner, seed, budget, .. } = stored.provenance;
     plan.provenance = Provenance { planner, seed, budget, ..plan.provenance };
     // Whatever moved the robot then, what moves it now is this call.
     causes.ids.resize(plan.causes.len(), causes.ids[0]);
-    let planned = Planned::new(design, Some(robot), plan, causes.ids, actions);
+    let planned = PlanValue::new(design, Some(robot), plan, causes.ids, actions);
     Ok(planned_value(Some(Rc::new(planned))))
 }
 
 fn plan_at(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
-    let time = call.number(1)?;
+    let Some(planned) = plan_argument(interpreter, call, "self")? else { return Ok(Value::Unknown) };
+    let time = call.get::<f64>("time")?;
     if !(0.0..=planned.plan.body.duration()).contains(&time) {
-        return Err(call.refuse(1, "this is before the plan begins or after it ends"));
+        return Err(call.refuse("time", "this is before the plan begins or after it ends"));
     }
-    interpreter.state_at(&planned, time, call.at(0))
+    interpreter.state_at(&planned, time, call.at("self"))
 }
 
 fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
-    let (from, to) = call.range(1)?;
+    let Some(planned) = plan_argument(interpreter, call, "self")? else { return Ok(Value::Unknown) };
+    let (from, to) = call.get::<(f64, f64)>("times")?;
     if !(0.0 <= from && from < to && to <= planned.plan.body.duration()) {
-        return Err(call.refuse(1, "this is no stretch of the plan"));
+        return Err(call.refuse("times", "this is no stretch of the plan"));
     }
     let sliced = interpreter.changed(&planned, |plan| plan::sliced(plan, from, to), call.span)?;
     Ok(planned_value(Some(sliced)))
 }
 
-/// `sample`, `unstable_for` and `stability`, which begin at parameter `first`.
-pub fn settings(interpreter: &Interpreter, call: &Call, first: usize) -> Eval<Settings> {
-    let unstable_for = call.number(first + 1)?;
+/// Returns the settings of the judge that `sample`, `unstable_for` and `stability` ask for.
+pub fn settings(interpreter: &Interpreter, call: &Call) -> Eval<Settings> {
+    let unstable_for: f64 = call.get("unstable_for")?;
     if unstable_for < 0.0 {
-        return Err(call.refuse(first + 1, "a time must not be negative"));
+        return Err(call.refuse("unstable_for", "a time must not be negative"));
     }
-    let stability =
-        if call.word(first + 2) == Some("centres") { Stability::Centres } else { Stability::Footprint };
-    let sample = call.positive(first, "the time between samples")?;
+    let stability: Stability = call.get("stability")?;
+    let sample = call.positive("sample", "the time between samples")?;
     Ok(Settings { sample, unstable_for, stability, ..interpreter.judge_settings() })
 }
 
 fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let settings = settings(interpreter, call, 1)?;
-    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
-    let verdict = interpreter.judge(&planned, settings, world_at(call, 4));
+    let settings = settings(interpreter, call)?;
+    let Some(planned) = plan_argument(interpreter, call, "what")? else { return Ok(Value::Unknown) };
+    let verdict = interpreter.judge(&planned, settings, call.get("world")?);
     interpreter.note_exemptions(&planned, &verdict);
     Ok(Value::Record(Rc::new(Record::Report(verdict))))
 }
 
 fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (path, _) = output_path(call, 1)?;
-    let settings = settings(interpreter, call, 2)?;
-    let Some(planned) = plan_argument(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let (path, _) = output_path(call, "file")?;
+    let settings = settings(interpreter, call)?;
+    let Some(planned) = plan_argument(interpreter, call, "what")? else { return Ok(Value::Unknown) };
     let verdict = interpreter.judge(&planned, settings, None);
     interpreter.note_exemptions(&planned, &verdict);
     let page = match interpreter.options.pages {
-        true => Some(interpreter.draw(&planned, settings, Form::Page, &view::page_name(&path), call)?),
+        true => Some(interpreter.draw(
+            &planned,
+            settings,
+            Form::Page,
+            &view::page_name(&path),
+            call.at("file"),
+        )?),
         false => None,
     };
     if !verdict.ok() {
-        interpreter.report_failures(&planned, &verdict, call.at(0), page.as_deref());
+        interpreter.report_failures(&planned, &verdict, call.at("what"), page.as_deref());
         return Ok(Value::Unknown);
     }
     let excuses = interpreter.excuses(&planned, &settings);
     let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
     let text = plan::file::write(&plan).map_err(|error| {
-        fault(code::CANNOT_WRITE, call.at(0), format!("the plan can't be written: {error}"), "this plan")
+        fault(code::CANNOT_WRITE, call.at("what"), format!("the plan can't be written: {error}"), "this plan")
     })?;
-    write_output(interpreter, call, &path, text.into_bytes())?;
+    write_output(interpreter, call.at("file"), &path, text.into_bytes())?;
     if !excuses.is_empty() {
         interpreter.stage.print(format!("{path}: verified with {}", excuses.join(", ")));
     }
@@ -213,16 +227,16 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 /// The file named by an argument, below the output folder, and its name as written.
-pub fn output_path(call: &Call, index: usize) -> Eval<(String, String)> {
-    let name = call.text(index)?.to_string();
+pub fn output_path(call: &Call, key: impl Key) -> Eval<(String, String)> {
+    let name = call.text(key)?.to_string();
     match files::join("", &name).filter(|path| !path.is_empty()) {
         Some(path) => Ok((path, name)),
-        None => Err(outside(call, &name)),
+        None => Err(outside(call.at(key), &name)),
     }
 }
 
-/// Writes a file into the output folder; gives the path to show. The second argument names it.
-pub fn write_output(interpreter: &mut Interpreter, call: &Call, path: &str, bytes: Vec<u8>) -> Eval<String> {
+/// Writes a file into the output folder, on behalf of what stands at `at`. Returns the path to show.
+pub fn write_output(interpreter: &mut Interpreter, at: Span, path: &str, bytes: Vec<u8>) -> Eval<String> {
     match interpreter.stage.write(path, bytes) {
         Ok(shown) => {
             if !interpreter.written.contains(&shown) {
@@ -230,10 +244,10 @@ pub fn write_output(interpreter: &mut Interpreter, call: &Call, path: &str, byte
             }
             Ok(shown)
         }
-        Err(WriteError::Outside) => Err(outside(call, path)),
+        Err(WriteError::Outside) => Err(outside(at, path)),
         Err(WriteError::Failed(why)) => {
             let message = format!("`{path}` can't be written: {why}");
-            Err(fault(code::CANNOT_WRITE, call.at(1), message, why))
+            Err(fault(code::CANNOT_WRITE, at, message, why))
         }
     }
 }
@@ -241,13 +255,14 @@ pub fn write_output(interpreter: &mut Interpreter, call: &Call, path: &str, byte
 /// A robot that does not start as it is drawn is worth a note.
 fn note_settling(interpreter: &mut Interpreter, call: &Call, notes: &[String]) {
     for note in notes.iter().filter(|note| note.contains("settles")) {
-        interpreter.add_report(Diagnostic::note(code::START_SETTLES, note).label(call.at(0), "of this plan"));
+        interpreter
+            .add_report(Diagnostic::note(code::START_SETTLES, note).label(call.at("what"), "of this plan"));
     }
 }
 
-fn outside(call: &Call, name: &str) -> Stop {
+fn outside(at: Span, name: &str) -> Stop {
     Diagnostic::error(code::OUTSIDE_OUTPUT, format!("`{name}` leads out of the output folder"))
-        .label(call.at(1), "output stays in the output folder")
+        .label(at, "output stays in the output folder")
         .hint("write a path below it, such as `walk.plan.json`")
         .into()
 }

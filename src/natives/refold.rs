@@ -4,9 +4,9 @@ use super::fold_design::Joined;
 use super::fold_refusal::too_short;
 use super::fold_supply::{Sheet, Supply};
 use super::{Native, fold_surface, on_run};
-use crate::interpret::call::Call;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
 use crate::interpret::record::Record;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
@@ -29,18 +29,15 @@ const ARGUMENTS: usize = 6;
 /// The built-ins of this file.
 pub const TABLE: &[Native] = &[on_run("refold", ARGUMENTS, refold)];
 
-/// The fields of a `Refolding` beside those of a plan.
-pub const REFOLDING: &[&str] = &["changes", "bound", "becomes", "energy"];
-
-/// Reads a field of a `Refolding`.
-pub fn refolding_field(report: &Report, field: &str) -> Value {
-    match field {
-        "changes" => Value::count(report.changes),
-        "bound" => Value::count(report.bound),
-        "becomes" => Value::list(report.becomes.iter().map(|face| Value::count(*face)).collect()),
-        "energy" => Value::Quantity(report.energy, Dimension::TORQUE),
-        _ => Value::Unknown,
-    }
+impl ReportFields for Report {
+    const FIELDS: &'static [ReportField<Report>] = &[
+        ("changes", |_, _, report| Value::count(report.changes)),
+        ("bound", |_, _, report| Value::count(report.bound)),
+        ("becomes", |_, _, report| {
+            Value::list(report.becomes.iter().map(|face| Value::count(*face)).collect())
+        }),
+        ("energy", |_, _, report| Value::Quantity(report.energy, Dimension::TORQUE)),
+    ];
 }
 
 fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
@@ -74,9 +71,9 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let bare = interpreter.bare_plan("refold", body, problem.panels.library, World::FREE, &causes);
     let mut plan = Plan { program, ..bare };
     plan.provenance.seed = Some(settings.seed);
-    let planned = Planned::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
+    let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
     planned.remember_verdict(report.verdict.clone());
-    let planned = planned.with_refolded(report);
+    let planned = planned.with_report(report);
     Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))))
 }
 

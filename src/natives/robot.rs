@@ -1,36 +1,44 @@
 //! Built-ins that ask about robots, lattices and trusses.
 
-use super::{Effect, Native, on_run, pure};
-use crate::elaborate::robot_of::Robot;
+use super::Native;
 use crate::geometry::{Pose, Vec3};
-use crate::interpret::call::Call;
+use crate::interpret::argument::parameters;
 use crate::interpret::design::{Design, DesignKind, Instance};
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
 use crate::interpret::record::Record;
+use crate::interpret::record::StateValue;
+use crate::interpret::robot::Robot;
 use crate::interpret::stop::Eval;
-use crate::interpret::value::{PortValue, Value};
+use crate::interpret::value::{JointValue, PortValue, Value};
 use crate::units::Dimension;
 use std::rc::Rc;
 
 pub const TABLE: &[Native] = &[
-    pure("order", 1, |_, call| Ok(Value::count(call.instance(0)?.design.order()))),
-    pure("count", 1, count),
-    pure("mass", 1, mass),
-    pure("com", 1, com),
-    Native { key: "footprint", params: 1, effect: Effect::OnRun, body: footprint },
-    pure("ports", 1, ports),
-    pure("modules", 2, modules),
-    pure("pose", 1, pose),
-    pure("distance", 2, distance),
-    pure("nodes", 1, |_, call| Ok(truss(call)?.map_or(Value::Unknown, |t| Value::count(t.nodes.len())))),
-    pure("struts", 1, |_, call| Ok(truss(call)?.map_or(Value::Unknown, |t| Value::count(t.struts.len())))),
-    pure("rigidity", 1, rigidity),
-    on_run("State.angle", 2, state_angle),
-    on_run("State.pose", 2, state_pose),
+    Native::pure("order", parameters![of: &Rc<Instance>], |_, call| {
+        Ok(Value::count(call.get::<&Rc<Instance>>("of")?.design.order()))
+    }),
+    Native::pure("count", parameters![of: &Value], count),
+    Native::pure("mass", parameters![of: &Value], mass),
+    Native::pure("com", parameters![of: &Rc<Instance>], com),
+    Native::on_run("footprint", parameters![of: &Rc<Instance>], footprint),
+    Native::pure("ports", parameters![of: &Rc<Instance>], ports),
+    Native::pure("modules", parameters![of: &Rc<Instance>, kind: &Rc<Instance>], modules),
+    Native::pure("pose", parameters![of: &Value], pose),
+    Native::pure("distance", parameters![a: &Value, b: &Value], distance),
+    Native::pure("nodes", parameters![of: &Rc<Instance>], |_, call| {
+        Ok(truss(call)?.map_or(Value::Unknown, |t| Value::count(t.nodes.len())))
+    }),
+    Native::pure("struts", parameters![of: &Rc<Instance>], |_, call| {
+        Ok(truss(call)?.map_or(Value::Unknown, |t| Value::count(t.struts.len())))
+    }),
+    Native::pure("rigidity", parameters![of: &Rc<Instance>], rigidity),
+    Native::on_run("State.angle", parameters![self: &StateValue, joint: &JointValue], state_angle),
+    Native::on_run("State.pose", parameters![self: &StateValue, module: &Rc<Instance>], state_pose),
 ];
 
 fn count(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = &call.instance(0)?.design;
+    let design = &call.get::<&Rc<Instance>>("of")?.design;
     Ok(Value::count(match &design.kind {
         DesignKind::Lattice(lattice) => lattice.cells.places.len(),
         _ => design.module_count(),
@@ -38,7 +46,7 @@ fn count(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = &call.instance(0)?.design;
+    let design = &call.get::<&Rc<Instance>>("of")?.design;
     let mass = match &design.kind {
         DesignKind::Cell(cell) => cell.mass,
         DesignKind::Strut(strut) => strut.mass,
@@ -56,8 +64,8 @@ fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 /// The part as a robot of its own: questions about a part are not about the whole.
 fn own_robot(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<Rc<Robot>>> {
-    let design = call.instance(0)?.design.clone();
-    interpreter.robot_at(&design, call.at(0))
+    let design = call.get::<&Rc<Instance>>("of")?.design.clone();
+    interpreter.robot_at(&design, call.at("of"))
 }
 
 fn com(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
@@ -73,7 +81,7 @@ fn footprint(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn ports(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let instance = call.instance(0)?;
+    let instance = call.get::<&Rc<Instance>>("of")?;
     let design = &instance.design;
     let mut free = Vec::new();
     for module in 0..design.module_count() {
@@ -92,7 +100,7 @@ fn is_taken(robot: &Rc<Design>, module: usize, port: usize) -> bool {
 
 /// Modules of the kind of the second argument, whatever its arguments.
 fn modules(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (whole, kind) = (call.instance(0)?, call.instance(1)?);
+    let (whole, kind) = (call.get::<&Rc<Instance>>("of")?, call.get::<&Rc<Instance>>("kind")?);
     let mut found = Vec::new();
     collect(whole, kind.design.def, &mut found);
     Ok(Value::list(found))
@@ -120,62 +128,52 @@ fn collect(instance: &Rc<Instance>, kind: crate::check::typed::DefId, found: &mu
 }
 
 /// Where a port or a module's body is in the frame of its robot's base module.
-fn place(interpreter: &mut Interpreter, call: &Call, index: usize) -> Eval<Option<(Rc<Design>, Pose)>> {
-    match call.arg(index) {
+fn place(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<(Rc<Design>, Pose)>> {
+    match call.arg(name) {
         Value::Port(port) => {
-            let Some(robot) = interpreter.robot_at(&port.robot, call.at(index))? else { return Ok(None) };
+            let Some(robot) = interpreter.robot_at(&port.robot, call.at(name))? else { return Ok(None) };
             Ok(Some((port.robot.clone(), robot.port_pose(port))))
         }
         Value::Instance(module) if module.design.module().is_some() => {
-            let Some(robot) = interpreter.robot_at(&module.robot, call.at(index))? else { return Ok(None) };
+            let Some(robot) = interpreter.robot_at(&module.robot, call.at(name))? else { return Ok(None) };
             Ok(Some((module.robot.clone(), robot.kinematics.module_pose(module.offset, &robot.poses))))
         }
-        _ => Err(call.refuse(index, "a port or a module is wanted")),
+        _ => Err(call.refuse(name, "a port or a module is wanted")),
     }
 }
 
 fn pose(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    Ok(place(interpreter, call, 0)?.map_or(Value::Unknown, |(_, pose)| Value::Pose(Rc::new(pose))))
+    Ok(place(interpreter, call, "of")?.map_or(Value::Unknown, |(_, pose)| Value::Pose(Rc::new(pose))))
 }
 
 fn distance(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (a, b) = (place(interpreter, call, 0)?, place(interpreter, call, 1)?);
+    let (a, b) = (place(interpreter, call, "a")?, place(interpreter, call, "b")?);
     let (Some((robot, a)), Some((other, b))) = (a, b) else { return Ok(Value::Unknown) };
     interpreter.common_robot(Some(&robot), Some(&other), call.span)?;
     let between: Vec3 = a.translation.vector - b.translation.vector;
     Ok(Value::length(between.norm()))
 }
 
-fn truss<'c>(call: &'c Call) -> Eval<Option<&'c crate::elaborate::truss::TrussDesign>> {
-    Ok(match &call.instance(0)?.design.kind {
+fn truss<'c>(call: &'c Call) -> Eval<Option<&'c crate::interpret::design::TrussDesign>> {
+    Ok(match &call.get::<&Rc<Instance>>("of")?.design.kind {
         DesignKind::Truss(truss) => Some(truss),
         _ => None,
     })
 }
 
 fn rigidity(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    Ok(Value::Record(Rc::new(Record::Rigidity(call.instance(0)?.design.clone()))))
-}
-
-fn state<'c>(call: &'c Call) -> Eval<&'c crate::interpret::record::StateValue> {
-    match call.arg(0) {
-        Value::Record(record) => match &**record {
-            Record::State(state) => Ok(state),
-            _ => Err(call.refuse(0, "a state is wanted")),
-        },
-        _ => Err(call.refuse(0, "a state is wanted")),
-    }
+    Ok(Value::Record(Rc::new(Record::Rigidity(call.get::<&Rc<Instance>>("of")?.design.clone()))))
 }
 
 fn state_angle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (state, joint) = (state(call)?, call.joint(1)?);
+    let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
     let id = state.body.joint(joint);
     Ok(Value::Quantity(state.state.joints[id.0 as usize], joint.dimension))
 }
 
 fn state_pose(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (state, module) = (state(call)?, call.instance(1)?);
+    let (state, module) = (call.get::<&StateValue>("self")?, call.get::<&Rc<Instance>>("module")?);
     interpreter.common_robot(Some(&state.robot), Some(&module.robot), call.span)?;
     Ok(Value::Pose(Rc::new(state.body.kinematics.module_pose(module.offset, &state.poses()))))
 }

@@ -3,9 +3,9 @@
 use super::{Native, pure};
 use crate::check::typed::DefId;
 use crate::elaborate::config::outside;
-use crate::interpret::call::Call;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
 use crate::planners::tosnake::conversion::{from_world, to_world};
@@ -217,7 +217,7 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     let message = format!(
         "`{path}`: {} that the docks of line {} do not meet: up to {} are missing",
         if open.len() == 1 { "a connection was left out, for" } else { "connections were left out, for" },
-        crate::elaborate::connect::shorten(&lines),
+        crate::interpret::design::shorten(&lines),
         quantity(worst, Dimension::LENGTH),
     );
     interpreter.add_report(

@@ -1,35 +1,43 @@
 //! `save`: files in formats of others, by the end of their names.
 
+use super::Native;
 use super::plan::{output_path, write_output};
 use super::rofi;
-use super::{Native, on_run};
-use crate::interpret::call::Call;
+use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::PlanValue;
 use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::planners::fold::{Net, Report};
 use crate::view::{Crease, CreasePattern, fold_file};
 
-pub const TABLE: &[Native] = &[on_run("save", 2, save)];
+pub const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
 
 fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (path, name) = output_path(call, 1)?;
+    let (path, name) = output_path(call, "file")?;
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-    let bytes = match (call.arg(0), ending) {
+    let bytes = match (call.arg("what"), ending) {
         (Value::Instance(_), "fold") | (Value::Record(_), "rofi" | "json") => {
-            return Err(call.refuse(1, "a robot's name ends in `.rofi` or `.json`, a folding's in `.fold`"));
+            return Err(
+                call.refuse("file", "a robot's name ends in `.rofi` or `.json`, a folding's in `.fold`")
+            );
         }
         (Value::Record(record), _) => {
-            let (Record::Plan(planned) | Record::Layout(planned)) = &**record else {
-                return Err(call.refuse(0, "a robot or a folding is wanted"));
+            let planned = match &**record {
+                Record::Plan(planned) => Some(planned),
+                Record::Native(record) => record.plan(),
+                _ => None,
             };
-            let Some(folded) = &planned.folded else {
-                return Err(call.refuse(0, "this plan folds no pattern: `fold` makes those that do"));
+            let Some(planned) = planned else {
+                return Err(call.refuse("what", "a robot or a folding is wanted"));
+            };
+            let Some(folded) = planned.report::<Report>() else {
+                return Err(call.refuse("what", "this plan folds no pattern: `fold` makes those that do"));
             };
             if ending != "fold" {
-                return Err(call.refuse(1, "the name of a folding's file ends in `.fold`"));
+                return Err(call.refuse("file", "the name of a folding's file ends in `.fold`"));
             }
             fold_file(&creases(planned, folded))
         }
@@ -38,11 +46,11 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             None => return Ok(Value::Unknown),
         },
     };
-    write_output(interpreter, call, &path, bytes.into_bytes())?;
+    write_output(interpreter, call.at("file"), &path, bytes.into_bytes())?;
     Ok(Value::Nothing)
 }
 
-fn creases(planned: &Planned, folded: &Report) -> CreasePattern {
+fn creases(planned: &PlanValue, folded: &Report) -> CreasePattern {
     let (target, layout) = (&folded.target, &folded.layout);
     let net = Net::of(target, layout);
     let step = |face: usize| folded.steps.iter().position(|step| step.contains(&face)).map(|i| i + 1);

@@ -1,63 +1,79 @@
 //! Built-ins that make shapes and kinds of joints.
 
-use super::{Native, pure};
-use crate::formats::mesh_file;
+use super::Native;
+use super::mesh_file;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Placed, Pose, Shape, Vec3, soundness};
-use crate::interpret::call::Call;
+use crate::interpret::argument::{Positive, parameters};
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::{Call, Key};
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};
 use crate::robot::{JointKind, Limits};
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
+/// Parameters of a solid: its own, and those that all solids have.
+macro_rules! solid_parameters {
+    ($($name:ident: $type:ty),*) => {
+        parameters![$($name: $type,)* mass: Option<Positive>, com: Option<Vec3>, inertia: Option<Vec3>, friction: f64]
+    };
+}
+
 pub const TABLE: &[Native] = &[
-    pure("box", 7, cuboid),
-    pure("cylinder", 7, cylinder),
-    pure("sphere", 5, sphere),
-    pure("capsule", 7, capsule),
-    pure("prism", 6, prism),
-    pure("hull", 5, hull),
-    pure("mesh", 6, mesh),
-    pure("union", 5, union),
-    pure("placed", 4, placed),
-    pure("revolute", 6, revolute),
-    pure("prismatic", 6, prismatic),
-    pure("fixed", 0, fixed),
+    Native::pure("box", solid_parameters![x: f64, y: f64, z: f64], cuboid),
+    Native::pure("cylinder", solid_parameters![radius: f64, length: f64, axis: Vec3], cylinder),
+    Native::pure("sphere", solid_parameters![radius: f64], sphere),
+    Native::pure("capsule", solid_parameters![radius: f64, length: f64, axis: Vec3], capsule),
+    Native::pure("prism", solid_parameters![outline: &[Value], height: Positive], prism),
+    Native::pure("hull", solid_parameters![points: &[Value]], hull),
+    Native::pure("mesh", solid_parameters![file: &str, scale: Positive], mesh),
+    Native::pure("union", solid_parameters![shapes: &[Value]], union),
+    Native::pure("placed", parameters![shape: &Solid, at: Vec3, axis: Vec3, turn: f64], placed),
+    Native::pure(
+        "revolute",
+        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_torque: Option<Positive>, passive: bool],
+        revolute,
+    ),
+    Native::pure(
+        "prismatic",
+        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_force: Option<Positive>, passive: bool],
+        prismatic,
+    ),
+    Native::pure("fixed", parameters![], fixed),
 ];
 
 fn cuboid(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let size = Vec3::new(call.number(0)?, call.number(1)?, call.number(2)?);
-    solid(call, 3, Shape::Box { size })
+    let size = Vec3::new(call.get::<f64>("x")?, call.get::<f64>("y")?, call.get::<f64>("z")?);
+    solid(call, Shape::Box { size })
 }
 
 fn cylinder(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (radius, length) = (call.number(0)?, call.number(1)?);
-    solid(call, 3, Shape::Cylinder { radius, length, axis: axis(call, 2)? })
+    let (radius, length) = (call.get::<f64>("radius")?, call.get::<f64>("length")?);
+    solid(call, Shape::Cylinder { radius, length, axis: axis(call, "axis")? })
 }
 
 fn sphere(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    solid(call, 1, Shape::Sphere { radius: call.number(0)? })
+    solid(call, Shape::Sphere { radius: call.get::<f64>("radius")? })
 }
 
 fn capsule(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (radius, length) = (call.number(0)?, call.number(1)?);
-    solid(call, 3, Shape::Capsule { radius, length, axis: axis(call, 2)? })
+    let (radius, length) = (call.get::<f64>("radius")?, call.get::<f64>("length")?);
+    solid(call, Shape::Capsule { radius, length, axis: axis(call, "axis")? })
 }
 
 fn prism(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let height = call.positive(1, "the height of a prism")?;
-    let outline = points(call, 0)?;
+    let height = call.positive("height", "the height of a prism")?;
+    let outline = points(call, "outline")?;
     if !convex(&outline) {
         let label = "the outline turns both ways, or crosses itself";
         return Err(Diagnostic::error(code::BAD_SHAPE, "the outline of a prism must be convex")
-            .label(call.at(0), label)
+            .label(call.at("outline"), label)
             .hint("make it a `union` of convex prisms")
             .into());
     }
     let end = |z: f64| outline.iter().map(move |p| Vec3::new(p.x, p.y, z));
-    solid(call, 2, Shape::Hull { points: end(-height / 2.0).chain(end(height / 2.0)).collect() })
+    solid(call, Shape::Hull { points: end(-height / 2.0).chain(end(height / 2.0)).collect() })
 }
 
 /// Whether a closed outline turns one way round, and once.
@@ -78,12 +94,12 @@ fn convex(outline: &[Vec3]) -> bool {
 const TOL_TURN: f64 = 1e-9;
 
 fn hull(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    solid(call, 1, Shape::Hull { points: points(call, 0)? })
+    solid(call, Shape::Hull { points: points(call, "points")? })
 }
 
 fn union(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut parts = Vec::new();
-    for shape in call.list(0)?.iter() {
+    for shape in call.get::<&[Value]>("shapes")?.iter() {
         if let Value::Shape(shape) = shape {
             parts.extend(shape.parts.iter().cloned());
         }
@@ -91,88 +107,88 @@ fn union(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     if parts.is_empty() {
         return Err(fault(code::BAD_SHAPE, call.span, "a union of no shapes is no solid", "no shapes"));
     }
-    with_options(call, 1, parts)
+    with_options(call, parts)
 }
 
 fn mesh(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let scale = call.positive(1, "the scale of a mesh")?;
-    let (path, read) = mesh_file::read(interpreter, call, 0, scale)?;
-    let (vertices, triangles) = (read.vertices, mesh_file::triangles(&read.faces));
-    solid(call, 2, Shape::Mesh { name: path, vertices, triangles })
+    let scale = call.positive("scale", "the scale of a mesh")?;
+    let (path, read) = mesh_file::read(interpreter, call, "file", scale)?;
+    let (vertices, triangles) = (read.vertices, crate::formats::triangles(&read.faces));
+    solid(call, Shape::Mesh { name: path, vertices, triangles })
 }
 
 fn placed(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Value::Shape(shape) = call.arg(0) else { return Err(call.refuse(0, "a shape is wanted")) };
-    let pose = shifted(call.vec3(1)?) * turned(axis(call, 2)?, call.number(3)?);
+    let shape: &Solid = call.get("shape")?;
+    let pose = shifted(call.get::<Vec3>("at")?) * turned(axis(call, "axis")?, call.get::<f64>("turn")?);
     let parts = shape.parts.iter().map(|p| Placed { pose: pose * p.pose, shape: p.shape.clone() });
     Ok(Value::Shape(Rc::new(Solid { parts: parts.collect(), ..Solid::default() })))
 }
 
 /// A unit vector.
-fn axis(call: &Call, index: usize) -> Eval<Vec3> {
-    let axis = call.vec3(index)?;
-    axis.try_normalize(0.0).ok_or_else(|| call.refuse(index, "the axis must not be zero"))
+fn axis(call: &Call, name: &str) -> Eval<Vec3> {
+    let axis: Vec3 = call.get(name)?;
+    axis.try_normalize(0.0).ok_or_else(|| call.refuse(name, "the axis must not be zero"))
 }
 
-/// A list of points.
-pub fn points(call: &Call, index: usize) -> Eval<Vec<Vec3>> {
+/// Returns the points of a list.
+pub fn points(call: &Call, key: impl Key) -> Eval<Vec<Vec3>> {
     let point = |value: &Value| match value {
         Value::Vec3(p, _) => Ok(*p),
-        _ => Err(call.refuse(index, "points are wanted")),
+        _ => Err(call.refuse(key, "points are wanted")),
     };
-    call.list(index)?.iter().map(point).collect()
+    call.get_named::<&[Value]>(key, "points")?.iter().map(point).collect()
 }
 
-fn solid(call: &Call, options: usize, shape: Shape) -> Eval<Value> {
+fn solid(call: &Call, shape: Shape) -> Eval<Value> {
     soundness::check(&shape)
         .map_err(|unsound| fault(code::BAD_SHAPE, call.span, unsound.to_string(), "this is no solid"))?;
-    with_options(call, options, vec![Placed { pose: Pose::identity(), shape }])
+    with_options(call, vec![Placed { pose: Pose::identity(), shape }])
 }
 
-/// `mass:`, `com:`, `inertia:`, `friction:`, which begin at parameter `first`.
-fn with_options(call: &Call, first: usize, parts: Vec<Placed>) -> Eval<Value> {
-    let vector = |index: usize| if call.is_missing(index) { Ok(None) } else { call.vec3(index).map(Some) };
-    let inertia = vector(first + 2)?;
+/// Returns a solid of these parts with what `mass:`, `com:`, `inertia:` and `friction:` say.
+fn with_options(call: &Call, parts: Vec<Placed>) -> Eval<Value> {
+    let inertia: Option<Vec3> = call.get("inertia")?;
     if let Some(moments) = inertia
         && moments.iter().any(|m| *m <= 0.0)
     {
-        return Err(call.refuse(first + 2, "moments of inertia must be positive"));
+        return Err(call.refuse("inertia", "moments of inertia must be positive"));
     }
-    let friction = call.number(first + 3)?;
+    let friction: f64 = call.get("friction")?;
     if friction < 0.0 {
-        return Err(call.refuse(first + 3, "friction must not be negative"));
+        return Err(call.refuse("friction", "friction must not be negative"));
     }
     Ok(Value::Shape(Rc::new(Solid {
         parts,
-        mass: call.positive_if(first, "a mass")?,
-        com: vector(first + 1)?,
+        mass: call.positive_if("mass", "a mass")?,
+        com: call.get("com")?,
         inertia: inertia.map(|m| [m.x, m.y, m.z, 0.0, 0.0, 0.0]),
         friction: Some(friction),
     })))
 }
 
 fn revolute(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    joint(call, JointKind::Revolute)
+    joint(call, JointKind::Revolute, "max_torque")
 }
 
 fn prismatic(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    joint(call, JointKind::Prismatic)
+    joint(call, JointKind::Prismatic, "max_force")
 }
 
-fn joint(call: &Call, kind: JointKind) -> Eval<Value> {
+fn joint(call: &Call, kind: JointKind, max_effort: &str) -> Eval<Value> {
     let limits = Limits {
-        range: call.range_if(1)?,
-        speed: call.positive_if(2, "a greatest speed")?,
-        acceleration: call.positive_if(3, "a greatest acceleration")?,
-        effort: call.positive_if(4, "a greatest torque or force")?,
+        range: call.get("range")?,
+        speed: call.positive_if("max_speed", "a greatest speed")?,
+        acceleration: call.positive_if("max_accel", "a greatest acceleration")?,
+        effort: call.positive_if(max_effort, "a greatest torque or force")?,
     };
     if let Some((low, high)) = limits.range
         && low > high
     {
         let label = "write the lower end first";
-        return Err(fault(code::BAD_MODULE, call.at(1), "the range ends before it begins", label));
+        return Err(fault(code::BAD_MODULE, call.at("range"), "the range ends before it begins", label));
     }
-    Ok(Value::JointKind(Rc::new(JointSpec { kind, axis: axis(call, 0)?, limits, passive: call.truth(5)? })))
+    let (axis, passive) = (axis(call, "axis")?, call.get("passive")?);
+    Ok(Value::JointKind(Rc::new(JointSpec { kind, axis, limits, passive })))
 }
 
 fn fixed(_: &mut Interpreter, _: &Call) -> Eval<Value> {

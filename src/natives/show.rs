@@ -1,47 +1,63 @@
 //! Built-ins that draw: plans, robots, lattices and trusses as pages and pictures.
 
+use super::Native;
 use super::plan::{output_path, settings, write_output};
-use super::{Native, on_run};
 use crate::check::typed::DefKind;
-use crate::elaborate::lattice::LatticeDesign;
-use crate::elaborate::truss::TrussDesign;
-use crate::interpret::call::Call;
+use crate::interpret::argument::{Choice, Positive, parameters};
 use crate::interpret::causes::PlanCauses;
-use crate::interpret::design::{Design, DesignKind, Instance};
+use crate::interpret::design::LatticeDesign;
+use crate::interpret::design::TrussDesign;
+use crate::interpret::design::{Design, DesignKind};
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::PlanValue;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::plan::{
     Body, CauseId, CellLimits, Interpolation, Keyframe, Margins, Model, NodePaths, Plan, Ratio, Run,
-    Settings, Stages, Surroundings, TrussLimits, World,
+    Settings, Stability, Stages, Surroundings, TrussLimits, World,
 };
 use crate::robot::Library;
+use crate::source::Span;
 use crate::view::{self, RenderInput, Side, StillOptions};
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("show", 7, show)];
+pub const TABLE: &[Native] = &[Native::on_run(
+    "show",
+    parameters![
+        what: &Value,
+        file: &str,
+        sample: Positive,
+        unstable_for: f64,
+        stability: Stability,
+        at: f64,
+        side: Side
+    ],
+    show,
+)];
 
 fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (path, name) = output_path(call, 1)?;
-    let Some(form) = form(call, &name) else {
-        return Err(call.refuse(1, "a page's name ends in `.html`, a picture's in `.svg` or `.png`"));
+    let (path, name) = output_path(call, "file")?;
+    let Some(form) = form(call, &name)? else {
+        return Err(call.refuse("file", "a page's name ends in `.html`, a picture's in `.svg` or `.png`"));
     };
-    let settings = settings(interpreter, call, 2)?;
-    if let Value::Instance(instance) = call.arg(0)
+    let settings = settings(interpreter, call)?;
+    if let Value::Instance(instance) = call.arg("what")
         && let Some(plan) = interpreter.still(&instance.design)
     {
         let bytes = interpreter.drawn(&instance.design.name, &plan, form);
-        write_output(interpreter, call, &path, bytes)?;
+        write_output(interpreter, call.at("file"), &path, bytes)?;
         return Ok(Value::Nothing);
     }
-    let Some(planned) = interpreter.plan_of(call.arg(0), call.at(0))? else { return Ok(Value::Unknown) };
+    let Some(planned) = interpreter.plan_of(call.arg("what"), call.at("what"))? else {
+        return Ok(Value::Unknown);
+    };
     let verdict = interpreter.judge(&planned, settings, None);
     interpreter.note_exemptions(&planned, &verdict);
-    let shown = interpreter.draw(&planned, settings, form, &path, call)?;
+    let shown = interpreter.draw(&planned, settings, form, &path, call.at("file"))?;
     if !verdict.ok() {
-        interpreter.report_failures(&planned, &verdict, call.at(0), Some(&shown));
+        interpreter.report_failures(&planned, &verdict, call.at("what"), Some(&shown));
         return Ok(Value::Unknown);
     }
     Ok(Value::Nothing)
@@ -55,64 +71,64 @@ pub enum Form {
     Png { time: f64, side: Side },
 }
 
-fn form(call: &Call, name: &str) -> Option<Form> {
-    let ending = name.rsplit_once('.').map(|(_, ending)| ending)?;
-    let side = match call.word(6) {
-        Some("front") => Side::Front,
-        Some("back") => Side::Back,
-        Some("left") => Side::Left,
-        Some("right") => Side::Right,
-        Some("top") => Side::Top,
-        _ => Side::Corner,
-    };
-    match ending {
-        "html" => Some(Form::Page),
-        "svg" => Some(Form::Svg),
-        "png" => Some(Form::Png { time: call.number(5).unwrap_or(0.0), side }),
+fn form(call: &Call, name: &str) -> Eval<Option<Form>> {
+    Ok(match name.rsplit_once('.') {
+        Some((_, "html")) => Some(Form::Page),
+        Some((_, "svg")) => Some(Form::Svg),
+        Some((_, "png")) => Some(Form::Png { time: call.get("at")?, side: call.get("side")? }),
         _ => None,
-    }
+    })
+}
+
+impl Choice for Side {
+    const WORDS: &'static [(&'static str, Side)] = &[
+        ("corner", Side::Corner),
+        ("front", Side::Front),
+        ("back", Side::Back),
+        ("left", Side::Left),
+        ("right", Side::Right),
+        ("top", Side::Top),
+    ];
 }
 
 impl Interpreter<'_> {
     /// Writes the page of a plan with its verdict under these settings; gives the path to show.
-    pub fn draw(
+    pub(super) fn draw(
         &mut self,
-        planned: &Rc<Planned>,
+        planned: &Rc<PlanValue>,
         settings: Settings,
         form: Form,
         path: &str,
-        call: &Call,
+        at: Span,
     ) -> Eval<String> {
         let verdict = self.judge(planned, settings, None);
         let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
         let bytes = self.drawn(&planned.robot.name, &plan, form);
-        write_output(self, call, path, bytes)
+        write_output(self, at, path, bytes)
     }
 
     /// Draws every robot, lattice and truss that the file declares, with its defaults: for `modl show`
     /// of a program that draws nothing itself.
-    pub fn draw_declared(&mut self) -> Eval<()> {
+    pub(super) fn draw_declarations(&mut self) -> Eval<()> {
         let program = self.program;
         for &def in &program.own {
             let declared = program.def(def);
             let drawn = matches!(declared.kind, DefKind::Config(_) | DefKind::Lattice(_) | DefKind::Truss(_));
             if drawn && let Some(design) = self.attempt(|this| this.default_design(def))?.flatten() {
                 let path = format!("{}.html", declared.name);
-                let args = [Value::Instance(Instance::whole(design.clone())), Value::text(&path)];
-                let call = Call { span: declared.span, args: &args, spans: &[] };
-                self.attempt(|this| this.draw_design(&design, &path, &call))?;
+                self.attempt(|this| this.draw_design(&design, &path, declared.span))?;
             }
         }
         Ok(())
     }
 
-    fn draw_design(&mut self, design: &Rc<Design>, path: &str, call: &Call) -> Eval<()> {
+    fn draw_design(&mut self, design: &Rc<Design>, path: &str, at: Span) -> Eval<()> {
         if let Some(plan) = self.still(design) {
             let bytes = self.drawn(&design.name, &plan, Form::Page);
-            write_output(self, call, path, bytes)?;
+            write_output(self, at, path, bytes)?;
         } else if let Some(planned) = self.plan_pose(design, World::default())? {
             let settings = self.judge_settings();
-            self.draw(&planned, settings, Form::Page, path, call)?;
+            self.draw(&planned, settings, Form::Page, path, at)?;
         }
         Ok(())
     }

@@ -1,21 +1,22 @@
 //! `squeeze`: the planner of lattices, as it is called.
 
 use super::{Native, on_run};
-use crate::elaborate::lattice::LatticeDesign;
-use crate::interpret::call::Call;
+use crate::interpret::design::LatticeDesign;
 use crate::interpret::design::{Design, DesignKind};
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
 use crate::interpret::record::Record;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
-use crate::plan::World;
+use crate::plan::{Dynamics, World};
 use crate::planners::squeeze::{
     self, Method, ModelChoice, Norm, Problem, Profile, Refusal, Report, Settings,
 };
 use crate::planners::{RequestedProgress, Solution};
 use crate::robot::{Cell, Library};
 use crate::source::{Diagnostic, code};
+use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -86,7 +87,7 @@ fn planned(
     let planner = format!("squeeze ({})", solution.report.method.name());
     // The paper's world.
     let plan = interpreter.bare_plan(&planner, solution.body, library, World::FREE, &causes);
-    let planned = Planned::new(design, None, plan, causes.ids, 0).with_squeezed(solution.report);
+    let planned = PlanValue::new(design, None, plan, causes.ids, 0).with_report(solution.report);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }
 
@@ -130,4 +131,35 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             fault(code::NOT_VERIFIED, call.span, refusal.to_string(), hint)
         }
     }
+}
+
+impl ReportFields for Squeezed {
+    const FIELDS: &'static [ReportField<Squeezed>] = &[
+        ("lower_bound", |_, _, report| Value::time(report.lower_bound)),
+        ("ratio", |_, plan, report| {
+            let duration = plan.plan.body.duration();
+            Value::number(if report.lower_bound > 0.0 { duration / report.lower_bound } else { 1.0 })
+        }),
+        ("peak_force", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_force, Dimension::FORCE)),
+        ("peak_speed", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_speed, Dimension::SPEED)),
+        ("peak_energy", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_energy, Dimension::TORQUE)),
+        ("angular_momentum", |i, plan, _| {
+            Value::Quantity(dynamics(i, plan).angular_momentum, Dimension::ANGULAR_MOMENTUM)
+        }),
+        ("balanced", |_, _, report| Value::Bool(report.balanced)),
+        ("method", |_, _, report| Value::text(report.method.name())),
+        ("why", |_, _, report| Value::text(report.why.clone())),
+        ("stages", |_, _, report| {
+            let line = |(name, duration): &(String, f64)| {
+                Value::text(format!("{name}: {}", quantity(*duration, Dimension::TIME)))
+            };
+            Value::list(report.stages.iter().map(line).collect())
+        }),
+    ];
+}
+
+/// Returns what cells go through, as the judge finds it.
+fn dynamics(interpreter: &mut Interpreter, plan: &PlanValue) -> Dynamics {
+    let settings = interpreter.judge_settings();
+    interpreter.judge(plan, settings, None).dynamics.unwrap_or_default()
 }

@@ -1,13 +1,13 @@
 //! `tosnake` and `reconfigure`: the planners of RoFI modules, as they are called.
 
 use super::{Native, on_run};
-use crate::elaborate::robot_of::Robot;
-use crate::interpret::call::Call;
 use crate::interpret::causes::PlanCauses;
 use crate::interpret::design::Design;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
 use crate::interpret::record::Record;
+use crate::interpret::robot::Robot;
 use crate::interpret::stage::Stage;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
@@ -28,18 +28,14 @@ use std::rc::Rc;
 pub const TABLE: &[Native] =
     &[on_run("tosnake", 6, native_tosnake), on_run("reconfigure", 7, native_reconfigure)];
 
-/// The fields of an `Unwinding` beside those of a plan.
-pub const UNWINDING: &[&str] = &["docks", "undocks", "joint_travel", "tried", "work"];
-
-pub fn unwinding_field(report: &Report, field: &str) -> Value {
-    match field {
-        "docks" => Value::count(report.docks),
-        "undocks" => Value::count(report.undocks),
-        "joint_travel" => Value::Quantity(report.joint_travel, Dimension::ANGLE),
-        "tried" => Value::count(report.tried as usize),
-        "work" => Value::count(report.work as usize),
-        _ => Value::Unknown,
-    }
+impl ReportFields for Report {
+    const FIELDS: &'static [ReportField<Report>] = &[
+        ("docks", |_, _, report| Value::count(report.docks)),
+        ("undocks", |_, _, report| Value::count(report.undocks)),
+        ("joint_travel", |_, _, report| Value::Quantity(report.joint_travel, Dimension::ANGLE)),
+        ("tried", |_, _, report| Value::count(report.tried as usize)),
+        ("work", |_, _, report| Value::count(report.work as usize)),
+    ];
 }
 
 /// The options that both calls have, by where they begin.
@@ -162,7 +158,7 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     plan.provenance.seed = Some(options.seed);
     plan.provenance.budget = Some(options.budget);
     let Subject { design, robot, .. } = subject;
-    let planned = Planned::new(design, Some(robot), plan, causes.ids, report.actions).with_unwound(report);
+    let planned = PlanValue::new(design, Some(robot), plan, causes.ids, report.actions).with_report(report);
     judged(interpreter, call, planned, &options)
 }
 
@@ -196,11 +192,11 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
     // Either half has a cause of its own; both are this call.
     plan.causes.extend_from_within(..);
     let ids = causes.ids.repeat(2);
-    let planned = Planned::new(from.design, Some(from.robot), plan, ids, report.both.actions);
+    let planned = PlanValue::new(from.design, Some(from.robot), plan, ids, report.both.actions);
     if let Some(verdict) = report.verdict {
         planned.remember_verdict(verdict);
     }
-    judged(interpreter, call, planned.with_unwound(report.both), &options)
+    judged(interpreter, call, planned.with_report(report.both), &options)
 }
 
 fn module_counts_differ(call: &Call, from: usize, to: usize) -> Stop {
@@ -231,7 +227,7 @@ fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
 }
 
 /// The plan, if the judge lets it through; of the paper's method whatever he would say of it.
-fn judged(interpreter: &mut Interpreter, call: &Call, planned: Planned, options: &Options) -> Eval<Value> {
+fn judged(interpreter: &mut Interpreter, call: &Call, planned: PlanValue, options: &Options) -> Eval<Value> {
     if options.collisions != Collisions::Motion {
         return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
     }

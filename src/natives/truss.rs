@@ -3,12 +3,12 @@
 use super::truss_around::{obstacles, terrain};
 use super::truss_limits::limits;
 use super::{Native, on_run};
-use crate::elaborate::truss::TrussDesign;
 use crate::geometry::Vec3;
-use crate::interpret::call::Call;
+use crate::interpret::design::TrussDesign;
 use crate::interpret::design::{Design, DesignKind};
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::planning::Planned;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::{PlanValue, PlannerReport, ReportField, ReportFields};
 use crate::interpret::record::Record;
 use crate::interpret::stage::Stage;
 use crate::interpret::stop::{Eval, Stop};
@@ -27,48 +27,36 @@ use std::sync::Arc;
 
 pub const TABLE: &[Native] = &[on_run("morph", 12, morph), on_run("locomote", 15, locomote)];
 
-/// The report of the planner of a truss.
-pub enum Trussed {
-    Morphed(morph::Report),
-    Travelled(locomote::Report),
+impl ReportFields for morph::Report {
+    const FIELDS: &'static [ReportField<morph::Report>] = &[
+        ("rms", |_, _, report| Value::length(report.distance.target_to_surface)),
+        ("rms_back", |_, _, report| Value::length(report.distance.surface_to_target)),
+        ("worst", |_, _, report| Value::length(report.distance.worst)),
+        ("start_rms", |_, _, report| Value::length(report.start.target_to_surface)),
+        ("clearance", |interpreter, plan, _| {
+            let settings = interpreter.judge_settings();
+            let verdict = interpreter.judge(plan, settings, None);
+            Value::length(verdict.clearance.as_ref().map_or(f64::INFINITY, |worst| worst.value))
+        }),
+        ("ended", |_, _, report| Value::text(report.ended.clone())),
+    ];
 }
 
-/// The fields of a `Morphing` and a `Travel` beside those of a plan.
-pub const MORPHING: &[&str] = &["rms", "rms_back", "worst", "start_rms", "clearance", "ended"];
-pub const TRAVEL: &[&str] = &["distance", "rolls", "footholds", "reached", "slip", "relaxed_steps", "ended"];
-
-impl Trussed {
-    pub fn has(&self, field: &str) -> bool {
-        match self {
-            Trussed::Morphed(_) => MORPHING.contains(&field),
-            Trussed::Travelled(_) => TRAVEL.contains(&field),
-        }
-    }
+impl ReportFields for locomote::Report {
+    const FIELDS: &'static [ReportField<locomote::Report>] = &[
+        ("distance", |_, _, report| Value::length(report.distance)),
+        ("rolls", |_, _, report| Value::count(report.rolls)),
+        ("footholds", |_, _, report| Value::count(report.footholds)),
+        ("reached", |_, _, report| Value::count(report.reached)),
+        ("slip", |_, _, report| Value::length(report.slip)),
+        ("relaxed_steps", |_, _, report| Value::count(report.relaxed_steps)),
+        ("ended", |_, _, report| Value::text(report.ended.clone())),
+    ];
 }
 
-impl Interpreter<'_> {
-    pub fn trussed_field(&mut self, planned: &Planned, trussed: &Trussed, field: &str) -> Value {
-        match (trussed, field) {
-            (Trussed::Morphed(report), "rms") => Value::length(report.distance.target_to_surface),
-            (Trussed::Morphed(report), "rms_back") => Value::length(report.distance.surface_to_target),
-            (Trussed::Morphed(report), "worst") => Value::length(report.distance.worst),
-            (Trussed::Morphed(report), "start_rms") => Value::length(report.start.target_to_surface),
-            (Trussed::Morphed(_), "clearance") => {
-                let settings = self.judge_settings();
-                let verdict = self.judge(planned, settings, None);
-                Value::length(verdict.clearance.as_ref().map_or(f64::INFINITY, |worst| worst.value))
-            }
-            (Trussed::Travelled(report), "distance") => Value::length(report.distance),
-            (Trussed::Travelled(report), "rolls") => Value::count(report.rolls),
-            (Trussed::Travelled(report), "footholds") => Value::count(report.footholds),
-            (Trussed::Travelled(report), "reached") => Value::count(report.reached),
-            (Trussed::Travelled(report), "slip") => Value::length(report.slip),
-            (Trussed::Travelled(report), "relaxed_steps") => Value::count(report.relaxed_steps),
-            (Trussed::Morphed(report), "ended") => Value::text(report.ended.clone()),
-            (Trussed::Travelled(report), "ended") => Value::text(report.ended.clone()),
-            _ => Value::Unknown,
-        }
-    }
+/// Returns the records of trusses with the names of their fields.
+pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
+    vec![("Morphing", morph::Report::names()), ("Travel", locomote::Report::names())]
 }
 
 fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
@@ -107,7 +95,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             );
         }
     }
-    Ok(planned(interpreter, call, design, "morph", World::FREE, solution, Trussed::Morphed))
+    Ok(planned(interpreter, call, design, "morph", World::FREE, solution))
 }
 
 fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
@@ -146,7 +134,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             );
         }
     }
-    Ok(planned(interpreter, call, design, "locomote", World::default(), solution, Trussed::Travelled))
+    Ok(planned(interpreter, call, design, "locomote", World::default(), solution))
 }
 
 /// The truss of the first argument with its limits, among obstacles and on terrain; `None` after an error that
@@ -282,20 +270,19 @@ fn invalid_truss(call: &Call, around: (usize, usize), invalid: &InvalidTruss) ->
         .into()
 }
 
-fn planned<R>(
+fn planned<R: PlannerReport>(
     interpreter: &mut Interpreter,
     call: &Call,
     design: Rc<Design>,
     planner: &str,
     world: World,
     solution: Solution<R>,
-    trussed: impl Fn(R) -> Trussed,
 ) -> Value {
     let causes = interpreter.planner_causes(call.span);
     let strut = truss_of(&design).and_then(TrussDesign::strut_kind).cloned();
     let library = Arc::new(Library { struts: strut.into_iter().collect(), ..Library::default() });
     let Solution { body, report, .. } = solution;
     let plan = interpreter.bare_plan(planner, body, library, world, &causes);
-    let planned = Planned::new(design, None, plan, causes.ids, 0).with_trussed(trussed(report));
+    let planned = PlanValue::new(design, None, plan, causes.ids, 0).with_report(report);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }

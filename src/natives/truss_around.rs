@@ -1,7 +1,7 @@
 //! The surroundings that a call of `morph` or `locomote` names: obstacles and terrain.
 
 use crate::geometry::{HeightField, Placed};
-use crate::interpret::call::Call;
+use crate::interpret::native::Call;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 

@@ -1,7 +1,7 @@
 //! The limits that a call of `morph` or `locomote` sets beside those of the struts.
 
-use crate::elaborate::truss::TrussDesign;
-use crate::interpret::call::Call;
+use crate::interpret::design::TrussDesign;
+use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::planners::truss::Limits;

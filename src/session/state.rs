@@ -115,7 +115,7 @@ impl Session {
             checked,
             last: None,
             loaded: Vec::new(),
-            evaluator: Evaluator::new(host.cancel_state()),
+            evaluator: crate::execute::evaluator(host.cancel_state()),
             options,
             before: Vec::new(),
             count: 0,
@@ -145,7 +145,7 @@ impl Session {
     /// Leaves work that does not end, and starts a new evaluator with the current cancellation token of
     /// `host`. All values are computed again when they are needed.
     pub fn renew(&mut self, host: &dyn Host) {
-        self.evaluator = Evaluator::new(host.cancel_state());
+        self.evaluator = crate::execute::evaluator(host.cancel_state());
         self.to_take_back.set(false);
     }
 

@@ -2,7 +2,10 @@
 
 use crate::support::suite::{MapFiles, Observed};
 use modl::check::typed::DefKind;
-use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
+use modl::check::{Choice, Program, Type};
+use modl::interpret::argument::Kind;
+use modl::interpret::{Host, Mode, Options, Outcome, WriteError};
+use modl::natives::Native;
 use modl::source::{FileId, Sources};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -42,7 +45,7 @@ pub fn ran(files: &MapFiles, main: &str, mode: Mode, options: &Options) -> Ran {
     let mut host = Buffer::default();
     let mut outcome = Outcome::default();
     if !checked.has_errors() {
-        outcome = interpret::run(&checked, mode, files, &mut host, options);
+        outcome = modl::execute::run(&checked, mode, files, &mut host, options);
     }
     outcome.diagnostics.splice(0..0, checked.diagnostics.iter().cloned());
     let file = checked.sources.files().find(|(_, f)| &*f.name == main).map(|(id, _)| id);
@@ -69,22 +72,75 @@ fn declarations_are_judged_as_they_say() {
 }
 
 /// Every built-in that is declared has a body, or says that it is not yet available; every body is
-/// declared, with as many parameters.
+/// declared, with parameters of the same names and types, of which the same may be missing.
 #[test]
 fn declarations_and_bodies_of_built_ins_agree() {
     // The prelude is always there; of the rest, only RoFI's file declares a built-in.
     let checked = modl::check::check(&MapFiles::of("use std.rofi\n"), "main.mod");
-    let bodies: BTreeMap<&str, usize> = modl::natives::all().map(|n| (n.key, n.params)).collect();
+    let bodies: BTreeMap<&str, &Native> = modl::natives::all().map(|n| (n.key, n)).collect();
     let mut declared = BTreeSet::new();
     for def in &checked.program.defs {
         let DefKind::Native(native) = &def.kind else { continue };
         let key = native.key.as_str();
         declared.insert(key);
-        assert_eq!(bodies.get(key), Some(&native.params.len()), "the body of `{key}` and its parameters");
+        let body = bodies.get(key).unwrap_or_else(|| panic!("`{key}` has a body"));
+        if let Some(count) = body.numbered {
+            assert_eq!(count, native.params.len(), "the parameters of `{key}`");
+            continue;
+        }
+        assert_eq!(body.parameters.len(), native.params.len(), "the parameters of `{key}`");
+        for param in &native.params {
+            let name = param.name.as_str();
+            let read = body.parameters.iter().find(|parameter| parameter.name == name);
+            let read = read.unwrap_or_else(|| panic!("the body of `{key}` reads `{name}`"));
+            let fits = match param.variadic {
+                true => matches!(read.kind, Kind::List),
+                false => reads(&checked.program, read.kind, &param.ty),
+            };
+            assert!(fits, "`{key}` reads `{name}`, a {:?}, as {:?}", param.ty, read.kind);
+            // What is always there has a default where it may be left out.
+            assert!(param.default.is_none() || !matches!(read.kind, Kind::Optional(_)), "`{key}`: `{name}`");
+        }
     }
     let undeclared: Vec<_> = bodies.keys().filter(|key| !declared.contains(*key)).collect();
     assert!(undeclared.is_empty(), "bodies without a declaration: {undeclared:?}");
     assert!(declared.len() > 80, "the prelude was read");
+}
+
+/// Whether a native that reads `kind` can be given every value of a declared type.
+fn reads(program: &Program, kind: Kind, ty: &Type) -> bool {
+    let words = |choice: &Choice| choice.words.iter().map(|word| word.as_str()).collect::<Vec<_>>();
+    match (kind, ty) {
+        (Kind::Optional(kind), Type::Optional(inner)) => reads(program, *kind, inner),
+        (Kind::Optional(_), _) | (_, Type::Optional(_)) => false,
+        (Kind::Choice(known), Type::Choice(choice)) => choice.types.is_empty() && known() == words(choice),
+        (Kind::WordOr(known, other), Type::Choice(choice)) => {
+            known() == words(choice) && choice.types.iter().all(|ty| reads(program, *other, ty))
+        }
+        (kind, Type::Choice(choice)) => {
+            choice.words.is_empty() && choice.types.iter().all(|ty| reads(program, kind, ty))
+        }
+        (Kind::Value, _) => true,
+        (Kind::Bool, Type::Bool)
+        | (Kind::Int, Type::Int)
+        | (Kind::Number, Type::Quantity(_) | Type::QuantityParam { .. } | Type::Int)
+        | (Kind::Text, Type::Text)
+        | (Kind::List, Type::List(_))
+        | (Kind::Vec3, Type::Vec3(_))
+        | (Kind::Range, Type::Range(_))
+        | (Kind::Pose, Type::Pose)
+        | (Kind::Fn, Type::Fn(_))
+        | (Kind::Instance, Type::AnyOf(_) | Type::Instance(_) | Type::Param(_))
+        | (Kind::Joint, Type::Joint(_))
+        | (Kind::Port, Type::Port)
+        | (Kind::Behavior, Type::Behavior)
+        | (Kind::Condition, Type::Condition)
+        | (Kind::Shape, Type::Shape)
+        | (Kind::Mesh, Type::Mesh)
+        | (Kind::Terrain, Type::Terrain) => true,
+        (Kind::Record(name), Type::Record(def)) => program.def(*def).name.as_str() == name,
+        _ => false,
+    }
 }
 
 #[test]
@@ -93,7 +149,7 @@ fn fields_of_records_are_those_that_are_declared() {
     let mut compared = 0;
     for def in &checked.program.defs {
         let DefKind::Record(record) = &def.kind else { continue };
-        let Some(fields) = interpret::fields_of(def.name.as_str()) else { continue };
+        let Some(fields) = modl::natives::fields_of(def.name.as_str()) else { continue };
         let declared: Vec<&str> = record.fields.iter().map(|f| f.name.as_str()).collect();
         assert_eq!(declared, fields, "fields of `{}`", def.name);
         compared += 1;

@@ -5,7 +5,7 @@ use crate::planners::tosnake::tracks;
 use crate::support::desk::{Desk, run_clean};
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
-use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
+use modl::interpret::{Host, Mode, Options, Outcome, WriteError};
 use modl::interrupt::CancelState;
 use modl::plan::{self, Body};
 use modl::source::code;
@@ -58,7 +58,7 @@ fn watched_on(text: &str, watcher: &mut Watcher, threads: usize) -> Outcome {
     let files = MapFiles::of(text);
     let checked = modl::check::check(&files, "main.mod");
     assert!(!checked.has_errors(), "{:?}", checked.diagnostics);
-    interpret::run(&checked, Mode::Run, &files, watcher, &Options { threads, ..Options::default() })
+    modl::execute::run(&checked, Mode::Run, &files, watcher, &Options { threads, ..Options::default() })
 }
 
 const TANGLE: &str = "use std.rofi.{Rofi, tangle}\nlet t = tangle(30, 1000, seed: 1)\n";

@@ -1,7 +1,7 @@
 //! A host for tests: what a program prints and writes, kept.
 
 use crate::support::suite::{MapFiles, Observed};
-use modl::interpret::{self, Host, Mode, Options, Outcome, WriteError};
+use modl::interpret::{Host, Mode, Options, Outcome, WriteError};
 use std::collections::BTreeMap;
 
 #[derive(Default)]
@@ -44,7 +44,7 @@ pub fn run(files: &MapFiles, mode: Mode) -> (Observed, Desk, Outcome) {
     let outcome = if checked.has_errors() {
         Outcome::default()
     } else {
-        interpret::run(&checked, mode, files, &mut desk, &Options::default())
+        modl::execute::run(&checked, mode, files, &mut desk, &Options::default())
     };
     diagnostics.extend(outcome.diagnostics.iter().cloned());
     let file = checked.sources.files().find(|(_, f)| &*f.name == "main.mod").map(|(id, _)| id);

@@ -1,0 +1,59 @@
+//! Declarations checked by themselves, with the defaults of their parameters.
+
+use crate::check::typed::{DefId, DefKind, MemberId, MemberKind};
+use crate::interpret::design::Design;
+use crate::interpret::eval::members_of;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::stop::{Eval, Stop};
+use crate::interpret::value::Value;
+use std::rc::Rc;
+
+impl Interpreter<'_> {
+    /// Elaborates a declaration with its defaults, and evaluates all that its body declares.
+    pub(super) fn elaborate_with_defaults(&mut self, def: DefId) -> Eval<()> {
+        let program = self.program;
+        let declared = program.def(def);
+        match &declared.kind {
+            DefKind::Let(_) => {
+                let value = self.global(def, declared.span);
+                self.settle(value)?;
+            }
+            DefKind::Connector(_) => {
+                self.connector(def)?;
+            }
+            _ => {
+                if let Some(design) = self.attempt(|this| this.default_design(def))?.flatten() {
+                    self.check_members(&design)?;
+                    self.check_sweep(def, &design)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Evaluates the lets, ports and behaviours of a body that nothing may have needed yet.
+    fn check_members(&mut self, design: &Rc<Design>) -> Eval<()> {
+        let program = self.program;
+        let Some((members, _)) = members_of(&program.def(design.def).kind) else {
+            return Ok(());
+        };
+        let whole = self.whole(design);
+        for (index, member) in members.iter().enumerate() {
+            if matches!(member.kind, MemberKind::Let(_) | MemberKind::Port { .. }) {
+                let id = MemberId(index as u32);
+                let value = self.member(&whole, id, member.span);
+                self.settle(value)?;
+            }
+        }
+        let DefKind::Config(config) = &program.def(design.def).kind else { return Ok(()) };
+        for behavior in &config.behaviors {
+            match self.default_behavior(&whole, behavior) {
+                Ok(Some(Value::Behavior(behavior))) => drop(self.check_behavior(&behavior)?),
+                Ok(_) => {}
+                Err(Stop::Fault(diagnostic)) => self.report(*diagnostic),
+                Err(Stop::Halt) => return Err(Stop::Halt),
+            }
+        }
+        Ok(())
+    }
+}

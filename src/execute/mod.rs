@@ -1,0 +1,43 @@
+//! The rooms of the interpreter put together: programs and entries of sessions, run.
+//!
+//! The evaluator ([`crate::interpret`]) is handed the rooms above it: declarations are elaborated by
+//! [`crate::elaborate`], built-ins are called in [`crate::natives`], and values are printed by
+//! [`crate::display`].
+
+use crate::check::Checked;
+use crate::interpret::routines::Routines;
+use crate::interpret::session::Evaluator;
+use crate::interpret::{self, Host, Mode, Options, Outcome};
+use crate::interrupt::CancelState;
+use crate::source::Files;
+use crate::{display, elaborate, natives};
+
+/// The rooms above the evaluator.
+static ROUTINES: Routines = Routines {
+    native: natives::find,
+    instantiate: elaborate::instantiate,
+    robot_of: elaborate::robot_of,
+    hinge_of: elaborate::hinge_of,
+    check_declaration: elaborate::check_declaration,
+    show: display::show,
+    display: display::display,
+    describe_declaration: display::describe_declaration,
+    draw_declared: natives::draw_declared,
+};
+
+/// Runs a checked program. What `check` reported is not repeated; parts that it could not understand are
+/// passed over in silence.
+pub fn run(
+    checked: &Checked,
+    mode: Mode,
+    files: &dyn Files,
+    host: &mut dyn Host,
+    options: &Options,
+) -> Outcome {
+    interpret::run(&ROUTINES, checked, mode, files, host, options)
+}
+
+/// Starts the evaluator of a session, which keeps the values of earlier entries.
+pub fn evaluator(cancel_state: CancelState) -> Evaluator {
+    Evaluator::new(&ROUTINES, cancel_state)
+}

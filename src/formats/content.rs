@@ -1,0 +1,27 @@
+//! The content of a mesh file, whatever its format.
+
+/// The content of a mesh file, in the file's own unit of length.
+#[derive(Debug, Default)]
+pub struct Content {
+    /// The corners; of a cloud, its points.
+    pub vertices: Vec<[f64; 3]>,
+    /// The corners of each face, as places in `vertices`; none in a cloud.
+    pub faces: Vec<Vec<usize>>,
+}
+
+/// The reason why a file is no mesh; where the format has lines, the line comes first.
+pub type Fault = String;
+
+/// Returns faces of more than three corners as fans of triangles.
+pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
+    let place = |corner: usize| u32::try_from(corner).expect("a file has fewer than 2^32 vertices");
+    let fan = |face: &Vec<usize>| -> Vec<[u32; 3]> {
+        face[1..].windows(2).map(|pair| [face[0], pair[0], pair[1]].map(place)).collect()
+    };
+    faces.iter().flat_map(fan).collect()
+}
+
+/// Returns the number of the line in which `rest`, an end of `bytes`, begins, counted from 1.
+pub fn line_of(bytes: &[u8], rest: &[u8]) -> usize {
+    1 + bytes[..bytes.len() - rest.len()].iter().filter(|b| **b == b'\n').count()
+}

@@ -1,0 +1,333 @@
+//! Arguments of built-ins: the Rust types that they are read as, and the words of choices.
+//!
+//! A native names its parameters with Rust types, in a list made by `parameters!` or in a struct
+//! made by `arguments!`. A test compares these lists with the declarations in `stdlib/prelude.mod`: names,
+//! types, what may be left out, and the words of choices. The top of [`crate::natives`] shows how they are
+//! used.
+
+use super::design::Instance;
+use super::record::{Record, StateValue};
+use super::value::{Behavior, Callable, ConditionValue, JointValue, Mesh, PortValue, Solid, Value};
+use crate::geometry::{HeightField, Pose, Vec3};
+use crate::plan::{Ground, World};
+use std::rc::Rc;
+
+/// The type of a parameter as its native reads it, to be compared with the declared type.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Any value: the declaration has a type parameter there, or several types.
+    Value,
+    /// `Bool`.
+    Bool,
+    /// `Int`.
+    Int,
+    /// A quantity of any dimension, in SI units.
+    Number,
+    /// `Text`.
+    Text,
+    /// `List`, or a variadic parameter.
+    List,
+    /// `Vec3`.
+    Vec3,
+    /// `Range`.
+    Range,
+    /// `Pose`.
+    Pose,
+    /// A function.
+    Fn,
+    /// An instance of a module, configuration, lattice or truss.
+    Instance,
+    /// `Joint`.
+    Joint,
+    /// `Port`.
+    Port,
+    /// `Behavior`.
+    Behavior,
+    /// `Condition`.
+    Condition,
+    /// `Shape`.
+    Shape,
+    /// `Mesh`.
+    Mesh,
+    /// `Terrain`.
+    Terrain,
+    /// A record, by the name of its type.
+    Record(&'static str),
+    /// One of these words.
+    Choice(fn() -> Vec<&'static str>),
+    /// One of these words, or a value of another type.
+    WordOr(fn() -> Vec<&'static str>, &'static Kind),
+    /// A value that may be missing.
+    Optional(&'static Kind),
+}
+
+/// Why a value is not what a native asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Misfit {
+    /// It has another type, which `check` excludes.
+    Type,
+    /// The value is out of range; the text follows the description of the parameter in the message.
+    Range(&'static str),
+}
+
+/// A Rust type that an argument can be read as.
+pub trait Argument<'c>: Sized {
+    /// The type in the language.
+    const KIND: Kind;
+
+    /// Reads a value.
+    ///
+    /// # Errors
+    /// A [`Misfit`] where the value has another type or is out of range.
+    fn read(value: &'c Value) -> Result<Self, Misfit>;
+}
+
+/// An enum whose values a program writes as words. The words stand here and in the declarations, which
+/// a test compares, and nowhere else.
+pub trait Choice: Copy + PartialEq + 'static {
+    /// Each word with its value, in the order of the declaration.
+    const WORDS: &'static [(&'static str, Self)];
+
+    /// Returns the word of this value.
+    fn word(self) -> &'static str {
+        let found = Self::WORDS.iter().find(|(_, value)| *value == self);
+        found.map(|(word, _)| *word).expect("every value has a word")
+    }
+
+    /// Returns all words, in the order of the declaration.
+    fn words() -> Vec<&'static str> {
+        Self::WORDS.iter().map(|(word, _)| *word).collect()
+    }
+}
+
+/// A number above zero, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Positive(pub f64);
+
+/// A word of a choice or a value of another type: `auto | Int`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WordOr<W, T> {
+    /// One of the words.
+    Word(W),
+    /// A value of the other type.
+    Value(T),
+}
+
+/// The word `auto`, which leaves the choice to the planner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Auto;
+
+impl Choice for Auto {
+    const WORDS: &'static [(&'static str, Auto)] = &[("auto", Auto)];
+}
+
+/// The word `off`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Off;
+
+impl Choice for Off {
+    const WORDS: &'static [(&'static str, Off)] = &[("off", Off)];
+}
+
+impl Choice for Ground {
+    const WORDS: &'static [(&'static str, Ground)] =
+        &[("settle", Ground::Settle), ("fixed", Ground::Fixed), ("held", Ground::Held), ("off", Ground::Off)];
+}
+
+/// A parameter of a native: its name, and the type that it is read as.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// The name in the declaration.
+    pub name: &'static str,
+    /// The type to compare with the declared one.
+    pub kind: Kind,
+    /// The name of the Rust type, to compare with the type that is read.
+    pub rust_type: fn() -> &'static str,
+}
+
+impl Parameter {
+    /// Returns a parameter that is read as `T`.
+    pub const fn new<'c, T: Argument<'c>>(name: &'static str) -> Parameter {
+        Parameter { name, kind: T::KIND, rust_type: std::any::type_name::<T> }
+    }
+}
+
+/// Lists the parameters of a native: `parameters![list: &[Value], places: (f64, f64)]`.
+macro_rules! parameters {
+    ($($name:ident: $type:ty),* $(,)?) => {
+        const { &[$($crate::interpret::argument::Parameter::new::<$type>(stringify!($name))),*] }
+    };
+}
+
+/// Declares a struct with one field for each parameter of a native, with `PARAMETERS` for its table and
+/// `read(call)`. `as "a budget"` is what messages call the argument.
+macro_rules! arguments {
+    ($(#[$meta:meta])* $vis:vis struct $Name:ident $(<$c:lifetime>)? {
+        $($(#[$doc:meta])* $field:ident: $type:ty $(as $what:literal)?),* $(,)?
+    }) => {
+        $(#[$meta])*
+        $vis struct $Name $(<$c>)? {
+            $($(#[$doc])* pub $field: $type),*
+        }
+
+        impl $(<$c>)? $Name $(<$c>)? {
+            /// The parameters, as the declaration lists them.
+            $vis const PARAMETERS: &'static [$crate::interpret::argument::Parameter] =
+                &[$($crate::interpret::argument::Parameter::new::<$type>(stringify!($field))),*];
+
+            /// Reads all arguments of a call; an argument out of range is a fault.
+            $vis fn read(
+                call: &$crate::interpret::native::Call$(<$c>)?,
+            ) -> $crate::interpret::stop::Eval<Self> {
+                Ok($Name {
+                    $($field: call.get_named(
+                        stringify!($field),
+                        [$($what,)? concat!("`", stringify!($field), "`")][0],
+                    )?),*
+                })
+            }
+        }
+    };
+}
+
+pub(crate) use {arguments, parameters};
+
+/// Implements [`Argument`] for types whose values are one variant of [`Value`] each.
+macro_rules! arguments_of_variants {
+    ($($type:ty: $kind:ident = $pattern:pat => $result:expr;)*) => {$(
+        impl<'c> Argument<'c> for $type {
+            const KIND: Kind = Kind::$kind;
+
+            fn read(value: &'c Value) -> Result<Self, Misfit> {
+                match value {
+                    $pattern => Ok($result),
+                    _ => Err(Misfit::Type),
+                }
+            }
+        }
+    )*};
+}
+
+arguments_of_variants! {
+    bool: Bool = Value::Bool(b) => *b;
+    &'c str: Text = Value::Text(text) => text;
+    &'c [Value]: List = Value::List(list) => list;
+    Vec3: Vec3 = Value::Vec3(v, _) => *v;
+    Pose: Pose = Value::Pose(pose) => **pose;
+    &'c Rc<Callable>: Fn = Value::Fn(function) => function;
+    &'c Rc<Instance>: Instance = Value::Instance(instance) => instance;
+    &'c JointValue: Joint = Value::Joint(joint) => joint;
+    &'c PortValue: Port = Value::Port(port) => port;
+    &'c Rc<Behavior>: Behavior = Value::Behavior(behavior) => behavior;
+    &'c ConditionValue: Condition = Value::Condition(condition) => condition;
+    &'c Solid: Shape = Value::Shape(shape) => shape;
+    &'c Mesh: Mesh = Value::Mesh(mesh) => mesh;
+    &'c HeightField: Terrain = Value::Terrain(field) => field;
+}
+
+impl<'c> Argument<'c> for &'c Value {
+    const KIND: Kind = Kind::Value;
+
+    fn read(value: &'c Value) -> Result<&'c Value, Misfit> {
+        Ok(value)
+    }
+}
+
+impl<'c> Argument<'c> for f64 {
+    const KIND: Kind = Kind::Number;
+
+    fn read(value: &'c Value) -> Result<f64, Misfit> {
+        value.as_number().ok_or(Misfit::Type)
+    }
+}
+
+impl<'c> Argument<'c> for Positive {
+    const KIND: Kind = Kind::Number;
+
+    fn read(value: &'c Value) -> Result<Positive, Misfit> {
+        let x = f64::read(value)?;
+        if x > 0.0 { Ok(Positive(x)) } else { Err(Misfit::Range("must be positive")) }
+    }
+}
+
+impl<'c> Argument<'c> for usize {
+    const KIND: Kind = Kind::Int;
+
+    fn read(value: &'c Value) -> Result<usize, Misfit> {
+        match value {
+            Value::Int(n) => usize::try_from(*n).map_err(|_| Misfit::Range("must not be negative")),
+            Value::Big(_) => Err(Misfit::Range("is too large")),
+            _ => Err(Misfit::Type),
+        }
+    }
+}
+
+/// A range of quantities, low to high, in SI units.
+impl<'c> Argument<'c> for (f64, f64) {
+    const KIND: Kind = Kind::Range;
+
+    fn read(value: &'c Value) -> Result<(f64, f64), Misfit> {
+        let Value::Range(ends) = value else { return Err(Misfit::Type) };
+        Ok((f64::read(&ends.0)?, f64::read(&ends.1)?))
+    }
+}
+
+impl<'c> Argument<'c> for &'c StateValue {
+    const KIND: Kind = Kind::Record("State");
+
+    fn read(value: &'c Value) -> Result<&'c StateValue, Misfit> {
+        match value {
+            Value::Record(record) => match &**record {
+                Record::State(state) => Ok(state),
+                _ => Err(Misfit::Type),
+            },
+            _ => Err(Misfit::Type),
+        }
+    }
+}
+
+impl<'c> Argument<'c> for World {
+    const KIND: Kind = Kind::Record("World");
+
+    fn read(value: &'c Value) -> Result<World, Misfit> {
+        match value {
+            Value::Record(record) => match &**record {
+                Record::World(world) => Ok(*world),
+                _ => Err(Misfit::Type),
+            },
+            _ => Err(Misfit::Type),
+        }
+    }
+}
+
+impl<'c, T: Argument<'c>> Argument<'c> for Option<T> {
+    const KIND: Kind = Kind::Optional(&T::KIND);
+
+    fn read(value: &'c Value) -> Result<Option<T>, Misfit> {
+        match value {
+            Value::Missing => Ok(None),
+            value => T::read(value).map(Some),
+        }
+    }
+}
+
+impl<'c, C: Choice> Argument<'c> for C {
+    const KIND: Kind = Kind::Choice(C::words);
+
+    fn read(value: &'c Value) -> Result<C, Misfit> {
+        let Value::Word(word) = value else { return Err(Misfit::Type) };
+        let found = C::WORDS.iter().find(|(known, _)| *known == word.as_str());
+        found.map(|(_, value)| *value).ok_or(Misfit::Type)
+    }
+}
+
+impl<'c, C: Choice, T: Argument<'c>> Argument<'c> for WordOr<C, T> {
+    const KIND: Kind = Kind::WordOr(C::words, &T::KIND);
+
+    fn read(value: &'c Value) -> Result<WordOr<C, T>, Misfit> {
+        match value {
+            Value::Word(_) => C::read(value).map(WordOr::Word),
+            value => T::read(value).map(WordOr::Value),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! A plan as a value of the language, and what its planner reports of it.
+
+use super::design::Design;
+use super::interpreter::Interpreter;
+use super::robot::Robot;
+use super::value::Value;
+use crate::plan::{CauseId, Plan, Settings, Verdict, WorldFrom};
+use std::any::Any;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// A plan with what the language knows about it.
+pub struct PlanValue {
+    /// The robot, lattice or truss that moves.
+    pub robot: Rc<Design>,
+    /// The robot as an assembly, where it is articulated.
+    pub body: Option<Rc<Robot>>,
+    /// The plan itself.
+    pub plan: Plan,
+    /// The run's numbers of the plan's causes.
+    pub causes: Vec<CauseId>,
+    /// The number of actions.
+    pub actions: u64,
+    /// What the planner reports; `None` of plans that no planner made.
+    report: Option<Rc<dyn PlannerReport>>,
+    /// Verdicts so far.
+    pub(super) judged: RefCell<Vec<Judged>>,
+}
+
+/// A verdict with what it was given under.
+pub(super) struct Judged {
+    /// The options of the judge.
+    pub settings: Settings,
+    /// The worlds that were assumed.
+    pub worlds: Vec<WorldFrom>,
+    /// What the judge said.
+    pub verdict: Rc<Verdict>,
+}
+
+/// What a planner reports of its plan beside the plan: the fields of a record type that `is Plan`.
+pub trait PlannerReport: Any {
+    /// Reads a field of the report; `None` for a field that all plans have.
+    fn read(&self, interpreter: &mut Interpreter, plan: &Rc<PlanValue>, field: &str) -> Option<Value>;
+}
+
+/// A field of a report, with the function that reads it.
+pub type ReportField<R> = (&'static str, fn(&mut Interpreter, &Rc<PlanValue>, &R) -> Value);
+
+/// A report whose fields stand in one table.
+pub trait ReportFields: Sized + 'static {
+    /// The fields in the order of the declaration.
+    const FIELDS: &'static [ReportField<Self>];
+
+    /// Returns the names of the fields, to be compared with the declaration.
+    fn names() -> Vec<&'static str> {
+        Self::FIELDS.iter().map(|(name, _)| *name).collect()
+    }
+}
+
+impl<R: ReportFields> PlannerReport for R {
+    fn read(&self, interpreter: &mut Interpreter, plan: &Rc<PlanValue>, field: &str) -> Option<Value> {
+        let found = R::FIELDS.iter().find(|(name, _)| *name == field);
+        found.map(|(_, read)| read(interpreter, plan, self))
+    }
+}
+
+impl std::fmt::Debug for PlanValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a plan of {}", self.robot.name)
+    }
+}
+
+impl PlanValue {
+    /// Returns a plan that was not judged yet and of which no planner reports.
+    pub fn new(
+        robot: Rc<Design>,
+        body: Option<Rc<Robot>>,
+        plan: Plan,
+        causes: Vec<CauseId>,
+        actions: u64,
+    ) -> PlanValue {
+        PlanValue { robot, body, plan, causes, actions, report: None, judged: RefCell::default() }
+    }
+
+    /// Returns the plan with the report of the planner that made it.
+    pub fn with_report(self, report: impl PlannerReport) -> PlanValue {
+        PlanValue { report: Some(Rc::new(report)), ..self }
+    }
+
+    /// Returns the report of whichever planner made the plan.
+    pub(super) fn any_report(&self) -> Option<Rc<dyn PlannerReport>> {
+        self.report.clone()
+    }
+
+    /// Returns the report of one planner; `None` where another made the plan.
+    pub fn report<R: PlannerReport>(&self) -> Option<&R> {
+        let report: &dyn Any = self.report.as_deref()?;
+        report.downcast_ref()
+    }
+
+    /// Keeps the verdict that a planner got on this plan, under the plan's own settings and worlds.
+    pub fn remember_verdict(&self, verdict: Verdict) {
+        let (settings, worlds) = (self.plan.settings, self.plan.worlds.clone());
+        self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
+    }
+
+    /// Returns the number of actions.
+    pub fn actions(&self) -> usize {
+        usize::try_from(self.actions).unwrap_or(usize::MAX)
+    }
+
+    /// Returns the number of stretches between one change of commands and the next.
+    pub fn steps(&self) -> usize {
+        self.plan.body.instants().len().saturating_sub(1)
+    }
+}

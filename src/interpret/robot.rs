@@ -1,0 +1,65 @@
+//! A configuration as the right wing sees it: an assembly with its start state and kinematics.
+
+use super::value::{JointValue, PortValue};
+use crate::geometry::{Pose, Vec3};
+use crate::robot::{Assembly, JointId, JointOwner, Kinematics, PortRef, Residual, State};
+use std::sync::Arc;
+
+/// A robot that a design describes.
+pub struct Robot {
+    /// Modules, bonds and the library of their types.
+    pub assembly: Arc<Assembly>,
+    /// Joints as `set`, all bonds, the base module's body at the origin.
+    pub start: State,
+    /// The tree of links.
+    pub kinematics: Kinematics,
+    /// Poses of all links in the start state.
+    pub poses: Vec<Pose>,
+}
+
+impl Robot {
+    /// Returns the number of a joint.
+    pub fn joint(&self, joint: &JointValue) -> JointId {
+        self.joint_of(joint.owner)
+    }
+
+    /// Returns the number of the joint of a module or a bond.
+    pub fn joint_of(&self, owner: JointOwner) -> JointId {
+        let index = joint_index(&self.kinematics, owner);
+        JointId(u32::try_from(index).expect("joints are counted in 32 bits"))
+    }
+
+    /// Returns the path name of a joint.
+    pub fn joint_name(&self, joint: JointId) -> String {
+        let owner = self.assembly.joints().nth(joint.0 as usize);
+        owner.map_or_else(String::new, |owner| self.assembly.joint_name(owner))
+    }
+
+    /// Returns how far each bond that closes a loop is from closing it in the start state.
+    pub fn residuals(&self) -> Vec<Residual> {
+        self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
+    }
+
+    /// Returns the centre of mass in the frame of the base module (m), and mass (kg).
+    pub fn centre_of_mass(&self) -> (Vec3, f64) {
+        self.kinematics.centre_of_mass(&self.assembly, &self.poses)
+    }
+
+    /// Returns the pose of a port in the frame of the base module.
+    pub fn port_pose(&self, port: &PortValue) -> Pose {
+        self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
+    }
+}
+
+/// Returns a port as an assembly names it.
+pub fn port_ref(port: &PortValue) -> PortRef {
+    PortRef { module: port.module, port: port.port }
+}
+
+/// Returns the place of a joint among those of the tree.
+pub fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
+    match owner {
+        JointOwner::Module { module, joint } => kinematics.joint(module, joint),
+        JointOwner::Bond(bond) => kinematics.hinge(bond).expect("only hinges are named"),
+    }
+}

@@ -1,0 +1,72 @@
+//! The rooms above the evaluator, as it is given them.
+//!
+//! Evaluating an expression needs what lies above: declarations are elaborated to designs, built-ins are
+//! called, values are printed. The evaluator does not know these rooms; whoever runs a program hands them in
+//! as functions ([`crate::execute`]).
+
+use super::call::Args;
+use super::design::Design;
+use super::interpreter::Interpreter;
+use super::native::Native;
+use super::robot::Robot;
+use super::stop::Eval;
+use super::value::{PortValue, Value};
+use crate::check::typed::DefId;
+use crate::source::{Span, Symbol};
+use std::rc::Rc;
+
+/// A robot; `None` where its design is broken or describes none.
+pub type Assembled = Eval<Option<Rc<Robot>>>;
+
+/// The functions of the rooms above the evaluator.
+pub struct Routines {
+    /// Finds a built-in by its key.
+    pub native: fn(Symbol) -> Option<&'static Native>,
+    /// Elaborates a declaration with arguments to an instance.
+    pub instantiate: fn(&mut Interpreter, DefId, Args, Span) -> Eval<Value>,
+    /// Assembles the robot of a design.
+    pub robot_of: fn(&mut Interpreter, &Rc<Design>) -> Assembled,
+    /// Finds the joint of the connection at a port.
+    pub hinge_of: fn(&mut Interpreter, &PortValue, Span) -> Eval<Value>,
+    /// Elaborates a declaration with its defaults and checks all that its body declares.
+    pub check_declaration: fn(&mut Interpreter, DefId) -> Eval<()>,
+    /// Writes a value on one line.
+    pub show: fn(&Interpreter, &Value) -> String,
+    /// Writes a value on as many lines as it needs.
+    pub display: fn(&mut Interpreter, &Value) -> Eval<String>,
+    /// Writes what a declaration declares on one line.
+    pub describe_declaration: fn(&mut Interpreter, DefId) -> Eval<String>,
+    /// Draws every robot, lattice and truss that the program declares.
+    pub draw_declared: fn(&mut Interpreter) -> Eval<()>,
+}
+
+impl Interpreter<'_> {
+    /// Returns the robot of a design that is complete; `None` where it is broken or no robot.
+    ///
+    /// # Errors
+    /// A halt, or a fault of a declaration that the robot needs.
+    pub fn robot_of(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
+        (self.routines.robot_of)(self, design)
+    }
+
+    /// Returns a value on one line: as it could be written, with units that suit its size.
+    pub fn show(&self, value: &Value) -> String {
+        (self.routines.show)(self, value)
+    }
+
+    /// Returns a value on as many lines as it needs, the first of which can stand alone.
+    ///
+    /// # Errors
+    /// A halt while the value is judged or planned.
+    pub fn display(&mut self, value: &Value) -> Eval<String> {
+        (self.routines.display)(self, value)
+    }
+
+    /// Elaborates a declaration with its defaults and checks all that its body declares.
+    ///
+    /// # Errors
+    /// A halt; faults are reported.
+    pub fn check_declaration(&mut self, def: DefId) -> Eval<()> {
+        (self.routines.check_declaration)(self, def)
+    }
+}

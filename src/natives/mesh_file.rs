@@ -1,0 +1,52 @@
+//! Meshes and clouds of points from files of the project, by the ends of their names.
+
+use crate::formats::{CLOUD_FORMATS, Content, Fault, Format, MESH_FORMATS};
+use crate::geometry::Vec3;
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
+use crate::interpret::stop::{Eval, fault};
+use crate::interpret::value::Mesh;
+use crate::source::{Diagnostic, code};
+
+/// Returns the mesh in the file that an argument names, with its path in the project; `scale` is the
+/// length of one of the file's units, m.
+pub fn read(interpreter: &mut Interpreter, call: &Call, name: &str, scale: f64) -> Eval<(String, Mesh)> {
+    let (path, read) = read_as(interpreter, call, name, "mesh", MESH_FORMATS, Format::read_mesh)?;
+    let vertices = read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect();
+    Ok((path, Mesh { vertices, faces: read.faces }))
+}
+
+/// Returns the points in the file that an argument names; `scale` as in [`read`].
+pub fn read_cloud(interpreter: &mut Interpreter, call: &Call, name: &str, scale: f64) -> Eval<Vec<Vec3>> {
+    let (_, read) = read_as(interpreter, call, name, "cloud", CLOUD_FORMATS, Format::read_cloud)?;
+    Ok(read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect())
+}
+
+/// Returns the content of a file, with its path in the project.
+fn read_as(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    name: &str,
+    what: &str,
+    formats: &[Format],
+    read: fn(&Format, &[u8]) -> Result<Content, Fault>,
+) -> Eval<(String, Content)> {
+    let file: &str = call.get(name)?;
+    let ending = file.rsplit_once('.').map_or_else(String::new, |(_, end)| end.to_ascii_lowercase());
+    let Some(format) = formats.iter().find(|format| format.ending == ending) else {
+        let message = format!("`{file}` is no {what} file by its name");
+        let ends: Vec<String> = formats.iter().map(|format| format!("`.{}`", format.ending)).collect();
+        let (last, others) = ends.split_last().expect("there are formats");
+        return Err(Diagnostic::error(code::CANNOT_READ, message)
+            .label(call.at(name), format!("not a name of a {what} file"))
+            .hint(format!("names of {what} files end in {} or {last}", others.join(", ")))
+            .into());
+    };
+    let (path, bytes) = interpreter.project_file(call, name)?;
+    let content = read(format, &bytes).map_err(|why: Fault| {
+        let message = format!("`{path}` can't be read as {}: {why}", format.name);
+        fault(code::CANNOT_READ, call.at(name), message, why)
+    })?;
+    interpreter.check_list(content.faces.len().max(content.vertices.len()), call.at(name))?;
+    Ok((path, content))
+}
