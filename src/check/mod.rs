@@ -3,9 +3,9 @@
 //! The room knows no robots. What depends on values (an occupied port, a joint out of range) is found
 //! later, when `interpret` elaborates the declarations.
 //!
-//! Reading order: [`load`] reads files, [`checker`] holds the state, [`scope`] the locals, [`items`] drives; [`members`],
-//! [`module`], [`config`] and [`families`] check declarations, [`expr`], [`literals`], [`names`],
-//! [`lists`], [`call`] and [`operators`] expressions, [`type_expr`] types as written.
+//! Reading order: `load` reads files, `checker` holds the state, `scope` the locals, `items` drives; `members`,
+//! `module`, `config` and `families` check declarations, `expr`, `literals`, `names`,
+//! `lists`, `call` and `operators` expressions, `type_expr` types as written.
 
 mod call;
 mod checker;

@@ -95,9 +95,9 @@ pub enum ExprKind {
     This,
     /// A member of an instance.
     Member { object: Box<Expr>, member: MemberId },
-    /// A joint of a module instance; `joint` indexes [`ModuleDef::joints`].
+    /// A joint of a module instance; `joint` indexes [`ModuleDef::joints`](super::typed::ModuleDef::joints).
     Joint { object: Box<Expr>, joint: usize },
-    /// A port or a port array of a module instance; indexes [`ModuleDef::ports`].
+    /// A port or a port array of a module instance; indexes [`ModuleDef::ports`](super::typed::ModuleDef::ports).
     Port { object: Box<Expr>, port: usize },
     /// The joint that lives in the connection at a port.
     Hinge(Box<Expr>),

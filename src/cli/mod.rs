@@ -1,8 +1,8 @@
 //! The command line interface: commands, files on disk, the terminal.
 //!
 //! The only room with access to the outside. The other rooms have it through two traits:
-//! [`Files`](crate::source::Files), implemented by [`disk`], and [`Host`](crate::interpret::Host), by
-//! [`terminal`].
+//! [`Files`](crate::source::Files), implemented by `disk`, and [`Host`](crate::interpret::Host), by
+//! `terminal`.
 
 mod arguments;
 mod disk;

@@ -109,7 +109,7 @@ pub struct Failure {
     pub until: Option<f64>,
     /// Path names of the modules, links or joints concerned.
     pub at: Vec<String>,
-    /// What was found, in words with units: "s[0].m[2] and s[1].m[0] meet, 3.1 mm deep".
+    /// The finding in words with units: `s[0].m[2] and s[1].m[0] meet, 3.1 mm deep`.
     pub message: String,
     /// Amount and limit in SI, where there is one of each.
     pub value: f64,

@@ -2,9 +2,9 @@
 //!
 //! An entry goes through the same rooms as a file. All entries share one scope, in which a later
 //! declaration replaces an earlier one of its name, for the earlier entries too: the session is at any time
-//! the program that [`save`] writes. It is checked as a whole for every entry, which takes milliseconds;
+//! the program that `save` writes. It is checked as a whole for every entry, which takes milliseconds;
 //! values are kept ([`crate::interpret::session`]), except those that depend on a new declaration
-//! ([`dependencies`]).
+//! (`dependencies`).
 
 mod changes;
 mod dependencies;

@@ -1,8 +1,8 @@
 //! Branch and bound for the layout (rooted spanning tree of the faces) of least energy.
 //!
-//! The bound of a node is the sum of shortest paths ([`shortest_paths`](super::shortest_paths)) over the arcs
+//! The bound of a node is the sum of shortest paths ([`shortest_paths`]) over the arcs
 //! that the node allows. Where the paths form a tree, it is the node's best layout. Else the bound is raised
-//! by Lagrangian relaxation ([`lagrangian`](super::lagrangian)), and the node is branched on the face into
+//! by Lagrangian relaxation ([`lagrangian`]), and the node is branched on the face into
 //! which the paths disagree the most: it is entered across one side in each child, so the children are
 //! disjoint and complete. Where patterns may not overlap, a tree whose pattern overlaps is branched along the
 //! path between two overlapping faces: any layout with all arcs of the path overlaps, so child k keeps the

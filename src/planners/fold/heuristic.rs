@@ -1,5 +1,5 @@
 //! The paper's heuristic measure of a layout (MII, Theorem 1), cheaper than a simulation and kept for
-//! comparison: the closed form of [`weights`](super::weights) is exact and no dearer.
+//! comparison: the closed form of `weights` is exact and no dearer.
 
 use super::enumerate::{self, TooManyFaces, Traversal};
 use super::kinematics::poses;

@@ -1,5 +1,5 @@
 //! Lagrangian relaxation of the choice of one tree for all faces: a stronger lower bound than that of
-//! [`shortest_paths`](super::shortest_paths), raised by subgradient ascent.
+//! [`shortest_paths`], raised by subgradient ascent.
 //!
 //! Let y_a say whether a layout enters a face across arc a, and x_a^j whether the path to face j uses
 //! it. A layout is a choice of one arc into each face with x_a^j ≤ y_a. These inequalities are dualised with

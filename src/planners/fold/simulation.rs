@@ -1,5 +1,5 @@
 //! Simulation of a folding by inverse dynamics: the torque of every hinge in every step. This is the paper's Alg. 1; where the
-//! closed form of [`weights`](super::weights) holds, both agree.
+//! closed form of `weights` holds, both agree.
 
 use super::dynamics::{Dynamics, Hinging};
 use super::inertia::Body;

@@ -7,7 +7,7 @@
 //! convex, or fold the most or the least, and of nearly equal trees those that cost the least. Where little is
 //! in the way, the cheap layouts themselves are a beginning.
 //! What still overlaps in the plane or meets on the way is separated by exchanges of one hinge for another
-//! between the two, as in [`tabu_unfolding`](super::tabu_unfolding); and what is clear is made cheaper by exchanges that
+//! between the two, as in `tabu_unfolding`; and what is clear is made cheaper by exchanges that
 //! keep it so. Nothing is proved, and collisions are sampled: the judge decides.
 
 use super::edge_exchange::{self, Rules};

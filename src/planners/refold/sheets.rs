@@ -6,7 +6,7 @@
 //! a neighbour across which both shapes go on, which is a connection that both layouts have; or, where
 //! there is none, to one neighbour in the first shape and to another in the second, which is one
 //! change. Where growth is stuck, the rest of either shape is laid around what they have in common, and
-//! panels [walk](super::rearrange) from the one sheet to the other. Growth begins anew with other choices
+//! panels walk from the one sheet to the other. Growth begins anew with other choices
 //! among equals as long as the budget lasts.
 
 use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};

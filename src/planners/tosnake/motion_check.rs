@@ -53,7 +53,7 @@ pub struct LoadLimit<'a> {
 }
 
 /// The fraction by which a load may grow between checked instants: an axis turns as far as a ball moves that
-/// is one pitch away, so [`DEVIATION_MAX`] bounds it, with a factor of five to spare.
+/// is one pitch away, so `DEVIATION_MAX` bounds it, with a factor of five to spare.
 pub const LOAD_SPARE: f64 = 2e-3;
 
 /// Number of instants at which the greatest load of an overloaded motion is evaluated.

@@ -1,7 +1,7 @@
 //! The kernel of the truss planners [`morph`](super::morph) and [`locomote`](super::locomote): trusses of
 //! linear actuators after "Linear Actuator Robots: Differential Kinematics, Controllability, and Algorithms
 //! for Locomotion and Shape Morphing" (Usevitch, Hammond, Follmer, Schwager), with Algorithm 1 mended
-//! ([`step`]) and a certificate by conservative advancement between the ends of steps ([`advancement`]).
+//! ([`step`]) and a certificate by conservative advancement between the ends of steps (`advancement`).
 //!
 //! Data first, what is computed of it below: a [`Structure`] with its [`Limits`] and [`Surroundings`]; its
 //! inequality [`constraint`]s with gradients; the singular values of its rigidity matrix; the broad phase;

@@ -1,7 +1,7 @@
 //! Self-collision over a whole plan, at every instant and not only at samples.
 //!
 //! A interval of time is looked at in its middle, where everything is known exactly; what can happen
-//! until its ends is bounded ([`frame`](super::interval_state)). Pairs that are thereby told apart for the
+//! until its ends is bounded (`frame`). Pairs that are thereby told apart for the
 //! whole interval are done with; with the others the interval is halved. Far modules are told apart
 //! over long stretches, near bodies over short ones, and a pair between which nothing moves at once.
 //! Stretches are visited in order of time, so that the first penetration that is met is the first.
