@@ -73,6 +73,7 @@ impl Run<'_> {
             // The joint is on its way already.
             return Ok(end);
         }
+        // The joint is taken over where it is, and brakes first if it moves.
         let (at, speed) = self.take_over(joint);
         let target = match target {
             Target::To(position) => position,
@@ -82,6 +83,7 @@ impl Run<'_> {
         let braking = law::changed_speed(at, speed, 0.0, able);
         let stopped = braking.as_ref().map_or(at, |piece| piece.control[2]);
         let spent = braking.as_ref().map_or(0.0, |piece| piece.duration);
+        // The move from rest to rest takes the rest of the stated duration, or the least that there is.
         let least = law::least_duration(profile, target - stopped, able);
         let lasting = match duration {
             Some(given) => self.given_duration(action, joint, given, spent, least)?,

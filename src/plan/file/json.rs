@@ -65,6 +65,7 @@ pub(super) struct PlanJson<'a> {
 struct WorldFromJson {
     /// Seconds.
     from: f64,
+    /// The world from then on.
     world: WorldJson,
 }
 

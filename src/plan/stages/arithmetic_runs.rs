@@ -12,13 +12,13 @@ pub struct ArithmeticRun {
     pub length: usize,
 }
 
-/// Splits 0..count into arithmetic runs. `step` says what changes from one number to another; `None` where no
-/// run may hold both.
+/// Splits 0..count greedily into arithmetic runs. `step` is the change from one number to another; `None`
+/// where no run may hold both.
 pub fn arithmetic_runs<T: PartialEq>(
     count: usize,
     step: impl Fn(usize, usize) -> Option<T>,
 ) -> Vec<ArithmeticRun> {
-    // Of each line: the first number, and how many there are, one step apart.
+    // Lines of numbers with one step: the first number of each, and its length.
     let mut lines: Vec<(usize, usize)> = Vec::new();
     let mut at = 0;
     while at < count {
@@ -33,6 +33,7 @@ pub fn arithmetic_runs<T: PartialEq>(
         lines.push((at, end - at));
         at = end;
     }
+    // Lines that are alike and one step apart make a run.
     let mut found = Vec::new();
     let mut at = 0;
     while at < lines.len() {

@@ -22,6 +22,7 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     if a.time_unit != b.time_unit {
         return Err(OperationError::Cells);
     }
+    // The last cells of the first and the first cells of the second, on one grid of whole numbers.
     let end = a.before(a.stages.len());
     let others = b.start.iter().chain(b.stages.iter().flat_map(|stage| &stage.end));
     let grid = Grid::over(end.iter().chain(others)).map_err(|_| OperationError::Inexact)?;
@@ -31,8 +32,10 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     let mut last = cubes.clone();
     placed(&end, &mut last)?;
     placed(&b.start, &mut cubes)?;
+    // The bijection of the cells and the translation that take the second shape to the first.
     let (numbers, shift) = matched(&last, &cubes).ok_or(OperationError::Shapes)?;
     let same = numbers.iter().enumerate().all(|(i, &number)| i == number as usize) && shift == [0; 3];
+    // The stages of the second, renumbered and translated; of the same numbering they stay as they are.
     let mut new = a.clone();
     for stage in &b.stages {
         let end = if same {
@@ -61,8 +64,8 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     Ok(new)
 }
 
-/// Returns for each of the second cubes the number of the first that is there, and by how much the second are
-/// shifted to be there. `None` where the shapes differ.
+/// Returns for each of the second cubes the number of the first in its place, and the translation of the
+/// second to the first, in lines of the grid. `None` where the shapes differ.
 fn matched(first: &[Cube], second: &[Cube]) -> Option<(Vec<u32>, [i64; 3])> {
     let low = |cubes: &[Cube]| [0, 1, 2].map(|axis| cubes.iter().map(|c| c.lo[axis]).min().unwrap_or(0));
     let (a, b) = (low(first), low(second));
