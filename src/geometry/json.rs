@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 /// A pose as written in a plan file.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Pose", deny_unknown_fields)]
-pub struct PoseText {
+pub(crate) struct PoseText {
     /// Position of the frame's origin: x, y, z in metres.
     p: [f64; 3],
     /// Rotation as a unit quaternion: w, x, y, z.
@@ -21,13 +21,13 @@ pub struct PoseText {
 const NORM_TOLERANCE: f64 = 1e-6;
 
 /// Writes the numbers as they are.
-pub fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
     let (t, q) = (&pose.translation.vector, &pose.rotation);
     PoseText { p: [t.x, t.y, t.z], q: [q.w, q.i, q.j, q.k] }.serialize(to)
 }
 
 /// Takes the numbers as they are; a quaternion that is not of unit length is refused.
-pub fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Pose, D::Error> {
+pub(crate) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Pose, D::Error> {
     let PoseText { p, q } = PoseText::deserialize(from)?;
     let q = Quaternion::new(q[0], q[1], q[2], q[3]);
     if (q.norm() - 1.0).abs() > NORM_TOLERANCE {

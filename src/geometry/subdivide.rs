@@ -4,7 +4,7 @@ use super::pose::Vec3;
 use std::collections::BTreeMap;
 
 /// Vertices (m), and faces as indices among them.
-pub type Surface = (Vec<Vec3>, Vec<[usize; 3]>);
+type Surface = (Vec<Vec3>, Vec<[usize; 3]>);
 
 /// The place of a new vertex: a corner, a place along an edge from its lower corner, or a place within a
 /// face. Faces that share an edge so share the vertices on it.

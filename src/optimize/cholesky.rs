@@ -3,7 +3,7 @@
 //! Matrices are kept in the envelope (skyline) of their lower half: every row from its first entry that may differ
 //! from zero up to the diagonal. `L` fills nothing outside the envelope of `A` (George and Liu 1981, sec. 4.2). A dense
 //! matrix is the case in which every row begins in column 0. Used by inverse kinematics (dense, 6 to 106 rows) and, in
-//! an order that keeps the envelope small (`super::sparse_cholesky`), by the active-set quadratic programmes. Small
+//! an order that keeps the envelope small ([`super::cuthill_mckee`]), by the active-set quadratic programs. Small
 //! systems of a size known when compiled are left to nalgebra's own decomposition, which needs no heap.
 
 /// The lower half of a symmetric matrix, by rows, within an envelope.

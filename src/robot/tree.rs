@@ -13,9 +13,9 @@ pub struct Tree {
     pub loose: Vec<usize>,
 }
 
-/// Grows the tree from `root` over the bonds for which `holds` says true. Neighbours are visited in
+/// Returns the tree from `root` over the bonds for which `holds` says true. Neighbours are visited in
 /// order of bond, so that the tree depends on nothing but the assembly.
-pub fn grow(robot: &Assembly, holds: &[bool], root: usize) -> Tree {
+pub(super) fn grow(robot: &Assembly, holds: &[bool], root: usize) -> Tree {
     let mut bonds_of = vec![Vec::new(); robot.modules.len()];
     for (index, bond) in robot.bonds.iter().enumerate().filter(|(index, _)| holds[*index]) {
         bonds_of[bond.a.module].push(index);

@@ -30,9 +30,9 @@ const ON_LINE: f64 = 1e-6;
 /// Rigidity of a truss that is clearly rigid.
 pub(super) struct RigidityReport {
     /// The least singular value that belongs to no motion of the whole, for struts of mean length 1.
-    pub weakest: f64,
+    pub(super) weakest: f64,
     /// Struts without any one of which the truss stays rigid.
-    pub redundant: Vec<usize>,
+    pub(super) redundant: Vec<usize>,
 }
 
 /// Examines a truss with nodes at these places (m); `None` where it is not rigid, or not clearly.
