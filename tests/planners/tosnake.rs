@@ -240,3 +240,52 @@ fn the_shapes_of_the_paper_unwind() {
         replay.ends_as_snake().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
     }
 }
+
+/// Two chains of three modules, end to end with a turn, as an assembly made in Rust.
+fn twisted(turn: &str) -> (modl::robot::Assembly, modl::robot::State) {
+    let modules: String = (0..6).map(|id| format!("M {id} 0 0 0\n")).collect();
+    let edge = |i: usize| format!("E {i} B -Z {} -Z A {}\n", if i == 2 { turn } else { "N" }, i + 1);
+    let edges: String = (0..5).map(edge).collect();
+    let world = modl::robot::rofi::read(&format!("C\n{modules}{edges}")).expect("it is a configuration");
+    modl::robot::rofi_assembly::assembly(&world, 0.1)
+}
+
+/// An observer that ends every search.
+struct Impatient;
+
+impl modl::planners::Progress for Impatient {
+    fn report(&mut self, _: &dyn Fn() -> String) {}
+
+    fn should_continue(&mut self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn rust_calls_the_planners_without_the_language() {
+    use modl::plan::World;
+    use modl::planners::{NoProgress, reconfigure, tosnake};
+    let ((east, start), (west, goal)) = (twisted("E"), twisted("W"));
+    let problem = tosnake::Problem { robot: &east, start: &start, world: World::FREE };
+    let settings = tosnake::Settings::default();
+    let found = tosnake::plan(&problem, &settings, &mut NoProgress).expect("the tests unwind it, too");
+    assert_eq!((found.report.docks, found.report.undocks), (1, 1));
+    assert!(found.body.duration() > 0.0 && found.program.is_some());
+
+    let refused = tosnake::plan(&problem, &settings, &mut Impatient).expect_err("nobody waits");
+    assert!(matches!(refused, tosnake::Refusal::Stopped(_)), "{refused}");
+    let poor = tosnake::Settings { budget: 0, ..settings };
+    let refused = tosnake::plan(&problem, &poor, &mut NoProgress).expect_err("nothing may be worked out");
+    assert!(matches!(refused, tosnake::Refusal::BudgetSpent(_)), "{refused}");
+    let heavy = World { gravity: 1000.0, ..World::default() };
+    let refused = tosnake::plan(&tosnake::Problem { world: heavy, ..problem }, &settings, &mut NoProgress);
+    assert!(matches!(refused, Err(tosnake::Refusal::Overload(_))), "{refused:?}");
+
+    let from = reconfigure::Configuration { robot: &east, state: &start };
+    let to = reconfigure::Configuration { robot: &west, state: &goal };
+    let problem = reconfigure::Problem { from, to, world: World::FREE };
+    let both =
+        reconfigure::plan(&problem, &reconfigure::Settings::default(), &mut NoProgress).expect("both unwind");
+    assert_eq!((both.report.both.docks, both.report.both.undocks), (2, 2));
+    assert!(both.report.verdict.is_none() && !both.report.history.is_empty());
+}
