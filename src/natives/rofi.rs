@@ -1,8 +1,9 @@
 //! Robots of RoFI modules from and to RoFI's files.
 
-use super::{Native, pure};
+use super::Native;
 use crate::check::typed::DefId;
 use crate::elaborate::config::outside;
+use crate::interpret::argument::parameters;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -14,11 +15,15 @@ use crate::planners::tosnake::validation::repair;
 use crate::robot::rofi::{self, Dock, Edge, Module, World};
 use crate::robot::rofi_json;
 use crate::robot::{JointOwner, Residual};
-use crate::source::{Diagnostic, code};
+use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-pub const TABLE: &[Native] = &[pure("load", 1, load), pure("tangle", 3, tangle)];
+/// The natives of this file.
+pub const TABLE: &[Native] = &[
+    Native::pure("load", parameters![file: &str], load),
+    Native::pure("tangle", parameters![n: usize, actions: usize, seed: usize], tangle),
+];
 
 /// Where the library declares the module.
 const LIBRARY: &str = "std/rofi.mod";
@@ -30,15 +35,15 @@ const CLOSURE_MAX: f64 = 1e-3;
 const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
 fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let path = call.text(0)?.to_string();
+    let path = call.text("file")?.to_string();
     let (kind, loaded) = library(interpreter, call)?;
-    let (file, bytes) = interpreter.project_file(call, 0)?;
+    let (file, bytes) = interpreter.project_file(call, "file")?;
     let known = |design: &&Rc<Design>| matches!(&design.args[..], [Value::Text(text)] if **text == *file);
     if let Some(design) = interpreter.designs[loaded.0 as usize].iter().find(known).cloned() {
         return Ok(instance(interpreter, &design));
     }
     let text = String::from_utf8(bytes).map_err(|_| {
-        fault(code::CANNOT_READ, call.at(0), format!("`{path}` is not UTF-8 text"), "no text")
+        fault(code::CANNOT_READ, call.at("file"), format!("`{path}` is not UTF-8 text"), "no text")
     })?;
     let read = if path.ends_with(".json") { rofi_json::read } else { rofi::read };
     let world = read(&text).map_err(|f| faulty(call, &path, f.line, f.column, &f.what))?;
@@ -48,16 +53,16 @@ fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// A tangle to unwind; see the planner's own words.
 fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let kinds = library(interpreter, call)?;
-    let modules = call.count(0, "a number of modules")?;
-    let actions = call.count(1, "a number of actions")?;
-    let seed = call.count(2, "a seed")?;
+    let modules = call.count("n", "a number of modules")?;
+    let actions = call.count("actions", "a number of actions")?;
+    let seed = call.count("seed", "a seed")?;
     if modules == 0 {
-        return Err(call.refuse(0, "a robot has a module at least"));
+        return Err(call.refuse("n", "a robot has a module at least"));
     }
     check_count(interpreter, call, modules)?;
     if actions > ACTIONS_MAX {
         let message = format!("more than {ACTIONS_MAX} actions are not made");
-        return Err(fault(code::SIZE_LIMIT, call.at(1), message, "too many actions"));
+        return Err(fault(code::SIZE_LIMIT, call.at("actions"), message, "too many actions"));
     }
     let name = format!("tangle({modules}, {actions}, seed: {seed})");
     crate::interrupt::start_task(format!("tangling {modules} modules"));
@@ -79,11 +84,16 @@ fn library(interpreter: &Interpreter, call: &Call) -> Eval<(DefId, DefId)> {
     }
 }
 
+/// The first argument, which says where the robot comes from: a file, or a number of modules.
+fn origin(call: &Call) -> Span {
+    call.at(call.native.parameters[0].name)
+}
+
 fn check_count(interpreter: &Interpreter, call: &Call, modules: usize) -> Eval<()> {
     let limit = interpreter.limits().modules;
     if modules > limit {
         let message = format!("a robot of more than {limit} modules is not allowed");
-        return Err(fault(code::SIZE_LIMIT, call.at(0), message, "too many modules"));
+        return Err(fault(code::SIZE_LIMIT, origin(call), message, "too many modules"));
     }
     Ok(())
 }
@@ -142,7 +152,7 @@ fn declared(interpreter: &Interpreter, name: &str) -> Option<DefId> {
 
 fn faulty(call: &Call, path: &str, line: usize, column: usize, what: &str) -> Stop {
     let message = format!("`{path}`, line {line}, column {column}: {what}");
-    fault(code::CANNOT_READ, call.at(0), message, format!("line {line}: {what}"))
+    fault(code::CANNOT_READ, origin(call), message, format!("line {line}: {what}"))
 }
 
 /// Modules, positions and connections, as the clauses of a configuration would have made them.
@@ -222,7 +232,7 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     );
     interpreter.add_report(
         Diagnostic::warning(code::OPEN_LOOP, message)
-            .label(call.at(0), "the modules hang together without them")
+            .label(origin(call), "the modules hang together without them")
             .hint("the other connections decide where the modules are, from the lowest id outwards"),
     );
     let mut index = 0;
@@ -232,11 +242,14 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     });
 }
 
-/// The text of a file for the robot in argument 0, by the end of its name; `None` where the robot is not
+/// The text of a file for the robot to be saved, by the end of its name; `None` where the robot is not
 /// sound.
 pub fn written(interpreter: &mut Interpreter, call: &Call, ending: &str) -> Eval<Option<String>> {
-    let design = call.instance(0)?.design.clone();
-    let Some(robot) = interpreter.robot_at(&design, call.at(0))? else { return Ok(None) };
+    let Value::Instance(instance) = call.get::<&Value>("what")? else {
+        unreachable!("`check` lets only robots and foldings through, and foldings have files of their own");
+    };
+    let design = instance.design.clone();
+    let Some(robot) = interpreter.robot_at(&design, call.at("what"))? else { return Ok(None) };
     let mut world = World::default();
     for (index, module) in robot.assembly.modules.iter().enumerate() {
         let kind = robot.assembly.module_type(index);
@@ -249,7 +262,7 @@ pub fn written(interpreter: &mut Interpreter, call: &Call, ending: &str) -> Eval
             (positions.as_deref(), Dock::of_port(index, &kind.ports[0].name))
         else {
             let message = format!("{} is no RoFI module: no file of RoFI's can say what it is", module.name);
-            return Err(call.refuse(0, message));
+            return Err(call.refuse("what", message));
         };
         world.modules.push(Module { id: index as u64, joints: [*alpha, *beta, *gamma], line: 0 });
     }

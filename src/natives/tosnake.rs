@@ -1,8 +1,9 @@
 //! `tosnake` and `reconfigure`: the planners of RoFI modules, as they are called.
 
-use super::{Native, on_run};
+use super::Native;
+use crate::interpret::argument::{Choice, Positive, WordOr, arguments};
 use crate::interpret::causes::PlanCauses;
-use crate::interpret::design::Design;
+use crate::interpret::design::{Design, Instance};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
@@ -25,8 +26,10 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-pub const TABLE: &[Native] =
-    &[on_run("tosnake", 6, native_tosnake), on_run("reconfigure", 7, native_reconfigure)];
+pub const TABLE: &[Native] = &[
+    Native::on_run("tosnake", TosnakeArguments::PARAMETERS, native_tosnake),
+    Native::on_run("reconfigure", ReconfigureArguments::PARAMETERS, native_reconfigure),
+];
 
 impl ReportFields for Report {
     const FIELDS: &'static [ReportField<Report>] = &[
@@ -38,44 +41,72 @@ impl ReportFields for Report {
     ];
 }
 
-/// The options that both calls have, by where they begin.
+arguments! {
+    /// The arguments of `tosnake`.
+    struct TosnakeArguments<'c> {
+        robot: &'c Rc<Instance>,
+        gravity: WordOr<Gravity, f64>,
+        seed: usize as "a seed",
+        budget: usize as "a budget",
+        timeout: Option<Positive> as "a timeout",
+        collisions: Collisions,
+    }
+}
+
+arguments! {
+    /// The arguments of `reconfigure`.
+    struct ReconfigureArguments<'c> {
+        from: &'c Rc<Instance>,
+        to: &'c Rc<Instance>,
+        gravity: WordOr<Gravity, f64>,
+        seed: usize as "a seed",
+        budget: usize as "a budget",
+        timeout: Option<Positive> as "a timeout",
+        collisions: Collisions,
+    }
+}
+
+/// The words of `gravity`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Gravity {
+    /// The robot floats.
+    Off,
+    /// The base is held, under the gravity of the earth.
+    On,
+}
+
+impl Choice for Gravity {
+    const WORDS: &'static [(&'static str, Gravity)] = &[("off", Gravity::Off), ("on", Gravity::On)];
+}
+
+impl Choice for Collisions {
+    const WORDS: &'static [(&'static str, Collisions)] = &[
+        ("motion", Collisions::Motion),
+        ("none", Collisions::None),
+        ("detection", Collisions::Detection),
+        ("avoidance", Collisions::Avoidance),
+    ];
+}
+
+/// The options that both calls have.
 #[derive(Clone, Copy)]
 struct Options {
     world: World,
     seed: u64,
     budget: u64,
-    /// Seconds for the whole search.
+    /// The time limit of each search, s.
     timeout: Option<f64>,
     collisions: Collisions,
 }
 
 impl Options {
-    fn of(call: &Call, first: usize) -> Eval<Options> {
-        let world = match call.word(first) {
-            Some("off") => World::FREE,
-            _ => {
-                let stated = if call.word(first) == Some("on") { None } else { Some(call.number(first)?) };
-                let gravity = stated.unwrap_or(World::default().gravity);
-                if gravity < 0.0 {
-                    return Err(call.refuse(first, "gravity acts downwards, so it can't be negative"));
-                }
-                World { gravity, ground: Ground::Held, ..World::default() }
-            }
-        };
-        let timeout = call.positive_if(first + 3, "a timeout")?;
-        let seed = call.count(first + 1, "a seed")? as u64;
-        let budget = call.count(first + 2, "a budget")? as u64;
-        let collisions = match call.word(first + 4) {
-            Some("none") => Collisions::None,
-            Some("detection") => Collisions::Detection,
-            Some("avoidance") => Collisions::Avoidance,
-            _ => Collisions::Motion,
-        };
-        if world.gravity > 0.0 && collisions != Collisions::Motion {
+    /// Checks what only some combinations allow.
+    fn checked(self, call: &Call) -> Eval<Options> {
+        if self.world.gravity > 0.0 && self.collisions != Collisions::Motion {
             let why = "the paper's own method knows no weight: leave out `gravity` or `collisions`";
-            return Err(call.refuse(first, why));
+            return Err(call.refuse("gravity", why));
         }
-        Ok(Options { world, seed, budget, timeout, collisions })
+        Ok(self)
     }
 
     fn settings(&self, interpreter: &Interpreter) -> Settings {
@@ -83,6 +114,19 @@ impl Options {
         let threads = interpreter.options.threads.max(1);
         Settings { seed, budget, collisions, threads, ..Settings::default() }
     }
+}
+
+/// The world that `gravity` asks for: with gravity the base is held.
+fn world(call: &Call, gravity: WordOr<Gravity, f64>) -> Eval<World> {
+    let gravity = match gravity {
+        WordOr::Word(Gravity::Off) => return Ok(World::FREE),
+        WordOr::Word(Gravity::On) => World::default().gravity,
+        WordOr::Value(gravity) => gravity,
+    };
+    if gravity < 0.0 {
+        return Err(call.refuse("gravity", "gravity acts downwards, so it can't be negative"));
+    }
+    Ok(World { gravity, ground: Ground::Held, ..World::default() })
 }
 
 /// Shows progress to the user, and ends a search at the timeout or when the user cancels the run.
@@ -122,17 +166,23 @@ impl Progress for Observer {
 
 /// A robot among the arguments.
 struct Subject {
-    index: usize,
+    /// The parameter.
+    parameter: &'static str,
     design: Rc<Design>,
     robot: Rc<Robot>,
 }
 
 impl Subject {
     /// `None` where the robot is not sound.
-    fn of(interpreter: &mut Interpreter, call: &Call, index: usize) -> Eval<Option<Subject>> {
-        let design = call.instance(index)?.design.clone();
-        let robot = interpreter.robot_at(&design, call.at(index))?;
-        Ok(robot.map(|robot| Subject { index, design, robot }))
+    fn of(
+        interpreter: &mut Interpreter,
+        call: &Call,
+        parameter: &'static str,
+        instance: &Instance,
+    ) -> Eval<Option<Subject>> {
+        let design = instance.design.clone();
+        let robot = interpreter.robot_at(&design, call.at(parameter))?;
+        Ok(robot.map(|robot| Subject { parameter, design, robot }))
     }
 
     fn configuration(&self) -> reconfigure::Configuration<'_> {
@@ -141,8 +191,17 @@ impl Subject {
 }
 
 fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let options = Options::of(call, 1)?;
-    let Some(subject) = Subject::of(interpreter, call, 0)? else { return Ok(Value::Unknown) };
+    let TosnakeArguments { robot, gravity, seed, budget, timeout, collisions } =
+        TosnakeArguments::read(call)?;
+    let options = Options {
+        world: world(call, gravity)?,
+        seed: seed as u64,
+        budget: budget as u64,
+        timeout: timeout.map(|Positive(seconds)| seconds),
+        collisions,
+    }
+    .checked(call)?;
+    let Some(subject) = Subject::of(interpreter, call, "robot", robot)? else { return Ok(Value::Unknown) };
     let causes = interpreter.planner_causes(call.span);
     let settings = options.settings(interpreter);
     let mut observer = Observer::new(interpreter, &options);
@@ -163,13 +222,22 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let options = Options::of(call, 2)?;
-    let (from, to) = (call.instance(0)?.design.clone(), call.instance(1)?.design.clone());
-    if from.module_count() != to.module_count() {
-        return Err(module_counts_differ(call, from.module_count(), to.module_count()));
+    let ReconfigureArguments { from, to, gravity, seed, budget, timeout, collisions } =
+        ReconfigureArguments::read(call)?;
+    let options = Options {
+        world: world(call, gravity)?,
+        seed: seed as u64,
+        budget: budget as u64,
+        timeout: timeout.map(|Positive(seconds)| seconds),
+        collisions,
     }
-    let Some(from) = Subject::of(interpreter, call, 0)? else { return Ok(Value::Unknown) };
-    let Some(to) = Subject::of(interpreter, call, 1)? else { return Ok(Value::Unknown) };
+    .checked(call)?;
+    let counts = [from, to].map(|instance| instance.design.module_count());
+    if counts[0] != counts[1] {
+        return Err(module_counts_differ(call, counts[0], counts[1]));
+    }
+    let Some(from) = Subject::of(interpreter, call, "from", from)? else { return Ok(Value::Unknown) };
+    let Some(to) = Subject::of(interpreter, call, "to", to)? else { return Ok(Value::Unknown) };
     let causes = interpreter.planner_causes(call.span);
     let judge = interpreter.judge_settings();
     let settings = reconfigure::Settings { search: options.settings(interpreter), judge };
@@ -202,8 +270,8 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
 fn module_counts_differ(call: &Call, from: usize, to: usize) -> Stop {
     let message = reconfigure::Refusal::ModuleCount { from, to }.to_string();
     Diagnostic::error(code::NO_WAY, message)
-        .label(call.at(1), format!("{to} modules"))
-        .label(call.at(0), format!("{from} modules"))
+        .label(call.at("to"), format!("{to} modules"))
+        .label(call.at("from"), format!("{from} modules"))
         .hint("modules are neither added nor taken away")
         .into()
 }
@@ -216,7 +284,7 @@ fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
             fault(code::NOT_COVERED, call.span, message, "some modules lie in it the other way round")
         }
         reconfigure::Refusal::NotHeldAlike { .. } => Diagnostic::error(code::NO_WAY, message)
-            .label(call.at(1), "one module is held all the time")
+            .label(call.at("to"), "one module is held all the time")
             .hint("another `seed`, or another `base` of the first robot, may do")
             .into(),
         reconfigure::Refusal::ModuleCount { from, to } => module_counts_differ(call, *from, *to),
@@ -271,7 +339,7 @@ fn refused(
     causes: &PlanCauses,
     refusal: &Refusal,
 ) -> Stop {
-    let (robot, at) = (&subject.robot, call.at(subject.index));
+    let (robot, at) = (&subject.robot, call.at(subject.parameter));
     let ended = |what: &str, status: &SearchStatus, hint: &str| fell_short(at, what, status, hint);
     match refusal {
         Refusal::Stopped(_) if interpreter.stage.cancelled() => Stop::Halt,
