@@ -1,41 +1,65 @@
-//! Infinitesimal rigidity of trusses: which motions of the nodes change no strut's length, to first
-//! order (Maxwell, Calladine). The rigidity matrix has one row a strut and three columns a node.
+//! Infinitesimal rigidity of trusses: the motions of the nodes that change no strut's length to first order, and
+//! the self-stresses (Maxwell 1864, Calladine 1978). Both are null spaces of the rigidity matrix, the Jacobian of
+//! half the squared lengths, with one row for each strut and three columns for each node.
 
 use super::truss_band;
 use crate::geometry::Vec3;
 use nalgebra::{DMatrix, DVector};
 
-/// Singular values below this part of the largest count as zero: far above rounding, far below the
-/// stiffness of any truss that is worth building.
-const SINGULAR: f64 = 1e-9;
-/// The part of the largest component below which a component counts as no motion.
-const STILL: f64 = 1e-6;
-/// A strut carries a self-stress if this much of its row lies in the span of the others.
-const REDUNDANT: f64 = 1e-9;
 /// The number of nodes above which the banded decomposition is tried first: a dense one takes the cube of it.
 const NODES_DENSE: usize = 60;
+
+/// Tolerances of the examination of rigidity, all relative and without unit.
+pub(super) struct RigidityTolerances {
+    /// Singular values at most this part of the largest count as zero. 1e-9: far above rounding, far below the
+    /// stiffness of any truss that is worth building.
+    pub singular: f64,
+    /// Displacements at most this part of the largest count as none, and vectors of which others leave at most this
+    /// part count as dependent. 1e-6: between rounding and the motions of nodes that do move.
+    pub displacement: f64,
+    /// A strut carries a self-stress if more than this part of its row lies in the span of the others. 1e-9: far
+    /// above rounding.
+    pub redundant: f64,
+    /// The least singular value, as a part of the largest, above which a truss is clearly rigid, so that the banded
+    /// decomposition decides. 1e-7: the square root of what counts as zero would be 3e-5, and rounding is 1e-16.
+    pub clearly_rigid: f64,
+    /// An iteration has converged when its value changes by at most this part. 1e-11: below what is shown.
+    pub converged: f64,
+    /// Nodes nearer to a line than this part of its length lie on it. 1e-6: far above rounding.
+    pub on_line: f64,
+}
+
+/// The tolerances in use.
+pub(super) const TOLERANCES: RigidityTolerances = RigidityTolerances {
+    singular: 1e-9,
+    displacement: 1e-6,
+    redundant: 1e-9,
+    clearly_rigid: 1e-7,
+    converged: 1e-11,
+    on_line: 1e-6,
+};
 
 /// Infinitesimal rigidity of a truss.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rigidity {
-    /// Rank of the rigidity matrix.
+    /// The rank of the rigidity matrix.
     pub rank: usize,
     /// The rank that a rigid truss of these nodes has: 3n - 6, less for nodes on a line.
     pub rank_rigid: usize,
-    /// Independent states of stress without load.
+    /// The dimension of the space of self-stresses, the states of stress without load.
     pub self_stresses: usize,
     /// The least singular value that is not zero, for a truss of mean strut length 1.
     pub weakest: f64,
     /// Struts without any one of which the rank stays.
     pub redundant: Vec<usize>,
-    /// Free motions but those of the whole.
+    /// A basis of the infinitesimal mechanisms, the motions that change no length; rigid motions are left out.
     pub free: Vec<FreeMotion>,
 }
 
-/// A free motion, scaled so that the largest displacement is 1.
+/// An infinitesimal mechanism, scaled so that the largest displacement is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
-    /// Nodes that move, with their displacements.
+    /// The nodes that move, with their displacements.
     pub nodes: Vec<(usize, Vec3)>,
 }
 
@@ -61,10 +85,11 @@ pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
             free: Vec::new(),
         };
     }
+    // Decompose the matrix; small singular values count as zero.
     let matrix = rigidity_matrix(nodes, struts);
     let svd = matrix.svd(true, true);
     let largest = svd.singular_values.max();
-    let is_zero = |s: f64| s <= largest * SINGULAR;
+    let is_zero = |s: f64| s <= largest * TOLERANCES.singular;
     let kept: Vec<usize> =
         (0..svd.singular_values.len()).filter(|&i| !is_zero(svd.singular_values[i])).collect();
     let u = svd.u.as_ref().expect("asked for");
@@ -81,7 +106,7 @@ pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
         rank_rigid: 3 * nodes.len() - rigid.len(),
         self_stresses: struts.len() - kept.len(),
         weakest: kept.iter().map(|&i| svd.singular_values[i]).fold(f64::INFINITY, f64::min),
-        redundant: (0..struts.len()).filter(|&s| leverage(s) < 1.0 - REDUNDANT).collect(),
+        redundant: (0..struts.len()).filter(|&s| leverage(s) < 1.0 - TOLERANCES.redundant).collect(),
         free: free.iter().map(free_motion).collect(),
     }
 }
@@ -128,7 +153,7 @@ pub(super) fn orthonormal(vectors: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
                 rest.axpy(-along, b, 1.0);
             }
         }
-        if rest.norm() > length * STILL {
+        if rest.norm() > length * TOLERANCES.displacement {
             basis.push(rest.normalize());
         }
     }
@@ -175,6 +200,6 @@ fn free_motion(motion: &DVector<f64>) -> FreeMotion {
     let at = |node: usize| Vec3::new(motion[3 * node], motion[3 * node + 1], motion[3 * node + 2]);
     let count = motion.len() / 3;
     let largest = (0..count).map(|n| at(n).norm()).fold(0.0, f64::max);
-    let moving = (0..count).filter(|&n| at(n).norm() > largest * STILL);
+    let moving = (0..count).filter(|&n| at(n).norm() > largest * TOLERANCES.displacement);
     FreeMotion { nodes: moving.map(|n| (n, at(n) / largest)).collect() }
 }

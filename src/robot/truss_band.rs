@@ -1,31 +1,22 @@
 //! Rigidity of trusses of many nodes, by a banded QR decomposition of the rigidity matrix.
 //!
-//! Nodes are numbered in the order of Cuthill and McKee, so that the rows of the rigidity matrix keep to a band, and
+//! Nodes are numbered in Cuthill-McKee order, so that the rows of the rigidity matrix keep to a band, and
 //! Givens rotations make it triangular there. Unlike normal equations that does not square its condition, and the time
 //! grows with the nodes times the square of the band's width.
 
-use super::truss::{orthonormal, rigid_motions};
+use super::truss::{TOLERANCES, orthonormal, rigid_motions};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::cuthill_mckee;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// The least singular value, as a part of the largest, above which a truss is clearly rigid: the square root of what
-/// counts as zero would be 3e-5, and rounding is 1e-16.
-const CLEARLY_RIGID: f64 = 1e-7;
-/// A strut carries a self-stress if this much of its row lies in the span of the others.
-const REDUNDANT: f64 = 1e-9;
 /// Iterations for the least singular value at most.
 const ITERATIONS_MAX: usize = 300;
 /// Dimension of the subspace that is iterated towards the weakest directions.
 const SUBSPACE: usize = 8;
-/// An iteration has converged when its value changes by less than this part.
-const CONVERGED: f64 = 1e-11;
-/// The number of iterations in a row in which it must.
+/// The number of iterations in a row whose change must be within the tolerance for convergence.
 const CONVERGED_TIMES: usize = 4;
-/// Nodes nearer to a line than this part of its length lie on it.
-const ON_LINE: f64 = 1e-6;
 
 /// Rigidity of a truss that is clearly rigid.
 pub(super) struct RigidityReport {
@@ -37,7 +28,7 @@ pub(super) struct RigidityReport {
 
 /// Examines a truss with nodes at these places (m); `None` where it is not rigid, or not clearly.
 pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<RigidityReport> {
-    let order = order(nodes.len(), struts);
+    let order = cuthill_mckee_order(nodes.len(), struts);
     let mut place = vec![0; nodes.len()];
     order.iter().enumerate().for_each(|(at, &node)| place[node] = at);
     let nodes: Vec<Vec3> = order.iter().map(|&node| nodes[node]).collect();
@@ -59,21 +50,21 @@ pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<Rigid
     }
     let whole = rigid_motions(&nodes);
     let weakest = least_singular_value(&band, &rows, &whole)?;
-    if weakest <= CLEARLY_RIGID * largest_singular_value(&rows, 3 * nodes.len()) {
+    if weakest <= TOLERANCES.clearly_rigid * largest_singular_value(&rows, 3 * nodes.len()) {
         return None;
     }
     // With as many struts as there are ways to move, each is needed.
     let spare = struts.len() + whole.len() > 3 * nodes.len();
     let needed = |row: &Row| {
         interrupt::checkpoint();
-        band.leverage(row) >= 1.0 - REDUNDANT
+        band.leverage(row) >= 1.0 - TOLERANCES.redundant
     };
     let redundant = if spare { (0..rows.len()).filter(|&s| !needed(&rows[s])).collect() } else { Vec::new() };
     Some(RigidityReport { weakest, redundant })
 }
 
-/// Returns the nodes in the order of Cuthill and McKee, from a node at an end of the truss.
-fn order(count: usize, struts: &[(usize, usize)]) -> Vec<usize> {
+/// Returns the nodes in Cuthill-McKee order, breadth first from a node at an end of the truss.
+fn cuthill_mckee_order(count: usize, struts: &[(usize, usize)]) -> Vec<usize> {
     let neighbours = cuthill_mckee::neighbours(count, struts.iter().copied());
     let from = |start: usize| {
         let mut order = Vec::with_capacity(count);
@@ -100,7 +91,7 @@ fn pinning_rows(nodes: &[Vec3]) -> Option<Vec<Row>> {
     let along = nodes[b] - first;
     let c = far(&|p| along.cross(&(p - first)).norm())?;
     let normal = along.cross(&(nodes[c] - first));
-    if normal.norm() <= along.norm_squared() * ON_LINE {
+    if normal.norm() <= along.norm_squared() * TOLERANCES.on_line {
         return None;
     }
     let normal = normal.normalize();
@@ -303,7 +294,7 @@ fn converged(step: &mut dyn FnMut() -> f64) -> Option<f64> {
         if !value.is_finite() {
             return None;
         }
-        times = if (value - before).abs() <= value * CONVERGED { times + 1 } else { 0 };
+        times = if (value - before).abs() <= value * TOLERANCES.converged { times + 1 } else { 0 };
         if times >= CONVERGED_TIMES {
             return Some(value);
         }

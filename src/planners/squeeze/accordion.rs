@@ -81,8 +81,8 @@ impl Array {
         (if column.is_multiple_of(2) { k } else { self.height - 1 - k }) as i64
     }
 
-    /// Place in the walk over all rows, to and fro. It turns at the left where the lengths change: at
-    /// the left all rows begin.
+    /// Returns the place of a cell in the boustrophedon order over all rows. It turns at the left where the row
+    /// lengths change, because all rows begin there.
     fn index(self, i: u64) -> i64 {
         let (x, y) = (self.column(i) as u64, self.level(i) as u64);
         let (before, from) = (self.change * self.lengths[0], y.saturating_sub(self.change));
@@ -94,7 +94,7 @@ impl Array {
         (start + if right { x } else { length - 1 - x }) as i64
     }
 
-    /// Domains on which column and level are affine.
+    /// Returns domains on which column and level are affine.
     fn columns_in_turn(self) -> Vec<Domain> {
         let full = self.count / self.height;
         let step = 2 * self.height as i64;
@@ -109,7 +109,7 @@ impl Array {
         .collect()
     }
 
-    /// Domains on which the index is affine as well.
+    /// Returns domains on which the index is affine as well.
     fn rows_in_turn(self) -> Vec<Domain> {
         let mut domains = Vec::new();
         let regions = [(0, self.change, self.lengths[0]), (self.change, self.height, self.lengths[1])];

@@ -75,8 +75,8 @@ impl Arms {
         }
     }
 
-    /// The middle where it is, the arms where `place` says: of a left one, by its level and the place at
-    /// which the arm begins.
+    /// Returns the state of a cell: the middle stays, and an arm's cell is at `place` of its level and the x at
+    /// which the arm begins, mirrored on the right.
     fn state(self, i: u64, place: impl Fn(i64, i64) -> ([i64; 2], [i64; 2])) -> CellState {
         let Part { level, side } = self.part(i);
         let middle = if self.is_odd() { 0 } else { HALF };
@@ -84,14 +84,14 @@ impl Arms {
         CellState { center: [-side * x, y, HALF], size: [w, h, WHOLE] }
     }
 
-    /// Two columns of half the width; a lone cell in the middle stays whole.
+    /// Returns the state in two columns of half the width; a lone cell in the middle stays whole.
     fn squeezed(self, i: u64) -> CellState {
         let Part { level, side } = self.part(i);
         let width = if side == 0 { WHOLE } else { HALF };
         CellState { center: [side * QUARTER, WHOLE * level, HALF], size: [width, WHOLE, WHOLE] }
     }
 
-    /// In every level one cell goes up and the other down, in the next the other way round.
+    /// Returns the state in which of every level one cell is up and the other down, in the next the reverse.
     fn contracted(self, i: u64) -> CellState {
         let Part { level, side } = self.part(i);
         let mut state = self.squeezed(i);
@@ -106,14 +106,14 @@ impl Arms {
         (level % 2 == 0) == (side > 0)
     }
 
-    /// In the column.
+    /// Returns the place of a cell in the column.
     fn place(self, i: u64) -> i64 {
         let Part { level, side } = self.part(i);
         let lone = i64::from(self.is_odd());
         if side == 0 { 0 } else { 2 * level - lone + i64::from(self.is_up(level, side)) }
     }
 
-    /// On each of them all places are affine: the middle, and every second cell of each arm.
+    /// Returns domains on which all states are affine: the middle, and every second cell of each arm.
     fn domains(self) -> Vec<Domain> {
         let arm = (self.count - 1) / 2;
         let middle = arm..self.count - arm;

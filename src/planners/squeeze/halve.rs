@@ -27,7 +27,7 @@ pub fn halve(limits: PlanLimits, from: [u64; 3], to: [u64; 3]) -> Option<Result<
     Some(motion.into_motion(limits, &numbers))
 }
 
-/// Which side is halved and which doubled, the longest and the shortest first.
+/// Returns the sides halved and doubled in each fold, the longest and the shortest first.
 fn folds(from: [u64; 3], to: [u64; 3]) -> Option<Vec<(usize, usize)>> {
     let (mut sides, mut folds) = (from, Vec::new());
     let powers = (0..3).all(|k| {
@@ -47,7 +47,7 @@ fn folds(from: [u64; 3], to: [u64; 3]) -> Option<Vec<(usize, usize)>> {
     Some(folds)
 }
 
-/// Side `a` is halved, side `b` doubled; what is along the third goes along.
+/// Appends a fold that halves side `a` and doubles side `b` (Lemma 4); the third side stays.
 fn fold(motion: &mut Listed, places: &mut [[i64; 3]], a: usize, b: usize) {
     // Neighbouring boxes swap in opposite senses, so that they stay in contact over faces.
     let up = |place: [i64; 3]| (place[a] + (place[a] >> 1) + place[b]) & 1;

@@ -1,5 +1,5 @@
-//! Melt: any connected set of cells, in space too, to a row, through itself; grown backwards it is a way
-//! to any other. After the idea of Rus and Vona's planner for Crystalline robots, for single cells.
+//! Melt: any connected set of cells, in space too, to a row, through itself; reversed it grows a row to any
+//! other set. After the idea of Rus and Vona's planner for Crystalline robots, for single cells.
 //!
 //! The cells fill the boxes of a tree. Two cells of half a size fill a box as well as one: so a leaf can
 //! slip into the box of its parent, and the cell that is then too many can pass from box to box down to
@@ -17,11 +17,14 @@ use std::collections::{BTreeMap, BTreeSet};
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 const X: usize = 0;
-/// Of each axis, when a pair swaps to be split along it.
+/// Stage names by axis: of a pair that swaps to be split along it, and of passes.
 const CONTRACT: [&str; 3] = ["swap x-contract", "swap y-contract", "swap z-contract"];
 const PASS: [&str; 3] = ["x-pass", "y-pass", "z-pass"];
 
-/// From a connected set to a row along x, in which cell `name(i)` is at `i`.
+/// Returns the motion from a connected set of cells to a row along x, in which cell `name(i)` is at `i`.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if cells do not melt.
 pub fn melt(limits: PlanLimits, places: &[[i64; 3]], name: impl Fn(u64) -> u64) -> Result<Motion, Refusal> {
     let start = places.iter().map(|place| CellState::whole(*place)).collect();
     let mut motion = Listed::new(start);
@@ -56,7 +59,7 @@ struct Node {
     children: usize,
     /// One, or two, the lower first.
     cells: Vec<usize>,
-    /// Along which axis two cells are split.
+    /// The axis along which two cells are split.
     split: usize,
 }
 
@@ -76,7 +79,8 @@ fn moved(place: Place, axis: usize, step: i64) -> Place {
 }
 
 impl Tree {
-    /// A tree of all places, rooted at the one farthest along x, with few corners on the ways there.
+    /// Returns a spanning tree of all places, rooted at the one farthest along x, whose paths to the root have the
+    /// fewest corners (Dijkstra).
     fn of(places: &[Place]) -> Tree {
         let index: BTreeMap<Place, usize> = places.iter().enumerate().map(|(i, p)| (*p, i)).collect();
         let root = places.iter().copied().max_by_key(|p| p[X]).unwrap_or_default();
@@ -106,7 +110,7 @@ impl Tree {
         Tree { boxes, order, root, row: vec![] }
     }
 
-    /// Swaps and passes along one axis; whether anything moved.
+    /// Appends swaps and passes along one axis; returns true if anything moved.
     fn round(&mut self, motion: &mut Listed, axis: usize) -> bool {
         crate::interrupt::progress_checkpoint(|| format!("{} cells are left to melt", self.boxes.len()));
         let swapped = self.swap(motion, axis);
@@ -114,7 +118,7 @@ impl Tree {
         swapped || passed
     }
 
-    /// Splits pairs along the axis that have to go on along it.
+    /// Appends a swap (Lemma 3) of the pairs that have to go on along an axis, so that they are split along it.
     fn swap(&mut self, motion: &mut Listed, axis: usize) -> bool {
         let turning: Vec<Place> = self
             .boxes
@@ -156,7 +160,7 @@ impl Tree {
         true
     }
 
-    /// Lets leaves and halves go on along an axis, each as far as boxes in line have room.
+    /// Appends a pass of leaves and halves along an axis, each as far as boxes in line have room.
     fn pass(&mut self, motion: &mut Listed, axis: usize) -> bool {
         let mut used: BTreeSet<Place> = BTreeSet::new();
         let mut goals: BTreeMap<usize, CellState> = BTreeMap::new();
@@ -178,8 +182,8 @@ impl Tree {
         true
     }
 
-    /// The boxes that what is too many in a box (or a leaf) can go through along an axis, itself first,
-    /// up to the last that takes it in. `None`: it can't move.
+    /// Returns the line of boxes that the surplus of a box (or a leaf) can pass through along an axis, itself first,
+    /// up to the last, which takes it in; `None` if it can't move.
     fn line(&self, place: Place, axis: usize, used: &BTreeSet<Place>) -> Option<Vec<Place>> {
         let from = self.boxes.get(&place)?;
         let leaf = from.children == 0 && from.cells.len() == 1 && place != self.root;
@@ -202,7 +206,7 @@ impl Tree {
         (line.len() > 1 || place == self.root).then_some(line)
     }
 
-    /// Moves the cells of a line of boxes on by one, out to the row if it leads there.
+    /// Moves the cells of a line of boxes on by one place, out to the row if it leads there.
     fn advance(&mut self, line: &[Place], goals: &mut BTreeMap<usize, CellState>) {
         let (first, last) = (line[0], line[line.len() - 1]);
         let Some((axis, step, leaf)) = self.boxes.get(&first).map(|b| (b.axis, b.step, b.cells.len() == 1))

@@ -33,10 +33,10 @@ pub fn to_row(limits: PlanLimits, places: &[[i64; 2]], name: impl Fn(u64) -> u64
     motion.into_motion(limits, &number)
 }
 
-/// The cells of each column, lowest first, by column and row.
+/// The cells of each stack, lowest first, by column and row.
 type Stacks = BTreeMap<(i64, i64), Vec<usize>>;
 
-/// Where a cell is while two rows of stacks become one.
+/// The role of a cell while two rows of stacks merge.
 #[derive(Clone, Copy)]
 struct Merging {
     level: i64,
@@ -50,6 +50,7 @@ struct Merging {
     place: i64,
 }
 
+/// Appends the stages that merge all rows into one row of stacks (log₂ of the number of rows rounds).
 fn merge(motion: &mut Listed, places: &[[i64; 2]]) -> Stacks {
     let mut stacks = Stacks::new();
     for (cell, p) in places.iter().enumerate() {
@@ -104,7 +105,7 @@ fn merge(motion: &mut Listed, places: &[[i64; 2]]) -> Stacks {
     stacks
 }
 
-/// What becomes of each cell where rows merge two by two, and the stacks that come of it.
+/// Returns the role of each cell where rows merge two by two, and the merged stacks.
 fn paired(stacks: &Stacks, count: usize) -> (Vec<Merging>, Stacks) {
     let nothing = Merging { level: 0, paired: false, below: false, row: 0, place: 0 };
     let mut merging = vec![nothing; count];
@@ -135,7 +136,7 @@ fn paired(stacks: &Stacks, count: usize) -> (Vec<Merging>, Stacks) {
     (merging, merged)
 }
 
-/// From one row of stacks to a row along x. Returns the number of each cell in it.
+/// Appends the stages from one row of stacks to a row along x; returns the number of each cell in it.
 fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
     /// A cell's part in the hairpin of its column.
     #[derive(Clone, Copy, Default)]

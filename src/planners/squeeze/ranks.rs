@@ -1,4 +1,4 @@
-//! The column at the end of the last fold: how many cells are below each, in closed form.
+//! Ranks of cells in the column at the end of the last fold, in closed form.
 //!
 //! With all bits folded, a cell's row is a number of as many bits; where the count is no power of two,
 //! some rows are empty, and a cell's place is the number of cells in rows below its own.
@@ -6,7 +6,8 @@
 use super::domain::{Domain, by_bits};
 use std::collections::{BTreeMap, HashMap};
 
-/// Places in the column, and domains on which they (and all that is affine in bits) are affine.
+/// Returns domains on which the places in the column (and all that is affine in bits) are affine, and the place of
+/// each cell.
 pub fn of(count: u64, folds: u32) -> (Vec<Domain>, impl Fn(u64) -> i64) {
     let mut places = vec![0_i64; count as usize];
     let rows = (0..1 << folds).map(|row| cell_of(row, folds)).filter(|&cell| cell < count);
@@ -16,7 +17,7 @@ pub fn of(count: u64, folds: u32) -> (Vec<Domain>, impl Fn(u64) -> i64) {
     (domains, move |i| places[i as usize])
 }
 
-/// The cell that `folds` folds bring to a row: that of `fold::row`, backwards.
+/// Returns the cell that `folds` folds bring to a row: the inverse of `fold::row`.
 fn cell_of(row: u64, folds: u32) -> u64 {
     let first = row & 1;
     let differing = (row.reverse_bits() >> (u64::BITS - folds)) << 1;
@@ -58,8 +59,8 @@ fn parts(places: &[i64], folds: u32, lone: u64) -> Vec<Domain> {
     domains
 }
 
-/// Runs of the cells `first + Σ bits`, bits in rising order: those of the halves without the highest
-/// bit, joined where they differ by a constant. On the lowest `free` bits places are affine.
+/// Returns runs of the cells `first + Σ bits`, bits in rising order: the runs of the two halves by the highest bit,
+/// merged where they differ by a constant. On the lowest `free` bits places are affine.
 fn merged(places: &[i64], first: u64, bits: &[u64], free: usize) -> Vec<Run> {
     let difference = |first: u64, bit: u64| places[(first + bit) as usize] - places[first as usize];
     let Some((&bit, lower)) = bits.split_last().filter(|_| bits.len() > free) else {
@@ -94,8 +95,7 @@ fn merged(places: &[i64], first: u64, bits: &[u64], free: usize) -> Vec<Run> {
     joined
 }
 
-/// Joins runs of the same form by twos, as long as there are any: two of a form are always an affine
-/// image of each other.
+/// Pairs runs of the same form as long as there are any: two of a form are always affine images of each other.
 fn paired(mut runs: Vec<Run>, places: &[i64]) -> Vec<Run> {
     loop {
         let before = runs.len();

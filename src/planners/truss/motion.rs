@@ -1,4 +1,4 @@
-//! The plan of a truss: a sequence of linear steps and rolls, retimed to the speed of the struts.
+//! The trajectory of a truss: a sequence of linear steps and rolls, timed by the speed of the struts.
 
 use super::margins::margins;
 use super::problem::TrussProblem;
