@@ -8,16 +8,18 @@
 //! use modl::planners::{NoProgress, locomote};
 //! use modl::robot::Strut;
 //!
-//! // A regular tetrahedron with edges of one metre.
-//! let (a, b) = (3f64.sqrt() / 2.0, (2f64 / 3.0).sqrt());
-//! let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, a, 0.0], [0.5, a / 3.0, b]].map(Vec3::from);
+//! // A regular octahedron with edges of √2 m.
+//! let along = |axis: Vec3| [axis, -axis];
+//! let nodes = [along(Vec3::x()), along(Vec3::y()), along(Vec3::z())].concat();
+//! let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
+//! let struts: Vec<(usize, usize)> = pairs.filter(|(i, j)| i / 2 != j / 2).collect();
 //! let name = "Actuator".to_owned();
 //! let strut = Strut { name, length: (0.3, 3.0), speed: 1.0, force: 1.0, mass: 1.0, clearance: 0.05 };
 //! let truss = TrussProblem {
 //!     strut,
-//!     node_names: (0..4).map(|i| format!("n[{i}]")).collect(),
-//!     nodes: nodes.to_vec(),
-//!     struts: vec![(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (2, 3)],
+//!     node_names: (0..6).map(|i| format!("n[{i}]")).collect(),
+//!     nodes,
+//!     struts,
 //!     limits: Limits::default(),
 //!     obstacles: Vec::new(),
 //!     terrain: None,
