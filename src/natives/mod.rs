@@ -24,7 +24,6 @@ mod show;
 pub mod squeeze;
 pub mod tosnake;
 pub mod truss;
-mod truss_around;
 mod truss_limits;
 
 use crate::interpret::interpreter::Interpreter;
@@ -75,7 +74,10 @@ const SUBJECTS: &[Subject] = &[
         natives: refold::TABLE,
         records: || vec![("Refolding", <crate::planners::refold::Report as ReportFields>::names())],
     },
-    Subject { natives: squeeze::TABLE, records: || vec![("Squeezing", squeeze::Squeezed::names())] },
+    Subject {
+        natives: squeeze::TABLE,
+        records: || vec![("Squeezing", crate::planners::squeeze::Report::names())],
+    },
     Subject {
         natives: tosnake::TABLE,
         records: || vec![("Unwinding", <crate::planners::tosnake::Report as ReportFields>::names())],

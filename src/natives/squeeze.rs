@@ -1,8 +1,8 @@
 //! `squeeze`: the planner of lattices, as it is called.
 
-use super::{Native, on_run};
-use crate::interpret::design::LatticeDesign;
-use crate::interpret::design::{Design, DesignKind};
+use super::Native;
+use crate::interpret::argument::{Choice, Positive, arguments};
+use crate::interpret::design::{Design, DesignKind, Instance, LatticeDesign};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
@@ -20,53 +20,70 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("squeeze", 7, squeeze)];
+pub const TABLE: &[Native] = &[Native::on_run("squeeze", SqueezeArguments::PARAMETERS, squeeze)];
 
-/// The report of `squeeze`.
-pub type Squeezed = Report;
+arguments! {
+    /// The arguments of `squeeze`.
+    struct SqueezeArguments<'c> {
+        from: &'c Rc<Instance>,
+        to: &'c Rc<Instance>,
+        method: Method,
+        model: ModelChoice,
+        max_force: Option<Positive> as "the greatest contact force",
+        profile: Profile,
+        norm: Norm,
+    }
+}
+
+impl Choice for Method {
+    const WORDS: &'static [(&'static str, Method)] = &[
+        ("auto", Method::Auto),
+        ("accordion", Method::Accordion),
+        ("fold", Method::Fold),
+        ("shear", Method::Shear),
+        ("arms", Method::Arms),
+        ("merge", Method::Merge),
+        ("melt", Method::Melt),
+    ];
+}
+
+impl Choice for ModelChoice {
+    const WORDS: &'static [(&'static str, ModelChoice)] =
+        &[("auto", ModelChoice::Auto), ("balanced", ModelChoice::Balanced), ("paper", ModelChoice::Paper)];
+}
+
+impl Choice for Profile {
+    const WORDS: &'static [(&'static str, Profile)] =
+        &[("bang_bang", Profile::BangBang), ("trapezoid", Profile::Trapezoid)];
+}
+
+impl Choice for Norm {
+    const WORDS: &'static [(&'static str, Norm)] =
+        &[("each_axis", Norm::EachAxis), ("euclidean", Norm::Euclidean)];
+}
 
 fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = call.instance(0)?.design.clone();
-    let goal = call.instance(1)?.design.clone();
+    let SqueezeArguments { from, to, method, model, max_force, profile, norm } =
+        SqueezeArguments::read(call)?;
+    let (design, goal) = (from.design.clone(), to.design.clone());
     let (Some((start, cell)), Some((end, other))) = (lattice(&design), lattice(&goal)) else {
         return Ok(Value::Unknown);
     };
     if cell != other {
         let message = format!("cells do not change into others: `{}` and `{}`", cell.name, other.name);
         return Err(Diagnostic::error(code::NO_WAY, message)
-            .label(call.at(0), format!("of {}", cell.name))
-            .label(call.at(1), format!("of {}", other.name))
+            .label(call.at("from"), format!("of {}", cell.name))
+            .label(call.at("to"), format!("of {}", other.name))
             .into());
     }
     let problem =
         Problem { cell: cell.clone(), start: start.cells.places.clone(), goal: end.cells.places.clone() };
-    let settings = Settings {
-        method: method(call),
-        model: match call.word(3) {
-            Some("balanced") => ModelChoice::Balanced,
-            Some("paper") => ModelChoice::Paper,
-            _ => ModelChoice::Auto,
-        },
-        profile: if call.word(5) == Some("trapezoid") { Profile::Trapezoid } else { Profile::BangBang },
-        max_force: call.positive_if(4, "the greatest contact force")?,
-        norm: if call.word(6) == Some("euclidean") { Norm::Euclidean } else { Norm::EachAxis },
-    };
+    let max_force = max_force.map(|force| force.0);
+    let settings = Settings { method, model, profile, max_force, norm };
     crate::interrupt::start_task(format!("squeezing {} to {}", design.name, goal.name));
     let solution = squeeze::plan(&problem, &settings, &mut RequestedProgress)
         .map_err(|refusal| refused(&refusal, call))?;
     Ok(planned(interpreter, call, design, problem.cell, solution))
-}
-
-fn method(call: &Call) -> Method {
-    match call.word(2) {
-        Some("accordion") => Method::Accordion,
-        Some("fold") => Method::Fold,
-        Some("shear") => Method::Shear,
-        Some("arms") => Method::Arms,
-        Some("merge") => Method::Merge,
-        Some("melt") => Method::Melt,
-        _ => Method::Auto,
-    }
 }
 
 fn lattice(design: &Design) -> Option<(&LatticeDesign, &Cell)> {
@@ -95,30 +112,30 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
     let cells = |n: usize| if n == 1 { "1 cell".to_string() } else { format!("{n} cells") };
     match refusal {
         Refusal::Counts { from, to } => Diagnostic::error(code::NO_WAY, refusal.to_string())
-            .label(call.at(0), cells(*from))
-            .label(call.at(1), cells(*to))
+            .label(call.at("from"), cells(*from))
+            .label(call.at("to"), cells(*to))
             .into(),
         Refusal::Stiff { smallest } => {
             let part = crate::units::number(smallest.to_f64());
             Diagnostic::error(code::NO_WAY, refusal.to_string())
-                .label(call.at(0), format!("these shrink to {part} of their size"))
+                .label(call.at("from"), format!("these shrink to {part} of their size"))
                 .hint("`method: accordion` keeps the size of cells: it takes rows and boxes to each other")
                 .into()
         }
         Refusal::Solid { first, .. } => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
-            .label(call.at(usize::from(!first)), "neither flat nor a box")
+            .label(call.at(if *first { "from" } else { "to" }), "neither flat nor a box")
             .hint("covered are all connected shapes in a plane, and boxes of any sides")
             .into(),
         Refusal::Method { .. } => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
-            .label(call.at(2), "this method")
-            .label(call.at(0), "from here")
-            .label(call.at(1), "to here")
+            .label(call.at("method"), "this method")
+            .label(call.at("from"), "from here")
+            .label(call.at("to"), "to here")
             .hint("`method: auto`, the default, takes the fastest that fits")
             .into(),
         Refusal::Unbalanced { .. } => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
-            .label(call.at(3), "so a free robot would be turned")
-            .label(call.at(0), "from here")
-            .label(call.at(1), "to here")
+            .label(call.at("model"), "so a free robot would be turned")
+            .label(call.at("from"), "from here")
+            .label(call.at("to"), "to here")
             .hint("`model: auto` takes one that turns little, `paper` the fastest; `p.angular_momentum` says how much")
             .into(),
         Refusal::TooLarge => {
@@ -133,8 +150,8 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
     }
 }
 
-impl ReportFields for Squeezed {
-    const FIELDS: &'static [ReportField<Squeezed>] = &[
+impl ReportFields for Report {
+    const FIELDS: &'static [ReportField<Report>] = &[
         ("lower_bound", |_, _, report| Value::time(report.lower_bound)),
         ("ratio", |_, plan, report| {
             let duration = plan.plan.body.duration();

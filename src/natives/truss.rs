@@ -1,11 +1,10 @@
 //! `morph` and `locomote`: the planners of trusses, as they are called, and what they give back.
 
-use super::truss_around::{obstacles, terrain};
-use super::truss_limits::limits;
-use super::{Native, on_run};
-use crate::geometry::Vec3;
-use crate::interpret::design::TrussDesign;
-use crate::interpret::design::{Design, DesignKind};
+use super::Native;
+use super::truss_limits::{LimitArguments, limits, obstacles};
+use crate::geometry::{HeightField, Vec3};
+use crate::interpret::argument::{Choice, Positive, arguments};
+use crate::interpret::design::{Design, DesignKind, Instance, TrussDesign};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, PlannerReport, ReportField, ReportFields};
@@ -25,7 +24,62 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-pub const TABLE: &[Native] = &[on_run("morph", 12, morph), on_run("locomote", 15, locomote)];
+pub const TABLE: &[Native] = &[
+    Native::on_run("morph", MorphArguments::PARAMETERS, morph),
+    Native::on_run("locomote", LocomoteArguments::PARAMETERS, locomote),
+];
+
+arguments! {
+    /// The arguments of `morph`.
+    struct MorphArguments<'c> {
+        truss: &'c Rc<Instance>,
+        target: &'c Value,
+        tolerance: Positive as "the tolerance",
+        budget: usize as "a number of steps",
+        orientations: usize as "a number of orientations",
+        seed: usize as "a seed",
+        angle: f64,
+        rigidity: f64,
+        failed: &'c [Value],
+        perimeters: &'c [Value],
+        timeout: Option<Positive> as "a timeout",
+        obstacles: &'c [Value],
+    }
+}
+
+arguments! {
+    /// The arguments of `locomote`.
+    struct LocomoteArguments<'c> {
+        truss: &'c Rc<Instance>,
+        path: &'c [Value],
+        objective: Objective,
+        hold: Hold,
+        fallbacks: bool,
+        budget: usize as "a budget",
+        angle: f64,
+        rigidity: f64,
+        failed: &'c [Value],
+        perimeters: &'c [Value],
+        timeout: Option<Positive> as "a timeout",
+        impact: bool,
+        obstacles: &'c [Value],
+        terrain: Option<&'c HeightField>,
+        lookahead: usize as "a number of steps",
+    }
+}
+
+impl Choice for Objective {
+    const WORDS: &'static [(&'static str, Objective)] = &[
+        ("springs", Objective::Springs),
+        ("lengths", Objective::LENGTHS),
+        ("restoring", Objective::RESTORING),
+        ("fewest", Objective::FEWEST),
+    ];
+}
+
+impl Choice for Hold {
+    const WORDS: &'static [(&'static str, Hold)] = &[("three", Hold::Three), ("all", Hold::All)];
+}
 
 impl ReportFields for morph::Report {
     const FIELDS: &'static [ReportField<morph::Report>] = &[
@@ -60,17 +114,20 @@ pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
 }
 
 fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = call.instance(0)?.design.clone();
-    let Some(truss) = problem(call, &design, None)? else { return Ok(Value::Unknown) };
-    let problem = morph::Problem { truss, target: target(call)? };
-    let timeout = call.positive_if(10, "a timeout")?;
+    let arguments = MorphArguments::read(call)?;
+    let design = arguments.truss.design.clone();
+    let MorphArguments { angle, rigidity, failed, perimeters, obstacles, .. } = arguments;
+    let limits = LimitArguments { angle, rigidity, failed, perimeters };
+    let Some(truss) = problem(call, &design, limits, obstacles, None)? else { return Ok(Value::Unknown) };
+    let problem = morph::Problem { truss, target: target(call, arguments.target)? };
     let settings = morph::Settings {
-        tolerance: call.positive(2, "the tolerance")?,
-        steps_max: call.count(3, "a number of steps")?,
-        orientations: call.count(4, "a number of orientations")?,
-        seed: call.count(5, "a seed")? as u64,
+        tolerance: arguments.tolerance.0,
+        steps_max: arguments.budget,
+        orientations: arguments.orientations,
+        seed: arguments.seed as u64,
         ..morph::Settings::default()
     };
+    let timeout = arguments.timeout.map(|seconds| seconds.0);
     interrupt::start_task(format!("morphing {}", design.name));
     let stage = interpreter.stage.clone();
     let found = morph::plan(&problem, &settings, &mut Timed(stage.until(timeout)));
@@ -99,21 +156,28 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = call.instance(0)?.design.clone();
-    let Some(truss) = problem(call, &design, Some(13))? else { return Ok(Value::Unknown) };
+    let arguments = LocomoteArguments::read(call)?;
+    let design = arguments.truss.design.clone();
+    let LocomoteArguments { angle, rigidity, failed, perimeters, obstacles, terrain, .. } = arguments;
+    let limits = LimitArguments { angle, rigidity, failed, perimeters };
+    let Some(truss) = problem(call, &design, limits, obstacles, terrain)? else { return Ok(Value::Unknown) };
     // Heights of the path mean nothing.
-    let path: Vec<[f64; 2]> = super::shape::points(call, 1)?.iter().map(|p| [p.x, p.y]).collect();
+    let place = |value: &Value| match value {
+        Value::Vec3(p, _) => Ok([p.x, p.y]),
+        _ => Err(call.refuse("path", "points are wanted")),
+    };
+    let path = arguments.path.iter().map(place).collect::<Eval<Vec<[f64; 2]>>>()?;
     let problem = locomote::Problem { truss, path };
     let settings = locomote::Settings {
-        objective: objective(call),
-        hold: if call.word(3) == Some("all") { Hold::All } else { Hold::Three },
-        impact: call.truth(11)?,
-        lookahead: call.count(14, "a number of steps")?,
-        fallbacks: call.truth(4)?,
-        steps_max: call.count(5, "a budget")?,
+        objective: arguments.objective,
+        hold: arguments.hold,
+        impact: arguments.impact,
+        lookahead: arguments.lookahead,
+        fallbacks: arguments.fallbacks,
+        steps_max: arguments.budget,
         ..locomote::Settings::default()
     };
-    let timeout = call.positive_if(10, "a timeout")?;
+    let timeout = arguments.timeout.map(|seconds| seconds.0);
     interrupt::start_task(format!("moving {}", design.name));
     let stage = interpreter.stage.clone();
     let found = locomote::plan(&problem, &settings, &mut Timed(stage.until(timeout)));
@@ -137,14 +201,15 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned(interpreter, call, design, "locomote", World::default(), solution))
 }
 
-/// The truss of the first argument with its limits, among obstacles and on terrain; `None` after an error that
-/// was told.
-fn problem(call: &Call, design: &Design, ground: Option<usize>) -> Eval<Option<TrussProblem>> {
-    let (obstacles, terrain) = if ground.is_some() {
-        (obstacles(call, 12)?, terrain(call, 13)?)
-    } else {
-        (obstacles(call, 11)?, None)
-    };
+/// The truss with its limits, among obstacles and on terrain; `None` after an error that was told.
+fn problem(
+    call: &Call,
+    design: &Design,
+    limited: LimitArguments,
+    around: &[Value],
+    terrain: Option<&HeightField>,
+) -> Eval<Option<TrussProblem>> {
+    let obstacles = obstacles(call, around)?;
     let Some(truss) = truss_of(design) else { return Ok(None) };
     let Some(strut) = truss.strut_kind().cloned() else { return Ok(None) };
     Ok(Some(TrussProblem {
@@ -152,9 +217,9 @@ fn problem(call: &Call, design: &Design, ground: Option<usize>) -> Eval<Option<T
         node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
         nodes: truss.nodes.iter().map(|node| node.place).collect(),
         struts: truss.struts.clone(),
-        limits: limits(call, 6, truss)?,
+        limits: limits(call, truss, limited)?,
         obstacles,
-        terrain,
+        terrain: terrain.cloned(),
     }))
 }
 
@@ -165,20 +230,11 @@ fn truss_of(design: &Design) -> Option<&TrussDesign> {
     }
 }
 
-fn objective(call: &Call) -> Objective {
-    match call.word(2) {
-        Some("lengths") => Objective::LENGTHS,
-        Some("restoring") => Objective::RESTORING,
-        Some("fewest") => Objective::FEWEST,
-        _ => Objective::Springs,
-    }
-}
-
-fn target(call: &Call) -> Eval<TargetShape> {
-    match call.arg(1) {
+fn target(call: &Call, target: &Value) -> Eval<TargetShape> {
+    match target {
         Value::Mesh(mesh) => Ok(TargetShape::Mesh(triangles(mesh))),
         Value::Cloud(points) => Ok(TargetShape::Cloud(points.to_vec())),
-        _ => Err(call.refuse(1, "a mesh or a cloud of points is wanted")),
+        _ => Err(call.refuse("target", "a mesh or a cloud of points is wanted")),
     }
 }
 
@@ -220,8 +276,10 @@ fn timed_out(stage: &Stage, call: &Call, so_far: &str) -> Stop {
 
 fn morph_refused(call: &Call, truss: &TrussProblem, refusal: morph::Refusal) -> Stop {
     match &refusal {
-        morph::Refusal::Truss(invalid) => invalid_truss(call, (11, 11), invalid),
-        morph::Refusal::NoArea | morph::Refusal::FewPoints { .. } => call.refuse(1, refusal.to_string()),
+        morph::Refusal::Truss(invalid) => invalid_truss(call, invalid),
+        morph::Refusal::NoArea | morph::Refusal::FewPoints { .. } => {
+            call.refuse("target", refusal.to_string())
+        }
         morph::Refusal::NoSurface { edges } => {
             let name =
                 |&(a, b): &(usize, usize)| format!("{} -- {}", truss.node_names[a], truss.node_names[b]);
@@ -233,39 +291,38 @@ fn morph_refused(call: &Call, truss: &TrussProblem, refusal: morph::Refusal) -> 
                     format!("{} is not between two of them{more}", name(first))
                 }
             };
-            Diagnostic::error(code::NOT_COVERED, refusal.to_string()).label(call.at(0), label).into()
+            Diagnostic::error(code::NOT_COVERED, refusal.to_string()).label(call.at("truss"), label).into()
         }
     }
 }
 
 fn locomote_refused(call: &Call, refusal: locomote::Refusal) -> Stop {
     match &refusal {
-        locomote::Refusal::Truss(invalid) => invalid_truss(call, (12, 13), invalid),
-        locomote::Refusal::EmptyPath => call.refuse(1, refusal.to_string()),
-        locomote::Refusal::NeverRests => call.refuse(0, refusal.to_string()),
+        locomote::Refusal::Truss(invalid) => invalid_truss(call, invalid),
+        locomote::Refusal::EmptyPath => call.refuse("path", refusal.to_string()),
+        locomote::Refusal::NeverRests => call.refuse("truss", refusal.to_string()),
     }
 }
 
-/// `around`: the parameters that name obstacles and terrain.
-fn invalid_truss(call: &Call, around: (usize, usize), invalid: &InvalidTruss) -> Stop {
-    let index = match invalid {
-        InvalidTruss::Incomplete | InvalidTruss::Degenerate { .. } => 0,
-        InvalidTruss::AngleLimit => 6,
-        InvalidTruss::RigidityLimit | InvalidTruss::RigidityNodes { .. } => 7,
-        InvalidTruss::ShortLoop => 9,
+fn invalid_truss(call: &Call, invalid: &InvalidTruss) -> Stop {
+    let name = match invalid {
+        InvalidTruss::Incomplete | InvalidTruss::Degenerate { .. } => "truss",
+        InvalidTruss::AngleLimit => "angle",
+        InvalidTruss::RigidityLimit | InvalidTruss::RigidityNodes { .. } => "rigidity",
+        InvalidTruss::ShortLoop => "perimeters",
         InvalidTruss::NotSolid { .. }
         | InvalidTruss::InsideObstacle { .. }
-        | InvalidTruss::NearObstacle { .. } => around.0,
-        InvalidTruss::BelowGround { .. } => around.1,
+        | InvalidTruss::NearObstacle { .. } => "obstacles",
+        InvalidTruss::BelowGround { .. } => "terrain",
     };
     let limit = match invalid {
         InvalidTruss::NearObstacle { clearance, .. } => *clearance,
         InvalidTruss::BelowGround { depth_max, .. } => *depth_max,
-        _ => return call.refuse(index, invalid.to_string()),
+        _ => return call.refuse(name, invalid.to_string()),
     };
     let limit = quantity(limit, Dimension::LENGTH);
     Diagnostic::error(code::BAD_VALUE, invalid.to_string())
-        .label(call.at(index), format!("{limit} is the limit"))
+        .label(call.at(name), format!("{limit} is the limit"))
         .hint("declare the truss elsewhere, or move what is in its way")
         .into()
 }
