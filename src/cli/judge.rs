@@ -7,7 +7,7 @@ use super::terminal::{cancelled, listen_for_cancel, print};
 use super::verdict;
 use super::{CallError, Ending};
 use crate::behavior::unfaithful;
-use crate::plan::{self, CheckKind, Plan, Status, Verdict, Worst};
+use crate::plan::{self, CheckKind, Plan, Status, Verdict, WORST_VALUES};
 use crate::source::{Diagnostic, Sources, Span, code};
 use std::path::{Path, PathBuf};
 
@@ -111,19 +111,7 @@ const TOL_VERDICT: f64 = 1e-6;
 
 /// Returns whether the stated verdict differs from the one found.
 fn differs(stated: &Verdict, found: &Verdict) -> bool {
-    let worst = |v: &Verdict| {
-        [
-            &v.clearance,
-            &v.margin,
-            &v.torque_margin,
-            &v.bond_margin,
-            &v.speed_margin,
-            &v.angle,
-            &v.rigidity,
-            &v.slip,
-        ]
-        .map(|worst: &Option<Worst>| worst.as_ref().map(|w| w.value))
-    };
+    let worst = |v: &Verdict| WORST_VALUES.map(|kind| (kind.of)(v).as_ref().map(|w| w.value));
     let near = |a: f64, b: f64| (a - b).abs() <= TOL_VERDICT;
     let same = |(a, b): (Option<f64>, Option<f64>)| match (a, b) {
         (Some(a), Some(b)) => near(a, b),

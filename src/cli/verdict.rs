@@ -1,7 +1,7 @@
 //! A verdict as text: every check with its status, worst values, failures and their causes.
 
 use crate::plan::{
-    Cause, Exemption, ExemptionKind, Failure, Ground, Plan, Stability, Status, Verdict, Worst,
+    Cause, Exemption, ExemptionKind, Failure, Ground, Measure, Plan, Stability, Status, Verdict,
 };
 use crate::units::Dimension;
 use crate::units::{number, quantity};
@@ -105,22 +105,17 @@ fn status(status: &Status) -> String {
 
 /// Adds a line for each worst value.
 fn worst_lines(out: &mut String, verdict: &Verdict) {
-    let mut add = |name: &str, worst: &Option<Worst>, show: fn(f64) -> String| {
-        if let Some(worst) = worst {
-            let at = if worst.at.is_empty() { String::new() } else { format!(" at {}", worst.at.join(", ")) };
-            let time = quantity(worst.time, Dimension::TIME);
-            line(out, &format!("{name:<14} {}, worst after {time}{at}", show(worst.value)));
-        }
-    };
-    let percent = |v: f64| format!("{}%", number(rounded(v * 100.0, 0.01)));
-    add("clearance", &verdict.clearance, length);
-    add("margin", &verdict.margin, length);
-    add("torque margin", &verdict.torque_margin, percent);
-    add("bond margin", &verdict.bond_margin, percent);
-    add("speed margin", &verdict.speed_margin, percent);
-    add("angle", &verdict.angle, |v| quantity(v, Dimension::ANGLE));
-    add("rigidity", &verdict.rigidity, |v| number(rounded(v, 1e-4)));
-    add("slip", &verdict.slip, length);
+    for (kind, worst) in verdict.worst_values() {
+        let value = match kind.measure {
+            Measure::Length => length(worst.value),
+            Measure::Fraction => format!("{}%", number(rounded(worst.value * 100.0, 0.01))),
+            Measure::Angle => quantity(worst.value, Dimension::ANGLE),
+            Measure::Number => number(rounded(worst.value, 1e-4)),
+        };
+        let at = if worst.at.is_empty() { String::new() } else { format!(" at {}", worst.at.join(", ")) };
+        let time = quantity(worst.time, Dimension::TIME);
+        line(out, &format!("{:<14} {value}, worst after {time}{at}", kind.name));
+    }
 }
 
 /// Returns an exemption in words.

@@ -6,7 +6,9 @@ use super::interpreter::Interpreter;
 use super::plan_value::PlanValue;
 use super::stop::Stop;
 use crate::behavior::{Reason, Refusal};
-use crate::plan::{CauseId, Check, CheckKind, ExemptionKind, Failure, Settings, Verdict, Worst};
+use crate::plan::{
+    CauseId, Check, CheckKind, ExemptionKind, Failure, Measure, Settings, Verdict, Worst, WorstKind,
+};
 use crate::source::{Code, Diagnostic, Label, Span, code};
 use crate::units::{Dimension, number, quantity};
 use std::collections::BTreeSet;
@@ -26,29 +28,18 @@ pub fn check_line(check: &Check) -> String {
     format!("{}: {}", check.kind.name(), check.status)
 }
 
-/// The worst values that there are, each with its time and place.
+/// Returns a line for each worst value that there is, with its time and place.
 pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
-    let length = |x: f64| quantity(x, Dimension::LENGTH);
-    let number = |x: f64| number(x);
-    let line = |name: &str, worst: &Option<Worst>, show: &dyn Fn(f64) -> String| {
-        worst.as_ref().map(|w| {
-            let at = if w.at.is_empty() { String::new() } else { format!(", {}", w.at.join(" and ")) };
-            format!("{name} {} at {}{at}", show(w.value), seconds(w.time))
-        })
+    let line = |(kind, worst): (WorstKind, &Worst)| {
+        let value = match kind.measure {
+            Measure::Length => quantity(worst.value, Dimension::LENGTH),
+            Measure::Angle => quantity(worst.value, Dimension::ANGLE),
+            Measure::Fraction | Measure::Number => number(worst.value),
+        };
+        let at = if worst.at.is_empty() { String::new() } else { format!(", {}", worst.at.join(" and ")) };
+        format!("{} {value} at {}{at}", kind.name, seconds(worst.time))
     };
-    [
-        line("clearance", &verdict.clearance, &length),
-        line("margin", &verdict.margin, &length),
-        line("torque margin", &verdict.torque_margin, &number),
-        line("bond margin", &verdict.bond_margin, &number),
-        line("speed margin", &verdict.speed_margin, &number),
-        line("angle", &verdict.angle, &|v| quantity(v, Dimension::ANGLE)),
-        line("rigidity", &verdict.rigidity, &number),
-        line("slip", &verdict.slip, &length),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    verdict.worst_values().map(line).collect()
 }
 
 /// A verdict as `print` shows it.

@@ -50,5 +50,7 @@ pub use stages::{
     ArithmeticRun, CellBox, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages, arithmetic_runs,
 };
 pub use tracks::{Dock, DockKind, Remap, Segment, TOL_JOIN_JOINT, Track, Tracks, timeline};
-pub use verdict::{Check, CheckKind, Dynamics, Failure, Status, Verdict, Worst};
+pub use verdict::{
+    Check, CheckKind, Dynamics, Failure, Measure, Status, Verdict, WORST_VALUES, Worst, WorstKind,
+};
 pub use world::{DynamicsModel, Exemption, ExemptionKind, Ground, Settings, Stability, World, WorldFrom};

@@ -1,4 +1,4 @@
-//! What the judge found: every check with its status, worst values, and failures with their causes.
+//! The verdict of the judge: every check with its status, worst values, and failures with their causes.
 
 use super::cause::CauseId;
 use crate::units::number;
@@ -6,31 +6,46 @@ use crate::units::{Dimension, quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// The name of a check of the judge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CheckKind {
-    /// Whether the plan is well formed, and could be judged at all.
+    /// The plan is well formed, and could be judged at all.
     Form,
+    /// No two actions command a joint at the same time.
     Conflict,
+    /// Links, cells or struts stay apart from each other and from obstacles.
     Collision,
+    /// Joint positions, cell sizes and strut lengths stay in their ranges.
     JointRange,
+    /// Joints, cells and struts stay below their greatest speeds.
     Speed,
+    /// Joints and cells stay below their greatest accelerations.
     Acceleration,
+    /// Quasi-static efforts of joints and motors stay below their limits.
     Torque,
+    /// Quasi-static forces and moments across bonds stay below what connectors hold.
     BondLoad,
+    /// Ports are within capture of each other when they dock.
     Docking,
+    /// All modules or cells are connected.
     Connectedness,
+    /// Loops that bonds close stay closed.
     Closure,
+    /// Nothing penetrates the ground.
     Ground,
+    /// The robot is statically stable: its centre of mass stays above the support polygon.
     Stability,
+    /// Loaded links do not slip over the ground.
     Slip,
+    /// The robot is at rest at the start and at the end.
     Rest,
-    /// Of lattices: nothing outside pushes or turns the robot.
+    /// Of lattices: no external force or moment is needed.
     Momentum,
 }
 
 impl CheckKind {
-    /// As people are told.
+    /// Returns the name that reports, pages and messages show.
     pub fn name(self) -> &'static str {
         match self {
             CheckKind::Form => "form",
@@ -53,6 +68,61 @@ impl CheckKind {
     }
 }
 
+/// The unit of a worst value, which decides how it is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Metres.
+    Length,
+    /// A fraction of a limit.
+    Fraction,
+    /// Radians.
+    Angle,
+    /// A number without a unit.
+    Number,
+}
+
+/// A kind of worst value that a verdict may hold: one row of [`WORST_VALUES`].
+#[derive(Clone, Copy, Debug)]
+pub struct WorstKind {
+    /// The name in reports.
+    pub name: &'static str,
+    /// The name on a page, after "least"; `None` for what a page does not show.
+    pub title: Option<&'static str>,
+    /// Its unit.
+    pub measure: Measure,
+    /// Reads the value from a verdict.
+    pub of: fn(&Verdict) -> &Option<Worst>,
+    /// Returns the value in a verdict for writing.
+    pub of_mut: fn(&mut Verdict) -> &mut Option<Worst>,
+}
+
+/// Makes a row of [`WORST_VALUES`] for a field of [`Verdict`].
+macro_rules! worst_value {
+    ($field:ident, $name:literal, $title:expr, $measure:ident) => {
+        WorstKind {
+            name: $name,
+            title: $title,
+            measure: Measure::$measure,
+            of: |verdict| &verdict.$field,
+            of_mut: |verdict| &mut verdict.$field,
+        }
+    };
+}
+
+/// Every worst value of a verdict, in the order in which it is shown. What prints, compares or rounds worst
+/// values goes through this table.
+pub const WORST_VALUES: [WorstKind; 8] = [
+    worst_value!(clearance, "clearance", Some("clearance"), Length),
+    worst_value!(margin, "margin", Some("margin of stability"), Length),
+    worst_value!(torque_margin, "torque margin", Some("torque margin"), Fraction),
+    worst_value!(bond_margin, "bond margin", Some("bond margin"), Fraction),
+    worst_value!(speed_margin, "speed margin", Some("speed margin"), Fraction),
+    worst_value!(angle, "angle", Some("angle"), Angle),
+    worst_value!(rigidity, "rigidity", Some("rigidity"), Number),
+    worst_value!(slip, "slip", None, Length),
+];
+
+/// The outcome of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Status {
@@ -60,11 +130,13 @@ pub enum Status {
     Proved,
     /// Holds at this many samples; between them nothing is proved.
     Sampled(usize),
+    /// Not judged, for this reason.
     NotChecked(String),
     /// The library states no limit to check against.
     NoLimit,
     /// Failures were excused by an exemption that stands in the source.
     Exempt,
+    /// There is a failure of the kind.
     Failed,
 }
 
@@ -81,10 +153,13 @@ impl std::fmt::Display for Status {
     }
 }
 
+/// A check with its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
+    /// The check.
     pub kind: CheckKind,
+    /// Its outcome.
     pub status: Status,
 }
 
@@ -94,34 +169,38 @@ pub struct Check {
 pub struct Worst {
     /// SI; a margin is a fraction of the limit.
     pub value: f64,
+    /// Seconds.
     pub time: f64,
     /// Path names.
     pub at: Vec<String>,
 }
 
+/// A violation of a limit, or of what a plan must be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Failure {
+    /// The check that failed.
     pub kind: CheckKind,
     /// Seconds.
     pub time: f64,
-    /// Until when it lasts, where that was followed.
+    /// The time at which it ends (s), where that was followed.
     pub until: Option<f64>,
     /// Path names of the modules, links or joints concerned.
     pub at: Vec<String>,
     /// The finding in words with units: `s[0].m[2] and s[1].m[0] meet, 3.1 mm deep`.
     pub message: String,
-    /// Amount and limit in SI, where there is one of each.
+    /// The amount found in SI units; 0 where there is none.
     pub value: f64,
+    /// The limit in SI units; 0 where there is none.
     pub limit: f64,
     /// The commands to blame, latest first, at most three: held still, each removes the failure.
     pub blame: Vec<CauseId>,
-    /// Whether `blame` names the start pose (`set`, `connect`) instead of commands.
+    /// True if `blame` names the start pose (`set`, `connect`) instead of commands.
     pub blames_start: bool,
 }
 
 impl Failure {
-    /// Of a plan that is not well formed, or that can't be judged as a whole.
+    /// Returns the failure of a plan that is not well formed, or that can't be judged as a whole.
     pub fn form(message: String) -> Failure {
         Failure {
             kind: CheckKind::Form,
@@ -137,7 +216,7 @@ impl Failure {
     }
 }
 
-/// What the cells of a lattice go through, by the forces that the judge found.
+/// Greatest dynamic quantities of a lattice plan, from the contact forces that the judge found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Dynamics {
@@ -149,12 +228,12 @@ pub struct Dynamics {
     pub peak_energy: f64,
     /// Greatest angular momentum about the centre of mass, kg·m²/s.
     pub angular_momentum: f64,
-    /// No motion between the same shapes under the same limits takes less, s.
+    /// Lower bound on the duration of any motion between the same shapes under the same limits, s.
     pub lower_bound: f64,
 }
 
 impl Dynamics {
-    /// Names and words, for a plan that lasts so long, s.
+    /// Returns names and words of all quantities, for a plan of this duration in seconds.
     pub fn in_words(&self, duration: f64) -> [(&'static str, String); 5] {
         let ratio = if self.lower_bound > 0.0 { duration / self.lower_bound } else { 1.0 };
         let bound = quantity(self.lower_bound, Dimension::TIME);
@@ -171,12 +250,15 @@ impl Dynamics {
     }
 }
 
+/// What the judge found about a plan.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Verdict {
+    /// All checks, in order of kind.
     pub checks: Vec<Check>,
+    /// All failures, in order of time.
     pub failures: Vec<Failure>,
-    /// Things worth saying that are no failures: a large settling at the start, "needs friction".
+    /// Findings that are no failures: a large settling at the start, "needs friction".
     pub notes: Vec<String>,
     /// Indices of exemptions that nothing needed.
     pub unneeded_exemptions: Vec<usize>,
@@ -184,9 +266,11 @@ pub struct Verdict {
     pub clearance: Option<Worst>,
     /// Distance of the centre of mass inside the support polygon, m.
     pub margin: Option<Worst>,
-    /// 1 - load / limit, with the best contact forces there are.
+    /// 1 - effort / limit of joints and motors, with the best contact forces there are.
     pub torque_margin: Option<Worst>,
+    /// 1 - load / limit of bonds, with the best contact forces there are.
     pub bond_margin: Option<Worst>,
+    /// 1 - speed / limit.
     pub speed_margin: Option<Worst>,
     /// Of a truss: the least angle between struts that share a node, rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -200,20 +284,26 @@ pub struct Verdict {
     pub heading: f64,
     /// Greatest slip of a loaded link, summed over the plan, m.
     pub slip: Option<Worst>,
+    /// Seconds.
     pub duration: f64,
     /// Least mechanical work of the motors, quasi-static, J.
     pub energy: f64,
-    /// Of a lattice.
+    /// Dynamic quantities of a lattice plan.
     pub dynamics: Option<Dynamics>,
     /// Samples judged, refinements included.
     pub samples: usize,
-    /// Tips and contacts, in order of time, in words.
+    /// Tip-overs and rolls in words, with their times (s), in order of time.
     pub events: Vec<(f64, String)>,
 }
 
 impl Verdict {
-    /// Whether nothing failed. What was not checked, or has no limit, is told apart in `checks`.
+    /// Returns true if nothing failed. What was not checked, or has no limit, is told apart in `checks`.
     pub fn ok(&self) -> bool {
         self.failures.is_empty()
+    }
+
+    /// Returns the worst values that there are, each with its row of [`WORST_VALUES`].
+    pub fn worst_values(&self) -> impl Iterator<Item = (WorstKind, &Worst)> {
+        WORST_VALUES.into_iter().filter_map(|kind| (kind.of)(self).as_ref().map(|worst| (kind, worst)))
     }
 }

@@ -4,7 +4,7 @@ use super::input::RenderInput;
 use super::number::{number, vector};
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
-use crate::plan::{Cause, CheckKind, Failure, Plan, Verdict, Worst};
+use crate::plan::{Cause, CheckKind, Failure, Measure, Plan, Verdict, Worst, WorstKind};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
@@ -89,24 +89,18 @@ fn modules(names: &[String], plan: &Plan) -> Vec<usize> {
 
 /// Returns `[time, text]` of each worst value.
 fn worst(verdict: &Verdict) -> Vec<Value> {
-    let length = |x: f64| quantity(short_length(x), Dimension::LENGTH);
-    let percent = |x: f64| format!("{}%", units::number(libm::round(x * 1e4) / 1e2));
-    let line = |name: &str, worst: &Option<Worst>, words: &dyn Fn(f64) -> String| {
-        worst.as_ref().map(|w| {
-            let at = if w.at.is_empty() { String::new() } else { format!(", {}", w.at.join(" and ")) };
-            json!([number(w.time), format!("least {name} {}{at}", words(w.value))])
-        })
+    let line = |(kind, worst): (WorstKind, &Worst)| {
+        let title = kind.title?;
+        let value = match kind.measure {
+            Measure::Length => quantity(short_length(worst.value), Dimension::LENGTH),
+            Measure::Fraction => format!("{}%", units::number(libm::round(worst.value * 1e4) / 1e2)),
+            Measure::Angle => quantity(worst.value, Dimension::ANGLE),
+            Measure::Number => units::number(worst.value),
+        };
+        let at = if worst.at.is_empty() { String::new() } else { format!(", {}", worst.at.join(" and ")) };
+        Some(json!([number(worst.time), format!("least {title} {value}{at}")]))
     };
-    let lines = [
-        line("clearance", &verdict.clearance, &length),
-        line("margin of stability", &verdict.margin, &length),
-        line("torque margin", &verdict.torque_margin, &percent),
-        line("bond margin", &verdict.bond_margin, &percent),
-        line("speed margin", &verdict.speed_margin, &percent),
-        line("angle", &verdict.angle, &|v| quantity(v, Dimension::ANGLE)),
-        line("rigidity", &verdict.rigidity, &|v| units::number(v)),
-    ];
-    lines.into_iter().flatten().collect()
+    verdict.worst_values().filter_map(line).collect()
 }
 
 /// Rounds a length in metres to a hundredth of a millimetre.

@@ -1,5 +1,6 @@
 //! What the judge writes down as it goes: failures, excuses, notes, worst values.
 
+use crate::plan::verdict::WORST_VALUES;
 use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, Verdict, Worst};
 
 /// Failures that are told one by one; further ones are counted.
@@ -84,22 +85,17 @@ impl<'a> Ledger<'a> {
     /// What is nothing but rounding is told as nothing.
     fn without_rounding(&mut self) {
         let verdict = &mut self.verdict;
-        let worst = [
-            &mut verdict.clearance,
-            &mut verdict.margin,
-            &mut verdict.torque_margin,
-            &mut verdict.bond_margin,
-            &mut verdict.speed_margin,
-            &mut verdict.angle,
-            &mut verdict.rigidity,
-            &mut verdict.slip,
-        ];
-        let values = worst.into_iter().flatten().map(|w| &mut w.value);
-        for value in values.chain(&mut verdict.travel).chain([&mut verdict.heading]) {
+        let round = |value: &mut f64| {
             if value.abs() < ROUNDING {
                 *value = 0.0;
             }
+        };
+        for kind in WORST_VALUES {
+            if let Some(worst) = (kind.of_mut)(verdict) {
+                round(&mut worst.value);
+            }
         }
+        verdict.travel.iter_mut().chain([&mut verdict.heading]).for_each(round);
     }
 
     /// The verdict: failures in order of time, exemptions that nothing needed listed.
