@@ -1,4 +1,4 @@
-//! What the judge writes down as it goes: failures, excuses, notes, worst values.
+//! The record that the checks of all families write to: failures, excuses, notes, worst values.
 
 use crate::plan::verdict::WORST_VALUES;
 use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, Verdict, Worst};
@@ -6,9 +6,10 @@ use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, V
 /// Failures that are told one by one; further ones are counted.
 const FAILURES_MAX: usize = 100;
 
-/// Lengths (m), angles (rad) and parts of a limit below this are rounding.
+/// Threshold below which lengths (m), angles (rad) and fractions of a limit are reported as zero.
 const ROUNDING: f64 = 1e-9;
 
+/// Records failures, excuses, notes and worst values while a plan is judged, and makes the verdict of them.
 pub struct Ledger<'a> {
     exemptions: &'a [Exemption],
     /// The end of the plan, which is never excused, s.
@@ -18,16 +19,18 @@ pub struct Ledger<'a> {
     excused: Vec<CheckKind>,
     /// Failures beyond [`FAILURES_MAX`].
     untold: usize,
+    /// The verdict so far.
     pub verdict: Verdict,
 }
 
 impl<'a> Ledger<'a> {
+    /// Returns an empty record for a plan with these exemptions that ends at `end` (s).
     pub fn new(exemptions: &'a [Exemption], end: f64) -> Ledger<'a> {
         let verdict = Verdict { duration: end, ..Verdict::default() };
         Ledger { exemptions, end, used: vec![false; exemptions.len()], excused: vec![], untold: 0, verdict }
     }
 
-    /// Whether what happens at `t` is excused by an exemption of the kind; then that was needed.
+    /// Returns true if an exemption of the kind excuses what happens at `t` (s), and marks it as needed.
     pub fn excuses(&mut self, kind: CheckKind, t: f64, of: impl Fn(&ExemptionKind) -> bool) -> bool {
         let mut excused = false;
         for (i, exemption) in self.exemptions.iter().enumerate() {
@@ -41,7 +44,7 @@ impl<'a> Ledger<'a> {
         excused
     }
 
-    /// An exemption that another part of the judge found to be needed.
+    /// Marks an exemption that another part of the judge found to be needed.
     pub fn use_exemption(&mut self, index: usize, kind: CheckKind) {
         self.used[index] = true;
         self.note_excuse(kind);
@@ -53,6 +56,7 @@ impl<'a> Ledger<'a> {
         }
     }
 
+    /// Records a failure; beyond [`FAILURES_MAX`] only counts it.
     pub fn fail(&mut self, failure: Failure) {
         if self.verdict.failures.len() < FAILURES_MAX {
             self.verdict.failures.push(failure);
@@ -61,12 +65,14 @@ impl<'a> Ledger<'a> {
         }
     }
 
+    /// Records a note, once.
     pub fn note(&mut self, note: String) {
         if !self.verdict.notes.contains(&note) {
             self.verdict.notes.push(note);
         }
     }
 
+    /// Returns the failures so far, to add blame to them.
     pub fn failures_mut(&mut self) -> &mut [Failure] {
         &mut self.verdict.failures
     }
@@ -82,7 +88,7 @@ impl<'a> Ledger<'a> {
         self.verdict.checks.push(Check { kind, status });
     }
 
-    /// What is nothing but rounding is told as nothing.
+    /// Sets values that are nothing but rounding to zero.
     fn without_rounding(&mut self) {
         let verdict = &mut self.verdict;
         let round = |value: &mut f64| {
@@ -98,7 +104,7 @@ impl<'a> Ledger<'a> {
         verdict.travel.iter_mut().chain([&mut verdict.heading]).for_each(round);
     }
 
-    /// The verdict: failures in order of time, exemptions that nothing needed listed.
+    /// Returns the verdict: failures in order of time, exemptions that nothing needed listed.
     pub fn finish(mut self) -> Verdict {
         self.verdict.failures.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.kind.cmp(&b.kind)));
         self.verdict.unneeded_exemptions = (0..self.used.len()).filter(|&i| !self.used[i]).collect();
@@ -112,7 +118,7 @@ impl<'a> Ledger<'a> {
     }
 }
 
-/// Keeps the lower of two worst values.
+/// Keeps the lower of a worst value so far and a new one, with its time (s) and names.
 pub fn keep_least(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
     if worst.as_ref().is_none_or(|w| value < w.value) {
         *worst = Some(Worst { value, time, at: at() });

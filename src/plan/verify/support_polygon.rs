@@ -1,4 +1,5 @@
-//! Hulls of points on the ground, and how far inside them the centre of mass is.
+//! Support polygons, the convex hulls of points on the ground, and the static stability margin: the distance of
+//! the centre of mass inside such a polygon.
 
 /// A point on the ground, m.
 pub type Point = [f64; 2];
@@ -6,7 +7,7 @@ pub type Point = [f64; 2];
 /// Hulls narrower than this are lines, m.
 const WIDTH_MIN: f64 = 1e-6;
 
-/// Where a place on the ground lies against a hull.
+/// The position of a point relative to a support polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
     /// Distance to the nearest edge, positive inside, m.
@@ -17,7 +18,7 @@ pub struct Margin {
     pub width: f64,
 }
 
-/// Corners of the convex hull, counter-clockwise, as indices; collinear points are left out. Of
+/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise, as indices; collinear points are left out. Of
 /// coinciding points the first is taken. One or two corners where the points do not span an area.
 pub fn hull(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
@@ -51,7 +52,7 @@ fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
     side
 }
 
-/// Margin of `at` in the hull of `points`; `None` where they do not span an area.
+/// Returns the margin of `at` in the hull of `points`; `None` where they do not span an area.
 pub fn margin(points: &[Point], at: Point) -> Option<Margin> {
     let corners = hull(points);
     if corners.len() < 3 {

@@ -1,11 +1,13 @@
-//! The search for collisions and for the clearance by halving stretches of time.
+//! Conservative advancement for collisions and for the clearance, by bisection of intervals of time: pairs that
+//! a bound on motion proves to be separated over an interval are done with.
 
 use super::bodies::Bodies;
-use super::collision::{Collision, Excuse, Findings, Precision};
+use super::collision::{Collision, Excuse, Findings};
 use super::interval_state::IntervalState;
 use super::motion_bounds::MotionBounds;
 use super::reference_links::{self, ReferenceLinks};
 use super::separation::{self, BodyPair, ModulePair, View};
+use super::tolerances::Precision;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::{Exemption, Status, Tracks, Worst};
@@ -16,11 +18,12 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Balls of modules nearly meet where they are this part of their radii apart.
 const NEARLY: f64 = 1.0 / 16.0;
 
+/// The state of the search over all intervals.
 pub struct Advancement<'a> {
     robot: &'a Assembly,
     bodies: Bodies,
     bounds: MotionBounds,
-    /// Where segments begin and end: stretches are cut there rather than anywhere.
+    /// Where segments begin and end: intervals are cut there rather than anywhere.
     instants: Vec<f64>,
     precision: Precision,
     samples_max: usize,
@@ -47,7 +50,7 @@ struct Region<'a> {
     excused: &'a [Excuse],
 }
 
-/// What is left to be told apart.
+/// The pairs that are not proved to be separated.
 #[derive(Clone, Default)]
 struct Open {
     modules: Vec<ModulePair>,
@@ -55,6 +58,7 @@ struct Open {
 }
 
 impl<'a> Advancement<'a> {
+    /// Returns a search over a plan; at most `samples_max` intervals are examined.
     pub fn new(
         tracks: &'a Tracks,
         bodies: Bodies,
@@ -76,7 +80,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// A window in which bonds stay as they are. Parts that do not hang together are judged each by
+    /// Judges a window of time in which bonds stay as they are. Parts that do not hang together are judged each by
     /// itself: how they lie to one another is unknown.
     pub fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
         let mut seen = vec![false; self.robot.modules.len()];
@@ -95,7 +99,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// The least distance at one instant, m; `None` where no two links may not touch.
+    /// Returns the least distance at one instant, m; `None` where no two links may not touch.
     pub fn clearance_at(&mut self, bonds: &[bool], time: f64) -> Option<f64> {
         self.clearance = None;
         self.collisions.clear();
@@ -103,6 +107,7 @@ impl<'a> Advancement<'a> {
         self.clearance.as_ref().map(|nearest| nearest.distance)
     }
 
+    /// Returns what was found.
     pub fn findings(self, exemptions: &[Exemption]) -> Findings {
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
         collisions.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.modules.cmp(&b.modules)));
@@ -206,7 +211,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Tells apart what can be over `from..to`, and goes on with the rest in two parts.
+    /// Discards the pairs that are separated over `from..to` (s), and goes on with the rest in two halves.
     fn advance(&mut self, region: &Region, from: f64, to: f64, open: Open) {
         interrupt::progress_checkpoint(|| {
             let least = self.clearance.as_ref().map_or_else(String::new, |nearest| {
@@ -233,7 +238,7 @@ impl<'a> Advancement<'a> {
         self.advance(region, cut, to, rest);
     }
 
-    /// Brings the state to the middle of a interval, with the levels at which pairs are open.
+    /// Brings the state to the middle of an interval, with the levels at which pairs are open.
     fn prepare(&mut self, region: &Region, from: f64, to: f64, modules: &[ModulePair], bodies: &[BodyPair]) {
         self.state.set(&region.kinematics, &self.bounds, from, to);
         let mut used = vec![false; region.levels.levels.len()];
@@ -244,7 +249,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Where to cut a interval: at an event in its middle half, or in the middle.
+    /// Returns the time at which to cut an interval (s): at an event in its middle half, or in the middle.
     fn cut(&self, from: f64, to: f64) -> f64 {
         let (middle, quarter) = ((from + to) / 2.0, (to - from) / 4.0);
         let after = self.instants.partition_point(|t| *t < middle);
@@ -253,7 +258,7 @@ impl<'a> Advancement<'a> {
         near.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs())).unwrap_or(middle)
     }
 
-    /// Whether a pair of modules stays open as such. Only where their balls meet in the middle, or
+    /// Returns true if a pair of modules stays open as such. Only where their balls meet in the middle, or
     /// nearly so, are its bodies added to `bodies` instead: they are dozens of pairs for one, which is
     /// more than what a few halvings cost.
     fn stays_open(&self, region: &Region, pair: &ModulePair, bodies: &mut Vec<BodyPair>) -> bool {
@@ -270,7 +275,7 @@ impl<'a> Advancement<'a> {
         hopeful
     }
 
-    /// Whether two bodies are as far apart as needed over the whole interval of this length.
+    /// Returns true if two bodies are separated by what is needed over the whole interval of this length (s).
     fn is_separated(&mut self, region: &Region, pair: &mut BodyPair, length: f64) -> bool {
         crate::interrupt::checkpoint();
         let (a, b) = (pair.a as usize, pair.b as usize);
@@ -349,7 +354,7 @@ impl<'a> Advancement<'a> {
     }
 
     /// A penetration in the middle. It is the first of its pair of modules if the interval is short
-    /// enough to be an instant: all before has been told apart.
+    /// enough to be an instant: all before is proved to be separated.
     fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: bool) {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let excuse = self.excuse(region, a.module, b.module);
@@ -376,7 +381,7 @@ impl<'a> Advancement<'a> {
     }
 }
 
-/// Links that carry mated ports of bonds that hold, both ways round.
+/// Returns the pairs of links that carry mated ports of bonds that hold, in both orders.
 pub fn mated(robot: &Assembly, bonds: &[bool], kinematics: &Kinematics) -> BTreeSet<(usize, usize)> {
     let holding = robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds);
     holding

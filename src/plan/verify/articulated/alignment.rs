@@ -1,5 +1,5 @@
-//! How a robot stands in its new posture before it settles: turned as it was, its loaded contacts at
-//! their heights.
+//! The attitude of a robot in a new posture before it settles: aligned with its old one (Kabsch algorithm), its
+//! loaded contacts at their heights.
 
 use super::contact::ContactPoint;
 use super::ground_features::{Feature, Mat3};
@@ -16,12 +16,12 @@ const TURN_WEIGHT: f64 = 1e-8;
 
 const TURN_ROUNDS: usize = 4;
 
-/// The rotation by a rotation vector, radians.
+/// Returns the rotation by a rotation vector, rad.
 pub fn rotation(omega: Vec3) -> Mat3 {
     *turned(omega, omega.norm()).rotation.to_rotation_matrix().matrix()
 }
 
-/// The rotation from the new robot frame to the old that moves the masses least about the centre of
+/// Returns the rotation from the new robot frame to the old that moves the masses least about the centre of
 /// mass. It does not depend on which module is the base.
 pub fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
     let mut S = Mat3::zeros();
@@ -38,7 +38,7 @@ pub fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
     U * Mat3::from_diagonal(&flip) * Vt
 }
 
-/// The rotation about a horizontal axis that keeps the loaded contacts of the sample before at their
+/// Returns the rotation about a horizontal axis that keeps the loaded contacts of the sample before at their
 /// heights above the ground: without it a swinging arm would turn the guess.
 pub fn height_keeping_turn(
     features: &[Feature],

@@ -1,4 +1,5 @@
-//! Where the robot gets to, and what slips on the way; and with a held base, what goes underground.
+//! Displacement of the base, slip of loaded links, and penetrating contact with the ground where the base is
+//! fixed.
 
 use super::contact::ContactPoint;
 use super::rollout::Sample;
@@ -8,6 +9,7 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
 use crate::units::{Dimension, quantity};
 
+/// Follows the base, sums slip, and watches for penetrating contact with a fixed base.
 pub struct Monitor<'a> {
     tolerances: &'a Tolerances,
     start: Option<Pose>,
@@ -22,6 +24,7 @@ pub struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
+    /// Returns a monitor before the first sample.
     pub fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
         let identity = Pose::identity();
         Monitor {
@@ -36,6 +39,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// Takes a sample.
     pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.samples += 1;
         if !self.grounds.contains(&sample.world.ground) {
@@ -105,6 +109,7 @@ impl<'a> Monitor<'a> {
         });
     }
 
+    /// Records displacement, heading, slip and the statuses; `names` gives the name of a link.
     pub fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
         self.end_penetration(end, ledger);
@@ -141,7 +146,7 @@ impl<'a> Monitor<'a> {
     }
 }
 
-/// The deepest touch that is further underground than its module may be.
+/// Returns the deepest contact point that penetrates the ground by more than its module may.
 pub fn penetrating_contact<'s>(sample: &Sample<'s>) -> Option<&'s ContactPoint> {
     let deepest = sample.stance.contact_points.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
     deepest.filter(|t| {

@@ -1,6 +1,7 @@
-//! Who is to blame for a failure: an action whose joint, held still from its start, removes it.
+//! Blame for failures: the actions whose joint, held still from its start, removes the failure (a
+//! counterfactual rollout).
 //!
-//! The plan is walked again up to the failure with the joint held, so that the answer takes
+//! The plan is rolled out again up to the failure with the joint held, so that the answer takes
 //! everything into account: where the robot stands, what it tips over, what it then has to hold.
 
 use super::base_motion::penetrating_contact;
@@ -24,14 +25,17 @@ const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame.
 pub struct Suspect {
+    /// The joint that it moves.
     pub joint: usize,
+    /// When its segment begins, s.
     pub start: f64,
+    /// The command.
     pub cause: CauseId,
-    /// Whether it moves at the time of the failure.
+    /// True if it moves at the time of the failure.
     moving: bool,
 }
 
-/// Names who is to blame for the failures that do not say so themselves.
+/// Adds the actions to blame to the failures that do not name any.
 pub fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
     let mut sought = 0;
     for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {
@@ -63,7 +67,7 @@ pub fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Fail
     }
 }
 
-/// Actions begun before a time, latest first.
+/// Returns the actions begun before a time (s), latest first.
 pub fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
     let mut found = Vec::new();
     for track in &tracks.tracks {
@@ -81,7 +85,7 @@ pub fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
     found
 }
 
-/// Whether the failure is gone when the suspect's joint stays where it was.
+/// Returns true if the failure is gone when the suspect's joint stays where it was.
 fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Suspect, failure: &Failure) -> bool {
     let held = Rollout { held: Some((suspect.joint, suspect.start)), ..*rollout };
     let from = checkpoints.iter().rev().find(|w| w.time <= suspect.start);
@@ -106,7 +110,7 @@ fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Suspect, fai
     !failed
 }
 
-/// Whether what failed fails in this sample, too.
+/// Returns true if what failed fails in this sample, too.
 fn still(sample: &Sample, failure: &Failure, rollout: &Rollout, ledger: &mut Ledger) -> bool {
     match failure.kind {
         CheckKind::Torque | CheckKind::BondLoad => {

@@ -1,17 +1,18 @@
-//! What can collide: the convex parts of all links, and which pairs may meet.
+//! The convex parts of all links that can collide, and the pairs of them that may touch.
 
+use super::tolerances::Tolerances;
 use crate::geometry::distance::{signed_distance, signed_distance_within};
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 
-/// A part this near to being round about a joint's axis is carried by the link before, m.
-const TOL_ROUND: f64 = 1e-9;
-
 /// A link whose shape can't be judged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnsoundLink {
+    /// The name of the module type.
     pub module: String,
+    /// The name of the link.
     pub link: String,
+    /// The defect of the shape.
     pub why: Unsound,
 }
 
@@ -31,9 +32,11 @@ pub struct Bodies {
 /// Two bodies of one module, by their indices among its bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InnerPair {
+    /// The first body.
     pub a: usize,
+    /// The second body.
     pub b: usize,
-    /// Whether they count for the clearance: two links that a joint joins do not.
+    /// True if they count for the clearance: two links that a joint joins do not.
     pub counts: bool,
     /// Deeper than this is a collision, m.
     pub allowed: f64,
@@ -51,13 +54,18 @@ pub struct Body {
     /// The link it moves with. A disc that turns about its own axis goes nowhere: it is carried by
     /// the link that bears the axis.
     pub carrier: usize,
+    /// The module it belongs to.
     pub module: usize,
     /// Distance of the part's farthest point from the carrier's origin, m.
     pub reach: f64,
 }
 
 impl Bodies {
-    /// Refuses a robot of which a link's shape is no solid.
+    /// Compiles the convex parts of all links.
+    ///
+    /// # Errors
+    ///
+    /// The first link whose shape is no solid.
     pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Result<Bodies, UnsoundLink> {
         let kinds: Vec<Kind> = robot.library.modules.iter().map(Kind::new).collect::<Result<_, _>>()?;
         let mut all = Bodies {
@@ -84,23 +92,23 @@ impl Bodies {
         Ok(all)
     }
 
-    /// The bodies of a module.
+    /// Returns the indices of the bodies of a module.
     pub fn of(&self, module: usize) -> std::ops::Range<usize> {
         self.first[module]..self.first[module + 1]
     }
 
-    /// The pairs of bodies within a module that may not meet, or not deeper than they are drawn.
+    /// Returns the pairs of bodies within a module that may not meet, or not deeper than they are drawn.
     pub fn inner(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner
     }
 
-    /// How deep two modules may be in each other, m: the smaller of what the two allow.
+    /// Returns the allowed penetration depth of two modules, m: the smaller of what the two allow.
     pub fn allowed_depth(&self, a: usize, b: usize) -> f64 {
         let touch = |module: usize| self.kinds[self.kind_of[module]].touch;
         f64::min(touch(a), touch(b))
     }
 
-    /// Signed distance between two links whose world poses are at hand, m; `enough` where it is no
+    /// Returns the signed distance between two links whose world poses are at hand, m; `enough` where it is no
     /// less.
     pub fn distance(&self, a: usize, b: usize, poses: &[Pose], enough: f64) -> f64 {
         let of = |link: usize| {
@@ -154,7 +162,7 @@ impl Kind {
     }
 }
 
-/// What holds between two bodies of a module; nothing where they are of one link, or meet by design.
+/// Returns the constraint between two bodies of a module; `None` where they are of one link, or meet by design.
 fn pair(
     kind: &ModuleType,
     solids: &[Solid],
@@ -175,12 +183,16 @@ fn pair(
     Some(InnerPair { a, b, counts: !joined, allowed, fixed })
 }
 
-/// Whether no joint changes how two bodies lie to one another: they have one carrier, or turn against
+/// Returns true if no joint changes the relative pose of two bodies: they have one carrier, or turn against
 /// each other about an axis about which one of them is round.
 fn stay(kind: &ModuleType, x: &(usize, usize, Part), y: &(usize, usize, Part)) -> bool {
     let about = |joint: &Joint, body: &(usize, usize, Part)| {
         let X_LJ = kind.links[body.1].pose.inverse() * joint.pose;
-        body.2.is_round_about(&X_LJ.translation.vector, &(X_LJ.rotation * joint.axis), TOL_ROUND)
+        body.2.is_round_about(
+            &X_LJ.translation.vector,
+            &(X_LJ.rotation * joint.axis),
+            Tolerances::default().roundness,
+        )
     };
     let mut revolute = kind.joints.iter().filter(|j| j.kind == JointKind::Revolute);
     let joins = |j: &Joint| (j.parent, j.child) == (x.1, y.1) || (j.child, j.parent) == (x.1, y.1);
@@ -194,7 +206,7 @@ fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) 
         let other = joint.parent;
         let X_LJ = kind.links[link].pose.inverse() * joint.pose;
         let axis = X_LJ.rotation * joint.axis;
-        if part.is_round_about(&X_LJ.translation.vector, &axis, TOL_ROUND) {
+        if part.is_round_about(&X_LJ.translation.vector, &axis, Tolerances::default().roundness) {
             let X_OL = kind.links[other].pose.inverse() * kind.links[link].pose;
             return (link, other, part.moved(&X_OL));
         }
@@ -202,7 +214,7 @@ fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) 
     (link, link, part.clone())
 }
 
-/// How deep two links are in each other as drawn, m; 0 where they are apart.
+/// Returns the penetration depth of two links as drawn, m; 0 where they are apart.
 fn drawn_overlap(kind: &ModuleType, solids: &[Solid], a: usize, b: usize) -> f64 {
     let X_AB = kind.links[a].pose.inverse() * kind.links[b].pose;
     let pairs = solids[a].parts.iter().flat_map(|p| solids[b].parts.iter().map(move |q| (p, q)));

@@ -1,22 +1,21 @@
-//! How near links come to each other, and where they meet, told to whoever draws it. Nothing is judged
-//! here.
+//! Clearance curves and collision points for those who draw them. Nothing is judged here.
 
 use super::advancement::{Advancement, mated};
 use super::bodies::{Bodies, Body, UnsoundLink};
-use super::collision::Precision;
 use super::history::base_at;
+use super::tolerances::Precision;
 use crate::geometry::distance::signed_distance;
 use crate::geometry::{Pose, Vec3, contact_point};
 use crate::plan::{Body as Form, Plan, Tracks, validation};
 use crate::robot::Kinematics;
 
-/// Pairs of modules that are looked at for one curve of clearances, if that leaves it enough points.
+/// Pairs of modules that are examined for one curve of clearances, if that leaves it enough points.
 const PAIRS_MAX: usize = 4_000_000;
 
 /// Points of a curve that are not saved on.
 const POINTS_MIN: usize = 20;
 
-/// Least signed distance of links that may not touch, m, at evenly spaced times from the start to
+/// Returns the least signed distance of links that may not touch, m, at evenly spaced times from the start to
 /// `until` (s): (time, distance). As many as asked for, or fewer for robots of more than a few hundred
 /// modules, but at least 20; none where no two such links are.
 pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
@@ -40,8 +39,8 @@ fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
     Bodies::new(&tracks.robot, &Kinematics::new(&tracks.robot, &tracks.start.bonds, 0))
 }
 
-/// Where two modules, or two links of one, are deepest in each other at a time (s): a point of the
-/// world, m. `None` where they do not meet.
+/// Returns the point (world, m) at which two modules, or two links of one, penetrate each other most at a time
+/// (s). `None` where they do not.
 pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Option<Vec3> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     if validation::check(plan).is_err() {

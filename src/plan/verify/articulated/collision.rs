@@ -1,43 +1,25 @@
-//! Self-collision over a whole plan, at every instant and not only at samples.
+//! Self-collision over a whole plan by conservative advancement: at every instant and not only at samples.
 //!
-//! A interval of time is looked at in its middle, where everything is known exactly; what can happen
-//! until its ends is bounded (`frame`). Pairs that are thereby told apart for the
-//! whole interval are done with; with the others the interval is halved. Far modules are told apart
-//! over long stretches, near bodies over short ones, and a pair between which nothing moves at once.
-//! Stretches are visited in order of time, so that the first penetration that is met is the first.
+//! An interval of time is examined in its middle, where everything is known exactly; what can happen
+//! until its ends is bounded by motion bounds. Pairs that are thereby proved to be separated for the whole
+//! interval are done with; with the others the interval is halved. Far modules are separated over long
+//! intervals, near bodies over short ones, and a pair between which nothing moves at once.
+//! Intervals are visited in order of time, so that the first penetration that is met is the first.
 //!
-//! A proof that a pair is not nearer than the clearance found so far serves both questions, for
+//! A proof that a pair is not nearer than the clearance found so far serves both purposes, for
 //! collisions and for the clearance.
 
 use super::advancement::Advancement;
 use super::bodies::{Bodies, UnsoundLink};
+use super::tolerances::Precision;
 use crate::plan::{CheckKind, DockKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst};
 use crate::robot::{Assembly, Kinematics};
 use crate::units::{Dimension, quantity};
 
-/// How exactly collisions are judged.
-#[derive(Clone, Copy, Debug)]
-pub struct Precision {
-    /// Penetration is proved to be no deeper than `touch` and this, m. Default 1 µm: far below any
-    /// `touch`, well above rounding.
-    pub tol_depth: f64,
-    /// The clearance, and the depth of a collision, are within this of the true ones, m. Default
-    /// 20 µm: halving it costs √2 times as many stretches.
-    pub tol_clearance: f64,
-    /// A first penetration (by more than `touch` and `tol_depth`) is found no later than this after
-    /// it began, s. Default 1 µs: below a tick of any controller.
-    pub tol_time: f64,
-}
-
-impl Default for Precision {
-    fn default() -> Precision {
-        Precision { tol_depth: 1e-6, tol_clearance: 2e-5, tol_time: 1e-6 }
-    }
-}
-
-/// What the judge found.
+/// Collisions and clearance of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
+    /// Proved, or failed, or the number of intervals at which it gave up.
     pub status: Status,
     /// In order of time; one for each pair of modules, and one more where it was excused before.
     pub collisions: Vec<Collision>,
@@ -52,21 +34,27 @@ pub struct Findings {
 /// Two modules in each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collision {
+    /// The modules, by index; the same twice for two links of one module.
     pub modules: (usize, usize),
     /// The links that penetrate first, by their indices in their modules.
     pub links: (usize, usize),
     /// First instant of a penetration deeper than allowed, s.
     pub time: f64,
-    /// Greatest depth of the two modules' links while it lasts, m, and when.
+    /// Greatest penetration depth of the two modules' links while it lasts, m.
     pub depth: f64,
+    /// The time of the greatest depth, s.
     pub deepest: f64,
-    /// How deep they may be in each other, m.
+    /// Allowed penetration depth, m.
     pub allowed: f64,
-    /// Whether it is excused: it lies within an exemption.
+    /// True if an exemption excuses it.
     pub exempt: bool,
 }
 
 /// Judges all instants of a plan's body.
+///
+/// # Errors
+///
+/// The first link whose shape is no solid.
 pub fn judge(
     tracks: &Tracks,
     settings: &Settings,
@@ -89,7 +77,7 @@ pub fn judge(
 }
 
 impl Collision {
-    /// In words, for the report.
+    /// Returns the failure for the report.
     pub fn failure(&self, robot: &Assembly) -> Failure {
         let module = |m: usize| robot.modules[m].name.clone();
         let link = |m: usize, l: usize| robot.module_type(m).links[l].name.as_str();
@@ -147,12 +135,14 @@ fn excused(tracks: &Tracks, exemptions: &[Exemption], window: (f64, f64)) -> Vec
 /// An exemption from collisions that holds at the moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Excuse {
+    /// The index of the exemption.
     pub index: usize,
     /// `None`: of any modules.
     pub modules: Option<(usize, usize)>,
 }
 
 impl Excuse {
+    /// Returns true if it excuses these two modules.
     pub fn covers(&self, a: usize, b: usize) -> bool {
         self.modules.is_none_or(|pair| pair == (a, b) || pair == (b, a))
     }

@@ -1,8 +1,8 @@
-//! Self-collision in the judgement of a plan: what was found, and who is to blame for it.
+//! Collisions in the verdict: failures with the actions to blame.
 
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::Bodies;
-use super::collision::{self, Collision, Precision};
+use super::collision::{self, Collision};
 use super::rollout::Rollout;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
@@ -12,15 +12,17 @@ use crate::robot::{JointId, Kinematics};
 /// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
 pub fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     let tracks = rollout.tracks;
-    let precision = Precision::default();
-    let found = match collision::judge(tracks, rollout.settings, rollout.exemptions, &precision) {
-        Ok(found) => found,
-        Err(unsound) => {
-            let message =
-                format!("the shape of {}.{} can't be judged: {}", unsound.module, unsound.link, unsound.why);
-            return ledger.fail(Failure::form(message));
-        }
-    };
+    let found =
+        match collision::judge(tracks, rollout.settings, rollout.exemptions, &rollout.tolerances.collision) {
+            Ok(found) => found,
+            Err(unsound) => {
+                let message = format!(
+                    "the shape of {}.{} can't be judged: {}",
+                    unsound.module, unsound.link, unsound.why
+                );
+                return ledger.fail(Failure::form(message));
+            }
+        };
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Collision);
     }

@@ -1,4 +1,4 @@
-//! What touches the ground, and how the weight spreads over it.
+//! Contact points on the ground, and the distribution of normal forces over them.
 
 use super::ground_features::Feature;
 use super::model::Model;
@@ -9,9 +9,11 @@ use crate::plan::verify::support_polygon::{self, Margin};
 /// A point of a feature near the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
+    /// The index of the feature.
     pub feature: usize,
-    /// Which point of the feature.
+    /// The number of the point of the feature.
     pub k: u8,
+    /// The link of the feature.
     pub link: usize,
     /// From the centre of mass; +z up, m.
     pub p: Vec3,
@@ -24,18 +26,20 @@ pub struct ContactPoint {
 /// A link's contact as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPatch {
+    /// The link.
     pub link: usize,
     /// Part of the weight.
     pub load: f64,
     /// Centre of pressure, horizontally from the centre of mass, m.
     pub x: f64,
+    /// Centre of pressure along the second axis, m.
     pub y: f64,
     /// Load-weighted mean square distance from there, m².
     pub spread: f64,
 }
 
-/// Everything within its module's contact tolerance of the ground, which is `height` below the
-/// centre of mass; loads spread as over elastic ground.
+/// Returns all points within their module's contact tolerance of the ground, which is `height` (m) below the
+/// centre of mass, with normal forces as on elastic ground.
 pub fn contact_points(
     model: &Model,
     features: &[Feature],
@@ -62,13 +66,13 @@ pub fn contact_points(
     found
 }
 
-/// Whether a touch counts as a contact of its module.
+/// Returns true if a contact point is within the contact tolerance of its module.
 pub fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
     contact_point.gap <= model.bodies[contact_point.link].contact
 }
 
-/// Margin of the centre of mass in the hull of the touches for which `chosen` says true; the edge is
-/// in indices of `touches`.
+/// Returns the static stability margin in the support polygon of the contact points that `chosen` selects; its
+/// edge is given by indices of `contact_points`.
 pub fn margin(contact_points: &[ContactPoint], chosen: impl Fn(&ContactPoint) -> bool) -> Option<Margin> {
     let indices: Vec<usize> = (0..contact_points.len()).filter(|&i| chosen(&contact_points[i])).collect();
     let points: Vec<_> = indices.iter().map(|&i| [contact_points[i].p.x, contact_points[i].p.y]).collect();
@@ -76,7 +80,7 @@ pub fn margin(contact_points: &[ContactPoint], chosen: impl Fn(&ContactPoint) ->
     Some(Margin { edge: (indices[found.edge.0], indices[found.edge.1]), ..found })
 }
 
-/// Touches gathered by link, in order of link: one patch a link, since a wheel with two rims that
+/// Returns the contact points gathered by link, in order of link: one patch a link, since a wheel with two rims that
 /// each stuck would track as wide as its outer rim.
 pub fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     let mut found: Vec<ContactPatch> = Vec::new();
@@ -111,7 +115,7 @@ pub fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     found
 }
 
-/// How much the dual solution is held back, so that it exists whatever the touches are.
+/// Proximal weight of the dual solution, so that it exists whatever the contact points are.
 const HELD_BACK: f64 = 1e-8;
 const PROXIMAL_ROUNDS: usize = 3;
 const NEWTON_ROUNDS_MAX: usize = 60;

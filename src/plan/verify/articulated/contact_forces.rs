@@ -1,8 +1,8 @@
-//! The contact forces that load a robot least: is there a set of them for which nothing is
-//! overloaded?
+//! The contact forces that minimise the greatest load of a robot: they decide if forces exist under which
+//! nothing is overloaded.
 //!
-//! Each contact wrenches within a pyramid inside its friction cone; together they carry the weight.
-//! The least greatest load is a linear lp. Its certified is not believed: the forces are brought
+//! Each contact force lies in a pyramid inside its friction cone (linearised friction); together they carry the weight.
+//! The least greatest load is a linear programme (LP). Its solution is not trusted: the forces are brought
 //! to exact balance and the loads computed from them, which proves that they exist; and the
 //! multipliers give a bound below which no forces whatever can come.
 
@@ -20,31 +20,32 @@ use nalgebra::{Matrix6, Vector6};
 /// The half diagonal of the square inside the unit circle.
 const INSCRIBED: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Columns of a lp that is still tried.
+/// Greatest number of columns of an LP that is still solved.
 const COLUMNS_MAX: usize = 100_000;
 
 /// A unit of a force that may act: an edge of a contact's pyramid, or a component of what a bond that
 /// closes a loop transmits.
 pub struct Column {
+    /// The wrenches of one unit of it.
     pub wrenches: Vec<Wrench>,
     /// It may also act the other way round.
     pub free: bool,
 }
 
-/// What forces can do.
+/// Contact forces in balance, with the loads that they cause.
 #[derive(Clone, Debug)]
 pub struct ContactForces {
     /// Greatest load by its limit, with forces that balance.
     pub ratio: f64,
     /// Index of that load.
     pub load: usize,
-    /// No forces do better than this.
+    /// Lower bound on the greatest load of any contact forces, from the dual solution of the LP.
     pub bound: f64,
     /// Sizes of the columns, for the next sample.
     pub warm_start: WarmStart,
 }
 
-/// Which contacts pushed how much: where the contacts stay the same, nearly the same forces do.
+/// Contact forces of an earlier sample: where contacts stay the same, nearly the same forces balance again.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct WarmStart {
     /// Feature and point, in order.
@@ -55,27 +56,32 @@ pub struct WarmStart {
     loops: Vec<f64>,
 }
 
-/// Edges of the pyramid within which a contact wrenches.
+/// Number of edges of the friction pyramid of a contact.
 const EDGES: usize = 4;
 
-/// One query about one stance.
+/// A query for contact forces in one stance.
 pub struct ContactQuery<'a> {
+    /// The robot.
     pub model: &'a Model<'a>,
+    /// Its loads.
     pub structure: &'a Structure,
+    /// Its stance.
     pub stance: &'a Stance,
+    /// Its cuts in that stance.
     pub sections: &'a [Section],
     /// The weights of the links.
     pub gravity_wrenches: &'a [Wrench],
-    /// What the cuts hold against the weights alone.
+    /// Loads at the cuts from the weights alone.
     pub weights: &'a [f64],
     /// The loads that count.
     pub loads: &'a [usize],
-    /// Weight, N; and the factor on friction.
+    /// Weight, N.
     pub weight: f64,
+    /// Factor on the friction coefficients of links.
     pub friction: f64,
-    /// Whether the base is bolted down: then nothing of the ground wrenches, and what holds the base
-    /// balances the rest.
+    /// True for a fixed base: then the ground does not push, and the fixture of the base balances the rest.
     pub fixed_base: bool,
+    /// The tolerances.
     pub tolerances: &'a Tolerances,
 }
 
@@ -86,7 +92,7 @@ impl ContactQuery<'_> {
         let columns = self.columns(&contacts);
         let mut sizes = Vec::with_capacity(columns.len());
         for contact_point in &contacts {
-            // What touches anew wrenches nothing yet; what left is missed, and the others take it over.
+            // What touches anew pushes nothing yet; what left is missed, and the others take it over.
             let place = warm_start.contacts.binary_search(&(contact_point.feature, contact_point.k));
             sizes.extend(place.map_or([0.0; EDGES], |at| warm_start.wrenches[at]));
         }
@@ -99,12 +105,12 @@ impl ContactQuery<'_> {
         self.certified(&contacts, &columns, &sizes, f64::NEG_INFINITY)
     }
 
-    /// How large the linear lp is: what solving it costs.
+    /// Returns the size of the LP, columns and loads, as a measure of its cost.
     pub fn lp_size(&self) -> usize {
         self.columns(&self.contacts()).len() + self.loads.len()
     }
 
-    /// The least greatest load by linear programming; `None` where no forces balance the weight, or
+    /// Solves the LP of the least greatest load; `None` where no forces balance the weight, or
     /// the solver did not get there.
     pub fn minimise_peak_load(&self) -> Option<ContactForces> {
         let contacts = self.contacts();
@@ -161,7 +167,7 @@ impl ContactQuery<'_> {
         columns
     }
 
-    /// Force and moment of a column about the centre of mass, in parts of the weight.
+    /// Returns force and moment of a column about the centre of mass, in parts of the weight.
     pub fn balance(&self, column: &Column) -> Vector6<f64> {
         let mut sum = Vector6::zeros();
         for push in column.wrenches.iter().filter(|_| !column.free) {

@@ -26,6 +26,7 @@ const DIRECTIONS: [[f64; 3]; 9] = [
 /// Forces are in parts of the weight, moments in parts of the weight times a metre. Columns: sizes of
 /// the wrenches, then six for every node but the first, then the greatest load.
 pub struct ContactLp {
+    /// The linear programme for the solver.
     pub problem: LinearProgram,
     rows: Vec<Row>,
 }
@@ -33,7 +34,7 @@ pub struct ContactLp {
 /// A piece of the robot between cuts.
 struct Node {
     parent: usize,
-    /// Where its moments are taken about.
+    /// The point about which its moments are taken, m.
     place: Vec3,
     /// Of its own links.
     weight: Vector6<f64>,
@@ -48,6 +49,7 @@ struct Row {
 }
 
 impl ContactLp {
+    /// Builds the LP of a query over these columns.
     pub fn new(query: &ContactQuery, columns: &[Column]) -> ContactLp {
         let (nodes, node_of) = nodes(query);
         let rows = rows(query);
@@ -74,9 +76,9 @@ impl ContactLp {
         ContactLp { problem, rows }
     }
 
-    /// A bound from multipliers, whoever made them: for any weights `z ≥ 0` of the rows that sum to 1
+    /// Returns a lower bound on the greatest load from dual multipliers, whatever solver made them: for any weights `z ≥ 0` of the rows that sum to 1
     /// and any `y`, `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ
-    /// of the contacts' wrenches sum to 1, so that the least coefficient bounds the sum.
+    /// of the contacts' forces sum to 1, so that the least coefficient bounds the sum.
     pub fn bound(&self, query: &ContactQuery, columns: &[Column], solution: &LinearSolution) -> f64 {
         let z: Vec<f64> = solution.z[..self.rows.len()].iter().map(|z| z.max(0.0)).collect();
         let total: f64 = z.iter().sum();
@@ -110,7 +112,7 @@ impl ContactLp {
                 return f64::NEG_INFINITY;
             }
         }
-        // Where nothing wrenches there is no sum of sizes to bound.
+        // Where no contact pushes there is no sum of sizes to bound.
         if query.fixed_base { constant } else { constant - y[2] + least }
     }
 }

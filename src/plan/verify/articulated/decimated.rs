@@ -1,4 +1,4 @@
-//! Even selections from a sequence whose length nobody knows beforehand.
+//! Decimation: an even selection from a sequence of unknown length.
 
 /// At most so many items at even distances, however many are seen.
 pub struct Decimated<T> {
@@ -10,11 +10,12 @@ pub struct Decimated<T> {
 }
 
 impl<T> Decimated<T> {
+    /// Returns an empty selection of at most `most` items.
     pub fn new(most: usize) -> Decimated<T> {
         Decimated { kept: vec![], most, stride: 1, seen: 0 }
     }
 
-    /// Counts one more; whether it is to be kept.
+    /// Counts one more item; returns true if it is to be kept.
     pub fn next_is_kept(&mut self) -> bool {
         let next_is_kept = self.seen.is_multiple_of(self.stride);
         self.seen += 1;
@@ -34,14 +35,17 @@ impl<T> Decimated<T> {
         self.kept.push(item);
     }
 
+    /// Returns the number of items seen for each one kept.
     pub fn stride(&self) -> usize {
         self.stride
     }
 
+    /// Returns the number of items seen.
     pub fn seen(&self) -> usize {
         self.seen
     }
 
+    /// Returns the items kept, in order.
     pub fn into_kept(self) -> Vec<T> {
         self.kept
     }

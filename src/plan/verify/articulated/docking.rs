@@ -1,4 +1,4 @@
-//! Bonds: whether ports are near enough when they dock, loops stay closed, and nothing falls off.
+//! Checks of bonds: ports are within capture when they dock, loops stay closed, and the robot stays connected.
 
 use super::rollout::{Rollout, Sample, positions};
 use super::tolerances::Tolerances;
@@ -59,7 +59,7 @@ fn listed(names: &[String]) -> String {
     if names.len() > NAMES_SHOWN { format!("{shown}, ...") } else { shown }
 }
 
-/// Whether a dock's ports are near enough; reports it where they are not.
+/// Returns true if the ports of a dock are within capture; records a failure otherwise.
 fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &Dock, ledger: &mut Ledger) -> bool {
     let robot = &rollout.tracks.robot;
     let kinematics = Kinematics::new(robot, bonds, robot.base);
@@ -91,10 +91,12 @@ pub struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
+    /// Returns a monitor; `missed` are bonds that did not dock.
     pub fn new(rollout: &'a Rollout<'a>, missed: Vec<usize>) -> Monitor<'a> {
         Monitor { rollout, missed, samples: 0, open: vec![] }
     }
 
+    /// Checks the closure of every loop at a sample.
     pub fn observe(&mut self, sample: &Sample) {
         if sample.model.kinematics.tree.closing.is_empty() {
             return;
@@ -122,6 +124,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// Records the failures and the status.
     pub fn finish(self, ledger: &mut Ledger) {
         self.open.into_iter().for_each(|failure| ledger.fail(failure));
         let status = if self.samples == 0 { Status::Proved } else { Status::Sampled(self.samples) };
@@ -129,7 +132,7 @@ impl<'a> Monitor<'a> {
     }
 }
 
-/// Whether a bond is part of the loop that another closes.
+/// Returns true if a bond is part of the loop that another closes.
 fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
     let (robot, kinematics) = (sample.model.robot, &sample.model.kinematics);
     let ends = |bond: usize| {
@@ -141,7 +144,7 @@ fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
     bond == closing || ends(bond).iter().all(|link| path.contains(link))
 }
 
-/// Whether a loop is open in a sample, by the name of its bond.
+/// Returns true if a loop is open in a sample, by the name of its bond.
 pub fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> bool {
     residuals(sample)
         .iter()

@@ -5,10 +5,10 @@ use crate::plan::polynomial::{hull, split};
 /// Relative precision of a greatest value.
 const PRECISION: f64 = 1e-12;
 
-/// Pieces looked at before the bound is taken instead of the value.
+/// Pieces examined before the bound is taken instead of the value.
 const PIECES_MAX: usize = 4096;
 
-/// The greatest value over 0..1, and where. It is never below the true one, and above it by no more
+/// Returns the greatest value over 0..1 and where it is, by subdivision (the convex hull property). It is never below the true one, and above it by no more
 /// than rounding, unless a polynomial is so wild that the pieces run out.
 pub fn greatest(control: &[f64]) -> (f64, f64) {
     let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));
@@ -32,7 +32,7 @@ pub fn greatest(control: &[f64]) -> (f64, f64) {
     bound.fold(best, |best, piece| if piece.0 > best.0 { piece } else { best })
 }
 
-/// The same polynomial with more control points.
+/// Returns the control points of the same polynomial at a higher degree (degree elevation).
 pub fn elevated(control: &[f64], degree: usize) -> Vec<f64> {
     let mut points = control.to_vec();
     while points.len() <= degree {

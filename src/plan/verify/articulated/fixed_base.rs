@@ -1,6 +1,6 @@
-//! Torques of a robot that is held fast, at every instant and not only at samples.
+//! Gravity torques of a robot with a fixed base, proved at every instant and not only at samples.
 //!
-//! In the middle of a interval every torque is known; by how much it differs until the ends follows from
+//! In the middle of an interval every torque is known; by how much it differs until the ends follows from
 //! how far joints can turn in it. Seen from the piece before a joint, what hangs on it changes by each turn
 //! beyond the joint no more than the angle times the arm; and the piece before turns against gravity by no
 //! more than all angles before it. Stretches are halved until that is enough.
@@ -10,12 +10,13 @@ use super::motion_bounds::{Interval, MotionBounds};
 use super::rollout::{Rollout, bonds_at, world_at};
 use super::sampling;
 use super::statics::{LoadKind, Structure, moves};
+use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::{ExemptionKind, Ground};
 use crate::robot::Motion;
 
-/// What was found about the stretches between samples.
+/// The result about the time between samples.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BetweenSamples {
     /// No load is ever over its limit.
@@ -25,12 +26,6 @@ pub enum BetweenSamples {
     /// At this instant one is.
     Over { time: f64, load: usize, ratio: f64 },
 }
-
-/// Stretches are halved down to this length, s.
-const SHORTEST: f64 = 1e-5;
-
-/// What rounding may add to a load, in parts of its limit.
-const ROUNDING: f64 = 1e-9;
 
 /// Judges the whole plan, if its base is held fast all the time and no loop leaves open who carries what.
 pub fn prove(rollout: &Rollout) -> BetweenSamples {
@@ -63,7 +58,9 @@ pub fn prove(rollout: &Rollout) -> BetweenSamples {
                 Assessment::Over { load, ratio } => {
                     return BetweenSamples::Over { time: interval.middle, load, ratio };
                 }
-                Assessment::Near if to - from < SHORTEST => return BetweenSamples::Open,
+                Assessment::Near if to - from < rollout.tolerances.load_interval => {
+                    return BetweenSamples::Open;
+                }
                 Assessment::Near => open.extend([(interval.middle, to), (from, interval.middle)]),
             }
         }
@@ -71,8 +68,9 @@ pub fn prove(rollout: &Rollout) -> BetweenSamples {
     BetweenSamples::Proved
 }
 
-/// Everything that is needed to weigh one posture after the other.
+/// The model for the gravity loads of one posture after the other.
 struct GravityLoads<'a> {
+    tolerances: &'a Tolerances,
     model: Model<'a>,
     structure: Structure,
     /// Downwards in the frame of the base's body, of length 1.
@@ -115,10 +113,18 @@ impl<'a> GravityLoads<'a> {
         steps.iter().enumerate().for_each(|(index, step)| step_of[step.link] = Some(index));
         let moving = (0..steps.len()).filter(|&index| moves(&steps[index])).collect();
         let down = rollout.tracks.start.base.rotation.inverse() * -Vec3::z();
-        GravityLoads { model, structure, down, step_of, moving, poses: Vec::new() }
+        GravityLoads {
+            tolerances: rollout.tolerances,
+            model,
+            structure,
+            down,
+            step_of,
+            moving,
+            poses: Vec::new(),
+        }
     }
 
-    /// Whether loads follow from the weights alone, and all are of joints that turn.
+    /// Returns true if loads follow from the weights alone, and all are of joints that turn.
     fn decides(&self) -> bool {
         let turns = |kind| matches!(kind, LoadKind::Joint { turns: true, .. });
         self.structure.closing.is_empty()
@@ -140,10 +146,10 @@ impl<'a> GravityLoads<'a> {
                 deviation += factor.abs() * (own.shift + own.before * own.arms);
             }
             let ratio = size.abs() / load.limit;
-            if ratio > 1.0 + ROUNDING && over.is_none_or(|(_, worst)| ratio > worst) {
+            if ratio > 1.0 + self.tolerances.load && over.is_none_or(|(_, worst)| ratio > worst) {
                 over = Some((index, ratio));
             }
-            near |= ratio + deviation / load.limit > 1.0 + ROUNDING;
+            near |= ratio + deviation / load.limit > 1.0 + self.tolerances.load;
         }
         match over {
             Some((load, ratio)) => Assessment::Over { load, ratio },
@@ -188,7 +194,7 @@ impl<'a> GravityLoads<'a> {
         distal
     }
 
-    /// How far a step turns; nothing where it slides.
+    /// Returns the angle by which a step turns at most, rad; zero where it slides.
     fn angle(&self, step: usize, distal: &[DistalLoad]) -> f64 {
         match self.model.kinematics.steps[step].motion {
             Motion::Along(_) => 0.0,

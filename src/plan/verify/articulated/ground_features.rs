@@ -1,10 +1,11 @@
-//! What of a robot can touch the ground: vertices, circles and spheres, each with one lowest point.
+//! Features of a robot that can touch the ground: vertices, circles and spheres, each with one lowest point.
 //!
 //! Wheels are exact circles. A polygon would make wells in which a chassis sticks; and a wheel's own
 //! spin changes no feature at all, which is what makes rolling cheap and exact.
 
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
+/// A 3×3 matrix, mostly a rotation.
 pub type Mat3 = nalgebra::Matrix3<f64>;
 
 /// Points that stand for a circle: the lowest, and others round it so that a disc lying flat is more
@@ -20,10 +21,13 @@ const UNIONS_MAX: usize = 100_000;
 /// A part of a link's surface, in the frame of the link or in another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
+    /// The vertex, or the centre of the circle or sphere, m.
     pub centre: Vec3,
+    /// The shape round the centre.
     pub form: Form,
 }
 
+/// The shape of a feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
     Vertex,
@@ -34,7 +38,7 @@ pub enum Form {
 }
 
 impl Feature {
-    /// The feature in the frame in which its own frame is turned by `R` and then shifted by `p`.
+    /// Returns the feature in the frame in which its own frame is turned by `R` and then shifted by `p`.
     pub fn placed(&self, R: &Mat3, p: &Vec3) -> Feature {
         let form = match self.form {
             Form::Circle(axis, radius) => Form::Circle(R * axis, radius),
@@ -43,12 +47,12 @@ impl Feature {
         Feature { centre: R * self.centre + p, form }
     }
 
-    /// How many points stand for it.
+    /// Returns the number of points that represent it.
     pub fn points(&self) -> u8 {
         if matches!(self.form, Form::Circle(..)) { CIRCLE_POINTS } else { 1 }
     }
 
-    /// Height of its lowest point along the unit vector `up`.
+    /// Returns the height of its lowest point along the unit vector `up`.
     pub fn lowest(&self, up: &Vec3) -> f64 {
         let centre = up.dot(&self.centre);
         match self.form {
@@ -61,7 +65,7 @@ impl Feature {
         }
     }
 
-    /// Point `k` of those that stand for it; 0 is the lowest along `up`.
+    /// Returns point `k` of those that represent it; 0 is the lowest along `up`.
     pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
         match self.form {
             Form::Vertex => self.centre,
@@ -74,12 +78,12 @@ impl Feature {
         }
     }
 
-    /// Upper bound on how far any point of it is from the origin, m.
+    /// Returns an upper bound on the distance of any of its points from the origin, m.
     pub fn reach(&self) -> f64 {
         self.centre.norm() + self.radius()
     }
 
-    /// Upper bound on how far any of its points is from the place of its like in `other`, m.
+    /// Returns an upper bound on the distance of any of its points from the corresponding point of `other`, m.
     pub fn moved(&self, other: &Feature) -> f64 {
         let centre = (self.centre - other.centre).norm();
         match (self.form, other.form) {
@@ -122,7 +126,7 @@ fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     (across - axis * across.dot(axis)).normalize()
 }
 
-/// The features of a link's shapes, in the frame of the link, in an order that depends on nothing
+/// Returns the features of a link's shapes, in the frame of the link, in an order that depends on nothing
 /// but the declaration.
 pub fn features(shapes: &[Placed]) -> Vec<Feature> {
     let mut found = Vec::new();

@@ -1,5 +1,4 @@
-//! What a plan's robot is like on its way: the walk that the judge takes, told to whoever draws or
-//! measures it. Nothing is judged here.
+//! The rollout of a plan for those who draw or measure it. Nothing is judged here.
 
 use super::contact;
 use super::decimated::Decimated;
@@ -10,7 +9,7 @@ use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, validation};
 
-/// Moments of one history; of a longer walk every second, fourth, ... is kept.
+/// Greatest number of moments of a history; of a longer rollout every second, fourth, ... is kept.
 pub const MOMENTS_MAX: usize = 4096;
 
 /// Of so many moments one tells the loads of the joints, which take longer to find.
@@ -36,14 +35,14 @@ pub struct Moment {
     /// Distance of the centre of mass inside that hull, negative outside, m; `None` where it spans no
     /// area.
     pub margin: Option<f64>,
-    /// Whether the support was lost and the base is held for the time that `unstable_for` allows.
+    /// True if the support was lost and the base is held for the time that `unstable_for` allows.
     pub held: bool,
     /// Load by limit of each joint that states one, with the ground's forces spread evenly: (joint,
     /// ratio). The judge may know better forces. Empty at most moments.
     pub loads: Vec<(usize, f64)>,
 }
 
-/// The moments of an articulated robot's plan, in order of time, from the start to `until` (s).
+/// Returns the moments of an articulated robot's plan, in order of time, from the start to `until` (s).
 /// Empty for plans of other families, and for plans that mean nothing.
 pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     let tolerances = Tolerances::default();
@@ -66,7 +65,7 @@ pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     moments
 }
 
-/// World pose of the base module's body (`X_WB`) at a time (s): where standing, rolling and tipping have
+/// Returns the world pose of the base module's body (`X_WB`) at a time (s): where standing, rolling and tipping have
 /// brought it by then. `None` for plans that have no such body, or that mean nothing.
 pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
     let mut base = None;
@@ -76,7 +75,7 @@ pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
     base
 }
 
-/// Walks a sound plan of an articulated robot.
+/// Rolls out a valid plan of an articulated robot.
 fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&Sample)) {
     let Body::Tracks(tracks) = &plan.body else { return };
     if validation::check(plan).is_err() {

@@ -1,4 +1,4 @@
-//! The robot in the middle of a interval of time, with bounds on how it moves until the ends.
+//! The robot in the middle of an interval of time, with bounds on how it moves until the ends.
 //!
 //! Positions and velocities in the middle are exact. What follows from them to the ends is bounded,
 //! for each link as seen from an origin link (see [`levels`](super::reference_links)), by how far velocities
@@ -16,8 +16,10 @@ use crate::robot::Kinematics;
 use crate::robot::{Motion, Step};
 use nalgebra::Matrix3;
 
+/// The state of all links in the middle of an interval, with bounds on their motion.
 #[derive(Clone, Debug, Default)]
 pub struct IntervalState {
+    /// The joints over the interval.
     pub interval: Interval,
     poses: Vec<Pose>,
     /// World orientation, position, angular velocity (rad/s) and velocity (m/s) of each link.
@@ -29,15 +31,20 @@ pub struct IntervalState {
     known: Vec<bool>,
 }
 
+/// Pose and velocity of a link, in the frame of the root link.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moving {
+    /// Orientation.
     pub R: Matrix3<f64>,
+    /// Position of the origin, m.
     pub p: Vec3,
+    /// Angular velocity, rad/s.
     pub spin: Vec3,
+    /// Velocity of the origin, m/s.
     pub v: Vec3,
 }
 
-/// How far a link's velocities, seen from an origin, can be from those in the middle.
+/// Bounds on the difference of a link's velocities, relative to a reference link, from those in the middle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Deviation {
     /// Of the link's origin, m/s.
@@ -51,7 +58,7 @@ pub struct Deviation {
 }
 
 impl IntervalState {
-    /// The middle of `from..to`.
+    /// Computes poses and velocities in the middle of `from..to` (s).
     pub fn set(&mut self, kinematics: &Kinematics, bounds: &MotionBounds, from: f64, to: f64) {
         bounds.over(from, to, &mut self.interval);
         self.poses.resize(kinematics.link_count(), Pose::identity());
@@ -89,7 +96,7 @@ impl IntervalState {
         }
     }
 
-    /// How links deviation at a level, computed when first asked for.
+    /// Computes the bounds of all links at a level, when first asked for.
     pub fn deviations(&mut self, kinematics: &Kinematics, levels: &ReferenceLinks, level: usize) {
         if self.known.len() != levels.levels.len() {
             self.known.resize(levels.levels.len(), false);
@@ -114,11 +121,12 @@ impl IntervalState {
         self.deviations[level] = deviations;
     }
 
+    /// Returns the bound of a link at a level that was computed before.
     pub fn deviation(&self, level: usize, link: usize) -> &Deviation {
         &self.deviations[level][link]
     }
 
-    /// The pose of link b in link a, in the middle.
+    /// Returns `X_AB`, the pose of link b in link a, in the middle.
     pub fn relative(&self, a: usize, b: usize) -> Pose {
         self.poses[a].inverse() * self.poses[b]
     }
@@ -140,7 +148,7 @@ struct JointStretch {
     rate: f64,
     deviation: f64,
     half: f64,
-    /// How far a prismatic joint is out.
+    /// Extension of a prismatic joint, m.
     reach: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Range, speed and acceleration of joints and motors, from the polynomials themselves: proved at
-//! every instant.
+//! Range, speed and acceleration of joints and motors, by the convex hull property of Bernstein polynomials:
+//! proved at every instant.
 
 use super::extremum::{elevated, greatest};
 use super::tolerances::Tolerances;
@@ -26,6 +26,7 @@ struct Piece {
     cause: Option<CauseId>,
 }
 
+/// Judges range, speed and acceleration of every joint and motor that states a limit.
 pub fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
     let drives = drives(&tracks.robot);
     for drive in &drives {

@@ -1,4 +1,5 @@
-//! How a resting robot is carried over the ground while its joints move: wheels roll, feet hold.
+//! Quasi-static motion over the ground while joints move, by the minimum power principle (Peshkin and Sanderson
+//! 1989): wheels roll, feet hold.
 //!
 //! The displacement is the one for which the sum of load times friction times slip over all patches
 //! is least: Coulomb friction lets the loaded contacts stick and the light ones slip. Contacts of the
@@ -13,13 +14,16 @@ use crate::geometry::Vec3;
 /// PlanarPose and heading on the ground: metres, radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlanarPose {
+    /// Position along the first world axis, m.
     pub x: f64,
+    /// Position along the second world axis, m.
     pub y: f64,
+    /// Heading, rad.
     pub yaw: f64,
 }
 
 impl PlanarPose {
-    /// Moved by a displacement in its own frame along an arc: forward, left, turn.
+    /// Returns the pose moved by a displacement in its own frame along an arc: forward (m), left (m), turn (rad).
     pub fn moved(&self, shift: &Vec3) -> PlanarPose {
         let (s, c) = libm::sincos(shift.z);
         // sin(w)/w and (1 - cos w)/w, by their series where w is small.
@@ -65,7 +69,7 @@ impl SlidingPatch {
     }
 }
 
-/// Where the robot is carried to, and the slip of each loaded link (m) with its part of the weight:
+/// Returns the pose that the robot moves to, and the slip of each loaded link (m) with its part of the weight:
 /// half of it for the patch of the sample before, half for that of this one.
 pub fn displacement(
     model: &Model,

@@ -50,14 +50,14 @@ mod support_area;
 
 pub use bodies::{Bodies, UnsoundLink};
 pub use clearance::{clearances, collision_point};
-pub use collision::{Collision, Findings, Precision};
+pub use collision::{Collision, Findings};
 pub use contact::{ContactPatch, ContactPoint};
 pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
 pub use model::Model;
 pub use rollout::{Checkpoint, Rollout, RolloutEnd, Sample, TipOver, roll_out};
 pub use stance::Stance;
 pub use support_area::area;
-pub use tolerances::Tolerances;
+pub use tolerances::{Precision, Tolerances};
 
 use super::ledger::Ledger;
 use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
@@ -94,10 +94,10 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     ledger.finish()
 }
 
-/// Waypoints that are kept for walking parts of the way again.
+/// Number of checkpoints that are kept for rolling out parts of the plan again.
 const WAYPOINTS_MAX: usize = 16;
 
-/// Everything that is judged from sample to sample. Returns places to walk on from.
+/// Judges everything that is judged from sample to sample. Returns checkpoints to roll out from.
 fn on_the_way(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Checkpoint> {
     let mut loops = docking::Monitor::new(rollout, missed);
     let mut checkpoints = Decimated::new(WAYPOINTS_MAX);

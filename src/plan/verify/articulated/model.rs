@@ -1,13 +1,16 @@
-//! The robot as the judge sees it: kinematics compiled for the bonds that hold, masses, and what can
-//! touch the ground.
+//! The model of a robot for the judge: kinematics with the bonds that hold, masses, and features that can touch
+//! the ground.
 
 use super::ground_features::{self, Feature, Mat3};
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{Assembly, Kinematics};
 use std::ops::Range;
 
+/// A robot with the bonds that hold, compiled for statics and ground contact.
 pub struct Model<'a> {
+    /// The assembly.
     pub robot: &'a Assembly,
+    /// Its kinematics from the base.
     pub kinematics: Kinematics,
     /// One for every link of the assembly, loose ones too.
     pub bodies: Vec<Body>,
@@ -21,13 +24,16 @@ pub struct Model<'a> {
     pub mass: f64,
 }
 
-/// What the ground needs to know of a link.
+/// A link with its mass, friction and ground features.
 #[derive(Clone, Debug)]
 pub struct Body {
+    /// The module that it belongs to.
     pub module: usize,
+    /// Kilograms.
     pub mass: f64,
     /// In the link's frame, m.
     pub com: Vec3,
+    /// Friction coefficient on the ground.
     pub friction: f64,
     /// Gap up to which the link counts as touching the ground, m.
     pub contact: f64,
@@ -35,10 +41,12 @@ pub struct Body {
     pub features: Range<usize>,
 }
 
-/// Where the links are in the frame of the base module's body.
+/// Poses of all links in the frame of the base module's body.
 #[derive(Clone, Debug)]
 pub struct Posture {
+    /// Orientation of each link.
     pub R: Vec<Mat3>,
+    /// Position of each link's origin, m.
     pub p: Vec<Vec3>,
     /// Centre of mass of the attached links.
     pub centre: Vec3,
@@ -86,7 +94,7 @@ impl<'a> Model<'a> {
         model
     }
 
-    /// Where the links are with the joints at these positions. `poses` is room for one pose a link.
+    /// Returns the poses of all links with the joints at these positions (rad or m). `poses` is room for one pose a link.
     pub fn posture(&self, joints: &[f64], poses: &mut Vec<Pose>) -> Posture {
         poses.resize(self.bodies.len(), Pose::identity());
         self.kinematics.link_poses(joints, &Pose::identity(), poses);
@@ -100,12 +108,12 @@ impl<'a> Model<'a> {
         Posture { R, p, centre }
     }
 
-    /// The body of the base module.
+    /// Returns the link that is the body of the base module.
     pub fn base_link(&self) -> usize {
         self.kinematics.link(self.robot.base, 0)
     }
 
-    /// All features with the robot turned by `R`, the centre of mass at the origin.
+    /// Returns all features with the robot turned by `R`, the centre of mass at the origin.
     pub fn placed(&self, posture: &Posture, R: &Mat3) -> Vec<Feature> {
         let mut placed = Vec::with_capacity(self.features.len());
         for &link in &self.attached {
@@ -117,7 +125,7 @@ impl<'a> Model<'a> {
         placed
     }
 
-    /// Path name of the module of a link.
+    /// Returns the path name of the module of a link.
     pub fn module_name(&self, link: usize) -> &str {
         &self.robot.modules[self.bodies[link].module].name
     }

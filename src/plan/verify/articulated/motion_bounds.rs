@@ -1,10 +1,8 @@
-//! How joints move over a interval of time: where they are in its middle, how fast, and by how much
-//! their rate can differ from that.
+//! Motion bounds of joints over an interval of time: position and rate in its middle, and a bound on the
+//! difference of the rate from that, from Bernstein control points.
 
+use super::tolerances::Tolerances;
 use crate::plan::{Tracks, polynomial};
-
-/// Rates that differ by less than this at the border of two segments do not jump; rad/s or m/s.
-const TOL_RATE: f64 = 1e-9;
 
 /// The tracks of all joints, with bounds of their derivatives.
 #[derive(Clone, Debug)]
@@ -38,13 +36,14 @@ pub struct Interval {
     pub at: Vec<f64>,
     /// Rates in the middle, per second.
     pub rate: Vec<f64>,
-    /// How far the rate can be from that in the middle.
+    /// Bound on the difference of the rate from that in the middle.
     pub deviation: Vec<f64>,
-    /// Whether no rate jumps within: then it deviations in proportion to the time from the middle.
+    /// True if no rate jumps within: then it deviates in proportion to the time from the middle.
     pub smooth: bool,
 }
 
 impl MotionBounds {
+    /// Computes the derivatives of all tracks and their bounds.
     pub fn new(tracks: &Tracks) -> MotionBounds {
         let joints = tracks.start.joints.len();
         let mut bounds = MotionBounds {
@@ -62,7 +61,7 @@ impl MotionBounds {
         bounds
     }
 
-    /// All joints over `from..to`, into what an earlier call has left.
+    /// Writes the motion of all joints over `from..to` (s) to `out`.
     pub fn over(&self, from: f64, to: f64, out: &mut Interval) {
         out.middle = (from + to) / 2.0;
         out.half = (to - from) / 2.0;
@@ -124,6 +123,7 @@ fn jumps(pieces: &[Piece]) -> Vec<(f64, f64)> {
         (since, rate) = (piece.end, Piece::last(&piece.rates));
     }
     jumps.push((since, rate.abs()));
-    jumps.retain(|(_, by)| *by > TOL_RATE);
+    let tolerance = Tolerances::default().rate_jump;
+    jumps.retain(|(_, by)| *by > tolerance);
     jumps
 }

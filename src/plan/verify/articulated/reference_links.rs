@@ -1,4 +1,5 @@
-//! From which module to look at a pair of modules so that the bounds on their motion are tight.
+//! Reference links: for each pair of modules the link relative to which their motion is bounded, by a centroid
+//! decomposition of the tree of modules.
 //!
 //! How far a link deviations from uniform motion is bounded by a sum over the joints between it and the
 //! frame it is looked at from; from the far end of a long snake that sum is hopeless. A centroid
@@ -10,8 +11,10 @@ use crate::robot::{Assembly, Kinematics};
 
 const NOWHERE: u32 = u32::MAX;
 
+/// The centroid decomposition of the tree of modules.
 #[derive(Clone, Debug)]
 pub struct ReferenceLinks {
+    /// The levels of the decomposition, coarsest first.
     pub levels: Vec<ReferenceLevel>,
     /// For each level, the centroid that each module is looked at from.
     centroids: Vec<Vec<u32>>,
@@ -31,17 +34,20 @@ pub struct ReferenceLevel {
 /// From one link to a neighbour over a step of the kinematics.
 #[derive(Clone, Copy, Debug)]
 pub struct Hop {
+    /// The link already reached.
     pub from: u32,
+    /// Its neighbour.
     pub to: u32,
     /// Index in [`Kinematics::steps`].
     pub step: u32,
-    /// Distances of the two links' origins from the joint's axis, m.
+    /// Distance of the origin of `from` from the joint's axis, m.
     pub out: f64,
+    /// Distance of the origin of `to` from the joint's axis, m.
     pub back: f64,
 }
 
 impl ReferenceLinks {
-    /// For the modules that `kinematics` reaches.
+    /// Decomposes the tree of the modules that `kinematics` reaches.
     pub fn new(robot: &Assembly, kinematics: &Kinematics) -> ReferenceLinks {
         let modules = robot.modules.len();
         let neighbours = neighbours(robot, kinematics);
@@ -72,13 +78,13 @@ impl ReferenceLinks {
         self.centroids.iter().take_while(same).count() - 1
     }
 
-    /// The body link that a link is looked at from.
+    /// Returns the reference link of a link at a level.
     pub fn origin(&self, level: usize, link: usize) -> usize {
         self.levels[level].origin_of[link] as usize
     }
 }
 
-/// The module in the middle of all that `kinematics` reaches.
+/// Returns the centroid of all modules that `kinematics` reaches.
 pub fn middle(robot: &Assembly, kinematics: &Kinematics) -> usize {
     let taken = vec![false; robot.modules.len()];
     let neighbours = neighbours(robot, kinematics);

@@ -1,4 +1,4 @@
-//! A plan's robot on the ground from sample to sample.
+//! The rollout of a plan: the quasi-static motion of the robot on the ground, from sample to sample.
 //!
 //! Everything here is sequential, and depends on nothing but the plan: the attitude of a sample
 //! follows from the sample before.
@@ -13,57 +13,69 @@ use crate::interrupt;
 use crate::plan::{DockKind, Exemption, ExemptionKind, Ground, Settings, Tracks, World, WorldFrom};
 use crate::units::{Dimension, quantity};
 
-/// What is walked through, and how strictly.
+/// A plan to roll out, with settings and tolerances.
 #[derive(Clone, Copy)]
 pub struct Rollout<'a> {
+    /// The motion.
     pub tracks: &'a Tracks,
+    /// The worlds, in order of time.
     pub worlds: &'a [WorldFrom],
+    /// Exemptions that the source states.
     pub exemptions: &'a [Exemption],
+    /// The plan's settings of verification.
     pub settings: &'a Settings,
+    /// The tolerances.
     pub tolerances: &'a Tolerances,
-    /// A joint that stays where it is from a time on: to find out who is to blame.
+    /// A joint that is held from a time on (s), to find out which command is to blame.
     pub held: Option<(usize, f64)>,
 }
 
 /// The robot at one sample.
 pub struct Sample<'a> {
+    /// Seconds.
     pub time: f64,
     /// The sample before; the same as `time` at the start.
     pub before: f64,
+    /// Joint positions, rad or m.
     pub joints: &'a [f64],
+    /// True for the bonds that hold.
     pub bonds: &'a [bool],
+    /// The robot with those bonds.
     pub model: &'a Model<'a>,
+    /// Its stance on the ground, or over it.
     pub stance: &'a Stance,
+    /// The world at that time.
     pub world: &'a World,
-    /// Whether anything moved since the sample before.
+    /// True if anything moved since the sample before.
     pub moved: bool,
-    /// By how much the centre of mass fell with the joints held, m.
+    /// Fall of the centre of mass with the joints held, m.
     pub fall: f64,
     /// Bound on the motion of points about the centre of mass since the sample before, m.
     pub motion: f64,
+    /// The loss of support since the sample before, if there was one.
     pub tip: Option<&'a TipOver>,
     /// Slip of loaded links since the sample before, m, with their part of the weight.
     pub slips: &'a [(usize, f64, f64)],
-    /// At the start, or where a ground begins: how far the robot turned to settle, rad.
+    /// At the start, or where a ground begins: the angle by which the robot turned to settle, rad.
     pub settling: Option<f64>,
 }
 
-/// The support was lost.
+/// A loss of support: the robot tips over an edge of its support polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TipOver {
-    /// When the centre of mass crossed the edge, s.
+    /// The time at which the centre of mass crossed the edge, s.
     pub time: f64,
-    /// By how much it falls, m.
+    /// Fall of the centre of mass, m.
     pub fall: f64,
     /// Bound on the motion of the step that showed it, m.
     pub motion: f64,
     /// Links at the two ends of the edge.
     pub edge: Vec<usize>,
-    /// Whether an exemption covers it.
+    /// True if an exemption covers it.
     pub excused: bool,
 }
 
-/// Why a walk ended early.
+/// The reason for which a rollout ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RolloutEnd {
     AtEnd,
@@ -76,10 +88,12 @@ pub enum RolloutEnd {
 /// Halvings of one step: times are that close that nothing moves between them.
 const HALVINGS_MAX: usize = 50;
 
-/// From where a walk goes on, s.
+/// A state from which a rollout goes on.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
+    /// Seconds.
     pub time: f64,
+    /// The stance at that time.
     pub stance: Stance,
     held_since: Option<f64>,
 }
@@ -98,8 +112,8 @@ struct Stepper<'a> {
     samples: usize,
 }
 
-/// Walks through a plan from its start, or from a checkpoint, until `until`. `watch` sees every sample
-/// and says whether to go on.
+/// Rolls a plan out from its start, or from a checkpoint, until `until` (s). `observe` gets every sample, and
+/// returns false to stop.
 pub fn roll_out(
     rollout: Rollout,
     from: Option<&Checkpoint>,
@@ -261,7 +275,7 @@ impl<'a> Stepper<'a> {
         Some(step)
     }
 
-    /// When, and over which edge: by halving between the last sample that stood and this one.
+    /// Locates a tip-over in time and its edge, by bisection between the last sample that stood and this one.
     fn tip(&mut self, t: f64, fall: f64, motion: f64) -> TipOver {
         let tolerances = self.rollout.tolerances;
         let (mut standing, mut fallen) = (self.now, t);
@@ -372,7 +386,7 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// What is kept of the pose that a robot is drawn in, where it does not settle.
+/// Returns the part of the drawn pose that is kept where a robot does not settle.
 fn unsettled(world: &World) -> Kept {
     if world.ground == Ground::Held { Kept::Pose } else { Kept::Orientation }
 }
@@ -393,12 +407,12 @@ struct Step {
     settling: Option<f64>,
 }
 
-/// Whether an exemption allows the robot to tip at `t`.
+/// Returns true if an exemption allows the robot to tip at `t` (s).
 pub fn excused(exemptions: &[Exemption], t: f64) -> bool {
     exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.from <= t && t <= e.to)
 }
 
-/// Joint positions at a time, a blamed joint held.
+/// Writes the joint positions at a time (s), with the blamed joint held.
 pub fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
     joints.clear();
     joints.extend_from_slice(&rollout.tracks.start.joints);
@@ -412,7 +426,7 @@ pub fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
     }
 }
 
-/// Which bonds hold just after a time.
+/// Returns for each bond if it holds just after a time (s).
 pub fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
     let mut bonds = tracks.start.bonds.clone();
     for dock in tracks.docks.iter().take_while(|d| d.time <= t) {
@@ -421,7 +435,7 @@ pub fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
     bonds
 }
 
-/// The world just after a time.
+/// Returns the world just after a time (s).
 pub fn world_at(worlds: &[WorldFrom], t: f64) -> World {
     worlds.iter().take_while(|w| w.from <= t).last().map_or_else(World::default, |w| w.world)
 }

@@ -1,11 +1,11 @@
-//! When a plan is looked at: at every instant at which something begins or ends, and between those
-//! often enough that no joint turns far from one sample to the next.
+//! Sample times of a plan: every instant at which something begins or ends, and between those often enough
+//! that no joint turns far from one sample to the next.
 
 use super::tolerances::Tolerances;
 use crate::plan::{Exemption, Settings, Tracks, WorldFrom};
 use crate::robot::JointId;
 
-/// Every instant that is a sample whatever the settings say, in order: starts and ends of segments,
+/// Returns every instant that is a sample whatever the settings say, in order: starts and ends of segments,
 /// docking, changes of the world, ends of exemptions, the start and the end.
 pub fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
     let mut all = tracks.instants();
@@ -17,20 +17,19 @@ pub fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption])
     all
 }
 
-/// Into how many samples the interval between two neighbouring instants is divided; 0 where no joint
-/// moves.
+/// Returns the number of samples between two neighbouring instants (s); 0 where no joint moves.
 pub fn divisions(tracks: &Tracks, t0: f64, t1: f64, settings: &Settings, tolerances: &Tolerances) -> usize {
     let travel = tracks.tracks.iter().map(|track| travel(tracks, track.joint, t0, t1)).fold(0.0, f64::max);
     if travel == 0.0 {
         return 0;
     }
-    let by_time = libm::ceil((t1 - t0) / settings.sample - ROUNDING);
-    let by_turn = libm::ceil(travel / tolerances.turn_sample - ROUNDING);
+    let by_time = libm::ceil((t1 - t0) / settings.sample - tolerances.sample_count);
+    let by_turn = libm::ceil(travel / tolerances.turn_sample - tolerances.sample_count);
     // Beyond what a machine counts, all of it.
     by_time.max(by_turn).max(1.0) as usize
 }
 
-/// How many samples a plan takes, refinements not included.
+/// Returns the number of samples of a plan, refinements not included.
 pub fn count(
     tracks: &Tracks,
     worlds: &[WorldFrom],
@@ -42,9 +41,6 @@ pub fn count(
     let between = instants.windows(2).map(|w| divisions(tracks, w[0], w[1], settings, tolerances).max(1));
     between.fold(1, usize::saturating_add)
 }
-
-/// A interval that is this little longer than a whole number of samples is not divided once more.
-const ROUNDING: f64 = 1e-6;
 
 /// An upper bound on how far a joint moves, back and forth: the length of its control polygon.
 fn travel(tracks: &Tracks, joint: JointId, t0: f64, t1: f64) -> f64 {

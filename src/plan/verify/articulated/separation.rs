@@ -1,4 +1,5 @@
-//! Pairs of bodies, and what a interval of time says of them.
+//! Separation of pairs of modules and bodies over an interval of time: lower bounds on their distance from
+//! bounding spheres and from separating slabs.
 
 use super::bodies::{Bodies, Body};
 use super::interval_state::IntervalState;
@@ -7,30 +8,35 @@ use crate::geometry::Vec3;
 use crate::geometry::distance::signed_distance_within;
 use crate::robot::Kinematics;
 
-/// Two modules that have not been told apart yet.
+/// Two modules that are not proved to be separated yet.
 #[derive(Clone, Copy, Debug)]
 pub struct ModulePair {
+    /// The first module.
     pub a: u32,
+    /// The second module.
     pub b: u32,
+    /// The level of their reference link.
     pub level: u32,
 }
 
-/// Two bodies that have not been told apart yet.
+/// Two bodies that are not proved to be separated yet.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyPair {
+    /// The first body.
     pub a: u32,
+    /// The second body.
     pub b: u32,
+    /// The level of their reference link.
     pub level: u32,
-    /// Whether they count for the clearance: two links that a joint joins do not.
+    /// True if they count for the clearance: two links that a joint joins do not.
     pub counts: bool,
     /// Deeper than this is a collision, m.
     pub allowed: f64,
-    /// The direction from a to b along which they were last told apart, in the state of a's carrier;
-    /// zero at first.
+    /// The separating direction from a to b found last, in the frame of a's carrier; zero at first.
     pub normal: Vec3,
 }
 
-/// What is known of a pair over a interval.
+/// Lower bounds on the distance of a pair over an interval.
 #[derive(Clone, Copy, Debug)]
 pub struct Bound {
     /// Lower bound of the distance over the whole interval, m.
@@ -39,11 +45,14 @@ pub struct Bound {
     pub middle: f64,
 }
 
-/// A state and how it is looked at.
+/// The state of an interval with what it refers to.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
+    /// The middle of the interval.
     pub state: &'a IntervalState,
+    /// The reference links.
     pub levels: &'a ReferenceLinks,
+    /// The kinematics of the connected part.
     pub kinematics: &'a Kinematics,
 }
 
@@ -53,7 +62,7 @@ struct Motion {
     v: Vec3,
 }
 
-/// Of a ball around each module: nothing of them is nearer than this.
+/// Returns the bound from a bounding sphere of each module.
 pub fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> Bound {
     let state = view.state;
     let [a, b] = [pair.a, pair.b].map(|m| view.kinematics.link(m as usize, 0));
@@ -66,7 +75,7 @@ pub fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> Bound {
     between.bound(state.interval.half, state.drift(deviation), reach)
 }
 
-/// Of a ball around each body.
+/// Returns the bound from a bounding sphere of each body.
 pub fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound {
     let state = view.state;
     let (x, y) = (state.centre(a), state.centre(b));
@@ -84,7 +93,7 @@ pub fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound {
     )
 }
 
-/// Of the slab between two bodies along a direction of a's carrier that is held still in the state of
+/// Returns the bound from the slab between two bodies along a direction of a's carrier that is held still in the state of
 /// the level's origin. Points of each body move with its velocity and spin; a linear function's least
 /// value over a convex body and over the interval is at one of the interval's ends.
 pub fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
@@ -114,8 +123,8 @@ pub fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
     Bound { least: ends - state.drift(deviation(a) + deviation(b)), middle }
 }
 
-/// The distance in the middle, no more exactly than to see that it is at least `enough`; leaves its
-/// direction in the pair.
+/// Returns the signed distance in the middle (m), exact only below `enough`, and leaves its direction in the
+/// pair.
 pub fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
     let X_AB = state.relative(a.carrier, b.carrier);
     let start = (pair.normal != Vec3::zeros()).then_some(pair.normal);
@@ -141,8 +150,8 @@ impl IntervalState {
         Motion { p: link.p + arm, v: link.v + link.spin.cross(&arm) }
     }
 
-    /// How far a point gets from uniform motion by the ends of the interval if its velocity deviations by
-    /// so much, m: where nothing jumps, velocity deviations in proportion to time.
+    /// Returns the distance of a point from uniform motion at the ends of the interval (m) if its velocity deviates
+    /// by so much: where nothing jumps, it deviates in proportion to time.
     fn drift(&self, deviation: f64) -> f64 {
         deviation * self.interval.half * if self.interval.smooth { 0.5 } else { 1.0 }
     }

@@ -1,4 +1,4 @@
-//! Settling: the attitude in which the centre of mass is lowest near a given one.
+//! Settling: the attitude near a given one in which the centre of mass is lowest, by a proximal bundle method.
 //!
 //! Standing on level ground with its own "up" `u`, a robot's centre of mass is at the height
 //! `H(u) = max u·(c - p)` over its points p. SettledAttitude is a local minimum of H. It is found by a proximal
@@ -29,7 +29,7 @@ const ROUNDS_MAX: usize = 400;
 const BASES_MAX: usize = 500;
 const SHORTENINGS_MAX: usize = 60;
 
-/// Where the descent ended.
+/// The attitude at which the descent ended.
 #[derive(Clone, Debug)]
 pub struct SettledAttitude {
     /// The rotation from where it began.
@@ -38,12 +38,12 @@ pub struct SettledAttitude {
     pub height: f64,
 }
 
-/// Height of the centre of mass (the origin) over the lowest point, with `up` pointing up.
+/// Returns the height of the centre of mass (the origin) over the lowest point, with `up` pointing up.
 pub fn height(features: &[Feature], up: &Vec3) -> f64 {
     -features.iter().map(|feature| feature.lowest(up)).fold(f64::INFINITY, f64::min)
 }
 
-/// Settles a robot from its present attitude; `features` have the centre of mass at the origin and
+/// Returns the attitude at which a robot comes to rest from its present one; `features` have the centre of mass at the origin and
 /// +z up.
 pub fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
     let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! Whether the robot stands: tips, and the margin of the centre of mass in what supports it.
+//! Static stability: tip-overs, and the margin of the centre of mass in the support polygon.
 
 use super::contact;
 use super::rollout::Sample;
@@ -8,36 +8,40 @@ use crate::plan::verify::support_polygon::{self, Margin};
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Stability, Status};
 use crate::units::{Dimension, quantity};
 
-/// Watches a walk for the loss of support.
+/// Watches a rollout for the loss of support.
 pub struct Monitor<'a> {
     settings: &'a Settings,
     tolerances: &'a Tolerances,
     /// The present loss of support.
     loss: Option<SupportLoss>,
     samples: usize,
-    /// Whether every step so far was proved to be free of tips.
+    /// True if every step so far was proved to be free of tip-overs.
     proved: bool,
     standing: bool,
-    /// Whether any part of the plan has a ground, and whether the base is bolted down in any.
+    /// True if any part of the plan has a ground.
     ground: bool,
     fixed_base: bool,
 }
 
-/// A interval of time without support.
+/// An interval of time without support.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SupportLoss {
+    /// When it begins, s.
     pub since: f64,
+    /// When it ends, s.
     pub until: f64,
-    /// By how much the robot falls; of no meaning without a tip, m.
+    /// Fall of the centre of mass, m; `None` without a tip-over.
     pub drop: Option<f64>,
     /// Least margin, m, or none where the contacts span no area.
     pub margin: Option<f64>,
     /// The parts at the edge, in words, and their modules.
     pub edge: String,
+    /// The modules at the edge.
     pub modules: Vec<String>,
 }
 
 impl<'a> Monitor<'a> {
+    /// Returns a monitor before the first sample.
     pub fn new(settings: &'a Settings, tolerances: &'a Tolerances) -> Monitor<'a> {
         Monitor {
             settings,
@@ -86,16 +90,17 @@ impl<'a> Monitor<'a> {
         self.ended(sample.time)
     }
 
-    /// Whether support is missing at the moment.
+    /// Returns true if support is missing at the moment.
     pub fn lacking(&self) -> bool {
         self.loss.is_some()
     }
 
-    /// What is left at the end of the plan: support must be back by then.
+    /// Returns the loss that lasts to the end of the plan, at `t` (s): support must be back by then.
     pub fn end(&mut self, t: f64) -> Option<SupportLoss> {
         self.loss.take().map(|loss| SupportLoss { until: t, ..loss })
     }
 
+    /// Records the status.
     pub fn finish(&self, ledger: &mut Ledger) {
         let why = if self.fixed_base { "what is held fast does not fall" } else { "there is no ground" };
         let none = || Status::NotChecked(why.to_owned());
@@ -182,6 +187,7 @@ impl<'a> Monitor<'a> {
 }
 
 impl SupportLoss {
+    /// Returns the failure.
     pub fn failure(&self) -> Failure {
         let time = |t| quantity(t, Dimension::TIME);
         let edge = if self.edge.is_empty() { String::new() } else { format!(" over {}", self.edge) };

@@ -1,4 +1,4 @@
-//! How a robot stands on the ground, and how it stands after a small change of posture.
+//! The stance of a robot on the ground, and its change with a small change of posture.
 
 use super::alignment::{height_keeping_turn, mass_alignment};
 use super::contact::{self, ContactPatch, ContactPoint};
@@ -14,24 +14,27 @@ use nalgebra::{Rotation3, UnitQuaternion};
 /// A robot on the ground (or held over it), with all that the next sample needs.
 #[derive(Clone, Debug)]
 pub struct Stance {
+    /// Poses of the links in the base's frame.
     pub posture: Posture,
     /// Orientation of the base's frame, before the turn by the place's yaw.
     pub R: Mat3,
     /// Height of the centre of mass, m.
     pub height: f64,
-    /// Where the centre of mass is, and the heading.
+    /// Horizontal position of the centre of mass, and heading.
     pub place: PlanarPose,
     /// The features with the centre of mass at the origin, turned by `R`.
     pub features: Vec<Feature>,
+    /// The contact points with their normal forces.
     pub contact_points: Vec<ContactPoint>,
+    /// The contact points gathered by link.
     pub patches: Vec<ContactPatch>,
-    /// Whether the base is held because the support was lost.
+    /// True if the base is held because the support was lost.
     pub held: bool,
     /// While it is held: what stood on the ground before, each as if it carried the same.
     anchors: Vec<ContactPoint>,
 }
 
-/// What a change of posture does to a stance, before it is decided whether that is a tip.
+/// The effect of a change of posture on a stance, before it is decided if the robot tips over.
 pub struct SettleAttempt {
     posture: Posture,
     /// Orientation without any fall.
@@ -42,11 +45,11 @@ pub struct SettleAttempt {
     rest: SettledAttitude,
     /// Upper bound on how far any point moves about the centre of mass, joints' motion only, m.
     pub motion: f64,
-    /// By how much the centre of mass falls with the joints held, m.
+    /// Fall of the centre of mass with the joints held, m.
     pub fall: f64,
 }
 
-/// Whether an attempt is a tip.
+/// The outcome of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepOutcome {
     Steady,
@@ -118,7 +121,7 @@ impl Stance {
         SettleAttempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
     }
 
-    /// The robot settled as attempted. Returns the slip of each loaded link with its part of the
+    /// Returns the robot settled as attempted. Returns the slip of each loaded link with its part of the
     /// weight.
     pub fn settled(
         &self,
@@ -137,7 +140,7 @@ impl Stance {
         (next, slips)
     }
 
-    /// The robot held as it would be without falling, lowered to touch the ground.
+    /// Returns the robot held as it would be without falling, lowered to touch the ground.
     pub fn holding(&self, model: &Model, attempt: SettleAttempt, tolerances: &Tolerances) -> Stance {
         let mut next = self.lowered(attempt);
         if !self.held {
@@ -150,29 +153,29 @@ impl Stance {
         next
     }
 
-    /// The base keeps its pose; only the posture changes.
+    /// Returns the stance with the same base pose in a new posture.
     pub fn kept(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Stance {
         let X_WB = self.base_pose(model);
         Stance::start(model, posture, &X_WB, Kept::Pose, tolerances).0
     }
 
-    /// Margin of the centre of mass in the hull of the contacts; `None` where they span no area.
+    /// Returns the static stability margin in the support polygon of the contacts; `None` where they span no area.
     pub fn margin(&self, model: &Model) -> Option<Margin> {
         contact::margin(&self.contact_points, |contact_point| contact::counts(model, contact_point))
     }
 
-    /// The same with nothing but what support really is.
+    /// Returns the static stability margin with contacts of (nearly) no gap only.
     pub fn margin_exact(&self, tolerances: &Tolerances) -> Option<Margin> {
         contact::margin(&self.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact)
     }
 
-    /// `X_WB`, the pose of the base module's body.
+    /// Returns `X_WB`, the world pose of the base module's body.
     pub fn base_pose(&self, model: &Model) -> Pose {
         let link = model.base_link();
         self.link_pose(link)
     }
 
-    /// `X_WL`
+    /// Returns `X_WL`, the world pose of a link.
     pub fn link_pose(&self, link: usize) -> Pose {
         let (s, c) = libm::sincos(self.place.yaw);
         let turned = Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * self.R;
@@ -211,7 +214,7 @@ impl Stance {
     }
 }
 
-/// What of a given base pose is kept when a robot is stood up.
+/// The part of a given base pose that is kept when a robot is placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
     /// It is lowered to the ground and settles.

@@ -1,4 +1,5 @@
-//! What joints, motors and bonds have to hold, from the forces on the links.
+//! Quasi-static loads of joints, motors and bonds, by the method of sections: the efforts `Jᵀ F` of the
+//! (transposed) Jacobian, computed link by link.
 //!
 //! Cut the tree of links at a joint or bond: the forces on the far side (its weight, the ground's
 //! wrenches) have a force and a moment about a point there, and that is what is held. Every load that
@@ -13,8 +14,9 @@ use nalgebra::DMatrix;
 
 /// Everything of a model that holds loads; compiled once for its bonds.
 pub struct Structure {
+    /// All loads that have a limit.
     pub loads: Vec<Load>,
-    /// Whether some motor's load can't be told from those of its joints.
+    /// True if some motor's effort does not follow from those of its joints.
     pub motors_open: bool,
     cuts: Vec<Cut>,
     /// Preorder number of each link, and the last number of those that hang on it.
@@ -26,13 +28,17 @@ pub struct Structure {
 /// Something that holds a load and says how much it can.
 #[derive(Clone, Debug)]
 pub struct Load {
+    /// The name in reports.
     pub name: String,
+    /// The kind of load, which says how its terms combine.
     pub kind: LoadKind,
+    /// The limit; N·m or N.
     pub limit: f64,
     /// Cuts with factors.
     pub terms: Vec<(usize, f64)>,
 }
 
+/// The kind of a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LoadKind {
     /// Torque or force of a joint; or of a motor, by the joint that it drives first.
@@ -43,7 +49,7 @@ pub enum LoadKind {
     Moment,
 }
 
-/// Where the tree is cut, and which component is asked for.
+/// A cut of the tree, and the component of force or moment asked for.
 #[derive(Clone, Copy, Debug)]
 enum Cut {
     /// At the joint of a step, by the joint's coordinate.
@@ -56,29 +62,38 @@ enum Cut {
 /// `dir·((p - at) × f)` if they are moments.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
+    /// The first link beyond the cut.
     pub link: usize,
+    /// A point of the cut, from the centre of mass, level axes, m.
     pub at: Vec3,
+    /// Unit direction of the component.
     pub dir: Vec3,
+    /// True for a moment about `dir`, false for a force along it.
     pub moment: bool,
 }
 
 impl Section {
-    /// What a force `f` at `p` with a moment `m` counts.
+    /// Returns the component that a force `f` at `p` with a moment `m` contributes.
     pub fn of(&self, p: &Vec3, f: &Vec3, m: &Vec3) -> f64 {
         if self.moment { self.dir.dot(&((p - self.at).cross(f) + m)) } else { self.dir.dot(f) }
     }
 }
 
-/// A force on a link: at a place (level axes, from the centre of mass), with a moment.
+/// A wrench on a link.
 #[derive(Clone, Copy, Debug)]
 pub struct Wrench {
+    /// The link that it acts on.
     pub link: usize,
+    /// Point of application, from the centre of mass, level axes, m.
     pub p: Vec3,
+    /// Force, N.
     pub f: Vec3,
+    /// Moment in addition to that of the force, N·m.
     pub m: Vec3,
 }
 
 impl Structure {
+    /// Compiles the loads of a model with the bonds that hold.
     pub fn new(model: &Model) -> Structure {
         let mut structure = Structure {
             loads: vec![],
@@ -94,20 +109,20 @@ impl Structure {
         structure
     }
 
-    /// Whether `link` hangs on `at` or is it.
+    /// Returns true if `link` is `at` or lies beyond it in the tree.
     pub fn beyond(&self, at: usize, link: usize) -> bool {
         let ((first, last), (number, _)) = (self.span[at], self.span[link]);
         first <= number && number <= last
     }
 
-    /// The first link beyond a cut.
+    /// Returns the first link beyond a cut.
     pub fn cut_link(&self, cut: usize) -> usize {
         match self.cuts[cut] {
             Cut::Step { link, .. } | Cut::Bond { link, .. } => link,
         }
     }
 
-    /// All cuts in a posture.
+    /// Returns all cuts in a stance.
     pub fn sections(&self, stance: &Stance) -> Vec<Section> {
         let R = |link: usize| stance.R * stance.posture.R[link];
         let p = |link: usize| stance.R * (stance.posture.p[link] - stance.posture.centre);
@@ -131,7 +146,7 @@ impl Structure {
             .collect()
     }
 
-    /// What every cut has to hold against these wrenches.
+    /// Returns the load at every cut from these wrenches, N or N·m.
     pub fn held(&self, model: &Model, sections: &[Section], wrenches: &[Wrench]) -> Vec<f64> {
         let mut force = vec![Vec3::zeros(); model.bodies.len()];
         let mut moment = vec![Vec3::zeros(); model.bodies.len()];
@@ -148,7 +163,7 @@ impl Structure {
         sections.iter().map(|s| s.of(&zero, &force[s.link], &moment[s.link])).collect()
     }
 
-    /// The size of a load from what its cuts hold; a pull is signed.
+    /// Returns the size of a load from what its cuts hold, N·m or N; a pull is signed.
     pub fn size(&self, load: &Load, held: &[f64]) -> f64 {
         let term = |&(cut, factor): &(usize, f64)| factor * held[cut];
         match load.kind {
@@ -158,12 +173,13 @@ impl Structure {
         }
     }
 
-    /// A joint's motion moves its cuts: what a motor has to give for a turn of the joint.
+    /// Returns the generalised force that a motor supplies at a joint, by virtual work: the cuts that the joint
+    /// moves, with their factors.
     pub fn joint_effort(&self, joint: usize, held: &[f64], effects: &[Vec<(usize, f64)>]) -> f64 {
         -effects[joint].iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>()
     }
 
-    /// For each joint the cuts that it moves, with factors.
+    /// Makes a cut for every step that moves, and returns for each joint the cuts that it moves, with factors.
     fn cut_steps(&mut self, model: &Model) -> Vec<Vec<(usize, f64)>> {
         let effects = effects(model);
         self.cuts = model
@@ -277,7 +293,7 @@ impl Structure {
         }
     }
 
-    /// Where a bond that closes a loop is: its port `a`, from the centre of mass.
+    /// Returns the position of a bond that closes a loop: its port `a`, from the centre of mass, m.
     pub fn closing_place(&self, model: &Model, stance: &Stance, bond: usize) -> Vec3 {
         let a = model.robot.bonds[bond].a;
         let port = &model.robot.module_type(a.module).ports[a.port];
@@ -287,7 +303,7 @@ impl Structure {
     }
 }
 
-/// What the weaker of two connectors holds.
+/// Returns the force and the moment that the weaker of two connectors holds.
 fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
     let connector = |port: PortRef| {
         let index = model.robot.module_type(port.module).ports[port.port].connector;
@@ -301,12 +317,12 @@ fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
     (least(a.holds_force, b.holds_force), least(a.holds_moment, b.holds_moment))
 }
 
-/// Whether a joint drives a step.
+/// Returns true if a joint drives a step.
 pub fn moves(step: &Step) -> bool {
     step.motion != Motion::Fixed && !step.terms().is_empty()
 }
 
-/// For each joint the moving steps that it drives, numbered among the moving steps, with factors.
+/// Returns for each joint the moving steps that it drives, numbered among the moving steps, with factors.
 pub fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
     let count = model.robot.joints().count();
     let mut effects = vec![Vec::new(); count];

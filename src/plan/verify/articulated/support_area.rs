@@ -1,4 +1,4 @@
-//! The area that a robot stands on.
+//! The support polygon of a robot at rest.
 
 use super::contact;
 use super::rollout::{Rollout, roll_out};
@@ -8,7 +8,7 @@ use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Settings, Tracks, World, WorldFrom};
 use crate::robot::{Assembly, State};
 
-/// Corners of the hull of what touches the ground, counter-clockwise from above, in the frame of the
+/// Returns the corners of the support polygon, the hull of what touches the ground, counter-clockwise from above, in the frame of the
 /// base module's body as it rests; m. Fewer than three where the contacts span no area.
 pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
     let tracks = Tracks {

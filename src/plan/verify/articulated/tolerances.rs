@@ -1,50 +1,92 @@
-//! Every tolerance of the judge, with its reason.
+//! The tolerances of the judgement of articulated robots.
 
-/// Lengths in metres, angles in radians.
+/// Tolerances of the judgement of collisions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Precision {
+    /// Penetration is proved to be no deeper than `touch` and this, m. Default 1 µm: far below any
+    /// `touch`, well above rounding.
+    pub tol_depth: f64,
+    /// The clearance, and the depth of a collision, are within this of the true ones, m. Default
+    /// 20 µm: halving it costs √2 times as many intervals.
+    pub tol_clearance: f64,
+    /// A first penetration (by more than `touch` and `tol_depth`) is found no later than this after
+    /// it began, s. Default 1 µs: below a tick of any controller.
+    pub tol_time: f64,
+}
+
+impl Default for Precision {
+    fn default() -> Precision {
+        Precision { tol_depth: 1e-6, tol_clearance: 2e-5, tol_time: 1e-6 }
+    }
+}
+
+/// Tolerances of the judgement of articulated robots. Lengths in metres, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
-    /// The descent ends when the planes promise less of a fall than this.
+    /// Predicted fall below which settling ends. Default 1e-9 m: rounding of coordinates.
     pub fall_min: f64,
-    /// A fall of up to this, a quarter of the usual contact tolerance, is a clunk between rest
-    /// positions and no tip.
+    /// Fall up to which a change between rest attitudes counts as no tip-over. Default 1 mm: a quarter of the
+    /// usual contact tolerance.
     pub fall_floor: f64,
-    /// Touches that carry weight: closer to the ground than this.
+    /// Gap up to which a contact point bears weight. Default 1 mm: real contacts yield.
     pub gap_loaded: f64,
-    /// Least stiffness of the ground under a touch, against that of one without a gap.
+    /// Least stiffness of the ground under a contact point, as a part of that without a gap. Default 1e-3: the
+    /// distribution of normal forces stays unique.
     pub stiffness_min: f64,
-    /// Loads below this part of the weight do not steer the guess of the next attitude.
+    /// Normal force, as a part of the weight, below which a contact point does not steer the guess of the next
+    /// attitude. Default 1e-6: rounding of the distribution.
     pub load_min: f64,
-    /// Touches closer than this are what support really is.
+    /// Gap up to which a contact point belongs to the exact support polygon. Default 10 µm.
     pub gap_exact: f64,
-    /// Touches that keep a robot from being shaken, and how far inside them the centre of mass is.
+    /// Gap up to which contact points keep a robot from being perturbed. Default 0.1 µm.
     pub gap_standing: f64,
+    /// Stability margin above which a robot is not perturbed. Default 1e-9 m: rounding.
     pub inside_min: f64,
-    /// Angle of a perturbation, and the fall that it must show.
+    /// Angle of the perturbation that leaves an unstable equilibrium. Default 1e-3 rad.
     pub perturbation: f64,
+    /// Fall that a perturbation must show. Default 2e-8 m: well above rounding.
     pub perturbation_fall: f64,
-    /// A margin this much below zero is rounding.
+    /// Distance of the centre of mass outside the support polygon. Default 1e-9 m: rounding.
     pub margin: f64,
-    /// Modules whose centres are within this of the lowest count as lowest (the paper's rule).
+    /// Height above the lowest module centre up to which a centre counts as lowest, for the rule of module
+    /// centres. Default 1 mm.
     pub centres: f64,
-    /// Joints turn by no more than this between two samples.
+    /// Greatest turn of a joint between two samples. Default 5°: attitudes are then followed reliably.
     pub turn_sample: f64,
-    /// Points move by no more than this between two samples, or the step is halved.
+    /// Greatest motion of a point between two samples, or the step is halved. Default 2 cm.
     pub motion_sample: f64,
-    /// Relative excess over a limit that is rounding of the plan's own numbers.
+    /// Part of a sample by which an interval may be longer than a whole number of samples. Default 1e-6:
+    /// rounding of times.
+    pub sample_count: f64,
+    /// Relative excess over a limit of range, speed or acceleration. Default 1e-9: rounding of the plan's numbers.
     pub limit: f64,
-    /// A change of speed at once that is rounding (rad/s or m/s).
+    /// Jump of a speed that counts as none, rad/s or m/s. Default 1e-6: rounding of control points over short
+    /// segments.
     pub speed_jump: f64,
-    /// Loops that the bonds close may be open by this, where the connector states no capture.
+    /// Jump of a rate below which a motion bound takes a rate as continuous, rad/s or m/s. Default 1e-9: a jump
+    /// that is ignored is not bounded.
+    pub rate_jump: f64,
+    /// Distance by which loops may be open, where the connector states no capture. Default 1 mm.
     pub closure_distance: f64,
+    /// Angle by which loops may be open, where the connector states no capture. Default 1°.
     pub closure_angle: f64,
-    /// Links slipping with less than this part of the weight are not reported.
+    /// Part of the weight below which slip of a link is not counted. Default 0.05.
     pub slip_load: f64,
-    /// A slip longer than this makes an exemption for slip needed.
+    /// Slip from which on an exemption for slip is needed. Default 1 mm.
     pub slip: f64,
-    /// The time of a tip is known this well, s.
+    /// Precision of the time of a tip-over, s. Default 1e-9 s.
     pub time: f64,
-    /// Balance of contact forces that counts as balance, in parts of the weight (and times a metre).
+    /// Imbalance of contact forces, in parts of the weight (and of the weight times a metre). Default 1e-6:
+    /// precision of the LP solver.
     pub balance: f64,
+    /// Relative excess of a gravity load over its limit with a fixed base. Default 1e-9: rounding.
+    pub load: f64,
+    /// Length of an interval below which loads with a fixed base are not decided further, s. Default 10 µs.
+    pub load_interval: f64,
+    /// Distance within which a part counts as round about a joint's axis. Default 1e-9 m: rounding of poses.
+    pub roundness: f64,
+    /// Tolerances of collisions.
+    pub collision: Precision,
 }
 
 impl Default for Tolerances {
@@ -65,14 +107,20 @@ impl Default for Tolerances {
             centres: 1e-3,
             turn_sample: 5.0 * degree,
             motion_sample: 0.02,
+            sample_count: 1e-6,
             limit: 1e-9,
             speed_jump: 1e-6,
+            rate_jump: 1e-9,
             closure_distance: 1e-3,
             closure_angle: degree,
             slip_load: 0.05,
             slip: 1e-3,
             time: 1e-9,
             balance: 1e-6,
+            load: 1e-9,
+            load_interval: 1e-5,
+            roundness: 1e-9,
+            collision: Precision::default(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Whether joints, motors and bonds hold what they have to: quasi-static loads against their limits.
+//! Quasi-static loads of joints, motors and bonds, compared with their limits.
 //!
 //! First with the loads that the ground takes without friction: where nothing is overloaded with
 //! those, forces exist. Loads whose far side touches nothing are the same whatever the forces are.
@@ -16,6 +16,7 @@ use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
 use crate::units::{Dimension, quantity};
 
+/// Judges loads from sample to sample.
 pub struct Monitor<'a> {
     tolerances: &'a Tolerances,
     compiled: Option<Compiled>,
@@ -29,13 +30,13 @@ pub struct Monitor<'a> {
     samples: usize,
     /// Samples at which the forces of the ground do not carry the robot, so that loads are unknown.
     unknown: usize,
-    /// Work done for programmes so far.
+    /// Size of all LPs solved so far.
     effort: usize,
     /// Samples at which it was not decided whether forces exist that overload nothing.
     undecided: usize,
     uneven: Option<UnevenForces>,
     energy: f64,
-    /// Whether loads were bounded between the samples, too.
+    /// True if loads were bounded between the samples, too.
     proved: bool,
 }
 
@@ -45,23 +46,28 @@ struct Compiled {
     effects: Vec<Vec<(usize, f64)>>,
 }
 
-/// Where the best forces found are too much, and yet no proof was found that there are none.
+/// The note where the best forces found are too great, and yet no proof was found that there are none.
 const UNDECIDED: &str =
     "an overload was not proved: the best contact forces found are within rounding of the limit";
 
 /// A load over its limit.
 #[derive(Clone, Debug)]
 pub struct Overload {
+    /// The name of the load.
     pub name: String,
+    /// Its kind.
     pub kind: LoadKind,
+    /// First sample over the limit, s.
     pub since: f64,
+    /// Last sample over the limit, s.
     pub until: f64,
-    /// The greatest so far, and the limit; N·m or N.
+    /// The greatest load so far; N·m or N.
     pub value: f64,
+    /// The limit; N·m or N.
     pub limit: f64,
 }
 
-/// Where the contact forces must not be spread evenly.
+/// A time at which evenly distributed contact forces would overload something.
 struct UnevenForces {
     time: f64,
     name: String,
@@ -74,7 +80,7 @@ struct UnevenForces {
 /// Another such place is looked at only where it is that much worse.
 const UNEVEN_STEP: f64 = 1.1;
 
-/// What the loads of one stance are.
+/// The loads of one stance.
 struct Loads {
     /// Load by limit, of all loads.
     ratios: Vec<f64>,
@@ -84,6 +90,7 @@ struct Loads {
 }
 
 impl<'a> Monitor<'a> {
+    /// Returns a monitor before the first sample.
     pub fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
         Monitor {
             tolerances,
@@ -103,6 +110,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// Judges the loads of a sample.
     pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             self.over.clear();
@@ -262,7 +270,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// What is known of the time between the samples.
+    /// Takes in what was proved about the time between samples.
     pub fn between(&mut self, between: &BetweenSamples, rollout: &Rollout) {
         self.proved = *between == BetweenSamples::Proved;
         if let (BetweenSamples::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
@@ -274,11 +282,12 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// The overloads found, in order of time.
+    /// Returns the overloads found, in order of time.
     pub fn overloaded(&self) -> &[Overload] {
         &self.failures
     }
 
+    /// Records energy, notes and the statuses.
     pub fn finish(&self, ledger: &mut Ledger) {
         ledger.verdict.energy = self.energy;
         if let Some(uneven) = &self.uneven {
@@ -324,6 +333,7 @@ impl<'a> Monitor<'a> {
 }
 
 impl Overload {
+    /// Returns the failure of the overload.
     pub fn failure(&self) -> Failure {
         let (kind, dimension, what) = match self.kind {
             LoadKind::Joint { turns: true, .. } => {
@@ -362,7 +372,7 @@ pub struct LoadGauge {
 }
 
 impl LoadGauge {
-    /// Load by limit of every joint that states one, with the ground's forces spread evenly and
+    /// Returns the ratio of load to limit of every joint that states one, with the ground's forces spread evenly and
     /// without friction: (joint, ratio). Empty where nothing is weighed.
     pub fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
@@ -383,20 +393,20 @@ impl LoadGauge {
     }
 }
 
-/// Whether something of this name is overloaded in a sample: for finding who is to blame.
+/// Returns true if a load of this name is over its limit in a sample: for finding which command is to blame.
 pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
     let mut observe = Monitor::new(tolerances);
     observe.observe(sample, ledger);
     observe.failures.iter().any(|f| f.name == name)
 }
 
-/// Work (columns and loads of the programmes solved) that is done for the sake of an exact margin;
-/// after that only where it is open whether forces exist at all. About 500 programmes of a stepper of
+/// Size of LPs (columns and loads) that are solved for the sake of an exact margin;
+/// after that only where it is open whether forces exist at all. About 500 LPs of a walker of
 /// 15 modules, 20 of a snake of 300.
 const EFFORT_FOR_MARGIN: usize = 60_000;
 
 /// The best forces: those of the sample before, brought to balance here, do if nothing is worse than
-/// what was seen already; otherwise by a programme.
+/// what was seen already; otherwise by an LP.
 fn best(
     query: &ContactQuery,
     warm_start: &mut WarmStart,
@@ -427,13 +437,13 @@ fn weights(sample: &Sample) -> Vec<Wrench> {
     model.attached.iter().map(push).collect()
 }
 
-/// What the ground may push at.
+/// Returns the contact points at which the ground may push.
 fn pushing<'s>(sample: &Sample<'s>) -> impl Iterator<Item = &'s ContactPoint> {
     let fixed_base = sample.world.ground == Ground::Held;
     sample.stance.contact_points.iter().filter(move |_| !fixed_base)
 }
 
-/// Loads without friction, with the ground's wrenches as they spread.
+/// Returns the loads without friction, with normal forces as they are distributed.
 fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerances: &Tolerances) -> Loads {
     let weight = sample.model.mass * sample.world.gravity;
     let mut wrenches = weights(sample);
