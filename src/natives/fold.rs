@@ -2,9 +2,11 @@
 
 use super::fold_design::Joined;
 use super::fold_refusal::diagnostic;
-use super::fold_supply::{self, Sheet, Supply};
+use super::fold_supply::{self, Passive, Sheet, Supply};
 use super::folding::OrderSample;
-use super::{Native, fold_surface, on_run};
+use super::{Native, fold_surface};
+use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments, parameters};
+use crate::interpret::design::Instance;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::PlanValue;
@@ -16,38 +18,93 @@ use crate::planners::fold::{self, Count, MassModel, Method, Minimise, Problem, S
 use crate::planners::{RequestedProgress, Solution};
 use std::rc::Rc;
 
-/// The arguments of `fold`, in the order of the declaration.
-pub(super) const TARGET: usize = 0;
-pub(super) const MODULE: usize = 1;
-pub(super) const ROOT: usize = 2;
-pub(super) const METHOD: usize = 3;
-pub(super) const STEP: usize = 4;
-const SEED: usize = 5;
-const BUDGET: usize = 6;
-const MINIMISE: usize = 7;
-const INERTIA: usize = 8;
-const GRAVITY: usize = 9;
-const COUNT: usize = 10;
-pub(super) const SEQUENCE: usize = 11;
-const PASSIVE: usize = 12;
-const PASSIVE_MODULE: usize = 13;
-const HINGE_RADIUS: usize = 14;
-pub(super) const HINGES: usize = 15;
-const ARGUMENTS: usize = 16;
+/// The arguments that diagnostics of `fold` are about.
+pub(super) const TARGET: &str = "target";
+pub(super) const MODULE: &str = "module";
+pub(super) const ROOT: &str = "root";
+pub(super) const METHOD: &str = "method";
+pub(super) const STEP: &str = "step";
+pub(super) const SEQUENCE: &str = "sequence";
+pub(super) const HINGES: &str = "hinges";
 
-pub(super) const TABLE: &[Native] =
-    &[on_run("fold", ARGUMENTS, fold), on_run("random_orders", 3, random_orders)];
+/// The built-ins of this file.
+pub(super) const TABLE: &[Native] = &[
+    Native::on_run("fold", Arguments::PARAMETERS, fold),
+    Native::on_run("random_orders", parameters![of: &Value, orders: usize, seed: usize], random_orders),
+];
+
+arguments! {
+    /// The arguments of `fold`.
+    struct Arguments<'c> {
+        target: &'c Value,
+        module: &'c Rc<Instance>,
+        root: WordOr<Auto, usize> as "a face",
+        method: Method,
+        step: WordOr<Auto, Positive> as "the time of a step",
+        seed: usize as "a seed",
+        budget: usize as "a budget",
+        minimise: Minimise,
+        inertia: MassModel,
+        gravity: Gravity,
+        count: Count,
+        sequence: Sequence,
+        passive: &'c [Value],
+        passive_module: Option<&'c Rc<Instance>>,
+        hinge_radius: Option<Positive> as "the radius of the hinges",
+        hinges: Option<&'c [Value]>,
+    }
+}
+
+/// Standard gravity or none.
+#[derive(Clone, Copy, PartialEq)]
+enum Gravity {
+    Off,
+    On,
+}
+
+impl Choice for Gravity {
+    const WORDS: &'static [(&'static str, Gravity)] = &[("off", Gravity::Off), ("on", Gravity::On)];
+}
+
+impl Choice for Method {
+    const WORDS: &'static [(&'static str, Method)] =
+        &[("exact", Method::Exact), ("heuristic", Method::Heuristic), ("enumerate", Method::Enumerate)];
+}
+
+impl Choice for Minimise {
+    const WORDS: &'static [(&'static str, Minimise)] =
+        &[("energy", Minimise::Energy), ("peak_torque", Minimise::PeakTorque), ("steps", Minimise::Steps)];
+}
+
+impl Choice for MassModel {
+    const WORDS: &'static [(&'static str, MassModel)] =
+        &[("lamina", MassModel::Lamina), ("prism", MassModel::Prism), ("point", MassModel::Point)];
+}
+
+impl Choice for Count {
+    const WORDS: &'static [(&'static str, Count)] = &[("moving", Count::Moving), ("all", Count::All)];
+}
+
+impl Choice for Sequence {
+    const WORDS: &'static [(&'static str, Sequence)] = &[
+        ("leaves_first", Sequence::LeavesFirst),
+        ("root_first", Sequence::RootFirst),
+        ("least_work", Sequence::LeastWork),
+        ("least_energy", Sequence::LeastEnergy),
+    ];
+}
 
 /// The greatest number of orders that are compared in one call.
 const ORDERS_MAX: usize = 100_000;
 
 fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let mut supply = Supply::of(interpreter, call, MODULE)?;
-    let target = fold_surface::target(call, TARGET)?;
-    let shape = [TARGET, PASSIVE, PASSIVE_MODULE];
-    let (sheet, target) = fold_supply::panels(interpreter, &mut supply, shape, target)?;
-    let problem = problem(call, target, &sheet)?;
-    let settings = Settings { judge: interpreter.judge_settings(), ..settings(call)? };
+    let arguments = Arguments::read(call)?;
+    let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
+    let target = fold_surface::target(call, TARGET, arguments.target)?;
+    let passive = Passive { faces: arguments.passive, module: arguments.passive_module };
+    let (sheet, target) = fold_supply::panels(interpreter, &mut supply, &passive, target)?;
+    let problem = problem(call, &arguments, target, &sheet)?;
+    let settings = Settings { judge: interpreter.judge_settings(), ..settings(&arguments) };
     let causes = interpreter.planner_causes(call.span);
     let Solution { body, program, report } = fold::plan(&problem, &settings, &mut RequestedProgress)
         .map_err(|refusal| diagnostic(interpreter, call, &causes.ids, &refusal))?;
@@ -65,53 +122,42 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))))
 }
 
-fn problem(call: &Call, target: fold::Target, sheet: &Sheet) -> Eval<Problem> {
-    let root = match call.arg(ROOT) {
-        Value::Word(_) => None,
-        _ => Some(call.count(ROOT, "a face")?),
-    };
-    let gravity = if call.word(GRAVITY) == Some("on") { World::default().gravity } else { 0.0 };
-    let hinges = if call.is_missing(HINGES) { None } else { Some(pairs(call)?) };
-    Ok(Problem { target, panels: sheet.panels.clone(), root, gravity, hinges })
-}
-
-fn settings(call: &Call) -> Eval<Settings> {
-    Ok(Settings {
-        step: match call.arg(STEP) {
-            Value::Word(_) => None,
-            _ => Some(call.positive(STEP, "the time of a step")?),
+fn problem(call: &Call, arguments: &Arguments, target: fold::Target, sheet: &Sheet) -> Eval<Problem> {
+    Ok(Problem {
+        target,
+        panels: sheet.panels.clone(),
+        root: match arguments.root {
+            WordOr::Word(Auto) => None,
+            WordOr::Value(root) => Some(root),
         },
-        inertia: match call.word(INERTIA) {
-            Some("prism") => MassModel::Prism,
-            Some("point") => MassModel::Point,
-            _ => MassModel::Lamina,
+        gravity: match arguments.gravity {
+            Gravity::Off => 0.0,
+            Gravity::On => World::default().gravity,
         },
-        count: if call.word(COUNT) == Some("all") { Count::All } else { Count::Moving },
-        hinge_radius: call.positive_if(HINGE_RADIUS, "the radius of the hinges")?,
-        seed: call.count(SEED, "a seed")? as u64,
-        budget: call.count(BUDGET, "a budget")? as u64,
-        minimise: match call.word(MINIMISE) {
-            Some("peak_torque") => Minimise::PeakTorque,
-            Some("steps") => Minimise::Steps,
-            _ => Minimise::Energy,
-        },
-        sequence: match call.word(SEQUENCE) {
-            Some("root_first") => Sequence::RootFirst,
-            Some("least_work") => Sequence::LeastWork,
-            Some("least_energy") => Sequence::LeastEnergy,
-            _ => Sequence::LeavesFirst,
-        },
-        method: match call.word(METHOD) {
-            Some("enumerate") => Method::Enumerate,
-            Some("heuristic") => Method::Heuristic,
-            _ => Method::Exact,
-        },
-        ..Settings::default()
+        hinges: arguments.hinges.map(|hinges| pairs(call, hinges)).transpose()?,
     })
 }
 
+fn settings(arguments: &Arguments) -> Settings {
+    Settings {
+        method: arguments.method,
+        minimise: arguments.minimise,
+        sequence: arguments.sequence,
+        step: match arguments.step {
+            WordOr::Word(Auto) => None,
+            WordOr::Value(Positive(step)) => Some(step),
+        },
+        inertia: arguments.inertia,
+        count: arguments.count,
+        hinge_radius: arguments.hinge_radius.map(|Positive(radius)| radius),
+        seed: arguments.seed as u64,
+        budget: arguments.budget as u64,
+        ..Settings::default()
+    }
+}
+
 /// Reads the hinges of a layout as pairs of faces.
-fn pairs(call: &Call) -> Eval<Vec<[usize; 2]>> {
+fn pairs(call: &Call, hinges: &[Value]) -> Eval<Vec<[usize; 2]>> {
     let index = |value: &Value| match value {
         Value::Int(face) => usize::try_from(*face).ok(),
         _ => None,
@@ -120,22 +166,19 @@ fn pairs(call: &Call) -> Eval<Vec<[usize; 2]>> {
         let Value::List(pair) = pair else { return None };
         <[usize; 2]>::try_from(pair.iter().filter_map(index).collect::<Vec<_>>()).ok()
     };
-    let pairs = call
-        .list(HINGES)?
-        .iter()
-        .map(|value| pair(value).ok_or_else(|| call.refuse(HINGES, "a hinge is a pair of faces")));
-    pairs.collect()
+    let read = |value| pair(value).ok_or_else(|| call.refuse(HINGES, "a hinge is a pair of faces"));
+    hinges.iter().map(read).collect()
 }
 
 fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Value::Record(record) = call.arg(0) else { return Ok(Value::Unknown) };
+    let Value::Record(record) = call.arg("of") else { return Ok(Value::Unknown) };
     let Record::Plan(planned) = &**record else { return Ok(Value::Unknown) };
     let Some(folded) = planned.report::<fold::Report>() else { return Ok(Value::Unknown) };
-    let orders = call.count(1, "how many orders")?;
+    let orders = call.count("orders", "how many orders")?;
     if orders == 0 || orders > ORDERS_MAX {
-        return Err(call.refuse(1, format!("from 1 to {ORDERS_MAX} orders are compared")));
+        return Err(call.refuse("orders", format!("from 1 to {ORDERS_MAX} orders are compared")));
     }
-    let seed = call.count(2, "a seed")? as u64;
+    let seed = call.count("seed", "a seed")? as u64;
     crate::interrupt::start_task(format!("comparing {orders} orders"));
     let found = folded.random_orders(orders as u64, seed, &mut RequestedProgress);
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(OrderSample(found))))))

@@ -57,7 +57,7 @@ pub(super) fn diagnostic(
 }
 
 /// Returns the diagnostic for a step in an argument that takes less than the slowest hinge needs, s.
-pub(super) fn too_short(call: &Call, key: usize, message: String, least: f64) -> Stop {
+pub(super) fn too_short(call: &Call, key: &'static str, message: String, least: f64) -> Stop {
     let least = quantity(least, Dimension::TIME);
     Diagnostic::error(code::BAD_VALUE, message)
         .label(call.at(key), "too short for the widest angle")

@@ -3,7 +3,7 @@
 use super::fold_surface::unfoldable;
 use crate::elaborate::instance::params_of;
 use crate::interpret::call::Args;
-use crate::interpret::design::{ConfigDesign, Design, DesignKind, FlatModule};
+use crate::interpret::design::{ConfigDesign, Design, DesignKind, FlatModule, Instance};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop};
@@ -29,7 +29,7 @@ pub(super) struct PanelDesign {
 pub(super) struct Supply<'c> {
     call: &'c Call<'c>,
     /// The argument.
-    module: usize,
+    module: &'static str,
     design: Rc<Design>,
     /// The index of the parameter that states the sides; `None` where all panels are alike.
     sides: Option<usize>,
@@ -38,8 +38,13 @@ pub(super) struct Supply<'c> {
 
 impl<'c> Supply<'c> {
     /// Reads the module in an argument. One with a parameter `sides` is made to measure.
-    pub(super) fn of(interpreter: &mut Interpreter, call: &'c Call<'c>, module: usize) -> Eval<Supply<'c>> {
-        let design = call.instance(module)?.design.clone();
+    pub(super) fn of(
+        interpreter: &mut Interpreter,
+        call: &'c Call<'c>,
+        module: &'static str,
+        instance: &Instance,
+    ) -> Eval<Supply<'c>> {
+        let design = instance.design.clone();
         let panel = panel_of(interpreter, call, module, &design)?;
         let params = params_of(&interpreter.program.def(design.def).kind).unwrap_or_default();
         let sides = params.iter().position(|param| param.name.as_str() == SIDES);
@@ -72,7 +77,7 @@ impl<'c> Supply<'c> {
     pub(super) fn panel(
         &mut self,
         interpreter: &mut Interpreter,
-        shape: usize,
+        shape: &'static str,
         target: &Target,
         face: usize,
     ) -> Eval<Rc<PanelDesign>> {
@@ -92,7 +97,13 @@ impl<'c> Supply<'c> {
     }
 
     /// Refuses a face whose sides are not those of panels of one size.
-    pub(super) fn check_side(&self, shape: usize, target: &Target, face: usize, panel: &Panel) -> Eval<()> {
+    pub(super) fn check_side(
+        &self,
+        shape: &'static str,
+        target: &Target,
+        face: usize,
+        panel: &Panel,
+    ) -> Eval<()> {
         let wanted = panel.sides[0];
         target.check_sides_of(face, wanted, TOLERANCES.side * wanted).map_err(|why| {
             let said = unfoldable(self.call, shape, &why).label(self.call.at(self.module), "these panels");
@@ -108,7 +119,7 @@ impl<'c> Supply<'c> {
     fn to_measure(
         &self,
         interpreter: &mut Interpreter,
-        shape: usize,
+        shape: &'static str,
         sides: usize,
         face: usize,
         wanted: [f64; 3],
@@ -157,7 +168,7 @@ impl<'c> Supply<'c> {
 fn panel_of(
     interpreter: &mut Interpreter,
     call: &Call,
-    key: usize,
+    key: &'static str,
     design: &Rc<Design>,
 ) -> Eval<PanelDesign> {
     let no_panel = |why: &str| call.refuse(key, format!("no triangular panel: {why}"));
@@ -184,7 +195,7 @@ impl Sheet {
     pub(super) fn of(
         interpreter: &mut Interpreter,
         call: &Call,
-        key: usize,
+        key: &'static str,
         designs: Vec<Rc<Design>>,
     ) -> Eval<Sheet> {
         let no_panel = |why: &str| call.refuse(key, format!("no triangular panel: {why}"));
@@ -211,37 +222,45 @@ fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
     })
 }
 
-/// Reads the panels of the shape in argument `shape`: the faces listed in argument `listed` are made of the
-/// module in argument `passive`, which has no motors, so that two of them share no hinge.
+/// The faces that are made of a module without motors, so that two of them share no hinge.
+pub(super) struct Passive<'c> {
+    /// The numbers of the faces, the argument `passive`.
+    pub(super) faces: &'c [Value],
+    /// The module, the argument `passive_module`.
+    pub(super) module: Option<&'c Rc<Instance>>,
+}
+
+/// Reads the panels of the shape in argument `target`, with its passive faces.
 pub(super) fn panels(
     interpreter: &mut Interpreter,
     supply: &mut Supply,
-    [shape, listed, passive]: [usize; 3],
+    passive: &Passive,
     target: Target,
 ) -> Eval<(Sheet, Target)> {
+    const SHAPE: &str = "target";
+    const LISTED: &str = "passive";
     let call = supply.call;
     let faces = 0..target.faces.len();
     let mut panels =
-        faces.map(|face| supply.panel(interpreter, shape, &target, face)).collect::<Eval<Vec<_>>>()?;
-    let list = call.list(listed)?.clone();
+        faces.map(|face| supply.panel(interpreter, SHAPE, &target, face)).collect::<Eval<Vec<_>>>()?;
     let mut target = target;
-    if !list.is_empty() {
-        if call.is_missing(passive) {
-            return Err(call.refuse(listed, "of what are they? `passive_module` says it"));
-        }
-        let mut light = Supply::of(interpreter, call, passive)?;
+    if !passive.faces.is_empty() {
+        let Some(module) = passive.module else {
+            return Err(call.refuse(LISTED, "of what are they? `passive_module` says it"));
+        };
+        let mut light = Supply::of(interpreter, call, "passive_module", module)?;
         let mut driven = vec![true; panels.len()];
-        for value in list.iter() {
+        for value in passive.faces {
             let Value::Int(face) = value else { continue };
             let Some(face) = usize::try_from(*face).ok().filter(|face| *face < panels.len()) else {
                 return Err(
-                    call.refuse(listed, format!("there is no face {face}: there are {}", panels.len()))
+                    call.refuse(LISTED, format!("there is no face {face}: there are {}", panels.len()))
                 );
             };
             driven[face] = false;
-            panels[face] = light.panel(interpreter, shape, &target, face)?;
+            panels[face] = light.panel(interpreter, SHAPE, &target, face)?;
         }
-        target = target.driven(&driven).map_err(|why| -> Stop { unfoldable(call, listed, &why).into() })?;
+        target = target.driven(&driven).map_err(|why| -> Stop { unfoldable(call, LISTED, &why).into() })?;
     }
     let designs = panels.iter().map(|panel| panel.design.clone()).collect();
     Ok((Sheet::of(interpreter, call, supply.module, designs)?, target))

@@ -7,25 +7,25 @@ use crate::interpret::value::Value;
 use crate::planners::fold::{Target, Unfoldable};
 use crate::source::{Diagnostic, code};
 
-/// Reads the shape in an argument.
+/// Reads the shape in argument `key`.
 ///
 /// # Errors
 /// A fault where it is no surface of triangles, or one that does not fold.
-pub(super) fn target(call: &Call, key: usize) -> Eval<Target> {
-    let (vertices, faces) = surface(call, key)?;
+pub(super) fn target(call: &Call, key: &'static str, shape: &Value) -> Eval<Target> {
+    let (vertices, faces) = surface(call, key, shape)?;
     Target::new(vertices, &faces).map_err(|why| unfoldable(call, key, &why).into())
 }
 
 /// Returns the diagnostic for a shape in an argument that does not fold.
-pub(super) fn unfoldable(call: &Call, key: usize, why: &Unfoldable) -> Diagnostic {
+pub(super) fn unfoldable(call: &Call, key: &'static str, why: &Unfoldable) -> Diagnostic {
     Diagnostic::error(code::UNFOLDABLE, why.to_string())
         .label(call.at(key), "does not fold")
         .hint(why.remedy())
 }
 
 /// Reads the vertices (m) and faces of a mesh, or of a shape that was read from a file as it is.
-fn surface(call: &Call, key: usize) -> Eval<(Vec<Vec3>, Vec<Vec<usize>>)> {
-    match call.arg(key) {
+fn surface(call: &Call, key: &'static str, shape: &Value) -> Eval<(Vec<Vec3>, Vec<Vec<usize>>)> {
+    match shape {
         Value::Mesh(mesh) => return Ok((mesh.vertices.clone(), mesh.faces.clone())),
         Value::Shape(solid) => {
             if let [Placed { pose, shape: Shape::Mesh { vertices, triangles, .. } }] = &solid.parts[..] {

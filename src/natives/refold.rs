@@ -3,7 +3,9 @@
 use super::fold_design::Joined;
 use super::fold_refusal::too_short;
 use super::fold_supply::{Sheet, Supply};
-use super::{Native, fold_surface, on_run};
+use super::{Native, fold_surface};
+use crate::interpret::argument::{Auto, Positive, WordOr, arguments};
+use crate::interpret::design::Instance;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
@@ -17,17 +19,26 @@ use crate::source::{Diagnostic, code};
 use crate::units::Dimension;
 use std::rc::Rc;
 
-/// The arguments of `refold`, in the order of the declaration.
-const FROM: usize = 0;
-const TO: usize = 1;
-const MODULE: usize = 2;
-const STEP: usize = 3;
-const SEED: usize = 4;
-const BUDGET: usize = 5;
-const ARGUMENTS: usize = 6;
+/// The arguments that diagnostics of `refold` are about.
+const FROM: &str = "from";
+const TO: &str = "to";
+const MODULE: &str = "module";
+const STEP: &str = "step";
+
+arguments! {
+    /// The arguments of `refold`.
+    struct Arguments<'c> {
+        from: &'c Value,
+        to: &'c Value,
+        module: &'c Rc<Instance>,
+        step: WordOr<Auto, Positive> as "the time of a step",
+        seed: usize as "a seed",
+        budget: usize as "a budget",
+    }
+}
 
 /// The built-ins of this file.
-pub const TABLE: &[Native] = &[on_run("refold", ARGUMENTS, refold)];
+pub const TABLE: &[Native] = &[Native::on_run("refold", Arguments::PARAMETERS, refold)];
 
 impl ReportFields for Report {
     const FIELDS: &'static [ReportField<Report>] = &[
@@ -41,9 +52,10 @@ impl ReportFields for Report {
 }
 
 fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let mut supply = Supply::of(interpreter, call, MODULE)?;
-    let from = fold_surface::target(call, FROM)?;
-    let to = fold_surface::target(call, TO)?;
+    let arguments = Arguments::read(call)?;
+    let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
+    let from = fold_surface::target(call, FROM, arguments.from)?;
+    let to = fold_surface::target(call, TO, arguments.to)?;
     let panel = supply.panel(interpreter, FROM, &from, 0)?;
     for (shape, target) in [(FROM, &from), (TO, &to)] {
         let faces = 0..target.faces.len();
@@ -52,12 +64,12 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let designs = vec![panel.design.clone(); from.faces.len()];
     let sheet = Sheet::of(interpreter, call, MODULE, designs)?;
     let settings = Settings {
-        step: match call.arg(STEP) {
-            Value::Word(_) => None,
-            _ => Some(call.positive(STEP, "the time of a step")?),
+        step: match arguments.step {
+            WordOr::Word(Auto) => None,
+            WordOr::Value(Positive(step)) => Some(step),
         },
-        seed: call.count(SEED, "a seed")? as u64,
-        budget: call.count(BUDGET, "a budget")? as u64,
+        seed: arguments.seed as u64,
+        budget: arguments.budget as u64,
         judge: interpreter.judge_settings(),
     };
     let causes = interpreter.planner_causes(call.span);
