@@ -1,16 +1,23 @@
 //! Readers of mesh and point cloud files: Wavefront OBJ, OFF, PLY and STL; PLY and XYZ for clouds.
 //!
+//! Writers of foldings (FOLD) and of robots of RoFI modules.
+//!
 //! A reader turns bytes into a [`Content`] or says what is wrong. To add one, write its file and add its
-//! line to [`MESH_FORMATS`] or [`CLOUD_FORMATS`].
+//! line to [`MESH_FORMATS`] or [`CLOUD_FORMATS`]. A writer turns data into text. To add one, write its file
+//! and add its line to [`FOLDING_FORMATS`] or [`ROBOT_FORMATS`]; `save` and its messages follow.
 
 mod content;
+mod fold;
 mod obj;
 mod off;
 mod ply;
 mod stl;
 mod xyz;
 
+use crate::robot::{rofi, rofi_json};
+
 pub use content::{Content, Fault, triangles};
+pub use fold::{Crease, CreasePattern};
 
 /// A file format.
 #[derive(Clone, Copy)]
@@ -35,6 +42,37 @@ pub const CLOUD_FORMATS: &[Format] = &[
     Format { ending: "ply", name: "PLY", read: ply::read },
     Format { ending: "xyz", name: "XYZ", read: xyz::read },
 ];
+
+/// A format in which data of one kind is exported.
+pub struct ExportFormat<T> {
+    /// The end of the names of its files, after the dot.
+    pub ending: &'static str,
+    /// Returns the text of the file.
+    pub write: fn(&T) -> String,
+}
+
+/// The export formats of foldings.
+pub const FOLDING_FORMATS: &[ExportFormat<CreasePattern>] =
+    &[ExportFormat { ending: "fold", write: fold::write }];
+
+/// The export formats of robots of RoFI modules. A name with another ending gets the first of them.
+pub const ROBOT_FORMATS: &[ExportFormat<rofi::World>] = &[
+    ExportFormat { ending: "rofi", write: rofi::write },
+    ExportFormat { ending: "json", write: rofi_json::write },
+];
+
+impl<T> ExportFormat<T> {
+    /// Returns the format of a table whose files have this ending.
+    pub fn of_ending<'f>(table: &'f [ExportFormat<T>], ending: &str) -> Option<&'f ExportFormat<T>> {
+        table.iter().find(|format| format.ending == ending)
+    }
+
+    /// Returns the endings of a table in words: `.rofi` or `.json`, in backquotes.
+    pub fn endings(table: &[ExportFormat<T>]) -> String {
+        let endings: Vec<String> = table.iter().map(|format| format!("`.{}`", format.ending)).collect();
+        endings.join(" or ")
+    }
+}
 
 impl Format {
     /// Reads a mesh: at least one face, each of three corners or more, and finite coordinates.

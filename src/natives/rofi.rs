@@ -242,9 +242,8 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     });
 }
 
-/// The text of a file for the robot to be saved, by the end of its name; `None` where the robot is not
-/// sound.
-pub fn written(interpreter: &mut Interpreter, call: &Call, ending: &str) -> Eval<Option<String>> {
+/// Returns the robot to be saved as the data of a RoFI file; `None` if the robot is erroneous (reported).
+pub fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<World>> {
     let Value::Instance(instance) = call.get::<&Value>("what")? else {
         unreachable!("`check` lets only robots and foldings through, and foldings have files of their own");
     };
@@ -274,7 +273,7 @@ pub fn written(interpreter: &mut Interpreter, call: &Call, ending: &str) -> Eval
             world.edges.push(Edge { a, b, turn: bond.turn, line: 0 });
         }
     }
-    Ok(Some(if ending == "json" { rofi_json::write(&world) } else { rofi::write(&world) }))
+    Ok(Some(world))
 }
 
 /// Without the rounding of radians.

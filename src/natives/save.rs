@@ -3,6 +3,7 @@
 use super::Native;
 use super::plan::{output_path, write_output};
 use super::rofi;
+use crate::formats::{Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS};
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -11,20 +12,20 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::planners::fold::{Net, Report};
-use crate::view::{Crease, CreasePattern, fold_file};
 
 pub const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
 
 fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-    let bytes = match (call.arg("what"), ending) {
-        (Value::Instance(_), "fold") | (Value::Record(_), "rofi" | "json") => {
-            return Err(
-                call.refuse("file", "a robot's name ends in `.rofi` or `.json`, a folding's in `.fold`")
-            );
-        }
-        (Value::Record(record), _) => {
+    let robot = ExportFormat::of_ending(ROBOT_FORMATS, ending);
+    let folding = ExportFormat::of_ending(FOLDING_FORMATS, ending);
+    let [robots, foldings] = [ExportFormat::endings(ROBOT_FORMATS), ExportFormat::endings(FOLDING_FORMATS)];
+    let other = format!("a robot's name ends in {robots}, a folding's in {foldings}");
+    let text = match call.arg("what") {
+        Value::Instance(_) if folding.is_some() => return Err(call.refuse("file", other)),
+        Value::Record(_) if robot.is_some() => return Err(call.refuse("file", other)),
+        Value::Record(record) => {
             let planned = match &**record {
                 Record::Plan(planned) => Some(planned),
                 Record::Native(record) => record.plan(),
@@ -36,17 +37,18 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             let Some(folded) = planned.report::<Report>() else {
                 return Err(call.refuse("what", "this plan folds no pattern: `fold` makes those that do"));
             };
-            if ending != "fold" {
-                return Err(call.refuse("file", "the name of a folding's file ends in `.fold`"));
-            }
-            fold_file(&creases(planned, folded))
+            let Some(format) = folding else {
+                let message = format!("the name of a folding's file ends in {foldings}");
+                return Err(call.refuse("file", message));
+            };
+            (format.write)(&creases(planned, folded))
         }
-        _ => match rofi::written(interpreter, call, ending)? {
-            Some(text) => text,
+        _ => match rofi::world_of(interpreter, call)? {
+            Some(world) => (robot.unwrap_or(&ROBOT_FORMATS[0]).write)(&world),
             None => return Ok(Value::Unknown),
         },
     };
-    write_output(interpreter, call.at("file"), &path, bytes.into_bytes())?;
+    write_output(interpreter, call.at("file"), &path, text.into_bytes())?;
     Ok(Value::Nothing)
 }
 

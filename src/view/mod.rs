@@ -1,4 +1,4 @@
-//! Plans as pictures: a page that plays a plan, still pictures, drawings and crease patterns.
+//! Plans as pictures: a page that plays a plan, still pictures and drawings.
 //!
 //! The room receives a plan with its verdict and returns text or bytes; it writes no files. The data of a
 //! page is collected by `data` (the plan's own numbers, thinned where there are too many) and inserted
@@ -29,8 +29,6 @@ mod mesh;
 mod palette;
 mod raster;
 
-mod fold_format;
-
 mod drawing;
 mod markup;
 mod surroundings;
@@ -41,7 +39,6 @@ mod layers;
 mod pattern;
 mod program;
 
-pub use fold_format::{Crease, CreasePattern, fold_file};
 pub use input::RenderInput;
 pub use page::{page, page_name};
 pub use picture::{Side, StillOptions, png};

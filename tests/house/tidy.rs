@@ -41,7 +41,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "planners",
         ],
     ),
-    ("formats", &[]),
+    ("formats", &["robot"]),
     ("elaborate", &["interrupt", "source", "units", "check", "geometry", "robot", "interpret"]),
     (
         "natives",
@@ -113,7 +113,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("strsim", &["source"]),
     ("pulldown_cmark", &["document"]),
     ("rustyline", &["cli"]),
-    ("serde_json", &["source", "robot", "plan", "view", "document", "cli"]),
+    ("serde_json", &["source", "formats", "robot", "plan", "view", "document", "cli"]),
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("ctrlc", &["cli"]),

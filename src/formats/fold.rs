@@ -62,7 +62,7 @@ impl Crease {
 }
 
 /// Returns the text of the FOLD file.
-pub fn fold_file(pattern: &CreasePattern) -> String {
+pub(super) fn write(pattern: &CreasePattern) -> String {
     let edges = &pattern.edges;
     let by_edge = |value: &dyn Fn(&Crease) -> Value| Value::Array(edges.iter().map(value).collect());
     let mut file = Map::new();
