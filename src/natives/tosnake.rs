@@ -26,6 +26,7 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[
     Native::on_run("tosnake", TosnakeArguments::PARAMETERS, native_tosnake),
     Native::on_run("reconfigure", ReconfigureArguments::PARAMETERS, native_reconfigure),
