@@ -182,7 +182,7 @@ macro_rules! arguments {
                 Ok($Name {
                     $($field: call.get_named(
                         stringify!($field),
-                        [$($what,)? concat!("`", stringify!($field), "`")][0],
+                        [$($what,)? stringify!($field)][0],
                     )?),*
                 })
             }

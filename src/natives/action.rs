@@ -190,9 +190,14 @@ fn follow(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     else {
         return Ok(Value::Unknown);
     };
-    let parts =
-        [(Part::Joint, 0), (Part::Keyframes, 1), (Part::Target, 1), (Part::Speed, 1), (Part::Duration, 2)];
-    let parts = parts.map(|(part, index)| (part, call.at(index))).to_vec();
+    let parts = [
+        (Part::Joint, "joint"),
+        (Part::Keyframes, "path"),
+        (Part::Target, "path"),
+        (Part::Speed, "path"),
+        (Part::Duration, "for"),
+    ];
+    let parts = parts.map(|(part, name)| (part, call.at(name))).to_vec();
     let extras = Extras { until: None, timeout: None, parts };
     joint_action(interpreter, call, joint, call.at("joint"), extras, |joint| Command::Follow {
         joint,

@@ -233,7 +233,7 @@ fn polyhedron(_: &mut Interpreter, call: &Call) -> Eval<Value> {
         let face: Option<Vec<usize>> = places.iter().map(place).collect();
         let face = face.ok_or_else(|| {
             call.refuse(
-                1,
+                "faces",
                 format!("face {number} names a vertex that there isn't: there are {}", vertices.len()),
             )
         })?;

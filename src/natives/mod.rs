@@ -1,7 +1,22 @@
 //! The bodies of the built-ins: the only bridge between the wings.
 //!
-//! What a built-in is called, takes and gives is declared in `stdlib/prelude.mod`; a test fails
-//! where that and these tables disagree.
+//! A built-in is declared in `stdlib/prelude.mod`; the file of its subject here lists it with its parameters
+//! and supplies the body. A native reads its arguments by name, calls the right wing, and turns a refusal
+//! into a diagnostic. Nothing counts parameters, and their order here means nothing.
+//!
+//! - Few arguments: `Native::pure("join", parameters![list: &[Value], with: &str], join)`, and in the body
+//!   `call.get::<&str>("with")?`. The type that is read is the one in the list.
+//! - Many arguments: `arguments! { struct SqueezeArguments<'c> { .. } }` declares a field for each parameter;
+//!   `SqueezeArguments::PARAMETERS` goes into the table, `SqueezeArguments::read(call)?` reads them all.
+//! - A choice of words is an enum that implements [`Choice`](crate::interpret::argument::Choice): its words
+//!   stand there and in the declaration, nowhere else.
+//! - `T?` without a default is an `Option`; `auto | Int` is a `WordOr<Auto, usize>`; a parameter of several
+//!   types is a `&Value`.
+//! - What a planner reports beside its plan is a record: `impl ReportFields for Report` holds one table from
+//!   field to reader. Other records of a native implement `NativeRecord`.
+//!
+//! A test compares names, types, what may be missing, words and fields with the declarations. A file of
+//! natives has one line in `SUBJECTS`.
 
 mod action;
 mod family;
@@ -28,23 +43,12 @@ mod truss_limits;
 
 use crate::interpret::interpreter::Interpreter;
 pub use crate::interpret::native::Native;
-use crate::interpret::native::{Effect, NativeBody};
 use crate::interpret::plan_value::ReportFields;
 use crate::interpret::record::fields;
 use crate::interpret::stop::Eval;
 use crate::source::Symbol;
 use std::collections::HashMap;
 use std::sync::LazyLock;
-
-/// A built-in that reads its arguments by number and does its work whenever it is called.
-pub const fn pure(key: &'static str, params: usize, body: NativeBody) -> Native {
-    Native { key, parameters: &[], numbered: Some(params), effect: Effect::None, body }
-}
-
-/// A built-in that reads its arguments by number and that only a run carries out.
-pub const fn on_run(key: &'static str, params: usize, body: NativeBody) -> Native {
-    Native { key, parameters: &[], numbered: Some(params), effect: Effect::OnRun, body }
-}
 
 /// The natives of one file, with the records that it defines.
 struct Subject {

@@ -7,7 +7,7 @@ use crate::interpret::argument::{Choice, Off, Positive, WordOr, parameters};
 use crate::interpret::design::Instance;
 use crate::interpret::host::WriteError;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::native::{Call, Key};
+use crate::interpret::native::Call;
 use crate::interpret::plan_value::PlanValue;
 use crate::interpret::planning::Beginning;
 use crate::interpret::record::Record;
@@ -112,7 +112,7 @@ fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// A plan from a file, of a robot that starts as the plan's own does, with the names of this one's modules:
 /// it goes on where a plan of this robot ends that does nothing.
 fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (path, bytes) = interpreter.project_file(call, 0)?;
+    let (path, bytes) = interpreter.project_file(call, "file")?;
     let design = call.get::<&Rc<Instance>>("robot")?.design.clone();
     let Some(robot) = interpreter.robot_at(&design, call.at("robot"))? else { return Ok(Value::Unknown) };
     let unsound = |why: &str| {
@@ -227,11 +227,11 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 /// The file named by an argument, below the output folder, and its name as written.
-pub fn output_path(call: &Call, key: impl Key) -> Eval<(String, String)> {
-    let name = call.text(key)?.to_string();
+pub fn output_path(call: &Call, argument: &str) -> Eval<(String, String)> {
+    let name = call.get::<&str>(argument)?.to_string();
     match files::join("", &name).filter(|path| !path.is_empty()) {
         Some(path) => Ok((path, name)),
-        None => Err(outside(call.at(key), &name)),
+        None => Err(outside(call.at(argument), &name)),
     }
 }
 

@@ -35,7 +35,7 @@ const CLOSURE_MAX: f64 = 1e-3;
 const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
 fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let path = call.text("file")?.to_string();
+    let path = call.get::<&str>("file")?.to_string();
     let (kind, loaded) = library(interpreter, call)?;
     let (file, bytes) = interpreter.project_file(call, "file")?;
     let known = |design: &&Rc<Design>| matches!(&design.args[..], [Value::Text(text)] if **text == *file);

@@ -6,7 +6,7 @@ use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Placed, Pose, Shape, Vec3, soundness};
 use crate::interpret::argument::{Positive, parameters};
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::native::{Call, Key};
+use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};
 use crate::robot::{JointKind, Limits};
@@ -131,12 +131,12 @@ fn axis(call: &Call, name: &str) -> Eval<Vec3> {
 }
 
 /// Returns the points of a list.
-pub fn points(call: &Call, key: impl Key) -> Eval<Vec<Vec3>> {
+pub fn points(call: &Call, name: &str) -> Eval<Vec<Vec3>> {
     let point = |value: &Value| match value {
         Value::Vec3(p, _) => Ok(*p),
-        _ => Err(call.refuse(key, "points are wanted")),
+        _ => Err(call.refuse(name, "points are wanted")),
     };
-    call.get_named::<&[Value]>(key, "points")?.iter().map(point).collect()
+    call.get::<&[Value]>(name)?.iter().map(point).collect()
 }
 
 fn solid(call: &Call, shape: Shape) -> Eval<Value> {
