@@ -103,6 +103,7 @@ fn budget(cells: usize) -> usize {
 impl Lanes {
     /// Sorts the cells into lanes. `None` where too many cross-sections share a tile.
     fn of(before: &[Cube], after: &[Cube], axis: usize, lines: i64) -> Option<Lanes> {
+        // The lane of each cell; neighbours in the list of cells mostly share one.
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
         let section = |cube: &Cube| [(cube.lo[b], cube.hi[b]), (cube.lo[c], cube.hi[c])];
         let (mut lane_of, mut sizes) = (Vec::with_capacity(before.len()), Vec::new());
@@ -131,6 +132,7 @@ impl Lanes {
             end += sizes[lane as usize];
         }
         starts.push(end);
+        // Counting sort of the cells into their lanes, then by position within each.
         let empty = Place { before: (0, 0), after: (0, 0), cell: 0 };
         let mut places = vec![empty; before.len()];
         for (cell, ((old, new), lane)) in before.iter().zip(after).zip(lane_of).enumerate() {

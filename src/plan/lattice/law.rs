@@ -38,6 +38,7 @@ impl Change {
         let mut change = Change { smallest: (i64::MAX, 0), ..Change::default() };
         for (cell, (old, new)) in before.iter().zip(after).enumerate() {
             let cell = cell as u32;
+            // Displacements of the centre and changes of the edges, axis by axis.
             let mut moved = [0_i128; 3];
             for (axis, moved) in moved.iter_mut().enumerate() {
                 let displacement = new.middle(axis) - old.middle(axis);
@@ -61,6 +62,7 @@ impl Change {
             if moved == [0; 3] {
                 continue;
             }
+            // Sums over cells that move: squares, and the angular momentum.
             let square = moved.iter().map(|d| d * d).sum();
             change.squares += square;
             change.square = change.square.max(square);

@@ -20,7 +20,7 @@ const TRIED_MAX: usize = 24;
 /// Failures for which the blame is sought; the rest name whoever moves.
 const FAILURES_MAX: usize = 12;
 
-/// Segments of each joint that are looked at, the latest first.
+/// Segments of each joint that are examined, the latest first.
 const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame.

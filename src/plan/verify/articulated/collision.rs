@@ -25,7 +25,7 @@ pub struct Findings {
     pub collisions: Vec<Collision>,
     /// Least signed distance of links that may not touch. `None` where there are no two such.
     pub clearance: Option<Worst>,
-    /// Stretches looked at.
+    /// Number of intervals examined.
     pub samples: usize,
     /// Indices of the exemptions that excused something.
     pub used: Vec<usize>,

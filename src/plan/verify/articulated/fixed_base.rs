@@ -21,7 +21,7 @@ use crate::robot::Motion;
 pub enum BetweenSamples {
     /// No load is ever over its limit.
     Proved,
-    /// Not looked at, or not decided.
+    /// Not examined, or not decided.
     Open,
     /// At this instant one is.
     Over { time: f64, load: usize, ratio: f64 },
@@ -34,6 +34,7 @@ pub fn prove(rollout: &Rollout) -> BetweenSamples {
     if !rollout.worlds.iter().all(|w| held(&w.world)) || rollout.exemptions.iter().any(excused) {
         return BetweenSamples::Open;
     }
+    // Between instants at which anything begins or ends the tree of bonds and the gravity stay.
     let bounds = MotionBounds::new(rollout.tracks);
     let instants = sampling::instants(rollout.tracks, rollout.worlds, rollout.exemptions);
     let mut bonds = bonds_at(rollout.tracks, 0.0);
@@ -49,6 +50,7 @@ pub fn prove(rollout: &Rollout) -> BetweenSamples {
             return BetweenSamples::Open;
         }
         let gravity = world_at(rollout.worlds, ends[0]).gravity;
+        // Bisection: an interval is discarded where the bound proves the loads in all of it.
         let mut open = vec![(ends[0], ends[1])];
         while let Some((from, to)) = open.pop() {
             interrupt::checkpoint();

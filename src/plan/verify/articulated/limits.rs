@@ -83,10 +83,12 @@ fn pieces(tracks: &Tracks, drive: &Drive) -> Vec<Piece> {
         .iter()
         .filter_map(|&(joint, factor)| Some((tracks.track(JointId(joint as u32))?, joint, factor)))
         .collect();
+    // Instants at which a piece of any joint of the drive begins or ends.
     let mut cuts: Vec<f64> =
         moving.iter().flat_map(|(t, ..)| t.segments.iter().flat_map(|s| [s.start, s.end])).collect();
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
+    // The constant contribution of joints that do not move.
     let still: f64 = drive
         .terms
         .iter()
@@ -95,6 +97,7 @@ fn pieces(tracks: &Tracks, drive: &Drive) -> Vec<Piece> {
         .sum();
     let mut next = vec![0; moving.len()];
     let mut found = Vec::new();
+    // Between two instants the drive's control points are the weighted sum of those of its joints.
     for pair in cuts.windows(2) {
         let (start, end) = (pair[0], pair[1]);
         let mut control = vec![still];

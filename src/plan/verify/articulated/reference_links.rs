@@ -2,8 +2,8 @@
 //! decomposition of the tree of modules.
 //!
 //! How far a link deviations from uniform motion is bounded by a sum over the joints between it and the
-//! frame it is looked at from; from the far end of a long snake that sum is hopeless. A centroid
-//! splits the tree of modules into halves at most; pairs on different sides of it are looked at from
+//! frame that it is seen from; from the far end of a long snake that sum is hopeless. A centroid
+//! splits the tree of modules into halves at most; pairs on different sides of it are seen from
 //! it, and each side is split again. So every pair has one frame on the path between its two
 //! modules, its sums run over that path alone, and there are only log₂ n frames for each link.
 
@@ -16,7 +16,7 @@ const NOWHERE: u32 = u32::MAX;
 pub struct ReferenceLinks {
     /// The levels of the decomposition, coarsest first.
     pub levels: Vec<ReferenceLevel>,
-    /// For each level, the centroid that each module is looked at from.
+    /// For each level, the centroid whose body link is the reference of each module.
     centroids: Vec<Vec<u32>>,
 }
 
@@ -27,7 +27,7 @@ pub struct ReferenceLevel {
     pub origins: Vec<usize>,
     /// From links already reached to their neighbours.
     pub hops: Vec<Hop>,
-    /// The body link that each link is looked at from.
+    /// The reference link of each link.
     pub origin_of: Vec<u32>,
 }
 

@@ -93,6 +93,7 @@ impl Stance {
             stance.find_contacts(model, tolerances);
             return (stance, 0.0, 0.0);
         }
+        // The attitude of rest near the drawn one.
         let rest = settle(&stance.features, tolerances);
         let turned =
             UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rest.turn)).angle();

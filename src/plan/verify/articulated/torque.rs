@@ -77,7 +77,7 @@ struct UnevenForces {
     needs_friction: bool,
 }
 
-/// Another such place is looked at only where it is that much worse.
+/// Factor by which another such time must be worse to be examined.
 const UNEVEN_STEP: f64 = 1.1;
 
 /// The loads of one stance.
@@ -141,6 +141,7 @@ impl<'a> Monitor<'a> {
 
     fn weigh_in(&mut self, sample: &Sample, compiled: &Compiled, ledger: &mut Ledger) {
         let structure = &compiled.structure;
+        // Loads of the normal forces without friction (a feasible guess, not an optimum).
         let sections = structure.sections(sample.stance);
         let gravity_wrenches = weights(sample);
         let weights = structure.held(sample.model, &sections, &gravity_wrenches);
@@ -150,14 +151,17 @@ impl<'a> Monitor<'a> {
         }
         self.work(sample, compiled, &loads.held);
         self.over.clear();
+        // Joints and motors first, then bonds: each has a margin of its own.
         for (slot, bonds) in [(0, false), (1, true)] {
             let own = |i: &usize| bonds != matches!(structure.loads[*i].kind, LoadKind::Joint { .. });
             let judged: Vec<usize> = loads.judged.iter().copied().filter(own).collect();
             let Some(worst) = greatest(&judged, |i| loads.ratios[i]) else { continue };
+            // Feasible already: these forces exist, and overload nothing.
             if loads.ratios[worst] <= 1.0 {
                 self.margin(sample, structure, worst, loads.ratios[worst], ledger);
                 continue;
             }
+            // Otherwise a query for the best contact forces.
             let query = ContactQuery {
                 model: sample.model,
                 structure,
@@ -171,6 +175,7 @@ impl<'a> Monitor<'a> {
                 fixed_base: sample.world.ground == Ground::Held,
                 tolerances: self.tolerances,
             };
+            // Statically determinate loads over their limits need no LP: no contact forces change them.
             let sure = determinate_loads(structure, sample, &judged, true, self.tolerances);
             let sure = greatest(&sure, |i| loads.ratios[i]).filter(|&i| loads.ratios[i] > 1.0);
             let seen = if bonds { &ledger.verdict.bond_margin } else { &ledger.verdict.torque_margin };
@@ -179,10 +184,12 @@ impl<'a> Monitor<'a> {
                 Some(_) => None,
                 None => best(&query, &mut self.warm_starts[slot], seen, &mut self.effort),
             };
+            // Neither determinate nor solved: the sample is undecided.
             if sure.is_none() && best.is_none() {
                 self.undecided += 1;
                 continue;
             }
+            // Feasible contact forces settle it; otherwise the overloads are recorded.
             match best {
                 Some(best) if best.ratio <= 1.0 => {
                     self.margin(sample, structure, best.load, best.ratio, ledger);

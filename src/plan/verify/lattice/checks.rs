@@ -41,6 +41,7 @@ impl Judgement<'_> {
     pub fn laws(&self, step: &Step, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
         let lines = 2 * i128::from(step.lines);
+        // K4: acceleration, along each axis or in the Euclidean norm.
         let too_quick = if self.stages.model.euclidean {
             scaling.compare_acceleration_squared(change.square, lines)
         } else {
@@ -67,6 +68,7 @@ impl Judgement<'_> {
                 ledger,
             );
         }
+        // K6: rate of sizes.
         self.note_speed(step, change.resized.0, step.lines, &[change.resized.1], ledger);
         let limit = self.stages.limits.speed_squared;
         if scaling.compare_speed_squared(change.resized.0, step.lines, limit).is_gt() {

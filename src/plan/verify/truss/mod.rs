@@ -39,6 +39,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         obstacles: Vec::new(),
         steepest,
     };
+    // What does not depend on time: obstacles, corners, node positions at the keyframes.
     match surroundings::obstacles(paths) {
         Ok(obstacles) => judged.obstacles = obstacles,
         Err(why) => ledger.fail(judged.failure(CheckKind::Form, 0.0, vec![], format!("an obstacle: {why}"))),
@@ -53,8 +54,10 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         plan.worlds[last].world
     };
     let mut standing = Standing::new(&judged);
+    // The start.
     judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
+    // Every step: lengths, distances, obstacles, shape, ground, static stability.
     for (i, keyframe) in paths.keyframes.iter().enumerate().skip(1) {
         interrupt::progress_checkpoint(|| format!("step {i} of {}", paths.keyframes.len() - 1));
         let begins = paths.keyframes[i - 1].time;
@@ -76,6 +79,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
                 standing.step(&step, &mut ledger);
             }
         }
+        // Only gravity on a ground makes a truss roll.
         if let Interpolation::RigidRoll { .. } = keyframe.interpolation
             && (world.gravity == 0.0 || !world.has_floor())
         {
@@ -83,6 +87,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
             ledger.fail(judged.failure(CheckKind::Ground, begins, vec![], message));
         }
     }
+    // The margins that the plan states at its keyframes.
     for (keyframe, x) in
         paths.keyframes.iter().zip(&places).filter(|(keyframe, _)| !keyframe.margins.is_none())
     {

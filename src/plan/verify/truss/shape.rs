@@ -49,6 +49,7 @@ impl Judgement<'_> {
             let way = (arm(&step.to, end) - arm(&step.from, end)).norm();
             way / lengths::along(step, end, node).least.0.max(f64::MIN_POSITIVE)
         };
+        // Advancement: the angle changes no faster than both directions turn.
         let speed = turns(p) + turns(q);
         let (mut part, mut least) = (0.0, (between(at(p, 1.0), at(q, 1.0)), 1.0));
         let mut proved = false;

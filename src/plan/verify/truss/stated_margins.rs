@@ -18,6 +18,7 @@ impl Judgement<'_> {
             let found = found().unwrap_or(f64::INFINITY);
             ((stated - found).abs() > self.tolerances.stated_margin).then_some((what, stated, found))
         };
+        // The margins as they are found at the keyframe, each computed only where one is stated.
         let lengths = || {
             let (low, high) = self.strut.length;
             let failed = |strut: &usize| {
@@ -63,6 +64,7 @@ impl Judgement<'_> {
             };
             self.paths.limits.sums.iter().map(one).reduce(f64::min)
         };
+        // The first stated margin that is not the one found.
         let (what, stated, found) = found(length, &lengths, "of lengths")
             .or_else(|| found(clearance, &apart, "between struts"))
             .or_else(|| found(obstacle, &beside, "beside obstacles"))

@@ -116,6 +116,7 @@ impl<'a> Standing<'a> {
     /// the whole step, by conservative advancement.
     fn straight(&mut self, step: &Step, ledger: &mut Ledger) {
         let feet: Vec<usize> = (0..step.from.len()).filter(|&n| self.stays_down(step, n)).collect();
+        // Slip and slope of the feet.
         for &node in &feet {
             if let Some(terrain) = &self.judgement.paths.surroundings.terrain {
                 let [x, y] = terrain.slope(step.from[node].x, step.from[node].y);
@@ -124,6 +125,7 @@ impl<'a> Standing<'a> {
             let slid = step.to[node] - step.from[node];
             self.slid[node] += libm::hypot(slid.x, slid.y);
         }
+        // Speed of the centre of mass relative to the fastest foot, per step.
         let paths = self.judgement.paths;
         let centre_way = centre(paths, &step.to) - centre(paths, &step.from);
         let fastest =
@@ -131,6 +133,7 @@ impl<'a> Standing<'a> {
         let mut part = 0.0;
         // The last sample, until stability is proved to the end of the step.
         let mut lost = Some((f64::NAN, step.start));
+        // Advancement: a margin lasts at least as long as that speed takes to use it up.
         for _ in 0..ADVANCEMENT_STEPS_MAX {
             let inside = self.margin(step, &feet, part);
             let time = step.start + part * step.duration;
@@ -151,6 +154,7 @@ impl<'a> Standing<'a> {
             };
             part = (part + advance).min(1.0);
         }
+        // The failure, if stability was not proved to the end.
         if let Some((inside, time)) = lost {
             let message = if inside >= -self.judgement.tolerances.support_margin {
                 "the centre of mass is so near to the rim of the support that it is not proved to stand"
@@ -198,6 +202,7 @@ impl<'a> Standing<'a> {
                 message,
             ));
         };
+        // The rotation must lead where the plan has the nodes.
         let turn = turned(along, angle);
         let off =
             step.from.iter().zip(&step.to).map(|(p, q)| (origin + turn.rotation * (p - origin) - q).norm());
@@ -208,6 +213,7 @@ impl<'a> Standing<'a> {
                 ledger,
             );
         }
+        // The edge must be on the ground.
         if !self.touches(origin) || !self.touches(end) {
             return refuse(format!("it rolls over {name}, which is not on the ground"), ledger);
         }
@@ -223,6 +229,7 @@ impl<'a> Standing<'a> {
             let foot = &paths.node_names[foot];
             return refuse(format!("it rolls over {name}, and stands on {foot} beyond"), ledger);
         }
+        // The centre of mass must be above the edge or beyond it.
         let centre = beyond(centre(paths, &step.from));
         if centre < -self.judgement.tolerances.support_margin {
             let away = quantity(-centre, Dimension::LENGTH);

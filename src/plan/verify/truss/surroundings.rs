@@ -73,6 +73,7 @@ impl Judgement<'_> {
         let (a, b) = self.paths.struts[strut];
         let clearance = self.strut.clearance;
         let fastest = way(step, a).max(way(step, b));
+        // Broad phase: bounding spheres.
         let (p, q) = (step.from[a], step.from[b]);
         let gap = ((p + q) / 2.0 - part.centre).norm() - (p - q).norm() / 2.0 - part.radius;
         // Twice the clearance, so that a distance is told where nothing is nearer.
@@ -85,6 +86,7 @@ impl Judgement<'_> {
             signed_distance_within(&segment, part, &Pose::identity(), None, 2.0 * clearance + fastest)
                 .distance
         };
+        // Conservative advancement: a spare distance lasts as long as the fastest end takes to use it up.
         let (mut at, mut least) = (0.0, (sample(1.0), 1.0));
         let mut holds = false;
         for _ in 0..ADVANCEMENT_STEPS_MAX {
@@ -101,6 +103,7 @@ impl Judgement<'_> {
             }
             at = (at + spare / fastest).min(1.0);
         }
+        // The least distance found goes to the verdict.
         let time = step.start + step.duration * least.1;
         let names = || vec![self.strut_name(strut), obstacle.name.clone()];
         if least.0 <= 2.0 * clearance {
