@@ -91,7 +91,15 @@ pub fn near_points(
 /// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0) of each other along every
 /// axis, up to rounding: a superset of those that are nearer than `reach`. Ordered by j, then by cell and i. `cell` (> 0) is the size of
 /// a cell at least, best about that of a box; grids of more than eight cells for each box are made coarser.
-pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, found: &mut dyn FnMut(usize, usize)) {
+///
+/// Pairs for which `wanted(i, j)` is false are left out, before the dearer search for the cell that reports a pair.
+pub fn near_boxes(
+    boxes: &[Aabb],
+    reach: f64,
+    cell: f64,
+    wanted: impl Fn(usize, usize) -> bool,
+    mut found: impl FnMut(usize, usize),
+) {
     let margin = Vec3::repeat(reach / 2.0);
     let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, b| low.inf(&b.low)) - margin;
     let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, b| high.sup(&b.high)) + margin;
@@ -110,10 +118,13 @@ pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, found: &mut dyn FnMut(u
                 for c in from.z..=to.z.min(counts.z - 1) {
                     let members = &mut grid[(a * counts.y + b) * counts.z + c];
                     for &i in members.iter() {
-                        let near = boxes[i].gap(box_j).iter().all(|gap| *gap <= reach);
+                        let gap = boxes[i].gap(box_j);
+                        if gap.x > reach || gap.y > reach || gap.z > reach || !wanted(i, j) {
+                            continue;
+                        }
                         // Of the cells that both are in, the first speaks for the pair.
                         let corner = boxes[i].low.sup(&box_j.low) - margin;
-                        if near && index(corner) == nalgebra::Vector3::new(a, b, c) {
+                        if index(corner) == nalgebra::Vector3::new(a, b, c) {
                             found(i, j);
                         }
                     }

@@ -115,11 +115,8 @@ pub fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f6
     let ends = |strut| -> [Vec3; 2] { truss.segment(x, strut).into() };
     let boxes: Vec<Aabb> = (0..truss.struts.len()).map(|strut| Aabb::around(ends(strut))).collect();
     let mut found = Vec::new();
-    near_boxes(&boxes, reach, truss.unit, &mut |i, j| {
-        let apart = boxes[i].gap(&boxes[j]).norm_squared();
-        if apart < reach * reach && !truss.share_node(i, j) {
-            found.push((i, j, apart.sqrt()));
-        }
-    });
+    let apart = |i: usize, j: usize| boxes[i].gap(&boxes[j]).norm_squared();
+    let wanted = |i: usize, j: usize| apart(i, j) < reach * reach && !truss.share_node(i, j);
+    near_boxes(&boxes, reach, truss.unit, wanted, |i, j| found.push((i, j, apart(i, j).sqrt())));
     found
 }

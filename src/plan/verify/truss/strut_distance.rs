@@ -38,10 +38,9 @@ pub fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance: f64) -
     // Twice the clearance, so that a distance is told where nothing is nearer.
     let reach = 2.0 * clearance;
     let mut found = Vec::new();
-    near_boxes(&boxes, reach, cell, &mut |i, j| {
-        if !shares(i, j) {
-            found.push(pair(paths, step, (i, j), (clearance, tolerance)));
-        }
+    let wanted = |i: usize, j: usize| !shares(i, j);
+    near_boxes(&boxes, reach, cell, wanted, |i, j| {
+        found.push(pair(paths, step, (i, j), (clearance, tolerance)));
     });
     found.sort_by_key(|near| near.struts);
     found
