@@ -435,7 +435,7 @@ impl fmt::Display for PlanFault {
                 write!(f, "`{stated}` stands as the name of {what} {index}, whose index stands for `{name}`")
             }
             PlanFault::Names { what } => {
-                write!(f, "the names of {what} and so on are not as many as the indices")
+                write!(f, "there are not as many names as indices, from a {what} on")
             }
             PlanFault::Dynamics { stated, judged } => {
                 write!(f, "a world states the dynamics `{stated}`; such plans are judged under `{judged}`")

@@ -211,7 +211,7 @@ fn names_that_contradict_their_indices_are_refused() {
     let mut fewer: serde_json::Value = serde_json::from_str(&written(&rich())).expect("it is JSON");
     let joints = fewer.pointer_mut("/body/tracks/robot/joints").and_then(|j| j.as_array_mut());
     joints.expect("a list").pop();
-    assert!(refused(&fewer.to_string()).message.contains("not as many"));
+    assert!(refused(&fewer.to_string()).message.contains("not as many names"));
     let moving = written(&rich()).replacen("\"statics\"", "\"kinodynamic\"", 1);
     assert!(refused(&moving).message.contains("judged under `statics`"));
 }

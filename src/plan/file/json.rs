@@ -150,7 +150,7 @@ impl<'a> PlanJson<'a> {
         if let Some(program) = &self.program {
             program.names(&mut stated);
         }
-        self.exemptions.iter().for_each(|e| stated.add_all("what exemptions excuse, number", &e.on));
+        self.exemptions.iter().for_each(|e| stated.add_all("exemption subject", &e.on));
         stated
     }
 

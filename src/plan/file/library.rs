@@ -67,20 +67,20 @@ impl LibraryNamesJson {
     pub(super) fn names(&self, stated: &mut Stated) {
         for connector in &self.connectors {
             stated.add("connector", &connector.name);
-            stated.add_all("a mate, connector", &connector.mates);
+            stated.add_all("mate", &connector.mates);
         }
         for module in &self.modules {
             stated.add("module type", &module.name);
-            stated.add_all("of the module types, link", &module.links);
+            stated.add_all("declared link", &module.links);
             for joint in &module.joints {
-                stated.add("of the module types, joint", &joint.name);
-                stated.add("the parent of joint", &joint.parent);
-                stated.add("the child of joint", &joint.child);
+                stated.add("declared joint", &joint.name);
+                stated.add("the parent of declared joint", &joint.parent);
+                stated.add("the child of declared joint", &joint.child);
             }
             for port in &module.ports {
-                stated.add("of the module types, port", &port.name);
-                stated.add("the link of port", &port.link);
-                stated.add("the connector of port", &port.connector);
+                stated.add("declared port", &port.name);
+                stated.add("the link of declared port", &port.link);
+                stated.add("the connector of declared port", &port.connector);
             }
         }
     }

@@ -99,10 +99,10 @@ impl<'a> ProgramJson<'a> {
         for node in &self.nodes {
             match node {
                 NodeJson::Action(action) => {
-                    stated.add_all("what commands are about, number", &action.on);
-                    stated.add_all("what conditions are about, number", &action.until_on);
+                    stated.add_all("command subject", &action.on);
+                    stated.add_all("condition subject", &action.until_on);
                 }
-                NodeJson::Exempt { on, .. } => stated.add_all("what exemptions are about, number", on),
+                NodeJson::Exempt { on, .. } => stated.add_all("exempted subject", on),
                 NodeJson::Series(_)
                 | NodeJson::Parallel(_)
                 | NodeJson::Repeat { .. }

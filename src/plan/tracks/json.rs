@@ -154,7 +154,7 @@ impl<'a> TracksJson<'a> {
     pub(in crate::plan) fn names(&self, stated: &mut Stated) {
         let robot = &self.robot;
         robot.modules.iter().for_each(|module| stated.add("the type of module", &module.kind_name));
-        stated.add("the base, module", &robot.base_name);
+        stated.add("base", &robot.base_name);
         stated.add_all("joint", &robot.joints);
         for bond in &robot.bonds {
             stated.add("bond", &bond.name);
@@ -163,7 +163,7 @@ impl<'a> TracksJson<'a> {
         }
         for cluster in &self.clusters {
             stated.add("the reference of cluster", &cluster.reference);
-            stated.add_all("of the clusters, module", &cluster.modules);
+            stated.add_all("cluster member", &cluster.modules);
         }
         self.tracks.iter().for_each(|track| stated.add("the joint of track", &track.name));
         for event in &self.events {
