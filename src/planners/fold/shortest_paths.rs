@@ -17,11 +17,13 @@ pub type Arc = u32;
 pub type Allowed = Vec<u8>;
 
 /// Returns the arc into a face across a side.
+#[inline]
 pub fn arc(face: usize, side: usize) -> Arc {
     (3 * face + side) as Arc
 }
 
 /// Returns the face that an arc enters, and the side.
+#[inline]
 pub fn head(arc: Arc) -> (usize, usize) {
     (arc as usize / 3, arc as usize % 3)
 }
@@ -89,11 +91,13 @@ pub struct QueueEntry {
 }
 
 impl Ord for QueueEntry {
+    #[inline]
     fn cmp(&self, other: &QueueEntry) -> Ordering {
         other.cost.total_cmp(&self.cost).then(other.face.cmp(&self.face))
     }
 }
 impl PartialOrd for QueueEntry {
+    #[inline]
     fn partial_cmp(&self, other: &QueueEntry) -> Option<Ordering> {
         Some(self.cmp(other))
     }
@@ -238,6 +242,7 @@ impl<'t> ShortestPaths<'t> {
 }
 
 /// Returns the face from which an arc comes.
+#[inline]
 pub fn tail(target: &Target, arc: Arc) -> usize {
     let (face, side) = head(arc);
     let hinge = target.sides[face][side].expect("arcs lead across hinges");
@@ -245,6 +250,7 @@ pub fn tail(target: &Target, arc: Arc) -> usize {
 }
 
 /// Returns the arc across the same hinge the other way.
+#[inline]
 pub fn reversed(target: &Target, an_arc: Arc) -> Arc {
     let (face, side) = head(an_arc);
     let hinge = &target.hinges[target.sides[face][side].expect("arcs lead across hinges")];

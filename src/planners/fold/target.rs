@@ -43,11 +43,13 @@ pub struct Hinge {
 
 impl Hinge {
     /// Returns the face across from one of the two.
+    #[inline]
     pub fn other(&self, face: usize) -> usize {
         if self.faces[0] == face { self.faces[1] } else { self.faces[0] }
     }
 
     /// Returns the number of the side of one of the two faces that it is.
+    #[inline]
     pub fn side_of(&self, face: usize) -> usize {
         self.sides[usize::from(self.faces[1] == face)]
     }
@@ -147,6 +149,7 @@ impl Target {
     }
 
     /// Returns the hinges of a face with the faces across them, in order of its sides.
+    #[inline]
     pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))
     }
