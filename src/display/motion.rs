@@ -56,10 +56,10 @@ impl Interpreter<'_> {
 
     /// Asks without telling what is wrong.
     fn quietly<T>(&mut self, ask: impl FnOnce(&mut Self) -> Eval<Option<T>>) -> Eval<Option<T>> {
-        let (reports, errors) = (self.reports.len(), self.errors);
+        let (reports, errors) = (self.reported.reports.len(), self.reported.errors);
         let found = ask(self);
-        self.reports.truncate(reports);
-        self.errors = errors;
+        self.reported.reports.truncate(reports);
+        self.reported.errors = errors;
         match found {
             Err(Stop::Fault(_)) => Ok(None),
             other => other,

@@ -64,11 +64,14 @@ fn quoted(text: &str) -> String {
 
 /// A branch of a tree drawn with lines.
 pub struct Branch {
+    /// The line of the branch itself.
     pub text: String,
+    /// The branches that go off it.
     pub below: Vec<Branch>,
 }
 
 impl Branch {
+    /// Returns a branch with nothing below it.
     pub fn leaf(text: impl Into<String>) -> Branch {
         Branch { text: text.into(), below: Vec::new() }
     }

@@ -127,19 +127,19 @@ impl Interpreter<'_> {
     /// Ports that a configuration hands on under names of its own.
     fn named_ports(&self, def: DefId) -> Vec<String> {
         use crate::check::typed::MemberKind;
-        let DefKind::Config(config) = &self.program.def(def).kind else { return Vec::new() };
+        let DefKind::Config(config) = &self.shared.program.def(def).kind else { return Vec::new() };
         let ports = config.members.iter().filter(|m| matches!(m.kind, MemberKind::Port { .. }));
         ports.map(|m| m.name.to_string()).collect()
     }
 
     fn behaviors(&self, def: DefId) -> Vec<String> {
-        let DefKind::Config(config) = &self.program.def(def).kind else { return Vec::new() };
+        let DefKind::Config(config) = &self.shared.program.def(def).kind else { return Vec::new() };
         config.behaviors.iter().map(|b| b.name.to_string()).collect()
     }
 
     /// What was declared, in one line.
     pub(super) fn describe_declaration_line(&mut self, def: DefId) -> Eval<String> {
-        let program = self.program;
+        let program = self.shared.program;
         let declared = program.def(def);
         let name = declared.name;
         let kind = match &declared.kind {

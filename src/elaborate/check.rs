@@ -11,12 +11,12 @@ use std::rc::Rc;
 impl Interpreter<'_> {
     /// Elaborates a declaration with its defaults, and evaluates all that its body declares.
     pub(super) fn elaborate_with_defaults(&mut self, def: DefId) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         let declared = program.def(def);
         match &declared.kind {
             DefKind::Let(_) => {
                 let value = self.global(def, declared.span);
-                self.settle(value)?;
+                self.recover(value)?;
             }
             DefKind::Connector(_) => {
                 self.connector(def)?;
@@ -33,7 +33,7 @@ impl Interpreter<'_> {
 
     /// Evaluates the lets, ports and behaviours of a body that nothing may have needed yet.
     fn check_members(&mut self, design: &Rc<Design>) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         let Some((members, _)) = members_of(&program.def(design.def).kind) else {
             return Ok(());
         };
@@ -42,7 +42,7 @@ impl Interpreter<'_> {
             if matches!(member.kind, MemberKind::Let(_) | MemberKind::Port { .. }) {
                 let id = MemberId(index as u32);
                 let value = self.member(&whole, id, member.span);
-                self.settle(value)?;
+                self.recover(value)?;
             }
         }
         let DefKind::Config(config) = &program.def(design.def).kind else { return Ok(()) };

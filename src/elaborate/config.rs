@@ -16,7 +16,9 @@ use std::rc::Rc;
 
 /// A requirement with the variables it was met with: it is asked when the body is complete.
 pub struct Deferred<'d> {
+    /// The clause.
     pub require: &'d Require,
+    /// The variables of the body.
     pub frame: Frame,
 }
 
@@ -28,7 +30,7 @@ impl Interpreter<'_> {
         let mut frame = Frame::new(def.frame, Some(this.clone()));
         let mut requirements = Vec::new();
         if complete {
-            let mark = self.errors;
+            let mark = self.reported.errors;
             self.run_clauses(&def.clauses, config, &mut frame, &mut requirements)?;
             self.force_members(def, &this)?;
             self.find_base(def, config, &this)?;
@@ -289,7 +291,7 @@ impl Interpreter<'_> {
             if matches!(member.kind, MemberKind::Port { .. }) {
                 let id = MemberId(u32::try_from(index).expect("members are few"));
                 let value = self.member(this, id, member.span);
-                self.settle(value)?;
+                self.recover(value)?;
             }
         }
         Ok(())
@@ -344,6 +346,7 @@ pub fn outside(joint: &str, position: f64, (low, high): (f64, f64), dimension: D
     format!("{joint} can't be at {position}: its range is {low} to {high}")
 }
 
+/// Returns the fault of a start position that the joint does not reach.
 pub fn out_of_range(
     joint: &str,
     position: f64,

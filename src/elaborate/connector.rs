@@ -20,12 +20,12 @@ impl Interpreter<'_> {
     /// The connector of a declaration, elaborated once; `None` where it is not sound.
     pub(super) fn connector(&mut self, def: DefId) -> Eval<Option<Rc<ConnectorDesign>>> {
         let index = def.0 as usize;
-        if let Some(known) = &self.connectors[index] {
+        if let Some(known) = &self.memory.connectors[index] {
             return Ok(known.clone());
         }
-        let program = self.program;
+        let program = self.shared.program;
         let DefKind::Connector(declared) = &program.def(def).kind else { return Ok(None) };
-        let mark = self.errors;
+        let mark = self.reported.errors;
         let design = match self.elaborate_connector(def, declared) {
             Ok(design) => Some(Rc::new(design)),
             Err(Stop::Fault(diagnostic)) => {
@@ -35,7 +35,7 @@ impl Interpreter<'_> {
             Err(halt) => return Err(halt),
         };
         let design = design.filter(|_| !self.failed_since(mark));
-        self.connectors[index] = Some(design.clone());
+        self.memory.connectors[index] = Some(design.clone());
         Ok(design)
     }
 
@@ -105,12 +105,12 @@ impl Interpreter<'_> {
     /// The built-in of this name.
     pub(super) fn native_named(&self, key: &str) -> Option<DefId> {
         let is_it = |kind: &DefKind| matches!(kind, DefKind::Native(native) if native.key == key);
-        let index = self.program.defs.iter().position(|def| is_it(&def.kind))?;
+        let index = self.shared.program.defs.iter().position(|def| is_it(&def.kind))?;
         Some(DefId(u32::try_from(index).expect("declarations are counted in 32 bits")))
     }
 
     fn check_mutual(&mut self, def: DefId, declared: &ConnectorDef) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         for (mate, span) in &declared.mates {
             let DefKind::Connector(other) = &program.def(*mate).kind else { continue };
             let (this, that) = (self.name(def), self.name(*mate));

@@ -22,11 +22,11 @@ impl Interpreter<'_> {
         title: &str,
     ) -> Eval<Option<DesignKind>> {
         let mut frame = Frame::new(facts.frame, Some(this.clone()));
-        let mark = self.errors;
+        let mark = self.reported.errors;
         let values = self.positive_facts(facts, def, &CELL_FACTS, &mut frame)?;
         let [size, shrinks_to, mass, force, speed] = values[..] else { return Ok(None) };
         if shrinks_to >= size {
-            let span = facts.facts[1].as_ref().map_or(self.program.def(def).span, |e| e.span);
+            let span = facts.facts[1].as_ref().map_or(self.shared.program.def(def).span, |e| e.span);
             let message = "`shrinks_to` must be less than `size`";
             return self.attempt(|_| Err(fault(code::BAD_MODULE, span, message, "no smaller than the cell")));
         }
@@ -42,8 +42,8 @@ impl Interpreter<'_> {
         title: &str,
     ) -> Eval<Option<DesignKind>> {
         let mut frame = Frame::new(facts.frame, Some(this.clone()));
-        let mark = self.errors;
-        let span = self.program.def(def).span;
+        let mark = self.reported.errors;
+        let span = self.shared.program.def(def).span;
         let length = match facts.facts.first() {
             Some(Some(length)) => match self.eval(length, &mut frame)? {
                 Value::Range(ends) => ends.0.as_number().zip(ends.1.as_number()),
@@ -83,7 +83,7 @@ impl Interpreter<'_> {
         names: &[&str],
         frame: &mut Frame,
     ) -> Eval<Vec<f64>> {
-        let declared = self.program.def(def);
+        let declared = self.shared.program.def(def);
         let mut values = Vec::new();
         for (index, name) in names.iter().enumerate().filter(|(_, name)| **name != "length") {
             let value = match facts.facts.get(index) {

@@ -23,12 +23,12 @@ impl Interpreter<'_> {
     /// The design of a declaration with these arguments; `None` where an argument is unknown or the
     /// declaration was not understood.
     pub fn design_of(&mut self, def: DefId, args: Args, span: Span) -> Eval<Option<Rc<Design>>> {
-        if self.faulty[def.0 as usize] {
+        if self.shared.faulty[def.0 as usize] {
             return Ok(None);
         }
-        let Some(params) = params_of(&self.program.def(def).kind) else { return Ok(None) };
+        let Some(params) = params_of(&self.shared.program.def(def).kind) else { return Ok(None) };
         let Some((args, shown)) = self.fill_params(def, params, args)? else { return Ok(None) };
-        let known = self.designs[def.0 as usize].iter().find(|d| same_args(&d.args, &args)).cloned();
+        let known = self.memory.designs[def.0 as usize].iter().find(|d| same_args(&d.args, &args)).cloned();
         match known {
             Some(design) => self.check_complete(&design, span).map(|()| Some(design)),
             None => self.elaborate(def, args, &shown, span).map(Some),
@@ -39,7 +39,7 @@ impl Interpreter<'_> {
     fn check_complete(&mut self, design: &Rc<Design>, span: Span) -> Eval<()> {
         let running = design.config().is_some_and(|config| !config.complete.get());
         if running {
-            let declared = self.program.def(design.def).span;
+            let declared = self.shared.program.def(design.def).span;
             let message = format!("`{}` is a part of itself", design.name);
             return Err(Diagnostic::error(code::DECLARATION_CYCLE, message)
                 .label(span, "needed here, before it is complete")
@@ -105,20 +105,21 @@ impl Interpreter<'_> {
     }
 
     fn elaborate(&mut self, def: DefId, args: Vec<Value>, shown: &str, span: Span) -> Eval<Rc<Design>> {
-        let program = self.program;
+        let program = self.shared.program;
         let name = self.name(def);
         let title = if shown.is_empty() { name.to_string() } else { format!("{name}({shown})") };
-        let mark = self.errors;
+        let mark = self.reported.errors;
         let design = match &program.def(def).kind {
             DefKind::Config(config) => {
                 let kind = ConfigDesign { closed: config.closed.is_some(), ..ConfigDesign::default() };
                 let design = self.keep(def, title, args, DesignKind::Config(kind));
-                self.called(span, name, |this| this.elaborate_config(config, &design))?;
+                self.with_call(span, name, |this| this.elaborate_config(config, &design))?;
                 design
             }
             other => {
                 let shell = self.shell(def, args.clone());
-                let kind = self.called(span, name, |this| this.elaborate_leaf(other, def, &shell, &title))?;
+                let kind =
+                    self.with_call(span, name, |this| this.elaborate_leaf(other, def, &shell, &title))?;
                 let broken = kind.is_none();
                 let kind = kind.unwrap_or_else(|| DesignKind::Config(ConfigDesign::default()));
                 let design = self.keep(def, title, args, kind);
@@ -157,13 +158,13 @@ impl Interpreter<'_> {
 
     fn keep(&mut self, def: DefId, name: String, args: Vec<Value>, kind: DesignKind) -> Rc<Design> {
         let design = Rc::new(Design { def, name, args, kind, broken: Cell::new(false) });
-        self.designs[def.0 as usize].push(design.clone());
+        self.memory.designs[def.0 as usize].push(design.clone());
         design
     }
 
     /// Elaborates a declaration with its defaults; `None` where a parameter has none.
     pub fn default_design(&mut self, def: DefId) -> Eval<Option<Rc<Design>>> {
-        let declared = self.program.def(def);
+        let declared = self.shared.program.def(def);
         let Some(params) = params_of(&declared.kind) else { return Ok(None) };
         if params.iter().any(|p| p.default.is_none()) {
             return Ok(None);
@@ -176,6 +177,7 @@ fn same_args(a: &[Value], b: &[Value]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.same(y) == Some(true))
 }
 
+/// Returns the parameters of a declaration that has instances.
 pub fn params_of(kind: &DefKind) -> Option<&[Param]> {
     Some(match kind {
         DefKind::Module(d) => &d.params,

@@ -20,8 +20,8 @@ impl Interpreter<'_> {
         let of = self.default_design(lattice.of)?.filter(|design| !design.broken.get());
         let value = self.eval(&lattice.value, &mut frame)?;
         let (Some(of), Value::Cells(cells)) = (of, value) else { return Ok(None) };
-        let declared = self.program.def(def);
-        let span = self.calls.last().map_or(declared.span, |call| call.span);
+        let declared = self.shared.program.def(def);
+        let span = self.stack.calls.last().map_or(declared.span, |call| call.span);
         if cells.places.is_empty() {
             let message = format!("the lattice `{}` has no cells", declared.name);
             return self.attempt(|_| Err(fault(code::BAD_LATTICE, span, message, "no cells")));

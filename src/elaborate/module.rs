@@ -45,10 +45,10 @@ impl Interpreter<'_> {
         this: &Rc<Instance>,
         title: &str,
     ) -> Eval<Option<DesignKind>> {
-        let mark = self.errors;
+        let mark = self.reported.errors;
         let mut frame = Frame::new(def.frame, Some(this.clone()));
         let mut draft = self.draft(def, title, &mut frame)?;
-        let name = self.program.def(id).span;
+        let name = self.shared.program.def(id).span;
         for step in [Self::read_links, Self::read_joints, Self::read_ports, Self::read_motors] {
             self.attempt(|this| step(this, &mut draft, &mut frame))?;
         }

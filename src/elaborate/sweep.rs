@@ -23,7 +23,7 @@ struct Overlap {
 impl Interpreter<'_> {
     /// Warns where the two links that a joint joins overlap within its range, deeper than as drawn.
     pub(super) fn check_sweep(&mut self, def: DefId, design: &Rc<Design>) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         let (DefKind::Module(declared), Some(module)) = (&program.def(def).kind, design.module()) else {
             return Ok(());
         };

@@ -43,9 +43,9 @@ impl Interpreter<'_> {
         id: DefId,
         this: &Rc<Instance>,
     ) -> Eval<Option<DesignKind>> {
-        let mark = self.errors;
+        let mark = self.reported.errors;
         let of = self.default_design(def.of)?.filter(|design| !design.broken.get());
-        let name = self.program.def(id).span;
+        let name = self.shared.program.def(id).span;
         let mut frame = Frame::new(def.frame, Some(this.clone()));
         let mut draft = Draft::default();
         match &def.body {

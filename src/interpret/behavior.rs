@@ -115,7 +115,7 @@ impl Interpreter<'_> {
     pub fn check_behavior(&mut self, behavior: &Behavior) -> Eval<bool> {
         let Some(design) = &behavior.robot else { return Ok(true) };
         let Some(robot) = self.robot_of_checked(design)? else { return Ok(false) };
-        let mark = self.errors;
+        let mark = self.reported.errors;
         let assembly = &robot.assembly;
         let tol = behavior::Settings::default().tol_duration;
         for issue in behavior::issues(assembly, &behavior.node, tol) {
@@ -134,7 +134,7 @@ impl Interpreter<'_> {
 
     fn conflict(&self, conflict: &Conflict, robot: &Robot, error: bool) -> Diagnostic {
         let joint = robot.joint_name(conflict.joint);
-        let (a, b) = (self.causes.get(conflict.first), self.causes.get(conflict.second));
+        let (a, b) = (self.memory.causes.get(conflict.first), self.memory.causes.get(conflict.second));
         let diagnostic = if error {
             Diagnostic::error(code::CONFLICT, format!("two commands to {joint} at one time"))
         } else {
@@ -156,7 +156,7 @@ impl Interpreter<'_> {
 
     /// What an action asks for that its joint can't do, at the argument that asks.
     pub fn issue(&self, issue: &Issue) -> Diagnostic {
-        let record = self.causes.get(issue.cause);
+        let record = self.memory.causes.get(issue.cause);
         let (code, message, label) = issue_words(&issue.kind);
         let at = if record.caller.is_some() { record.primary() } else { record.argument(issue.part) };
         let label = if message.contains(&*record.instance) { label } else { with_instance(label, record) };
@@ -192,6 +192,7 @@ pub fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
     Some(Node::Action(action))
 }
 
+/// Returns a label with the instance that the cause is about.
 pub fn with_instance(label: String, record: &CauseRecord) -> String {
     if label.contains(&*record.instance) { label } else { format!("{label} [{}]", record.instance) }
 }

@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 /// Arguments in the order of the parameters; `None`: the default is wanted.
 pub struct Args {
+    /// The arguments.
     pub values: Vec<Option<Value>>,
     /// Where each argument stands; the whole call for those left out.
     pub spans: Vec<Span>,
@@ -28,6 +29,7 @@ impl Args {
 }
 
 impl Interpreter<'_> {
+    /// Evaluates the arguments of a call in the order of the parameters.
     pub fn eval_args(&mut self, args: &[Option<Expr>], span: Span, frame: &mut Frame) -> Eval<Args> {
         let mut values = Vec::with_capacity(args.len());
         let mut spans = Vec::with_capacity(args.len());
@@ -38,6 +40,7 @@ impl Interpreter<'_> {
         Ok(Args { values, spans })
     }
 
+    /// Calls a declared function or a built-in.
     pub fn call_def(
         &mut self,
         def: DefId,
@@ -49,6 +52,7 @@ impl Interpreter<'_> {
         self.apply_def(def, args, span)
     }
 
+    /// Calls a function value.
     pub fn eval_call_value(
         &mut self,
         callee: &Expr,
@@ -75,7 +79,7 @@ impl Interpreter<'_> {
                 for (slot, value) in captured {
                     inner.set(*slot, value.clone());
                 }
-                self.called(span, Symbol::new("=>"), |this| this.eval(body, &mut inner))
+                self.with_call(span, Symbol::new("=>"), |this| this.eval(body, &mut inner))
             }
             Callable::Def(def) => self.apply_def(*def, Args::plain(values, span), span),
             Callable::Behavior { object, behavior } => {
@@ -85,7 +89,7 @@ impl Interpreter<'_> {
     }
 
     fn apply_def(&mut self, def: DefId, args: Args, span: Span) -> Eval<Value> {
-        let program = self.program;
+        let program = self.shared.program;
         match &program.def(def).kind {
             DefKind::Fn(function) => self.call_fn(function, program.def(def).name, args, span),
             DefKind::Native(native) => self.call_native(native, args, span),
@@ -94,7 +98,7 @@ impl Interpreter<'_> {
     }
 
     fn call_fn(&mut self, function: &FnDef, name: Symbol, args: Args, span: Span) -> Eval<Value> {
-        self.called(span, name, |this| {
+        self.with_call(span, name, |this| {
             let mut frame = Frame::new(function.frame, None);
             this.fill(&function.params, args, &mut frame)?;
             this.eval(&function.body, &mut frame)
@@ -128,8 +132,8 @@ impl Interpreter<'_> {
         let mut frame = Frame::new(native.frame.max(native.params.len()), None);
         self.fill(&native.params, args, &mut frame)?;
         let values = &frame.slots[..native.params.len()];
-        let entry = (self.routines.native)(native.key).expect("a test holds bodies to declarations");
-        if self.mode == Mode::Check && entry.effect == Effect::OnRun {
+        let entry = (self.shared.routines.native)(native.key).expect("a test holds bodies to declarations");
+        if self.shared.mode == Mode::Check && entry.effect == Effect::OnRun {
             self.check_arguments(values)?;
             return Ok(Value::Unknown);
         }
@@ -149,6 +153,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Calls a behaviour of an instance.
     pub fn call_behavior(
         &mut self,
         object: &Rc<Instance>,
@@ -168,12 +173,12 @@ impl Interpreter<'_> {
         args: Args,
         span: Span,
     ) -> Eval<Value> {
-        let program = self.program;
+        let program = self.shared.program;
         let DefKind::Config(config) = &program.def(object.design.def).kind else {
             return Ok(Value::Unknown);
         };
         let Some(declared) = config.behaviors.get(behavior) else { return Ok(Value::Unknown) };
-        self.called(span, declared.name, |this| this.run_behavior(declared, object, args))
+        self.with_call(span, declared.name, |this| this.run_behavior(declared, object, args))
     }
 
     fn run_behavior(&mut self, declared: &BehaviorDef, object: &Rc<Instance>, args: Args) -> Eval<Value> {
@@ -193,7 +198,8 @@ impl Interpreter<'_> {
             return Ok(None);
         }
         let args = Args { values: vec![None; behavior.params.len()], spans: Vec::new() };
-        self.called(behavior.span, behavior.name, |this| this.run_behavior(behavior, object, args)).map(Some)
+        self.with_call(behavior.span, behavior.name, |this| this.run_behavior(behavior, object, args))
+            .map(Some)
     }
 
     /// `action else b`: what follows the timeout of an action.

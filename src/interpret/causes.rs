@@ -11,6 +11,7 @@ use std::sync::Arc;
 /// What a cause is in the source.
 #[derive(Clone, Debug)]
 pub struct CauseRecord {
+    /// The expression that commands.
     pub span: Span,
     /// Of the arguments of an action.
     pub args: Vec<(Part, Span)>,
@@ -42,6 +43,7 @@ pub struct Causes {
 }
 
 impl Causes {
+    /// Adds a cause and returns its number; one that is known keeps its number.
     pub fn add(&mut self, record: CauseRecord) -> CauseId {
         let id = CauseId(u32::try_from(self.records.len()).expect("causes are counted in 32 bits"));
         let key = (record.span, record.instance.clone(), record.caller);
@@ -52,6 +54,7 @@ impl Causes {
         known
     }
 
+    /// Returns the record of a cause.
     pub fn get(&self, id: CauseId) -> &CauseRecord {
         &self.records[id.0 as usize]
     }
@@ -67,7 +70,7 @@ impl Interpreter<'_> {
             _ => notes,
         };
         let caller = if self.is_library(span) { self.user_call().map(|call| call.span) } else { None };
-        self.causes.add(CauseRecord { span, args, instance: instance.as_str().into(), caller })
+        self.memory.causes.add(CauseRecord { span, args, instance: instance.as_str().into(), caller })
     }
 }
 
@@ -80,6 +83,7 @@ pub struct PlanCauses {
 }
 
 impl PlanCauses {
+    /// Returns the number of a cause in the plan, a new one where the plan does not name it yet.
     pub fn number(&mut self, cause: CauseId) -> CauseId {
         *self.known.entry(cause).or_insert_with(|| {
             self.ids.push(cause);

@@ -6,15 +6,18 @@ use std::collections::{BTreeMap, VecDeque};
 /// Each place once, in the order in which the cells are numbered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cells {
+    /// Whole coordinates, in the order of counting.
     pub places: Vec<[i64; 3]>,
 }
 
 /// A character of a cell text that is no cell and no gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadCell {
+    /// The character that is neither cell nor gap.
     pub character: char,
     /// From 0, in lines and in bytes of the line.
     pub line: usize,
+    /// The place of the character in its line, in bytes.
     pub offset: usize,
 }
 
@@ -35,6 +38,7 @@ pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
 }
 
 impl Cells {
+    /// Returns a block of cells with a corner at the origin.
     pub fn block(size: [usize; 3]) -> Cells {
         let mut places = Vec::with_capacity(size.iter().product());
         for z in 0..size[2] {

@@ -20,17 +20,21 @@ use std::rc::Rc;
 /// Most names that a message lists.
 const NAMES_SHOWN: usize = 12;
 
+/// A declaration with its arguments, elaborated.
 pub struct Design {
+    /// The declaration.
     pub def: DefId,
     /// With its arguments where they differ from the defaults: `Walker(bend: 35deg)`.
     pub name: String,
     /// One value for every parameter.
     pub args: Vec<Value>,
+    /// What was declared.
     pub kind: DesignKind,
     /// Something is wrong with it, and has been reported: instances of it are unknown.
     pub broken: Flag<bool>,
 }
 
+/// The kinds of declarations that have instances.
 pub enum DesignKind {
     Module(ModuleDesign),
     Config(ConfigDesign),
@@ -40,14 +44,17 @@ pub enum DesignKind {
     Truss(TrussDesign),
 }
 
+/// A module, elaborated.
 pub struct ModuleDesign {
     /// Its ports' connectors are indices into `connectors` here, not into a library.
     pub module: Rc<ModuleType>,
+    /// The declarations of its connectors.
     pub connectors: Vec<DefId>,
     /// First port and number of ports of every [`ModuleDef::ports`](crate::check::typed::ModuleDef).
     pub port_groups: Vec<(usize, usize)>,
     /// Dimension of each joint's position.
     pub joint_dimensions: Vec<Dimension>,
+    /// The robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
 }
 
@@ -58,27 +65,37 @@ pub struct ConfigDesign {
     pub parts: OnceCell<Vec<PartGroup>>,
     /// All modules, those of the parts in order.
     pub modules: OnceCell<Vec<FlatModule>>,
+    /// The connections, in the order of the clauses.
     pub bonds: RefCell<Vec<BondRecord>>,
     /// The bond at each port that has one.
     pub taken: RefCell<HashMap<(usize, usize), usize>>,
+    /// Which modules hang together so far.
     pub groups: RefCell<Groups>,
+    /// The start positions, in the order of the clauses.
     pub sets: RefCell<Vec<SetRecord>>,
     /// Index of the module named by `base`.
     pub base: Flag<Option<usize>>,
+    /// Whether loops may be closed.
     pub closed: bool,
+    /// One more than the largest order of its parts.
     pub order: Flag<usize>,
     /// Whether all clauses have been run, so that questions about geometry make sense.
     pub complete: Flag<bool>,
+    /// The robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
 }
 
 /// A part, or a list of parts.
 pub struct PartGroup {
+    /// Whether it was declared as a list.
     pub list: bool,
+    /// The parts.
     pub elements: Vec<PartElement>,
 }
 
+/// One part of a configuration.
 pub struct PartElement {
+    /// The elaborated declaration.
     pub design: Rc<Design>,
     /// Index of its first module.
     pub offset: usize,
@@ -91,16 +108,20 @@ pub struct PartElement {
 pub struct FlatModule {
     /// Path name: `leg[2].m[0]`.
     pub name: Rc<str>,
+    /// The elaborated declaration.
     pub design: Rc<Design>,
 }
 
 /// `connect`, with where it stands.
 #[derive(Clone)]
 pub struct BondRecord {
+    /// Module and port of the first end.
     pub a: (usize, usize),
+    /// Module and port of the second end.
     pub b: (usize, usize),
     /// In steps of the connector's turns.
     pub turn: u32,
+    /// The clause.
     pub span: Span,
     /// Of the two paths.
     pub ends: (Span, Span),
@@ -111,9 +132,13 @@ pub struct BondRecord {
 /// `set`, with where it stands.
 #[derive(Clone)]
 pub struct SetRecord {
+    /// The joint.
     pub joint: JointOwner,
+    /// Its position, rad or m.
     pub value: f64,
+    /// The clause.
     pub span: Span,
+    /// Which instance: the path of the part, the loop variables.
     pub instance: Rc<str>,
 }
 
@@ -216,6 +241,7 @@ impl Groups {
         at
     }
 
+    /// Returns whether two modules hang together.
     pub fn together(&mut self, a: usize, b: usize) -> bool {
         self.root(a) == self.root(b)
     }
@@ -243,6 +269,7 @@ impl ConfigDesign {
         config
     }
 
+    /// Adds a connection.
     pub fn add_bond(&self, bond: BondRecord) {
         let index = self.bonds.borrow().len();
         self.taken.borrow_mut().extend([(bond.a, index), (bond.b, index)]);
@@ -252,6 +279,7 @@ impl ConfigDesign {
 }
 
 impl Design {
+    /// Returns the module, where this is one.
     pub fn module(&self) -> Option<&ModuleDesign> {
         match &self.kind {
             DesignKind::Module(module) => Some(module),
@@ -259,6 +287,7 @@ impl Design {
         }
     }
 
+    /// Returns the configuration, where this is one.
     pub fn config(&self) -> Option<&ConfigDesign> {
         match &self.kind {
             DesignKind::Config(config) => Some(config),
@@ -285,6 +314,7 @@ impl Design {
         }
     }
 
+    /// Returns the type of the module at an index.
     pub fn module_type(self: &Rc<Design>, index: usize) -> Rc<ModuleType> {
         let design = self.module_at(index);
         design.module().expect("only modules are listed").module.clone()
@@ -305,6 +335,7 @@ impl Design {
         self.config().map_or(0, |config| config.order.get())
     }
 
+    /// Returns the connections; none of what is no configuration.
     pub fn bonds(&self) -> Vec<BondRecord> {
         self.config().map_or_else(Vec::new, |config| config.bonds.borrow().clone())
     }
@@ -315,6 +346,7 @@ impl Design {
         config.bonds.borrow()[index].clone()
     }
 
+    /// Returns the start positions that are set.
     pub fn sets(&self) -> Vec<SetRecord> {
         self.config().map_or_else(Vec::new, |config| config.sets.borrow().clone())
     }
@@ -328,6 +360,7 @@ impl std::fmt::Debug for Design {
 
 /// A design at a place of a robot.
 pub struct Instance {
+    /// The elaborated declaration.
     pub design: Rc<Design>,
     /// The outermost design.
     pub robot: Rc<Design>,
@@ -342,6 +375,7 @@ pub struct Instance {
 }
 
 impl Instance {
+    /// Returns the instance that is the whole of a design.
     pub fn whole(design: Rc<Design>) -> Rc<Instance> {
         let robot = design.clone();
         Rc::new(Instance {
@@ -426,6 +460,7 @@ impl JointValue {
 }
 
 impl PortValue {
+    /// Returns the path name: `leg[2].m[0].top`.
     pub fn name(&self) -> String {
         let port = &self.robot.module_type(self.module).ports[self.port].name;
         format!("{}.{port}", self.robot.module_name(self.module))

@@ -12,19 +12,24 @@ use std::sync::Arc;
 /// The variables of a body, and the instance whose body it is.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
+    /// The values, by slot; unknown where nothing was put yet.
     pub slots: Vec<Value>,
+    /// The instance whose body is evaluated.
     pub this: Option<Rc<Instance>>,
 }
 
 impl Frame {
+    /// Returns a frame of so many unknown values.
     pub fn new(size: usize, this: Option<Rc<Instance>>) -> Frame {
         Frame { slots: vec![Value::Unknown; size], this }
     }
 
+    /// Puts a value into the slot of a variable.
     pub fn set(&mut self, local: Local, value: Value) {
         self.set_slot(local.0 as usize, value);
     }
 
+    /// Puts a value into a slot, which is made where it is missing.
     pub fn set_slot(&mut self, slot: usize, value: Value) {
         if slot >= self.slots.len() {
             self.slots.resize(slot + 1, Value::Unknown);
@@ -32,6 +37,7 @@ impl Frame {
         self.slots[slot] = value;
     }
 
+    /// Returns the value of a variable.
     pub fn get(&self, local: Local) -> Value {
         self.slots.get(local.0 as usize).cloned().unwrap_or(Value::Unknown)
     }
@@ -41,8 +47,8 @@ impl Interpreter<'_> {
     /// The value of an expression. A fault is reported and leaves an unknown value.
     pub fn eval(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
         self.step(expr.span)?;
-        let result = self.nested(expr.span, |this| this.eval_kind(expr, frame));
-        self.settle(result)
+        let result = self.with_depth(expr.span, |this| this.eval_kind(expr, frame));
+        self.recover(result)
     }
 
     /// The value of an expression that may be left out.
@@ -80,7 +86,7 @@ impl Interpreter<'_> {
             }
             ExprKind::Port { object, port } => self.eval_port(object, *port, frame),
             ExprKind::Hinge(port) => match self.eval(port, frame)? {
-                Value::Port(port) => (self.routines.hinge_of)(self, &port, span),
+                Value::Port(port) => (self.shared.routines.hinge_of)(self, &port, span),
                 _ => Ok(Value::Unknown),
             },
             ExprKind::Field { object, field } => match self.eval(object, frame)? {
@@ -151,7 +157,7 @@ impl Interpreter<'_> {
             }
             ExprKind::Instance { def, args } => {
                 let args = self.eval_args(args, span, frame)?;
-                (self.routines.instantiate)(self, *def, args, span)
+                (self.shared.routines.instantiate)(self, *def, args, span)
             }
         }
     }
@@ -177,7 +183,7 @@ impl Interpreter<'_> {
 
     fn eval_port(&mut self, object: &Expr, port: usize, frame: &mut Frame) -> Eval<Value> {
         let value = self.eval(object, frame)?;
-        let program = self.program;
+        let program = self.shared.program;
         Ok(on_instance(&value, |instance| {
             let DefKind::Module(module) = &program.def(instance.design.def).kind else { return None };
             instance.port(port, module.ports.get(port)?.array)
@@ -262,7 +268,7 @@ impl Interpreter<'_> {
         let name = self.binder_name(span);
         let mut once = |this: &mut Self, frame: &mut Frame, value: Value| {
             frame.set(binder, value.clone());
-            this.bound(name, &value, |this| body(this, frame))
+            this.with_binding(name, &value, |this| body(this, frame))
         };
         match values {
             Value::List(elements) => {
@@ -291,7 +297,7 @@ impl Interpreter<'_> {
 
     /// The name of the loop variable, which stands before `in` and the expression at `span`.
     fn binder_name(&self, span: Span) -> crate::source::Symbol {
-        let text = &self.sources.file(span.file).text[..span.start as usize];
+        let text = &self.shared.sources.file(span.file).text[..span.start as usize];
         let before = text.trim_end().strip_suffix("in").unwrap_or("").trim_end();
         let start = before.rfind(|c: char| !c.is_alphanumeric() && c != '_').map_or(0, |i| i + 1);
         before[start..].into()
@@ -309,7 +315,7 @@ impl Interpreter<'_> {
         let (Value::List(elements), Some(at)) = (&list, index.as_big()) else { return Ok(Value::Unknown) };
         let found = usize::try_from(&at).ok().and_then(|at| elements.get(at));
         found.cloned().ok_or_else(|| {
-            let name = self.sources.text(object.span);
+            let name = self.shared.sources.text(object.span);
             let elements = match elements.len() {
                 0 => "no elements".to_string(),
                 1 => "1 element".to_string(),
@@ -333,23 +339,23 @@ impl Interpreter<'_> {
     /// The value of a top-level `let`.
     pub fn global(&mut self, def: DefId, span: Span) -> Eval<Value> {
         let index = def.0 as usize;
-        match &self.globals[index] {
+        match &self.memory.globals[index] {
             Lazy::Done(value) => return Ok(value.clone()),
             Lazy::Running => return Err(self.cycle(def, span)),
             Lazy::Waiting => {}
         }
-        let program = self.program;
+        let program = self.shared.program;
         let DefKind::Let(binding) = &program.def(def).kind else { return Ok(Value::Unknown) };
-        self.globals[index] = Lazy::Running;
+        self.memory.globals[index] = Lazy::Running;
         let name = self.name(def);
-        let result =
-            self.called(span, name, |this| this.eval(&binding.value, &mut Frame::new(binding.frame, None)));
-        self.globals[index] = Lazy::Done(result.as_ref().map_or(Value::Unknown, Value::clone));
+        let result = self
+            .with_call(span, name, |this| this.eval(&binding.value, &mut Frame::new(binding.frame, None)));
+        self.memory.globals[index] = Lazy::Done(result.as_ref().map_or(Value::Unknown, Value::clone));
         result
     }
 
     fn cycle(&self, def: DefId, span: Span) -> Stop {
-        let declared = self.program.def(def);
+        let declared = self.shared.program.def(def);
         Diagnostic::error(code::DECLARATION_CYCLE, format!("the value of `{}` needs itself", declared.name))
             .label(span, "needed here, before it has a value")
             .label(declared.span, "declared here")
@@ -359,7 +365,7 @@ impl Interpreter<'_> {
     /// A member of an instance, by index in its declaration.
     pub fn member(&mut self, instance: &Rc<Instance>, member: MemberId, span: Span) -> Eval<Value> {
         use crate::check::typed::MemberKind;
-        let program = self.program;
+        let program = self.shared.program;
         let Some((members, frame)) = members_of(&program.def(instance.design.def).kind) else {
             return Ok(Value::Unknown);
         };
@@ -412,7 +418,7 @@ impl Interpreter<'_> {
         match known {
             Lazy::Done(value) => return Ok(value),
             Lazy::Running => {
-                let name = self.sources.text(span);
+                let name = self.shared.sources.text(span);
                 return Err(fault(
                     code::DECLARATION_CYCLE,
                     span,
@@ -449,6 +455,10 @@ impl Interpreter<'_> {
             .into())
     }
 
+    /// Refuses a list that is longer than the limit.
+    ///
+    /// # Errors
+    /// A fault where it is.
     pub fn check_list(&mut self, length: usize, span: Span) -> Eval<()> {
         let limit = self.limits().list;
         if length <= limit {
@@ -457,6 +467,10 @@ impl Interpreter<'_> {
         self.too_large(span, format!("a list of more than {limit} elements"))
     }
 
+    /// Refuses a text that is longer than the limit, in bytes.
+    ///
+    /// # Errors
+    /// A fault where it is.
     pub fn check_text(&mut self, length: usize, span: Span) -> Eval<()> {
         let limit = self.limits().text;
         if length <= limit {

@@ -35,6 +35,7 @@ pub trait Host {
     }
 }
 
+/// What is evaluated of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Elaborate every declaration with its defaults and every instance that statements make;
@@ -46,6 +47,7 @@ pub enum Mode {
     Test,
 }
 
+/// What a user may choose for a run.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Tests whose name contains this are run.
@@ -58,6 +60,7 @@ pub struct Options {
     pub command: String,
     /// Width and height of still pictures; `None`: as large as they are by themselves.
     pub picture: Option<(usize, usize)>,
+    /// Bounds on what the program may use.
     pub limits: Limits,
     /// Threads that a planner may use, at least one; no result depends on it.
     pub threads: usize,
@@ -96,8 +99,10 @@ impl Default for Limits {
     }
 }
 
+/// The outcome of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TestResult {
+    /// The name of the test.
     pub name: String,
     /// The first diagnostic of a failed test is also in [`Outcome::diagnostics`].
     pub passed: bool,
@@ -106,9 +111,12 @@ pub struct TestResult {
 /// What a run ended with.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
+    /// Errors first, then warnings and notes.
     pub diagnostics: Vec<Diagnostic>,
+    /// The tests that were run, in order.
     pub tests: Vec<TestResult>,
     /// Paths written, as the host showed them.
     pub written: Vec<String>,
+    /// Whether the user ended the run.
     pub cancelled: bool,
 }

@@ -2,10 +2,10 @@
 
 use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
+use super::evaluator_thread::HostProxy;
 use super::host::{Limits, Mode, Options, TestResult};
 use super::plan_value::PlanValue;
 use super::routines::Routines;
-use super::stage::Stage;
 use super::stop::{Eval, Stop};
 use super::value::{Lazy, Value};
 use crate::check::Checked;
@@ -20,114 +20,151 @@ use std::rc::Rc;
 const REPORTS_MAX: usize = 200;
 /// Most calls that a message shows.
 const CALLS_SHOWN: usize = 4;
-/// Evaluations within evaluations. The stack of [`super::stage`] is made for this many.
+/// Evaluations within evaluations. The stack of [`super::evaluator_thread`] is made for this many.
 const NESTING_MAX: usize = 40_000;
 
+/// The state of a run: what all of it shares, what was found, what is remembered, and where evaluation is.
 pub struct Interpreter<'a> {
+    /// What the run is given; it never changes.
+    pub shared: Shared<'a>,
+    /// What was found and done so far.
+    pub reported: Reported,
+    /// Values by declaration, and what they refer to.
+    pub memory: Memory,
+    /// Members that were computed in this run, for a session that has to forget those that failed.
+    pub computed: Vec<(Rc<Instance>, usize)>,
+    /// Where evaluation is.
+    pub stack: Stack,
+}
+
+/// What a run is given and does not change.
+pub struct Shared<'a> {
+    /// The rooms above the evaluator.
     pub routines: &'a Routines,
+    /// The typed program.
     pub program: &'a Program,
+    /// The texts of the program.
     pub sources: &'a Sources,
+    /// The options of the run.
     pub options: &'a Options,
+    /// What is evaluated of the program.
     pub mode: Mode,
-    pub stage: Stage,
-    pub causes: Causes,
-    /// The last plans; see [`super::planning`].
-    pub plans: Vec<Rc<PlanValue>>,
-    /// Ways to the snake that were found.
-    pub search_cache: SearchCache,
-    /// Exemptions of the user's own files that were judged, and whether any plan needed them.
-    pub exemptions: BTreeMap<Span, bool>,
+    /// The way to files and terminal.
+    pub host: HostProxy,
+    /// By declaration: whether `check` found mistakes in it. What comes of it is unknown.
+    pub faulty: Vec<bool>,
+}
+
+/// What a run found and did so far.
+#[derive(Default)]
+pub struct Reported {
+    /// The findings, each once.
     pub reports: Vec<Diagnostic>,
-    /// Errors found so far, repeated ones included.
+    /// The number of errors, repeated ones included.
     pub errors: usize,
-    reported: HashSet<(Code, Option<Span>, Option<String>)>,
-    /// Top-level lets.
+    known: HashSet<(Code, Option<Span>, Option<String>)>,
+    /// Paths written, as the host showed them.
+    pub written: Vec<String>,
+    /// The tests that were run.
+    pub tests: Vec<TestResult>,
+    /// Whether something could not be judged because of an error reported before.
+    pub unjudged: bool,
+}
+
+/// What was computed and stays: for the rest of the run, and in a session for the next entries.
+#[derive(Clone, Default)]
+pub struct Memory {
+    /// Top-level lets, by declaration.
     pub globals: Vec<Lazy>,
     /// Elaborated declarations with their arguments, by declaration.
     pub designs: Vec<Vec<Rc<Design>>>,
+    /// Connectors, by declaration; `Some(None)` of those that are not sound.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
+    /// The last plans of behaviours.
+    pub plans: Vec<Rc<PlanValue>>,
+    /// Searches of `tosnake` that were done.
+    pub search_cache: SearchCache,
+    /// The source lines behind commands.
+    pub causes: Causes,
+    /// Exemptions of the user's own files that were judged, and whether any plan needed them.
+    pub exemptions: BTreeMap<Span, bool>,
+}
+
+impl Memory {
+    /// Makes room for so many declarations.
+    pub fn resize(&mut self, declarations: usize) {
+        self.globals.resize(declarations, Lazy::Waiting);
+        self.designs.resize(declarations, Vec::new());
+        self.connectors.resize(declarations, None);
+    }
+}
+
+/// Where evaluation is.
+#[derive(Default)]
+pub struct Stack {
     /// The calls that evaluation is in, outermost first.
     pub calls: Vec<CallSite>,
     /// Loop variables with their values, outermost first.
     pub binders: Vec<Binder>,
-    pub written: Vec<String>,
-    pub tests: Vec<TestResult>,
-    /// Declarations in which `check` found mistakes: what comes of them is unknown.
-    pub faulty: Vec<bool>,
-    /// Whether something could not be judged because of an error reported before.
-    pub unjudged: bool,
-    /// Members that were computed in this run, for a session that has to forget those that failed.
-    pub computed: Vec<(Rc<Instance>, usize)>,
     steps: u64,
-    nesting: usize,
+    depth: usize,
 }
 
 /// A call of something that a user or the library wrote.
 #[derive(Clone, Debug)]
 pub struct CallSite {
+    /// The call.
     pub span: Span,
+    /// The function that is called.
     pub name: Symbol,
-    /// Length of [`Interpreter::binders`] at the call: those before belong to the caller.
+    /// Length of [`Stack::binders`] at the call: those before belong to the caller.
     binders: usize,
 }
 
 /// A loop variable. Its name is read from the text when a message wants it.
 #[derive(Clone, Debug)]
 pub struct Binder {
+    /// The name of the variable.
     pub name: Symbol,
+    /// Its value at hand.
     pub value: Value,
 }
 
 impl<'a> Interpreter<'a> {
+    /// Returns the state at the beginning of a run.
     pub fn new(
         routines: &'a Routines,
         checked: &'a Checked,
         mode: Mode,
         options: &'a Options,
-        stage: Stage,
+        host: HostProxy,
     ) -> Interpreter<'a> {
-        let count = checked.program.defs.len();
+        let (program, sources) = (&checked.program, &checked.sources);
+        let mut memory = Memory::default();
+        memory.resize(program.defs.len());
         Interpreter {
-            routines,
-            program: &checked.program,
-            sources: &checked.sources,
-            options,
-            mode,
-            stage,
-            causes: Causes::default(),
-            plans: Vec::new(),
-            search_cache: SearchCache::default(),
-            exemptions: BTreeMap::new(),
-            reports: Vec::new(),
-            errors: 0,
-            reported: HashSet::new(),
-            globals: vec![Lazy::Waiting; count],
-            designs: vec![Vec::new(); count],
-            connectors: vec![None; count],
-            calls: Vec::new(),
-            binders: Vec::new(),
-            written: Vec::new(),
-            tests: Vec::new(),
-            faulty: faulty(checked),
-            unjudged: false,
+            shared: Shared { routines, program, sources, options, mode, host, faulty: faulty(checked) },
+            reported: Reported::default(),
+            memory,
             computed: Vec::new(),
-            steps: 0,
-            nesting: 0,
+            stack: Stack::default(),
         }
     }
 
+    /// Returns the limits of the run.
     pub fn limits(&self) -> &'a Limits {
-        &self.options.limits
+        &self.shared.options.limits
     }
 
+    /// Returns the name of a declaration.
     pub fn name(&self, def: DefId) -> Symbol {
-        self.program.def(def).name
+        self.shared.program.def(def).name
     }
 
     /// Counts a step; ends the run at the limit or when the user wants it.
     pub fn step(&mut self, span: Span) -> Eval<()> {
-        self.steps += 1;
-        if self.steps > self.limits().steps {
+        self.stack.steps += 1;
+        if self.stack.steps > self.limits().steps {
             let message = format!("the program takes more than {} evaluation steps", self.limits().steps);
             return self.halt(
                 Diagnostic::error(code::STEP_LIMIT, message)
@@ -135,10 +172,10 @@ impl<'a> Interpreter<'a> {
                     .hint("`--max-steps` raises the limit"),
             );
         }
-        if self.stage.cancelled() {
+        if self.shared.host.cancelled() {
             return Err(Stop::Halt);
         }
-        if self.stage.cancel_state.is_progress_requested() {
+        if self.shared.host.cancel_state.is_progress_requested() {
             self.tell_steps();
         }
         Ok(())
@@ -146,49 +183,50 @@ impl<'a> Interpreter<'a> {
 
     fn tell_steps(&self) {
         interrupt::start_task(String::new());
-        let (steps, most) = (self.steps, self.limits().steps);
+        let (steps, most) = (self.stack.steps, self.limits().steps);
         interrupt::progress_checkpoint(|| format!("evaluating: {steps} steps of at most {most}"));
     }
 
     /// Runs `body` one level of evaluation deeper; refuses where the stack would not bear it.
-    pub fn nested<T>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<T> {
-        if self.nesting >= NESTING_MAX {
+    pub fn with_depth<T>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<T> {
+        if self.stack.depth >= NESTING_MAX {
             return self.halt(
                 Diagnostic::error(code::RECURSION_LIMIT, "evaluation is nested too deeply")
                     .label(span, "evaluation was here"),
             );
         }
-        self.nesting += 1;
+        self.stack.depth += 1;
         let result = body(self);
-        self.nesting -= 1;
+        self.stack.depth -= 1;
         result
     }
 
     /// Runs `body` as the body of a call from `span`.
-    pub fn called<T>(
+    pub fn with_call<T>(
         &mut self,
         span: Span,
         name: Symbol,
         body: impl FnOnce(&mut Self) -> Eval<T>,
     ) -> Eval<T> {
-        let binders = self.binders.len();
-        self.calls.push(CallSite { span, name, binders });
-        let result = if self.calls.len() > self.limits().recursion { self.too_deep() } else { body(self) };
-        self.calls.pop();
-        self.binders.truncate(binders);
+        let binders = self.stack.binders.len();
+        self.stack.calls.push(CallSite { span, name, binders });
+        let result =
+            if self.stack.calls.len() > self.limits().recursion { self.too_deep() } else { body(self) };
+        self.stack.calls.pop();
+        self.stack.binders.truncate(binders);
         result
     }
 
     fn too_deep<T>(&mut self) -> Eval<T> {
         let limit = self.limits().recursion;
-        let outermost = self.calls.first().expect("a call was just pushed");
+        let outermost = self.stack.calls.first().expect("a call was just pushed");
         let mut diagnostic = Diagnostic::error(
             code::RECURSION_LIMIT,
             format!("calls are nested more than {limit} deep, which is the limit"),
         )
         .label(outermost.span, "this call does not come back");
         let mut shown = HashSet::from([outermost.span]);
-        for call in self.calls.iter().rev() {
+        for call in self.stack.calls.iter().rev() {
             if shown.len() <= CALLS_SHOWN && shown.insert(call.span) {
                 diagnostic =
                     diagnostic.label(call.span, format!("which led to this call of `{}`", call.name));
@@ -198,10 +236,10 @@ impl<'a> Interpreter<'a> {
     }
 
     /// Runs `body` with a loop variable.
-    pub fn bound<T>(&mut self, name: Symbol, value: &Value, body: impl FnOnce(&mut Self) -> T) -> T {
-        self.binders.push(Binder { name, value: value.clone() });
+    pub fn with_binding<T>(&mut self, name: Symbol, value: &Value, body: impl FnOnce(&mut Self) -> T) -> T {
+        self.stack.binders.push(Binder { name, value: value.clone() });
         let result = body(self);
-        self.binders.pop();
+        self.stack.binders.pop();
         result
     }
 
@@ -220,28 +258,28 @@ impl<'a> Interpreter<'a> {
 
     /// Reports a finding that is about more than the place where evaluation is.
     pub fn add_report(&mut self, diagnostic: Diagnostic) {
-        self.errors += usize::from(diagnostic.is_error());
+        self.reported.errors += usize::from(diagnostic.is_error());
         // What the judge finds differs from robot to robot, at one and the same line.
         let judged = diagnostic.code.0.starts_with("E06").then(|| diagnostic.message.clone());
         let key = (diagnostic.code, diagnostic.span(), judged);
-        if self.reports.len() < REPORTS_MAX && self.reported.insert(key) {
-            self.reports.push(diagnostic);
+        if self.reported.reports.len() < REPORTS_MAX && self.reported.known.insert(key) {
+            self.reported.reports.push(diagnostic);
         }
     }
 
     /// What is found while `body` runs is handed back, and not reported.
-    pub fn aside<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
-        let mark = self.reports.len();
+    pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
+        let mark = self.reported.reports.len();
         let value = body(self);
-        let found = self.reports.split_off(mark);
+        let found = self.reported.reports.split_off(mark);
         let told = |(_, span, _): &(_, Option<Span>, _)| !found.iter().any(|d| d.span() == *span);
-        self.reported.retain(told);
+        self.reported.known.retain(told);
         (value, found)
     }
 
     /// Whether an error was found since `mark` (a count of errors), reported before or not.
     pub fn failed_since(&self, mark: usize) -> bool {
-        self.errors > mark
+        self.reported.errors > mark
     }
 
     /// Runs a step whose fault is reported and does not hinder the next; a halt passes.
@@ -257,7 +295,7 @@ impl<'a> Interpreter<'a> {
     }
 
     /// Turns a fault into a report and an unknown value; a halt passes.
-    pub fn settle(&mut self, result: Eval<Value>) -> Eval<Value> {
+    pub fn recover(&mut self, result: Eval<Value>) -> Eval<Value> {
         match result {
             Err(Stop::Fault(diagnostic)) => {
                 self.report(*diagnostic);
@@ -267,13 +305,14 @@ impl<'a> Interpreter<'a> {
         }
     }
 
+    /// Returns whether a span lies in a file of the standard library.
     pub fn is_library(&self, span: Span) -> bool {
-        self.sources.file(span.file).library
+        self.shared.sources.file(span.file).library
     }
 
     /// The innermost call that stands in the user's own files.
     pub fn user_call(&self) -> Option<&CallSite> {
-        self.calls.iter().rev().find(|call| !self.is_library(call.span))
+        self.stack.calls.iter().rev().find(|call| !self.is_library(call.span))
     }
 
     fn with_calls(&self, mut diagnostic: Diagnostic) -> Diagnostic {
@@ -290,8 +329,8 @@ impl<'a> Interpreter<'a> {
         }
         let mut shown: HashSet<Span> = diagnostic.labels.iter().map(|l| l.span).collect();
         // What `check` elaborates by itself is called from nowhere: its span is the name.
-        let named = |call: &&CallSite| self.sources.text(call.span) != call.name.as_str();
-        for call in self.calls.iter().rev().filter(named).take(CALLS_SHOWN) {
+        let named = |call: &&CallSite| self.shared.sources.text(call.span) != call.name.as_str();
+        for call in self.stack.calls.iter().rev().filter(named).take(CALLS_SHOWN) {
             if shown.insert(call.span) {
                 diagnostic = diagnostic.label(call.span, format!("called from here: `{}`", call.name));
             }
@@ -301,8 +340,10 @@ impl<'a> Interpreter<'a> {
 
     /// The loop variables of the body at hand: `i = 3, j = 0`.
     pub fn binder_notes(&self) -> String {
-        let from = self.calls.last().map_or(0, |call| call.binders);
-        let notes = self.binders[from.min(self.binders.len())..].iter().filter_map(|b| self.binder_note(b));
+        let from = self.stack.calls.last().map_or(0, |call| call.binders);
+        let notes = self.stack.binders[from.min(self.stack.binders.len())..]
+            .iter()
+            .filter_map(|b| self.binder_note(b));
         notes.collect::<Vec<_>>().join(", ")
     }
 

@@ -1,6 +1,6 @@
 //! Typed tree to values, effects and plans.
 //!
-//! The way through this room: [`run`] puts an evaluator on a thread of its own ([`stage`]), which
+//! The way through this room: [`run`] puts an evaluator on a thread of its own ([`evaluator_thread`]), which
 //! walks expressions ([`eval`], [`operators`], [`call`], [`statements`]) to values ([`value`]).
 //! Declarations become designs ([`crate::elaborate`]); behaviours become plans ([`behavior`], [`planning`]),
 //! and what is wrong with these goes back to the lines that caused it ([`causes`], [`verdicts`]). The
@@ -8,7 +8,7 @@
 
 pub mod host;
 
-pub mod stage;
+pub mod evaluator_thread;
 pub mod stop;
 pub mod value;
 

@@ -145,12 +145,12 @@ impl Interpreter<'_> {
     pub fn project_file(&mut self, call: &Call, name: &str) -> Eval<(String, Vec<u8>)> {
         let at = call.at(name);
         let name: &str = call.get(name)?;
-        let from = &self.sources.file(at.file).name;
+        let from = &self.shared.sources.file(at.file).name;
         let Some(path) = crate::source::files::join(from, name) else {
             let message = format!("`{name}` leads out of the project");
             return Err(fault(code::OUTSIDE_PROJECT, at, message, "outside of the project"));
         };
-        let bytes = self.stage.read(&path).map_err(|error| {
+        let bytes = self.shared.host.read(&path).map_err(|error| {
             let why = match error {
                 ReadError::NotFound => "there is no such file".to_string(),
                 ReadError::Outside => "it leads out of the project".to_string(),

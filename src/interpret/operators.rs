@@ -25,6 +25,7 @@ impl Interpreter<'_> {
         Ok(digits.parse::<BigInt>().map_or(Value::Unknown, Value::whole))
     }
 
+    /// Applies an operator to one value.
     pub fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval<Value> {
         Ok(match (op, value) {
             (_, Value::Unknown) => Value::Unknown,
@@ -49,6 +50,7 @@ impl Interpreter<'_> {
         })
     }
 
+    /// Evaluates an operator with two operands; `and` and `or` leave out the second where the first decides.
     pub fn eval_binary(
         &mut self,
         op: BinaryOp,

@@ -32,7 +32,9 @@ struct StartCauses {
 /// Where a behaviour begins (else the robot's start pose), and under which world.
 #[derive(Default)]
 pub struct Beginning {
+    /// The state in which the behaviour begins.
     pub start: Option<State>,
+    /// The world that is assumed.
     pub world: World,
 }
 
@@ -43,13 +45,14 @@ impl Interpreter<'_> {
         self.plan_from(behavior, Beginning::default(), span)
     }
 
+    /// Plans a behaviour from a state and under a world; `None` after an error that was reported.
     pub fn plan_from(
         &mut self,
         behavior: &Behavior,
         beginning: Beginning,
         span: Span,
     ) -> Eval<Option<Rc<PlanValue>>> {
-        if self.mode == super::host::Mode::Check {
+        if self.shared.mode == super::host::Mode::Check {
             self.check_behavior(behavior)?;
             return Ok(None);
         }
@@ -122,7 +125,7 @@ impl Interpreter<'_> {
             body,
             program: None,
             nominal: false,
-            causes: causes.table(&self.causes, self.sources),
+            causes: causes.table(&self.memory.causes, self.shared.sources),
             exemptions: Vec::new(),
             verdict: None,
         }
@@ -170,14 +173,14 @@ impl Interpreter<'_> {
                 && tracks.start == *start
                 && plan.program.as_ref().is_some_and(|p| p.root == *program)
         };
-        self.plans.iter().find(same).cloned()
+        self.memory.plans.iter().find(same).cloned()
     }
 
     fn keep_plan(&mut self, planned: Rc<PlanValue>) {
-        if self.plans.len() >= KEPT_MAX {
-            self.plans.remove(0);
+        if self.memory.plans.len() >= KEPT_MAX {
+            self.memory.plans.remove(0);
         }
-        self.plans.push(planned);
+        self.memory.plans.push(planned);
     }
 
     /// Causes of the joints' start positions and of the bonds.
@@ -198,7 +201,7 @@ impl Interpreter<'_> {
     }
 
     fn start_cause(&mut self, span: Span, instance: &str) -> CauseId {
-        self.causes.add(super::causes::CauseRecord {
+        self.memory.causes.add(super::causes::CauseRecord {
             span,
             args: Vec::new(),
             instance: instance.into(),
@@ -209,6 +212,7 @@ impl Interpreter<'_> {
     /// Names and hashes of all texts.
     pub fn provenance(&self) -> Provenance {
         let mut sources: Vec<(String, String)> = self
+            .shared
             .sources
             .files()
             .map(|(_, source)| (source.name.to_string(), file::digest(&source.text)))
@@ -216,7 +220,7 @@ impl Interpreter<'_> {
         sources.sort();
         Provenance {
             sources,
-            seed: Some(self.options.seed),
+            seed: Some(self.shared.options.seed),
             tool: format!("modl {}", env!("CARGO_PKG_VERSION")),
             ..Provenance::default()
         }
@@ -296,6 +300,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Returns the fault of a behaviour that has no motion.
     pub fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
         super::verdicts::refused(self, refusal, ids, span)
     }

@@ -46,12 +46,12 @@ impl Interpreter<'_> {
     /// # Errors
     /// A halt, or a fault of a declaration that the robot needs.
     pub fn robot_of(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
-        (self.routines.robot_of)(self, design)
+        (self.shared.routines.robot_of)(self, design)
     }
 
     /// Returns a value on one line: as it could be written, with units that suit its size.
     pub fn show(&self, value: &Value) -> String {
-        (self.routines.show)(self, value)
+        (self.shared.routines.show)(self, value)
     }
 
     /// Returns a value on as many lines as it needs, the first of which can stand alone.
@@ -59,7 +59,7 @@ impl Interpreter<'_> {
     /// # Errors
     /// A halt while the value is judged or planned.
     pub fn display(&mut self, value: &Value) -> Eval<String> {
-        (self.routines.display)(self, value)
+        (self.shared.routines.display)(self, value)
     }
 
     /// Elaborates a declaration with its defaults and checks all that its body declares.
@@ -67,6 +67,6 @@ impl Interpreter<'_> {
     /// # Errors
     /// A halt; faults are reported.
     pub fn check_declaration(&mut self, def: DefId) -> Eval<()> {
-        (self.routines.check_declaration)(self, def)
+        (self.shared.routines.check_declaration)(self, def)
     }
 }

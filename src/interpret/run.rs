@@ -1,9 +1,9 @@
 //! The door: a checked program, run.
 
+use super::evaluator_thread;
 use super::host::{Host, Mode, Options, Outcome};
 use super::interpreter::Interpreter;
 use super::routines::Routines;
-use super::stage;
 use super::stop::Eval;
 use crate::check::Checked;
 use crate::check::typed::DefKind;
@@ -20,18 +20,18 @@ pub fn run(
     host: &mut dyn Host,
     options: &Options,
 ) -> Outcome {
-    stage::run(files, host, |stage| {
-        let mut interpreter = Interpreter::new(routines, checked, mode, options, stage);
+    evaluator_thread::run(files, host, |host| {
+        let mut interpreter = Interpreter::new(routines, checked, mode, options, host);
         // What halts a run has been reported, and nothing needs to be said of what the user halts.
-        let cancel_state = interpreter.stage.cancel_state.clone();
-        let progress_sink = interpreter.stage.progress_sink();
+        let cancel_state = interpreter.shared.host.cancel_state.clone();
+        let progress_sink = interpreter.shared.host.progress_sink();
         let _ = interrupt::catch(&cancel_state, progress_sink, || interpreter.drive());
         interpreter.report_unneeded();
         Outcome {
-            diagnostics: in_order(std::mem::take(&mut interpreter.reports)),
-            tests: std::mem::take(&mut interpreter.tests),
-            written: std::mem::take(&mut interpreter.written),
-            cancelled: interpreter.stage.cancelled(),
+            diagnostics: in_order(std::mem::take(&mut interpreter.reported.reports)),
+            tests: std::mem::take(&mut interpreter.reported.tests),
+            written: std::mem::take(&mut interpreter.reported.written),
+            cancelled: interpreter.shared.host.cancelled(),
         }
     })
 }
@@ -48,13 +48,17 @@ fn in_order(mut reports: Vec<crate::source::Diagnostic>) -> Vec<crate::source::D
 
 impl Interpreter<'_> {
     fn drive(&mut self) -> Eval<()> {
-        let program = self.program;
-        match self.mode {
+        let program = self.shared.program;
+        match self.shared.mode {
             Mode::Run => {
                 self.execute_body(&program.statements)?;
                 self.force_lets()?;
-                let drawn = self.written.iter().any(|path| path.ends_with(".html"));
-                if self.options.pages && !drawn { (self.routines.draw_declared)(self) } else { Ok(()) }
+                let drawn = self.reported.written.iter().any(|path| path.ends_with(".html"));
+                if self.shared.options.pages && !drawn {
+                    (self.shared.routines.draw_declared)(self)
+                } else {
+                    Ok(())
+                }
             }
             Mode::Test => self.run_tests(),
             Mode::Check => {
@@ -72,11 +76,11 @@ impl Interpreter<'_> {
 
     /// Lets that no statement needed: what is wrong with them is wrong with the program.
     fn force_lets(&mut self) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         for &def in &program.own {
             if matches!(program.def(def).kind, DefKind::Let(_)) {
                 let value = self.global(def, program.def(def).span);
-                self.settle(value)?;
+                self.recover(value)?;
             }
         }
         Ok(())

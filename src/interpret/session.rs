@@ -3,39 +3,37 @@
 //! Values are immutable and shared, so the memory of a session is copied before every entry, at the
 //! cost of a few pointers: an entry that fails, or is taken back, leaves the copy.
 
-use super::causes::Causes;
-use super::design::{ConnectorDesign, Design};
 use super::eval::Frame;
+use super::evaluator_thread::{EvaluatorThread, HostProxy};
 use super::host::{Host, Mode, Options};
-use super::interpreter::Interpreter;
-use super::plan_value::PlanValue;
+use super::interpreter::{Interpreter, Memory};
 use super::routines::Routines;
-use super::stage::{Stage, Standing};
 use super::stop::Eval;
 use super::value::{Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Stmt, StmtKind, Test};
 use crate::interrupt::{self, CancelState};
-use crate::planners::tosnake::SearchCache;
 use crate::source::{Diagnostic, FileId, Files, Span, code};
-use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::rc::Rc;
 use std::sync::Arc;
 
 /// Entries that can be taken back.
 pub const UNDO_MAX: usize = 200;
 
 /// Evaluates entries one after the other, each with what those before it left.
-pub struct Evaluator(Standing<Task, Answer>);
+pub struct Evaluator(EvaluatorThread<Task, Answer>);
 
 /// What to do next.
 pub struct Task {
+    /// The checked session.
     pub checked: Arc<Checked>,
+    /// The options of the run.
     pub options: Options,
+    /// What to do with it.
     pub work: Work,
 }
 
+/// The tasks of an evaluator.
 pub enum Work {
     /// Evaluate the newest entry.
     Enter(Entered),
@@ -48,7 +46,9 @@ pub enum Work {
     Forget,
 }
 
+/// An entry of a session.
 pub struct Entered {
+    /// The text of the entry.
     pub file: FileId,
     /// Declarations of other files to elaborate first.
     pub check: Vec<DefId>,
@@ -56,6 +56,7 @@ pub struct Entered {
     pub stale: Vec<DefId>,
     /// Whether what is declared stays. Otherwise all is as if the entry had never been.
     pub keep: bool,
+    /// What is printed of it.
     pub tell: Tell,
 }
 
@@ -69,13 +70,16 @@ pub enum Tell {
     All,
 }
 
+/// What came of a task.
 #[derive(Default)]
 pub struct Answer {
+    /// What was found.
     pub diagnostics: Vec<Diagnostic>,
     /// Paths written, as the host showed them.
     pub written: Vec<String>,
     /// Whether all went well. If not, the memory is as it was before.
     pub ok: bool,
+    /// Whether the user ended it.
     pub interrupted: bool,
     /// Whether the evaluator itself broke down, which a person's session outlives.
     pub defect: bool,
@@ -86,9 +90,9 @@ pub struct Answer {
 impl Evaluator {
     /// Starts an evaluator on a thread of its own.
     pub fn new(routines: &'static Routines, cancel_state: CancelState) -> Evaluator {
-        Evaluator(Standing::new(cancel_state, move |stage| {
+        Evaluator(EvaluatorThread::new(cancel_state, move |proxy| {
             let (mut memory, mut before) = (Memory::default(), Vec::new());
-            move |task| work(routines, &task, &stage, &mut memory, &mut before)
+            move |task| work(routines, &task, &proxy, &mut memory, &mut before)
         }))
     }
 
@@ -110,22 +114,10 @@ impl Evaluator {
     }
 }
 
-/// What a session keeps: values by declaration, and what they refer to.
-#[derive(Clone, Default)]
-struct Memory {
-    globals: Vec<Lazy>,
-    designs: Vec<Vec<Rc<Design>>>,
-    connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
-    plans: Vec<Rc<PlanValue>>,
-    search_cache: SearchCache,
-    causes: Causes,
-    exemptions: BTreeMap<Span, bool>,
-}
-
 fn work(
     routines: &Routines,
     task: &Task,
-    stage: &Stage,
+    proxy: &HostProxy,
     memory: &mut Memory,
     before: &mut Vec<Memory>,
 ) -> Answer {
@@ -135,7 +127,7 @@ fn work(
                 interpreter.check_all(&entered.check)?;
                 interpreter.enter(entered)
             };
-            let (mut answer, after) = evaluate(routines, task, &entered.stale, stage, memory, enter);
+            let (mut answer, after) = evaluate(routines, task, &entered.stale, proxy, memory, enter);
             if let Some(after) = after.filter(|_| answer.ok && entered.keep) {
                 answer.kept = true;
                 before.push(std::mem::replace(memory, after));
@@ -146,7 +138,7 @@ fn work(
         }
         Work::Reload { check, stale } => {
             let again = |interpreter: &mut Interpreter| interpreter.check_all(check);
-            let (mut answer, after) = evaluate(routines, task, stale, stage, memory, again);
+            let (mut answer, after) = evaluate(routines, task, stale, proxy, memory, again);
             if let Some(after) = after.filter(|_| answer.ok) {
                 answer.kept = true;
                 (*memory, *before) = (after, Vec::new());
@@ -168,31 +160,31 @@ fn evaluate(
     routines: &Routines,
     task: &Task,
     stale: &[DefId],
-    stage: &Stage,
+    proxy: &HostProxy,
     memory: &Memory,
     work: impl FnOnce(&mut Interpreter) -> Eval<()>,
 ) -> (Answer, Option<Memory>) {
-    let mut interpreter = Interpreter::new(routines, &task.checked, Mode::Run, &task.options, stage.clone());
+    let mut interpreter = Interpreter::new(routines, &task.checked, Mode::Run, &task.options, proxy.clone());
     interpreter.resume(memory.clone(), stale);
     let caught = catch_unwind(AssertUnwindSafe(|| {
-        interrupt::catch(&stage.cancel_state, stage.progress_sink(), || work(&mut interpreter))
+        interrupt::catch(&proxy.cancel_state, proxy.progress_sink(), || work(&mut interpreter))
     }));
     let defect = caught.is_err();
     let ended = caught.ok().flatten();
-    let interrupted = !defect && (ended.is_none() || stage.cancel_state.is_cancelled());
-    let ok = !interrupted && ended.is_some_and(|ended| ended.is_ok()) && interpreter.errors == 0;
+    let interrupted = !defect && (ended.is_none() || proxy.cancel_state.is_cancelled());
+    let ok = !interrupted && ended.is_some_and(|ended| ended.is_ok()) && interpreter.reported.errors == 0;
     if !ok {
         interpreter.forget_failed();
     }
     let answer = Answer {
-        diagnostics: std::mem::take(&mut interpreter.reports),
-        written: std::mem::take(&mut interpreter.written),
+        diagnostics: std::mem::take(&mut interpreter.reported.reports),
+        written: std::mem::take(&mut interpreter.reported.written),
         ok,
         interrupted,
         defect,
         kept: false,
     };
-    (answer, ok.then(|| interpreter.memory()))
+    (answer, ok.then_some(interpreter.memory))
 }
 
 /// A piece of an entry, in the order of the text.
@@ -204,32 +196,17 @@ enum Piece<'p> {
 
 impl<'a> Interpreter<'a> {
     fn resume(&mut self, memory: Memory, stale: &[DefId]) {
-        let count = self.program.defs.len();
-        (self.globals, self.designs, self.connectors) = (memory.globals, memory.designs, memory.connectors);
-        (self.plans, self.causes, self.exemptions) = (memory.plans, memory.causes, memory.exemptions);
-        self.search_cache = memory.search_cache;
-        self.globals.resize(count, Lazy::Waiting);
-        self.designs.resize(count, Vec::new());
-        self.connectors.resize(count, None);
+        let count = self.shared.program.defs.len();
+        self.memory = memory;
+        self.memory.resize(count);
         if stale.len() == count {
-            (self.plans, self.causes, self.exemptions) = Default::default();
+            let Memory { plans, causes, exemptions, .. } = &mut self.memory;
+            (*plans, *causes, *exemptions) = Default::default();
         }
         for def in stale.iter().map(|def| def.0 as usize) {
-            self.globals[def] = Lazy::Waiting;
-            self.designs[def].clear();
-            self.connectors[def] = None;
-        }
-    }
-
-    fn memory(self) -> Memory {
-        Memory {
-            globals: self.globals,
-            designs: self.designs,
-            connectors: self.connectors,
-            plans: self.plans,
-            search_cache: self.search_cache,
-            causes: self.causes,
-            exemptions: self.exemptions,
+            self.memory.globals[def] = Lazy::Waiting;
+            self.memory.designs[def].clear();
+            self.memory.connectors[def] = None;
         }
     }
 
@@ -250,7 +227,7 @@ impl<'a> Interpreter<'a> {
 
     /// Evaluates an entry piece by piece, up to the first that fails.
     fn enter(&mut self, entered: &Entered) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         let mut frame = Frame::new(program.statements.frame, None);
         for piece in self.pieces(entered.file) {
             match piece {
@@ -262,12 +239,12 @@ impl<'a> Interpreter<'a> {
                 Piece::Statement(statement) => self.execute(statement, &mut frame)?,
                 Piece::Test(test) => {
                     self.execute_body(&test.body)?;
-                    if self.errors == 0 && entered.tell == Tell::All {
-                        self.stage.print(format!("test \"{}\" ... ok", test.name));
+                    if self.reported.errors == 0 && entered.tell == Tell::All {
+                        self.shared.host.print(format!("test \"{}\" ... ok", test.name));
                     }
                 }
             }
-            if self.errors > 0 {
+            if self.reported.errors > 0 {
                 break;
             }
         }
@@ -275,7 +252,7 @@ impl<'a> Interpreter<'a> {
     }
 
     fn pieces(&self, file: FileId) -> Vec<Piece<'a>> {
-        let program = self.program;
+        let program = self.shared.program;
         let own = program.own.iter().filter(|def| program.def(**def).file == file);
         let declared = own.map(|def| (program.def(*def).span.start, Piece::Declaration(*def)));
         let statements = program.statements.statements.iter().map(|s| (s.span.start, Piece::Statement(s)));
@@ -286,50 +263,50 @@ impl<'a> Interpreter<'a> {
     }
 
     fn enter_declaration(&mut self, def: DefId, tell: Tell) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         let declared = program.def(def);
         let DefKind::Let(binding) = &declared.kind else {
             self.check_declaration(def)?;
-            if self.errors == 0 && tell == Tell::All {
-                let line = (self.routines.describe_declaration)(self, def)?;
-                self.stage.print(line);
+            if self.reported.errors == 0 && tell == Tell::All {
+                let line = (self.shared.routines.describe_declaration)(self, def)?;
+                self.shared.host.print(line);
             }
             return Ok(());
         };
         let value = self.global(def, declared.span);
-        let value = self.settle(value)?;
+        let value = self.recover(value)?;
         // The value of an expression is kept under a name that nobody gave it.
         if declared.span == binding.value.span {
             return self.tell_value(&value, &binding.value, tell);
         }
         self.check_known(&value, declared.span);
-        if self.errors == 0 && tell == Tell::All {
-            self.stage.print(format!("{}: {}", declared.name, program.type_name(&binding.ty)));
+        if self.reported.errors == 0 && tell == Tell::All {
+            self.shared.host.print(format!("{}: {}", declared.name, program.type_name(&binding.ty)));
         }
         Ok(())
     }
 
     fn tell_value(&mut self, value: &Value, expr: &Expr, tell: Tell) -> Eval<()> {
         self.check_known(value, expr.span);
-        if self.errors > 0 || tell == Tell::Nothing || matches!(value, Value::Nothing) {
+        if self.reported.errors > 0 || tell == Tell::Nothing || matches!(value, Value::Nothing) {
             return Ok(());
         }
         let display = self.display(value)?;
         // An instance is called by its type.
         let shown = match tell {
             Tell::All if !matches!(value, Value::Instance(_)) => match display.split_once('\n') {
-                None => format!("{display}: {}", self.program.type_name(&expr.ty)),
-                Some((head, rest)) => format!("{head}: {}\n{rest}", self.program.type_name(&expr.ty)),
+                None => format!("{display}: {}", self.shared.program.type_name(&expr.ty)),
+                Some((head, rest)) => format!("{head}: {}\n{rest}", self.shared.program.type_name(&expr.ty)),
             },
             _ => display,
         };
-        self.stage.print(shown);
+        self.shared.host.print(shown);
         Ok(())
     }
 
     /// What failed was said when it failed, and that may have been in an entry before.
     fn check_known(&mut self, value: &Value, span: Span) {
-        if value.is_unknown() && self.errors == 0 {
+        if value.is_unknown() && self.reported.errors == 0 {
             let message = "this has no value, because of a mistake that was shown before";
             self.add_report(Diagnostic::error(code::BAD_VALUE, message).label(span, "unknown"));
         }

@@ -19,6 +19,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Executes a statement.
     pub fn execute(&mut self, statement: &Stmt, frame: &mut Frame) -> Eval<()> {
         match &statement.kind {
             StmtKind::Let { local, value } => {
@@ -57,11 +58,11 @@ impl Interpreter<'_> {
 
     fn expect(&mut self, condition: &Expr, message: Option<&Expr>, frame: &mut Frame) -> Eval<()> {
         let value = self.eval(condition, frame)?;
-        self.unjudged |= value.is_unknown();
-        if self.mode == Mode::Check || !matches!(value, Value::Bool(false)) {
+        self.reported.unjudged |= value.is_unknown();
+        if self.shared.mode == Mode::Check || !matches!(value, Value::Bool(false)) {
             return Ok(());
         }
-        let text = self.sources.text(condition.span).split_whitespace().collect::<Vec<_>>().join(" ");
+        let text = self.shared.sources.text(condition.span).split_whitespace().collect::<Vec<_>>().join(" ");
         let said = match self.eval_optional(message, frame)? {
             Some(Value::Text(message)) => format!("{message}: `{text}` does not hold"),
             _ => format!("`{text}` does not hold"),
@@ -92,14 +93,14 @@ impl Interpreter<'_> {
     /// Runs the tests whose name contains the filter; each passes unless it reported an error or
     /// something in it could not be judged.
     pub fn run_tests(&mut self) -> Eval<()> {
-        let program = self.program;
-        let filter = self.options.filter.as_deref().unwrap_or_default();
+        let program = self.shared.program;
+        let filter = self.shared.options.filter.as_deref().unwrap_or_default();
         for test in program.tests.iter().filter(|test| test.name.contains(filter)) {
-            let mark = self.errors;
-            self.unjudged = false;
+            let mark = self.reported.errors;
+            self.reported.unjudged = false;
             let ended = self.execute_body(&test.body);
-            let passed = ended.is_ok() && !self.unjudged && !self.failed_since(mark);
-            self.tests.push(TestResult { name: test.name.clone(), passed });
+            let passed = ended.is_ok() && !self.reported.unjudged && !self.failed_since(mark);
+            self.reported.tests.push(TestResult { name: test.name.clone(), passed });
             ended?;
         }
         Ok(())

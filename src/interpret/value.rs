@@ -16,6 +16,7 @@ use num_bigint::BigInt;
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// A value of a running program.
 #[derive(Clone, Debug)]
 pub enum Value {
     /// What an error left behind, or what only a run can know. Whatever is computed from it is
@@ -88,7 +89,9 @@ pub enum Callable {
 /// the whole.
 #[derive(Clone, Debug)]
 pub struct JointValue {
+    /// The outermost design.
     pub robot: Rc<Design>,
+    /// The module or the connection that has the joint.
     pub owner: JointOwner,
     /// Of its position.
     pub dimension: Dimension,
@@ -97,76 +100,100 @@ pub struct JointValue {
 /// A port of a robot, the outermost one.
 #[derive(Clone, Debug)]
 pub struct PortValue {
+    /// The outermost design.
     pub robot: Rc<Design>,
+    /// The index of the module in the robot.
     pub module: usize,
+    /// The index of the port in the module.
     pub port: usize,
 }
 
 /// An action graph with the robot that it moves; `None` where no action names one, as in `wait(1s)`.
 #[derive(Debug)]
 pub struct Behavior {
+    /// The robot; `None` where nothing names one.
     pub robot: Option<Rc<Design>>,
+    /// The series-parallel graph of actions.
     pub node: Arc<plan::Node>,
 }
 
+/// A signal, with the robot that gives it.
 #[derive(Debug)]
 pub struct SignalValue {
+    /// The robot; `None` where nothing names one.
     pub robot: Option<Rc<Design>>,
+    /// The signal.
     pub signal: plan::Signal,
 }
 
+/// A condition, with the robot that it is about.
 #[derive(Debug)]
 pub struct ConditionValue {
+    /// The robot; `None` where nothing names one.
     pub robot: Option<Rc<Design>>,
+    /// The condition.
     pub condition: plan::Condition,
 }
 
 /// A shape with what it says about its link.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
+    /// Shapes in the frame of the whole.
     pub parts: Vec<Placed>,
+    /// The mass, kg.
     pub mass: Option<f64>,
+    /// The centre of mass, m.
     pub com: Option<Vec3>,
     /// xx, yy, zz, xy, xz, yz about the centre of mass.
     pub inertia: Option<[f64; 6]>,
+    /// The coefficient of friction.
     pub friction: Option<f64>,
 }
 
 /// `revolute(...)`, `prismatic(...)`, `fixed()`.
 #[derive(Debug)]
 pub struct JointSpec {
+    /// Revolute, prismatic or fixed.
     pub kind: JointKind,
     /// As written; need not be of unit length.
     pub axis: Vec3,
+    /// Ranges of position, speed, acceleration and effort.
     pub limits: Limits,
+    /// Whether no motor drives it.
     pub passive: bool,
 }
 
 /// A surface of flat faces.
 #[derive(Debug)]
 pub struct Mesh {
+    /// The corners, m.
     pub vertices: Vec<Vec3>,
     /// Places in `vertices`, counterclockwise from outside; at least three each.
     pub faces: Vec<Vec<usize>>,
 }
 
 impl Value {
+    /// Returns a text.
     pub fn text(text: impl AsRef<str>) -> Value {
         Value::Text(text.as_ref().into())
     }
 
+    /// Returns a number without dimension.
     pub fn number(x: f64) -> Value {
         Value::Quantity(x, Dimension::NUMBER)
     }
 
+    /// Returns a length given in m.
     pub fn length(x: f64) -> Value {
         Value::Quantity(x, Dimension::LENGTH)
     }
 
+    /// Returns a time given in s.
     pub fn time(x: f64) -> Value {
         Value::Quantity(x, Dimension::TIME)
     }
 
+    /// Returns a whole number.
     pub fn count(n: usize) -> Value {
         Value::Int(i64::try_from(n).expect("counts are far below 2^63"))
     }
@@ -181,10 +208,12 @@ impl Value {
         i64::try_from(&n).map_or_else(|_| Value::Big(Rc::new(n)), Value::Int)
     }
 
+    /// Returns a value, or the missing value.
     pub fn optional(value: Option<Value>) -> Value {
         value.unwrap_or(Value::Missing)
     }
 
+    /// Returns whether an error was told where the value should be.
     pub fn is_unknown(&self) -> bool {
         matches!(self, Value::Unknown)
     }
@@ -199,6 +228,7 @@ impl Value {
         }
     }
 
+    /// Returns the dimension of a number or a vector.
     pub fn as_dimension(&self) -> Option<Dimension> {
         match self {
             Value::Quantity(_, d) | Value::Vec3(_, d) => Some(*d),
@@ -207,6 +237,7 @@ impl Value {
         }
     }
 
+    /// Returns a whole number, however large.
     pub fn as_big(&self) -> Option<BigInt> {
         match self {
             Value::Int(n) => Some(BigInt::from(*n)),

@@ -20,10 +20,12 @@ fn seconds(t: f64) -> String {
     quantity(t, Dimension::TIME)
 }
 
+/// Returns a failure on one line, with its time.
 pub fn failure_line(failure: &Failure) -> String {
     format!("at {}: {}", seconds(failure.time), failure.message)
 }
 
+/// Returns a check with its result on one line.
 pub fn check_line(check: &Check) -> String {
     format!("{}: {}", check.kind.name(), check.status)
 }
@@ -121,7 +123,7 @@ impl Interpreter<'_> {
         };
         let mut diagnostic = Diagnostic::error(failure_code(failure.kind), message);
         let records: Vec<&CauseRecord> =
-            failure.blame.iter().map(|id| self.causes.get(planned.causes[id.0 as usize])).collect();
+            failure.blame.iter().map(|id| self.memory.causes.get(planned.causes[id.0 as usize])).collect();
         for (index, record) in records.iter().enumerate() {
             let text = match (failure.blames_start, index) {
                 (true, 0) => "the start pose, set here, is to blame",
@@ -150,21 +152,21 @@ impl Interpreter<'_> {
     pub fn note_exemptions(&mut self, planned: &PlanValue, verdict: &Verdict) {
         for (index, exemption) in planned.plan.exemptions.iter().enumerate() {
             let needed = !verdict.unneeded_exemptions.contains(&index);
-            let span = self.causes.get(planned.causes[exemption.cause.0 as usize]).span;
+            let span = self.memory.causes.get(planned.causes[exemption.cause.0 as usize]).span;
             // Those of the library are its own affair.
             if !self.is_library(span) {
-                *self.exemptions.entry(span).or_default() |= needed;
+                *self.memory.exemptions.entry(span).or_default() |= needed;
             }
         }
     }
 
     /// Exemptions that no plan of the run needed.
     pub fn report_unneeded(&mut self) {
-        for (span, needed) in std::mem::take(&mut self.exemptions) {
+        for (span, needed) in std::mem::take(&mut self.memory.exemptions) {
             if needed {
                 continue;
             }
-            let name = self.sources.text(span);
+            let name = self.shared.sources.text(span);
             let message = format!("nothing needed the exemption `{name}`");
             let diagnostic = Diagnostic::warning(code::UNNEEDED_EXEMPTION, message)
                 .label(span, "not needed")
@@ -218,7 +220,7 @@ pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], sp
     let diagnostic = Diagnostic::error(refusal_code(&refusal.reason), refusal.reason.to_string());
     let diagnostic = match refusal.cause {
         Some(cause) => {
-            let record = interpreter.causes.get(ids[cause.0 as usize]);
+            let record = interpreter.memory.causes.get(ids[cause.0 as usize]);
             let label = with_instance("this action".to_string(), record);
             in_library(diagnostic.label(record.primary(), label), record)
         }

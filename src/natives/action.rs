@@ -18,6 +18,7 @@ use crate::source::{Span, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[
     Native::pure(
         "move",

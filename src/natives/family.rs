@@ -15,6 +15,7 @@ use crate::source::{Span, code};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[
     Native::pure("row", parameters![n: usize], |i, call| {
         block(i, call, [call.count("n", "a number of cells")?, 1, 1])
@@ -95,7 +96,7 @@ fn bad_cell(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> 
 /// Where a character of a text stands in its `"""..."""` or `"..."`; all that was given where it is not
 /// written there.
 fn character_span(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> Span {
-    let source = interpreter.sources.text(span);
+    let source = interpreter.shared.sources.text(span);
     if source.starts_with('"') && !source.starts_with("\"\"\"") {
         return quoted_span(source, span, bad);
     }

@@ -12,8 +12,11 @@ use std::sync::Arc;
 
 /// A layout with the designs of its panels, by face.
 pub(super) struct Joined<'t> {
+    /// The surface that is folded.
     pub target: &'t Target,
+    /// The flat pattern.
     pub layout: &'t Layout,
+    /// The panels, by face.
     pub designs: &'t [Rc<Design>],
     /// The call that joins them.
     pub span: Span,

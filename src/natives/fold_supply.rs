@@ -21,7 +21,9 @@ const SIDES: &str = "sides";
 /// A module that is a panel.
 #[derive(Clone)]
 pub(super) struct PanelDesign {
+    /// The module.
     pub design: Rc<Design>,
+    /// Its measures.
     pub panel: Panel,
 }
 
@@ -46,7 +48,7 @@ impl<'c> Supply<'c> {
     ) -> Eval<Supply<'c>> {
         let design = instance.design.clone();
         let panel = panel_of(interpreter, call, module, &design)?;
-        let params = params_of(&interpreter.program.def(design.def).kind).unwrap_or_default();
+        let params = params_of(&interpreter.shared.program.def(design.def).kind).unwrap_or_default();
         let sides = params.iter().position(|param| param.name.as_str() == SIDES);
         let mut supply = Supply { call, module, design, sides, made: Vec::new() };
         match sides {
@@ -129,8 +131,9 @@ impl<'c> Supply<'c> {
         values[sides] = Some(Value::list(lengths.to_vec()));
         let args = Args { values, spans: Vec::new() };
         let call = self.call;
-        let (made, found) = interpreter
-            .aside(|interpreter| interpreter.design_of(self.design.def, args, call.at(self.module)));
+        let (made, found) = interpreter.capture_diagnostics(|interpreter| {
+            interpreter.design_of(self.design.def, args, call.at(self.module))
+        });
         let refuse = |why: String| -> Stop {
             let [a, b, c] = wanted.map(|side| quantity(side, Dimension::LENGTH));
             let message = format!("face {face}, with sides of {a}, {b} and {c}, can't be made: {why}");
@@ -150,7 +153,7 @@ impl<'c> Supply<'c> {
             Ok(Some(design)) if !design.broken.get() && found.is_empty() => design,
             // Forgotten, so that it says again what is wrong when it is asked for again.
             Ok(Some(design)) => {
-                interpreter.designs[design.def.0 as usize].retain(|known| !Rc::ptr_eq(known, &design));
+                interpreter.memory.designs[design.def.0 as usize].retain(|known| !Rc::ptr_eq(known, &design));
                 return Err(refuse(said(found)));
             }
             Ok(None) | Err(Stop::Fault(_)) => return Err(refuse(said(found))),

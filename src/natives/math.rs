@@ -14,6 +14,7 @@ use num_integer::Integer;
 use num_traits::{FromPrimitive, Signed, Zero};
 use std::cmp::Ordering;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[
     Native::pure("abs", parameters![x: &Value], abs),
     Native::pure("sign", parameters![x: f64], sign),

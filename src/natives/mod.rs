@@ -111,6 +111,7 @@ pub fn draw_declared(interpreter: &mut Interpreter) -> Eval<()> {
 static BY_KEY: LazyLock<HashMap<Symbol, &'static Native>> =
     LazyLock::new(|| all().map(|native| (Symbol::new(native.key), native)).collect());
 
+/// Returns the built-in of a key.
 pub fn find(key: Symbol) -> Option<&'static Native> {
     BY_KEY.get(&key).copied()
 }

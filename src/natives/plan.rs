@@ -22,6 +22,7 @@ use crate::view;
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[
     Native::on_run("print", parameters![values: &[Value]], print),
     Native::on_run(
@@ -56,7 +57,7 @@ fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         call.get::<&[Value]>("values")?.iter().map(|value| interpreter.show(value)).collect();
     let line = shown.join(" ");
     interpreter.check_text(line.len(), call.span)?;
-    interpreter.stage.print(line);
+    interpreter.shared.host.print(line);
     Ok(Value::Nothing)
 }
 
@@ -199,7 +200,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = plan_argument(interpreter, call, "what")? else { return Ok(Value::Unknown) };
     let verdict = interpreter.judge(&planned, settings, None);
     interpreter.note_exemptions(&planned, &verdict);
-    let page = match interpreter.options.pages {
+    let page = match interpreter.shared.options.pages {
         true => Some(interpreter.draw(
             &planned,
             settings,
@@ -220,7 +221,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     })?;
     write_output(interpreter, call.at("file"), &path, text.into_bytes())?;
     if !excuses.is_empty() {
-        interpreter.stage.print(format!("{path}: verified with {}", excuses.join(", ")));
+        interpreter.shared.host.print(format!("{path}: verified with {}", excuses.join(", ")));
     }
     note_settling(interpreter, call, &verdict.notes);
     Ok(Value::Nothing)
@@ -237,10 +238,10 @@ pub fn output_path(call: &Call, argument: &str) -> Eval<(String, String)> {
 
 /// Writes a file into the output folder, on behalf of what stands at `at`. Returns the path to show.
 pub fn write_output(interpreter: &mut Interpreter, at: Span, path: &str, bytes: Vec<u8>) -> Eval<String> {
-    match interpreter.stage.write(path, bytes) {
+    match interpreter.shared.host.write(path, bytes) {
         Ok(shown) => {
-            if !interpreter.written.contains(&shown) {
-                interpreter.written.push(shown.clone());
+            if !interpreter.reported.written.contains(&shown) {
+                interpreter.reported.written.push(shown.clone());
             }
             Ok(shown)
         }

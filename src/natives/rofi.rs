@@ -39,7 +39,7 @@ fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (kind, loaded) = library(interpreter, call)?;
     let (file, bytes) = interpreter.project_file(call, "file")?;
     let known = |design: &&Rc<Design>| matches!(&design.args[..], [Value::Text(text)] if **text == *file);
-    if let Some(design) = interpreter.designs[loaded.0 as usize].iter().find(known).cloned() {
+    if let Some(design) = interpreter.memory.designs[loaded.0 as usize].iter().find(known).cloned() {
         return Ok(instance(interpreter, &design));
     }
     let text = String::from_utf8(bytes).map_err(|_| {
@@ -124,7 +124,7 @@ fn made(
         }
         leave_out(interpreter, &mut world, &open, call, path);
     };
-    interpreter.designs[loaded.0 as usize].push(design.clone());
+    interpreter.memory.designs[loaded.0 as usize].push(design.clone());
     Ok(instance(interpreter, &design))
 }
 
@@ -144,10 +144,10 @@ fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
 /// A declaration of the library's file.
 fn declared(interpreter: &Interpreter, name: &str) -> Option<DefId> {
     let here = |index: &usize| {
-        let def = interpreter.program.def(DefId(*index as u32));
-        def.name == name && *interpreter.sources.file(def.span.file).name == *LIBRARY
+        let def = interpreter.shared.program.def(DefId(*index as u32));
+        def.name == name && *interpreter.shared.sources.file(def.span.file).name == *LIBRARY
     };
-    (0..interpreter.program.defs.len()).find(here).map(|index| DefId(index as u32))
+    (0..interpreter.shared.program.defs.len()).find(here).map(|index| DefId(index as u32))
 }
 
 fn faulty(call: &Call, path: &str, line: usize, column: usize, what: &str) -> Stop {

@@ -20,6 +20,7 @@ macro_rules! solid_parameters {
     };
 }
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[
     Native::pure("box", solid_parameters![x: f64, y: f64, z: f64], cuboid),
     Native::pure("cylinder", solid_parameters![radius: f64, length: f64, axis: Vec3], cylinder),

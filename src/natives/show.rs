@@ -23,6 +23,7 @@ use crate::view::{self, RenderInput, Side, StillOptions};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[Native::on_run(
     "show",
     parameters![
@@ -110,7 +111,7 @@ impl Interpreter<'_> {
     /// Draws every robot, lattice and truss that the file declares, with its defaults: for `modl show`
     /// of a program that draws nothing itself.
     pub(super) fn draw_declarations(&mut self) -> Eval<()> {
-        let program = self.program;
+        let program = self.shared.program;
         for &def in &program.own {
             let declared = program.def(def);
             let drawn = matches!(declared.kind, DefKind::Config(_) | DefKind::Lattice(_) | DefKind::Truss(_));
@@ -135,13 +136,13 @@ impl Interpreter<'_> {
 
     fn drawn(&self, title: &str, plan: &Plan, form: Form) -> Vec<u8> {
         let texts = self.texts_of(plan);
-        let input = RenderInput { title, plan, texts: &texts, command: &self.options.command };
+        let input = RenderInput { title, plan, texts: &texts, command: &self.shared.options.command };
         match form {
             Form::Page => view::page(&input).into_bytes(),
             Form::Svg => view::svg(&input).into_bytes(),
             Form::Png { time, side } => {
                 let own = StillOptions::default();
-                let (width, height) = self.options.picture.unwrap_or((own.width, own.height));
+                let (width, height) = self.shared.options.picture.unwrap_or((own.width, own.height));
                 view::png(&input, &StillOptions { time, side, width, height })
             }
         }
@@ -153,7 +154,7 @@ impl Interpreter<'_> {
             let places = plan.causes.iter().flat_map(|c| std::iter::once(c).chain(c.caller.as_deref()));
             places.into_iter().any(|place| place.file == name)
         };
-        let own = self.sources.files().filter(|(_, file)| !file.library && named(&file.name));
+        let own = self.shared.sources.files().filter(|(_, file)| !file.library && named(&file.name));
         own.map(|(_, file)| (file.name.to_string(), file.text.to_string())).collect()
     }
 

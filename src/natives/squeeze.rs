@@ -20,6 +20,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[Native::on_run("squeeze", SqueezeArguments::PARAMETERS, squeeze)];
 
 arguments! {

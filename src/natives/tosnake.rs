@@ -4,12 +4,12 @@ use super::Native;
 use crate::interpret::argument::{Choice, Positive, WordOr, arguments};
 use crate::interpret::causes::PlanCauses;
 use crate::interpret::design::{Design, Instance};
+use crate::interpret::evaluator_thread::HostProxy;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
 use crate::interpret::record::Record;
 use crate::interpret::robot::Robot;
-use crate::interpret::stage::Stage;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
 use crate::interpret::verdicts::failure_line;
@@ -112,7 +112,7 @@ impl Options {
 
     fn settings(&self, interpreter: &Interpreter) -> Settings {
         let Options { seed, budget, collisions, .. } = *self;
-        let threads = interpreter.options.threads.max(1);
+        let threads = interpreter.shared.options.threads.max(1);
         Settings { seed, budget, collisions, threads, ..Settings::default() }
     }
 }
@@ -132,23 +132,26 @@ fn world(call: &Call, gravity: WordOr<Gravity, f64>) -> Eval<World> {
 
 /// Shows progress to the user, and ends a search at the timeout or when the user cancels the run.
 struct Observer {
-    stage: Stage,
+    host: HostProxy,
     timeout: Option<f64>,
     goes_on: Box<dyn Fn() -> bool>,
 }
 
 impl Observer {
     fn new(interpreter: &Interpreter, options: &Options) -> Observer {
-        Observer { stage: interpreter.stage.clone(), timeout: options.timeout, goes_on: Box::new(|| true) }
+        Observer {
+            host: interpreter.shared.host.clone(),
+            timeout: options.timeout,
+            goes_on: Box::new(|| true),
+        }
     }
 }
 
 impl Progress for Observer {
     fn task_started(&mut self, task: &dyn Fn() -> String) {
-        let (stage, timeout, begun) = (self.stage.clone(), self.timeout, self.stage.elapsed());
-        self.goes_on = Box::new(move || {
-            !stage.cancelled() && timeout.is_none_or(|most| stage.elapsed() - begun <= most)
-        });
+        let (host, timeout, begun) = (self.host.clone(), self.timeout, self.host.elapsed());
+        self.goes_on =
+            Box::new(move || !host.cancelled() && timeout.is_none_or(|most| host.elapsed() - begun <= most));
         interrupt::start_task(task());
     }
 
@@ -209,7 +212,7 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Robot { assembly, start, .. } = &*subject.robot;
     let problem = tosnake::Problem { robot: assembly, start, world: options.world };
     let solution =
-        tosnake::plan_with_cache(&problem, &settings, &mut interpreter.search_cache, &mut observer);
+        tosnake::plan_with_cache(&problem, &settings, &mut interpreter.memory.search_cache, &mut observer);
     let Solution { body, program, report } =
         solution.map_err(|refusal| refused(interpreter, call, &subject, &causes, &refusal))?;
     let library = assembly.library.clone();
@@ -245,8 +248,12 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
     let mut observer = Observer::new(interpreter, &options);
     let problem =
         reconfigure::Problem { from: from.configuration(), to: to.configuration(), world: options.world };
-    let solution =
-        reconfigure::plan_with_cache(&problem, &settings, &mut interpreter.search_cache, &mut observer);
+    let solution = reconfigure::plan_with_cache(
+        &problem,
+        &settings,
+        &mut interpreter.memory.search_cache,
+        &mut observer,
+    );
     let Solution { body, program, report } = solution.map_err(|refusal| match refusal {
         reconfigure::Refusal::From(refusal) => refused(interpreter, call, &from, &causes, &refusal),
         reconfigure::Refusal::To(refusal) => refused(interpreter, call, &to, &causes, &refusal),
@@ -343,7 +350,7 @@ fn refused(
     let (robot, at) = (&subject.robot, call.at(subject.parameter));
     let ended = |what: &str, status: &SearchStatus, hint: &str| fell_short(at, what, status, hint);
     match refusal {
-        Refusal::Stopped(_) if interpreter.stage.cancelled() => Stop::Halt,
+        Refusal::Stopped(_) if interpreter.shared.host.cancelled() => Stop::Halt,
         Refusal::NotRofi(no) => not_rofi(at, robot, no),
         Refusal::InvalidStart(invalid) => invalid_start(at, robot, invalid),
         Refusal::OpenLoop { bond, residual } => {

@@ -5,11 +5,11 @@ use super::truss_limits::{LimitArguments, limits, obstacles};
 use crate::geometry::{HeightField, Vec3};
 use crate::interpret::argument::{Choice, Positive, arguments};
 use crate::interpret::design::{Design, DesignKind, Instance, TrussDesign};
+use crate::interpret::evaluator_thread::HostProxy;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, PlannerReport, ReportField, ReportFields};
 use crate::interpret::record::Record;
-use crate::interpret::stage::Stage;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::{Mesh, Value};
 use crate::interrupt;
@@ -24,6 +24,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The natives of this file.
 pub const TABLE: &[Native] = &[
     Native::on_run("morph", MorphArguments::PARAMETERS, morph),
     Native::on_run("locomote", LocomoteArguments::PARAMETERS, locomote),
@@ -129,8 +130,8 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let timeout = arguments.timeout.map(|seconds| seconds.0);
     interrupt::start_task(format!("morphing {}", design.name));
-    let stage = interpreter.stage.clone();
-    let found = morph::plan(&problem, &settings, &mut Timed(stage.until(timeout)));
+    let host = interpreter.shared.host.clone();
+    let found = morph::plan(&problem, &settings, &mut Timed(host.until(timeout)));
     let solution = found.map_err(|refusal| morph_refused(call, &problem.truss, refusal))?;
     let report = &solution.report;
     let [there, back, wanted] =
@@ -140,7 +141,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         morph::End::Done => {}
         morph::End::Cancelled => {
             let so_far = format!("the truss was within {there} of the target ({back} back)");
-            return Err(timed_out(&stage, call, &so_far));
+            return Err(timed_out(&host, call, &so_far));
         }
         morph::End::Steps | morph::End::Stuck(_) => {
             let message =
@@ -179,15 +180,15 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let timeout = arguments.timeout.map(|seconds| seconds.0);
     interrupt::start_task(format!("moving {}", design.name));
-    let stage = interpreter.stage.clone();
-    let found = locomote::plan(&problem, &settings, &mut Timed(stage.until(timeout)));
+    let host = interpreter.shared.host.clone();
+    let found = locomote::plan(&problem, &settings, &mut Timed(host.until(timeout)));
     let solution = found.map_err(|refusal| locomote_refused(call, refusal))?;
     let (report, places) = (&solution.report, problem.path.len());
     match report.end {
         locomote::End::Arrived => {}
         locomote::End::Cancelled => {
             let so_far = format!("the truss reached {} of {places} places", report.reached);
-            return Err(timed_out(&stage, call, &so_far));
+            return Err(timed_out(&host, call, &so_far));
         }
         _ => {
             let message = format!("the truss reaches {} of {places} places of its path", report.reached);
@@ -264,8 +265,8 @@ impl<F: Fn() -> bool> Progress for Timed<F> {
 }
 
 /// What to say when a planner did not go on.
-fn timed_out(stage: &Stage, call: &Call, so_far: &str) -> Stop {
-    if stage.cancelled() {
+fn timed_out(host: &HostProxy, call: &Call, so_far: &str) -> Stop {
+    if host.cancelled() {
         return Stop::Halt;
     }
     Diagnostic::error(code::NO_WAY, format!("no plan within the timeout: {so_far}"))

@@ -29,12 +29,14 @@ enum Request {
 
 /// The evaluator's end of the way to the outside.
 #[derive(Clone)]
-pub struct Stage {
+pub struct HostProxy {
     requests: SyncSender<Request>,
+    /// Whether the user wants the run to end.
     pub cancel_state: CancelState,
 }
 
-impl Stage {
+impl HostProxy {
+    /// Prints a line.
     pub fn print(&self, line: String) {
         self.send(Request::Print(line));
     }
@@ -45,10 +47,12 @@ impl Stage {
         move |line| stage.send(Request::Progress(line))
     }
 
+    /// Writes a file of the output folder and returns the path to show.
     pub fn write(&self, path: &str, bytes: Vec<u8>) -> Result<String, WriteError> {
         self.ask(|reply| Request::Write(path.into(), bytes, reply))
     }
 
+    /// Reads a file of the project.
     pub fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
         self.ask(|reply| Request::Read(path.into(), reply))
     }
@@ -85,9 +89,13 @@ impl Stage {
 }
 
 /// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
-pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnce(Stage) -> T + Send) -> T {
+pub fn run<T: Send>(
+    files: &dyn Files,
+    host: &mut dyn Host,
+    evaluate: impl FnOnce(HostProxy) -> T + Send,
+) -> T {
     let (sender, requests) = sync_channel(WAITING_MAX);
-    let stage = Stage { requests: sender, cancel_state: host.cancel_state() };
+    let stage = HostProxy { requests: sender, cancel_state: host.cancel_state() };
     std::thread::scope(|scope| {
         let evaluator = std::thread::Builder::new()
             .name("evaluator".into())
@@ -100,7 +108,7 @@ pub fn run<T: Send>(files: &dyn Files, host: &mut dyn Host, evaluate: impl FnOnc
 }
 
 /// An evaluator that stays, with what it keeps from job to job.
-pub struct Standing<J, R> {
+pub struct EvaluatorThread<J, R> {
     jobs: Sender<J>,
     requests: Receiver<Request>,
     results: Receiver<R>,
@@ -111,12 +119,12 @@ pub struct Standing<J, R> {
     left: Cell<bool>,
 }
 
-impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
+impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
     /// `begin` is called on the evaluator's thread; what it gives does the jobs, one by one.
     pub fn new<W: FnMut(J) -> R>(
         cancel_state: CancelState,
-        begin: impl FnOnce(Stage) -> W + Send + 'static,
-    ) -> Standing<J, R> {
+        begin: impl FnOnce(HostProxy) -> W + Send + 'static,
+    ) -> EvaluatorThread<J, R> {
         let (jobs, to_do) = channel::<J>();
         let (requests, asked) = sync_channel(WAITING_MAX);
         let (done, results) = channel();
@@ -125,7 +133,7 @@ impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
             .name("evaluator".into())
             .stack_size(STACK_BYTES)
             .spawn(move || {
-                let mut work = begin(Stage { requests: requests.clone(), cancel_state: obeyed });
+                let mut work = begin(HostProxy { requests: requests.clone(), cancel_state: obeyed });
                 for job in to_do {
                     let result = work(job);
                     // Whoever does not wait for the result any more has dropped the other end.
@@ -135,7 +143,7 @@ impl<J: Send + 'static, R: Send + 'static> Standing<J, R> {
                 }
             })
             .expect("the system can start a thread");
-        Standing { jobs, requests: asked, results, cancel_state, waker, left: Cell::new(false) }
+        EvaluatorThread { jobs, requests: asked, results, cancel_state, waker, left: Cell::new(false) }
     }
 
     /// Has a job done, and serves its requests here until it is, or until nobody is to wait any longer:
