@@ -250,3 +250,11 @@ let m = Smores
 --- equal elements of a list
 let l = [0] * 3
 //          ^ E0207 `*` | `[0 for i in 0..3]`
+
+--- a parameter and a field that were renamed
+use std.truss.PneumaticReel
+truss P of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
+let walk = locomote(P, path: [[3m, 0m, 0m]], ladder: false)
+//                                           ^^^^^^ E0205 no parameter `ladder` | now called `fallbacks`
+print(locomote(P, path: [[3m, 0m, 0m]]).eased)
+//                                      ^^^^^ E0107 now called `relaxed_steps`
