@@ -14,6 +14,9 @@ const CELLS_PER_BOX: f64 = 8.0;
 const CELLS_ALONG: u64 = 1 << 21;
 const CELLS_HALF: i64 = 1 << 20;
 
+/// The end of a list of boxes in a cell.
+const NO_ENTRY: u32 = u32::MAX;
+
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
@@ -89,8 +92,8 @@ pub fn near_points(
 }
 
 /// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0) of each other along every
-/// axis, up to rounding: a superset of those that are nearer than `reach`. Ordered by j, then by cell and i. `cell` (> 0) is the size of
-/// a cell at least, best about that of a box; grids of more than eight cells for each box are made coarser.
+/// axis, up to rounding: a superset of those that are nearer than `reach`. Ordered by j, then by cell and i. `cell` (> 0)
+/// is the size of a cell at least, best about that of a box; grids of more than eight cells for each box are made coarser.
 ///
 /// Pairs for which `wanted(i, j)` is false are left out, before the dearer search for the cell that reports a pair.
 pub fn near_boxes(
@@ -110,14 +113,20 @@ pub fn near_boxes(
     }
     let counts = counts(size).map(|count| (count as usize).max(1));
     let index = |p: Vec3| ((p - low) / size).map(|v| v.max(0.0) as usize);
-    let mut grid: Vec<Vec<usize>> = vec![Vec::new(); counts.product()];
+    // The boxes in each cell, in order, as linked lists of (box, next entry); of each cell the first and last entry.
+    let mut cells = vec![(NO_ENTRY, NO_ENTRY); counts.product()];
+    let mut entries: Vec<(u32, u32)> = Vec::with_capacity(8 * boxes.len());
     for (j, box_j) in boxes.iter().enumerate() {
         let (from, to) = (index(box_j.low - margin), index(box_j.high + margin));
         for a in from.x..=to.x.min(counts.x - 1) {
             for b in from.y..=to.y.min(counts.y - 1) {
                 for c in from.z..=to.z.min(counts.z - 1) {
-                    let members = &mut grid[(a * counts.y + b) * counts.z + c];
-                    for &i in members.iter() {
+                    let (first, last) = &mut cells[(a * counts.y + b) * counts.z + c];
+                    let mut at = *first;
+                    while at != NO_ENTRY {
+                        let (i, next) = entries[at as usize];
+                        at = next;
+                        let i = i as usize;
                         let gap = boxes[i].gap(box_j);
                         if gap.x > reach || gap.y > reach || gap.z > reach || !wanted(i, j) {
                             continue;
@@ -128,7 +137,14 @@ pub fn near_boxes(
                             found(i, j);
                         }
                     }
-                    members.push(j);
+                    let entry = entries.len() as u32;
+                    entries.push((j as u32, NO_ENTRY));
+                    if *last == NO_ENTRY {
+                        *first = entry;
+                    } else {
+                        entries[*last as usize].1 = entry;
+                    }
+                    *last = entry;
                 }
             }
         }
