@@ -240,6 +240,7 @@ impl<'t> Lagrangian<'t> {
     }
 
     /// Returns the reduced cost of entering a face across an arc.
+    #[inline]
     fn value(&self, arc: usize, paid: &[f64]) -> f64 {
         self.reached[arc / 3][arc % 3] - paid[arc]
     }
@@ -283,6 +284,7 @@ impl<'t> Lagrangian<'t> {
     }
 
     /// Visits the arcs of a goal's path but its last.
+    #[inline]
     fn along(&self, root: usize, goal: usize, mut visit: impl FnMut(usize)) {
         let mut at = self.tail[self.chosen[goal]];
         while at != root {
