@@ -38,8 +38,16 @@ pub const TABLE: &[Native] = &[
     Native::on_run("State.pose", parameters![self: &StateValue, module: &Rc<Instance>], state_pose),
 ];
 
+/// The argument `of` where several types are declared, all of them instances.
+fn instance<'c>(call: &Call<'c>) -> Eval<&'c Rc<Instance>> {
+    match call.get::<&Value>("of")? {
+        Value::Instance(instance) => Ok(instance),
+        _ => unreachable!("`check` lets only instances through to `{}`", call.native.key),
+    }
+}
+
 fn count(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = &call.get::<&Rc<Instance>>("of")?.design;
+    let design = &instance(call)?.design;
     Ok(Value::count(match &design.kind {
         DesignKind::Lattice(lattice) => lattice.cells.places.len(),
         _ => design.module_count(),
@@ -47,7 +55,7 @@ fn count(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = &call.get::<&Rc<Instance>>("of")?.design;
+    let design = &instance(call)?.design;
     let mass = match &design.kind {
         DesignKind::Cell(cell) => cell.mass,
         DesignKind::Strut(strut) => strut.mass,
