@@ -1,7 +1,7 @@
 //! Configurations: parts, connections, initial positions; Definitions IV.2 and V.1.
 
 use crate::check::typed::{ConfigClause, ConfigDef, Expr, PartCount, PartDef, Require};
-use crate::interpret::call::Args;
+use crate::interpret::args::Args;
 use crate::interpret::design::{
     ConfigDesign, Design, FlatModule, Instance, PartElement, PartGroup, SetRecord, join_path,
 };

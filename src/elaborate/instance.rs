@@ -1,7 +1,7 @@
 //! Instances: a declaration and its arguments, elaborated once and shared.
 
 use crate::check::typed::{DefId, DefKind, Expr, Param};
-use crate::interpret::call::Args;
+use crate::interpret::args::Args;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;

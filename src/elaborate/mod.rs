@@ -18,7 +18,7 @@ pub mod sweep;
 pub mod truss;
 
 use crate::check::typed::DefId;
-use crate::interpret::call::Args;
+use crate::interpret::args::Args;
 use crate::interpret::design::Design;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::robot::Robot;

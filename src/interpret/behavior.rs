@@ -2,9 +2,10 @@
 
 use super::causes::CauseRecord;
 use super::design::Design;
+use super::design::port_ref;
 use super::eval::Frame;
 use super::interpreter::Interpreter;
-use super::robot::{Robot, port_ref};
+use super::robot::Robot;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Behavior, ConditionValue, JointValue, Value};
 use crate::behavior::{self, Conflict, Issue, IssueKind, Part};
@@ -190,6 +191,20 @@ pub fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
         _ => Otherwise::Node(otherwise.clone()),
     };
     Some(Node::Action(action))
+}
+
+impl Interpreter<'_> {
+    /// A cause at the place where evaluation is.
+    pub fn cause(&mut self, span: Span, args: Vec<(Part, Span)>, subject: &str) -> CauseId {
+        let notes = self.binder_notes();
+        let instance = match (subject.is_empty(), notes.is_empty()) {
+            (false, false) => format!("{subject} ({notes})"),
+            (false, true) => subject.to_string(),
+            _ => notes,
+        };
+        let caller = if self.is_library(span) { self.user_call().map(|call| call.span) } else { None };
+        self.memory.causes.add(CauseRecord { span, args, instance: instance.as_str().into(), caller })
+    }
 }
 
 /// Returns a label with the instance that the cause is about.

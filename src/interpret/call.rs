@@ -1,5 +1,6 @@
 //! Calls: of functions, built-ins, function values and behaviours.
 
+use super::args::Args;
 use super::behavior::with_otherwise;
 use super::design::Instance;
 use super::eval::Frame;
@@ -12,21 +13,6 @@ use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, P
 use crate::source::{Span, Symbol, code};
 use std::rc::Rc;
 use std::sync::Arc;
-
-/// Arguments in the order of the parameters; `None`: the default is wanted.
-pub struct Args {
-    /// The arguments.
-    pub values: Vec<Option<Value>>,
-    /// Where each argument stands; the whole call for those left out.
-    pub spans: Vec<Span>,
-}
-
-impl Args {
-    fn plain(values: Vec<Value>, span: Span) -> Args {
-        let spans = vec![span; values.len()];
-        Args { values: values.into_iter().map(Some).collect(), spans }
-    }
-}
 
 impl Interpreter<'_> {
     /// Evaluates the arguments of a call in the order of the parameters.

@@ -1,6 +1,5 @@
 //! Who commanded what: spans on the side of the language, numbered causes on the side of plans.
 
-use super::interpreter::Interpreter;
 use crate::behavior::Part;
 use crate::plan::{Action, Cause, CauseId, Node, Otherwise};
 use crate::source::{Sources, Span};
@@ -57,20 +56,6 @@ impl Causes {
     /// Returns the record of a cause.
     pub fn get(&self, id: CauseId) -> &CauseRecord {
         &self.records[id.0 as usize]
-    }
-}
-
-impl Interpreter<'_> {
-    /// A cause at the place where evaluation is.
-    pub fn cause(&mut self, span: Span, args: Vec<(Part, Span)>, subject: &str) -> CauseId {
-        let notes = self.binder_notes();
-        let instance = match (subject.is_empty(), notes.is_empty()) {
-            (false, false) => format!("{subject} ({notes})"),
-            (false, true) => subject.to_string(),
-            _ => notes,
-        };
-        let caller = if self.is_library(span) { self.user_call().map(|call| call.span) } else { None };
-        self.memory.causes.add(CauseRecord { span, args, instance: instance.as_str().into(), caller })
     }
 }
 

@@ -8,9 +8,9 @@ use super::cells::Cells;
 use super::robot::Robot;
 use super::value::{JointValue, Lazy, PortValue, Value};
 use crate::check::typed::DefId;
-use crate::geometry::Vec3;
+use crate::geometry::{Pose, Vec3};
 use crate::robot::truss::Rigidity;
-use crate::robot::{Cell, Connector, JointOwner, ModuleType, Strut};
+use crate::robot::{Cell, Connector, JointId, JointOwner, ModuleType, PortRef, Strut};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use std::cell::{Cell as Flag, OnceCell, RefCell};
@@ -483,4 +483,21 @@ pub fn shorten(names: &[String]) -> String {
     }
     let rest = names.len() - (NAMES_SHOWN - 1);
     format!("{} and {rest} more", names[..NAMES_SHOWN - 1].join(", "))
+}
+
+impl Robot {
+    /// Returns the number of a joint.
+    pub fn joint(&self, joint: &JointValue) -> JointId {
+        self.joint_of(joint.owner)
+    }
+
+    /// Returns the pose of a port in the frame of the base module.
+    pub fn port_pose(&self, port: &PortValue) -> Pose {
+        self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
+    }
+}
+
+/// Returns a port as an assembly names it.
+pub fn port_ref(port: &PortValue) -> PortRef {
+    PortRef { module: port.module, port: port.port }
 }

@@ -16,6 +16,7 @@ pub mod eval;
 pub mod interpreter;
 pub mod operators;
 
+pub mod args;
 pub mod argument;
 pub mod call;
 pub mod native;
@@ -28,6 +29,7 @@ pub mod cells;
 
 pub mod behavior;
 pub mod causes;
+pub mod fields;
 pub mod joining;
 pub mod plan_value;
 pub mod planning;

@@ -1,8 +1,7 @@
 //! A configuration as the right wing sees it: an assembly with its start state and kinematics.
 
-use super::value::{JointValue, PortValue};
 use crate::geometry::{Pose, Vec3};
-use crate::robot::{Assembly, JointId, JointOwner, Kinematics, PortRef, Residual, State};
+use crate::robot::{Assembly, JointId, JointOwner, Kinematics, Residual, State};
 use std::sync::Arc;
 
 /// A robot that a design describes.
@@ -18,11 +17,6 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// Returns the number of a joint.
-    pub fn joint(&self, joint: &JointValue) -> JointId {
-        self.joint_of(joint.owner)
-    }
-
     /// Returns the number of the joint of a module or a bond.
     pub fn joint_of(&self, owner: JointOwner) -> JointId {
         let index = joint_index(&self.kinematics, owner);
@@ -44,16 +38,6 @@ impl Robot {
     pub fn centre_of_mass(&self) -> (Vec3, f64) {
         self.kinematics.centre_of_mass(&self.assembly, &self.poses)
     }
-
-    /// Returns the pose of a port in the frame of the base module.
-    pub fn port_pose(&self, port: &PortValue) -> Pose {
-        self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
-    }
-}
-
-/// Returns a port as an assembly names it.
-pub fn port_ref(port: &PortValue) -> PortRef {
-    PortRef { module: port.module, port: port.port }
 }
 
 /// Returns the place of a joint among those of the tree.

@@ -4,7 +4,7 @@
 //! called, values are printed. The evaluator does not know these rooms; whoever runs a program hands them in
 //! as functions ([`crate::execute`]).
 
-use super::call::Args;
+use super::args::Args;
 use super::design::Design;
 use super::interpreter::Interpreter;
 use super::native::Native;

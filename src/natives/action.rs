@@ -5,9 +5,9 @@ use crate::behavior::mirror::{Plane, mirrored};
 use crate::behavior::{Part, gait};
 use crate::interpret::argument::{Choice, Positive, parameters};
 use crate::interpret::design::Design;
+use crate::interpret::design::port_ref;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
-use crate::interpret::robot::port_ref;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{
     Behavior, Callable, ConditionValue, JointValue, PortValue, SignalValue, Value,

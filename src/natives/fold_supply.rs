@@ -2,7 +2,7 @@
 
 use super::fold_surface::unfoldable;
 use crate::elaborate::instance::params_of;
-use crate::interpret::call::Args;
+use crate::interpret::args::Args;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, FlatModule, Instance};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;

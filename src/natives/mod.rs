@@ -41,10 +41,10 @@ pub mod tosnake;
 pub mod truss;
 mod truss_limits;
 
+use crate::interpret::fields::fields;
 use crate::interpret::interpreter::Interpreter;
 pub use crate::interpret::native::Native;
 use crate::interpret::plan_value::ReportFields;
-use crate::interpret::record::fields;
 use crate::interpret::stop::Eval;
 use crate::source::Symbol;
 use std::collections::HashMap;
