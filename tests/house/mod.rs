@@ -8,4 +8,3 @@ pub mod readme;
 pub mod reference;
 pub mod tidy;
 pub mod tour;
-pub mod words;
