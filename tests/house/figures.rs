@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 const KNOT_MAX: usize = 8;
 
 /// The rooms of the right wing, whose `pub` items are an interface for Rust programs.
-const RIGHT_WING: &[&str] = &["units", "geometry", "optimize", "robot", "plan", "behavior", "planners", "view", "formats"];
+const RIGHT_WING: &[&str] =
+    &["units", "geometry", "optimize", "robot", "plan", "behavior", "planners", "view", "formats"];
 
 /// The share of `pub` items of the right wing that have a doc comment, at least.
 const DOCUMENTED_MIN: f64 = 0.95;
@@ -35,7 +36,8 @@ fn figures_of_the_house() {
     let (documented, items) = documented(&source);
     println!("pub items of the right wing with a doc comment: {documented} of {items}");
     for (kind, pattern, home) in GROWTH {
-        let places = mentions(&source, pattern).into_iter().filter(|file| !file.starts_with(home)).collect::<Vec<_>>();
+        let places =
+            mentions(&source, pattern).into_iter().filter(|file| !file.starts_with(home)).collect::<Vec<_>>();
         println!("{kind}: named in {} files outside of {home}: {}", places.len(), places.join(" "));
     }
     let numbered = numbered_arguments(&source);
@@ -44,7 +46,10 @@ fn figures_of_the_house() {
     println!("`Result<_, String>` in plan: {}", texts.len());
 
     assert!(knots.iter().all(|knot| knot.len() <= KNOT_MAX), "import knots of more than {KNOT_MAX} files");
-    assert!(documented as f64 >= DOCUMENTED_MIN * items as f64, "{documented} of {items} pub items are documented");
+    assert!(
+        documented as f64 >= DOCUMENTED_MIN * items as f64,
+        "{documented} of {items} pub items are documented"
+    );
     assert!(numbered.is_empty(), "arguments by number:\n  {}", numbered.join("\n  "));
     assert!(texts.is_empty(), "errors that are texts:\n  {}", texts.join("\n  "));
 }
@@ -76,7 +81,8 @@ fn documented(source: &BTreeMap<String, String>) -> (usize, usize) {
             }
             items += 1;
             let above = lines[..i].iter().rev().find(|above| !above.starts_with("#["));
-            documented += usize::from(above.is_some_and(|above| above.starts_with("///") || above.ends_with(")]")));
+            documented +=
+                usize::from(above.is_some_and(|above| above.starts_with("///") || above.ends_with(")]")));
         }
     }
     (documented, items)
@@ -92,7 +98,9 @@ fn numbered_arguments(source: &BTreeMap<String, String>) -> Vec<String> {
         })
     };
     let found = natives.flat_map(|(file, text)| {
-        code_lines(text).filter(|(_, line)| by_number(line)).map(move |(n, line)| format!("{file}:{n}: {}", line.trim()))
+        code_lines(text)
+            .filter(|(_, line)| by_number(line))
+            .map(move |(n, line)| format!("{file}:{n}: {}", line.trim()))
     });
     found.collect()
 }
