@@ -1,4 +1,4 @@
-//! What each command does to the joints at the instant it is given.
+//! The effect of each command on the joints at the instant it is given.
 
 use super::docking;
 use super::joints;

@@ -1,4 +1,4 @@
-//! How values are displayed: on one line, as `print` shows them ([`value`]), and as a session shows a result,
+//! The display of values: on one line, as `print` shows them ([`value`]), and as a session shows a result,
 //! on several lines ([`pretty`]).
 
 mod motion;

@@ -96,7 +96,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// What moves when: a joint, or the whole of what has no joints.
+/// The times at which each thing moves: a joint, or the whole of what has no joints.
 fn rows(planned: &PlanValue, duration: f64) -> Vec<(String, String)> {
     match (planned.plan.body.tracks(), &planned.body) {
         (Some(tracks), Some(robot)) => {

@@ -137,7 +137,7 @@ impl Interpreter<'_> {
         config.behaviors.iter().map(|b| b.name.to_string()).collect()
     }
 
-    /// What was declared, in one line.
+    /// Returns the declaration in one line.
     pub(super) fn describe_declaration_line(&mut self, def: DefId) -> Eval<String> {
         let program = self.shared.program;
         let declared = program.def(def);

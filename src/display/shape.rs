@@ -5,7 +5,7 @@ use crate::interpret::cells::Cells;
 use crate::planners::fold::Report;
 use crate::planners::fold::pattern::Pattern;
 
-/// What is larger is only counted.
+/// Larger lattices are only counted.
 const COLUMNS_MAX: i64 = 120;
 const ROWS_MAX: i64 = 60;
 
@@ -76,7 +76,7 @@ struct Triangle {
     row: i64,
     /// Of its left end, in half sides.
     column: i64,
-    /// Whether its tip is up.
+    /// True if its tip is up.
     up: bool,
 }
 

@@ -55,7 +55,7 @@ pub fn truss(design: &Design, truss: &TrussDesign) -> String {
     lines.join("\n")
 }
 
-/// What a planner says of its plan, and the truss before and after.
+/// Returns the planner's figures of its plan, and the truss before and after.
 pub fn made(planned: &PlanValue) -> Vec<String> {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     let mut lines = Vec::new();

@@ -1,4 +1,4 @@
-//! Whether a connection can be made: free ports, connectors that mate, an allowed turn, no loop.
+//! The conditions of a connection: free ports, connectors that mate, an allowed turn, no loop.
 
 use crate::check::typed::{ConfigDef, Expr};
 use crate::interpret::design::ConnectorDesign;

@@ -33,7 +33,7 @@ impl Interpreter<'_> {
         Ok(Value::Joint(JointValue { robot: port.robot.clone(), owner, dimension: Dimension::ANGLE }))
     }
 
-    /// What the joint of a connection can do.
+    /// Returns the limits of the joint that a connection makes.
     pub(super) fn hinge_limits(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Limits> {
         let connector = self.connector_of(robot, bond)?;
         let hinge = connector.and_then(|connector| connector.connector.hinge.as_ref().map(|h| h.limits));

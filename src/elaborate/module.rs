@@ -457,7 +457,7 @@ fn default_up(facing: Vec3) -> Vec3 {
     if facing.cross(&Vec3::z()).norm() < PARALLEL { Vec3::x() } else { Vec3::z() }
 }
 
-/// Whether a link's shape encloses something.
+/// Refuses a link's shape that encloses nothing.
 fn sound(solid: &Solid, link: &LinkDef) -> Eval<()> {
     for placed in solid.parts.iter() {
         crate::geometry::soundness::check(&placed.shape).map_err(|unsound| {

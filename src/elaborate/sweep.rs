@@ -14,7 +14,7 @@ use std::rc::Rc;
 /// Positions at which a joint is looked at: every 5 degrees of a full turn.
 const POSITIONS: usize = 72;
 
-/// Where two links of a joint overlap most.
+/// The deepest overlap of the two links of a joint.
 struct Overlap {
     position: f64,
     depth: f64,
@@ -66,7 +66,7 @@ fn sweep(module: &ModuleType, joint: &Joint) -> Option<Overlap> {
     (worst.depth > allowed).then_some(worst)
 }
 
-/// How the child moves in the module's frame.
+/// Returns the pose of the child in the module's frame at a joint position.
 fn moved(joint: &Joint, q: f64) -> Pose {
     let motion = match joint.kind {
         JointKind::Revolute => turned(joint.axis, q),

@@ -7,7 +7,7 @@ use crate::source::Span;
 pub struct Args {
     /// The arguments.
     pub values: Vec<Option<Value>>,
-    /// Where each argument stands; the whole call for those left out.
+    /// The span of each argument; of the whole call for those left out.
     pub spans: Vec<Span>,
 }
 

@@ -155,7 +155,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// What an action asks for that its joint can't do, at the argument that asks.
+    /// Returns the diagnostic of an action that asks for more than its joint can do, at the argument that asks.
     pub fn issue(&self, issue: &Issue) -> Diagnostic {
         let record = self.memory.causes.get(issue.cause);
         let (code, message, label) = issue_words(&issue.kind);

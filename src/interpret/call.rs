@@ -129,7 +129,7 @@ impl Interpreter<'_> {
         (entry.body)(self, &Call { span, native: entry, params: &native.params, args: values, spans: &spans })
     }
 
-    /// What can be said without a run about behaviours that a statement hands on.
+    /// Checks behaviours that a statement hands on, as far as that is possible without a run.
     fn check_arguments(&mut self, values: &[Value]) -> Eval<()> {
         for value in values {
             if let Value::Behavior(behavior) = value {

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// What a cause is in the source.
+/// The place of a cause in the source, and the calls that led there.
 #[derive(Clone, Debug)]
 pub struct CauseRecord {
     /// The expression that commands.
@@ -26,7 +26,7 @@ impl CauseRecord {
         self.caller.unwrap_or(self.span)
     }
 
-    /// Where an argument stands; the whole action where it was left out.
+    /// Returns the span of an argument; of the whole action where it was left out.
     pub fn argument(&self, part: Part) -> Span {
         self.args.iter().find(|(p, _)| *p == part).map_or(self.span, |(_, span)| *span)
     }

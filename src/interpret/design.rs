@@ -28,7 +28,7 @@ pub struct Design {
     pub name: String,
     /// One value for every parameter.
     pub args: Vec<Value>,
-    /// What was declared.
+    /// The kind of declaration, with what it declares.
     pub kind: DesignKind,
     /// Something is wrong with it, and has been reported: instances of it are unknown.
     pub broken: Flag<bool>,
@@ -75,11 +75,11 @@ pub struct ConfigDesign {
     pub sets: RefCell<Vec<SetRecord>>,
     /// Index of the module named by `base`.
     pub base: Flag<Option<usize>>,
-    /// Whether loops may be closed.
+    /// True if loops may be closed.
     pub closed: bool,
     /// One more than the largest order of its parts.
     pub order: Flag<usize>,
-    /// Whether all clauses have been run, so that questions about geometry make sense.
+    /// True once all clauses have been run, so that questions about geometry make sense.
     pub complete: Flag<bool>,
     /// The robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
@@ -87,7 +87,7 @@ pub struct ConfigDesign {
 
 /// A part, or a list of parts.
 pub struct PartGroup {
-    /// Whether it was declared as a list.
+    /// True if it was declared as a list.
     pub list: bool,
     /// The parts.
     pub elements: Vec<PartElement>,

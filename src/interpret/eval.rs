@@ -496,7 +496,7 @@ pub fn members_of(kind: &DefKind) -> Option<(&[crate::check::typed::Member], usi
     })
 }
 
-/// What a question to an instance gives; unknown where there is no instance.
+/// Returns the answer of an instance to a question; unknown where there is no instance.
 fn on_instance(value: &Value, ask: impl FnOnce(&Rc<Instance>) -> Option<Value>) -> Value {
     match value {
         Value::Instance(instance) => ask(instance).unwrap_or(Value::Unknown),

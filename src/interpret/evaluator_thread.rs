@@ -31,7 +31,7 @@ enum Request {
 #[derive(Clone)]
 pub struct HostProxy {
     requests: SyncSender<Request>,
-    /// Whether the user wants the run to end.
+    /// Returns true once the user wants the run to end.
     pub cancel_state: CancelState,
 }
 
@@ -57,7 +57,7 @@ impl HostProxy {
         self.ask(|reply| Request::Read(path.into(), reply))
     }
 
-    /// Whether the user wants the run to end.
+    /// Returns true once the user wants the run to end.
     pub fn cancelled(&self) -> bool {
         self.cancel_state.is_cancelled()
     }
@@ -79,7 +79,7 @@ impl HostProxy {
         receiver.recv().unwrap_or_else(|_| interrupt::unwind())
     }
 
-    /// Where the outside is gone, so is who wanted the work.
+    /// Sends a request to the outside; if that is gone, so is who wanted the work, and the work ends.
     fn send(&self, request: Request) {
         interrupt::checkpoint();
         if self.requests.send(request).is_err() {
@@ -115,7 +115,7 @@ pub struct EvaluatorThread<J, R> {
     cancel_state: CancelState,
     /// Puts a request of the outside's own among those of the evaluator.
     waker: SyncSender<Request>,
-    /// Whether a job is still being done that nobody waits for any more.
+    /// Returns true while a job is being done that nobody waits for any more.
     left: Cell<bool>,
 }
 
@@ -169,7 +169,7 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
         Some(self.results.recv().expect("a job that is done has a result"))
     }
 
-    /// Whether a job is still being done that nobody waits for any more.
+    /// Returns true while a job is being done that nobody waits for any more.
     pub fn is_left(&self) -> bool {
         self.left.get()
     }

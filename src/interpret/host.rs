@@ -1,4 +1,4 @@
-//! What a running program needs of the outside, and what comes back from a run.
+//! The interface of a running program to the outside, and the outcome of a run.
 
 use crate::interrupt::CancelState;
 use crate::source::Diagnostic;
@@ -35,7 +35,7 @@ pub trait Host {
     }
 }
 
-/// What is evaluated of a program.
+/// The part of a program that is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Elaborate every declaration with its defaults and every instance that statements make;
@@ -47,14 +47,14 @@ pub enum Mode {
     Test,
 }
 
-/// What a user may choose for a run.
+/// The choices of a user for a run.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Tests whose name contains this are run.
     pub filter: Option<String>,
     /// Default seed of planners.
     pub seed: u64,
-    /// Whether every plan that is emitted is drawn, too; where there is none, what is declared.
+    /// True if every plan that is emitted is drawn, too; where there is none, the declared robots are.
     pub pages: bool,
     /// The command that runs the program again, for the pages that it draws.
     pub command: String,
@@ -108,7 +108,7 @@ pub struct TestResult {
     pub passed: bool,
 }
 
-/// What a run ended with.
+/// The outcome of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Errors first, then warnings and notes.
@@ -117,6 +117,6 @@ pub struct Outcome {
     pub tests: Vec<TestResult>,
     /// Paths written, as the host showed them.
     pub written: Vec<String>,
-    /// Whether the user ended the run.
+    /// True if the user ended the run.
     pub cancelled: bool,
 }

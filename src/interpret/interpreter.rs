@@ -25,19 +25,19 @@ const NESTING_MAX: usize = 40_000;
 
 /// The state of a run: what all of it shares, what was found, what is remembered, and where evaluation is.
 pub struct Interpreter<'a> {
-    /// What the run is given; it never changes.
+    /// The inputs of the run, which never change.
     pub shared: Shared<'a>,
-    /// What was found and done so far.
+    /// The findings and effects so far.
     pub reported: Reported,
     /// Values by declaration, and what they refer to.
     pub memory: Memory,
     /// Members that were computed in this run, for a session that has to forget those that failed.
     pub computed: Vec<(Rc<Instance>, usize)>,
-    /// Where evaluation is.
+    /// The position of evaluation: calls and bindings.
     pub stack: Stack,
 }
 
-/// What a run is given and does not change.
+/// The inputs of a run, which it does not change.
 pub struct Shared<'a> {
     /// The rooms above the evaluator.
     pub routines: &'a Routines,
@@ -47,7 +47,7 @@ pub struct Shared<'a> {
     pub sources: &'a Sources,
     /// The options of the run.
     pub options: &'a Options,
-    /// What is evaluated of the program.
+    /// The part of the program that is evaluated.
     pub mode: Mode,
     /// The way to files and terminal.
     pub host: HostProxy,
@@ -55,7 +55,7 @@ pub struct Shared<'a> {
     pub faulty: Vec<bool>,
 }
 
-/// What a run found and did so far.
+/// The findings and effects of a run so far.
 #[derive(Default)]
 pub struct Reported {
     /// The findings, each once.
@@ -67,11 +67,11 @@ pub struct Reported {
     pub written: Vec<String>,
     /// The tests that were run.
     pub tests: Vec<TestResult>,
-    /// Whether something could not be judged because of an error reported before.
+    /// True if something could not be judged because of an error reported before.
     pub unjudged: bool,
 }
 
-/// What was computed and stays: for the rest of the run, and in a session for the next entries.
+/// The computed values that stay: for the rest of the run, and in a session for the next entries.
 #[derive(Clone, Default)]
 pub struct Memory {
     /// Top-level lets, by declaration.
@@ -99,7 +99,7 @@ impl Memory {
     }
 }
 
-/// Where evaluation is.
+/// The position of evaluation: calls and bindings.
 #[derive(Default)]
 pub struct Stack {
     /// The calls that evaluation is in, outermost first.
@@ -267,7 +267,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// What is found while `body` runs is handed back, and not reported.
+    /// Runs `body` and hands back its findings instead of reporting them.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
         let value = body(self);
@@ -277,7 +277,7 @@ impl<'a> Interpreter<'a> {
         (value, found)
     }
 
-    /// Whether an error was found since `mark` (a count of errors), reported before or not.
+    /// Returns true if an error was found since `mark` (a count of errors), reported before or not.
     pub fn failed_since(&self, mark: usize) -> bool {
         self.reported.errors > mark
     }

@@ -21,7 +21,7 @@ pub struct PlanValue {
     pub causes: Vec<CauseId>,
     /// The number of actions.
     pub actions: u64,
-    /// What the planner reports; `None` of plans that no planner made.
+    /// The planner's report; `None` of plans that no planner made.
     report: Option<Rc<dyn PlannerReport>>,
     /// Verdicts so far.
     pub(super) judged: RefCell<Vec<Judged>>,
@@ -33,11 +33,11 @@ pub(super) struct Judged {
     pub settings: Settings,
     /// The worlds that were assumed.
     pub worlds: Vec<WorldFrom>,
-    /// What the judge said.
+    /// The verdict of the judge.
     pub verdict: Rc<Verdict>,
 }
 
-/// What a planner reports of its plan beside the plan: the fields of a record type that `is Plan`.
+/// A planner's report of its plan: the fields of a record type that `is Plan`.
 pub trait PlannerReport: Any {
     /// Reads a field of the report; `None` for a field that all plans have.
     fn read(&self, interpreter: &mut Interpreter, plan: &Rc<PlanValue>, field: &str) -> Option<Value>;

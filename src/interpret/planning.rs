@@ -29,7 +29,7 @@ struct StartCauses {
     bonds: Vec<(usize, CauseId)>,
 }
 
-/// Where a behaviour begins (else the robot's start pose), and under which world.
+/// The state in which a behaviour begins (else the robot's start pose), and its world.
 #[derive(Default)]
 pub struct Beginning {
     /// The state in which the behaviour begins.

@@ -57,7 +57,7 @@ pub struct StateValue {
     pub time: f64,
     /// The plan that it was taken from.
     pub planned: Rc<PlanValue>,
-    /// Where the base is in the world, once it was asked for.
+    /// The pose of the base in the world, once it was asked for.
     pub base: OnceCell<Pose>,
 }
 

@@ -23,13 +23,13 @@ pub const UNDO_MAX: usize = 200;
 /// Evaluates entries one after the other, each with what those before it left.
 pub struct Evaluator(EvaluatorThread<Task, Answer>);
 
-/// What to do next.
+/// A task of the session: an entry and the work on it.
 pub struct Task {
     /// The checked session.
     pub checked: Arc<Checked>,
     /// The options of the run.
     pub options: Options,
-    /// What to do with it.
+    /// The work on it.
     pub work: Work,
 }
 
@@ -54,13 +54,13 @@ pub struct Entered {
     pub check: Vec<DefId>,
     /// Declarations whose values do not hold any more.
     pub stale: Vec<DefId>,
-    /// Whether what is declared stays. Otherwise all is as if the entry had never been.
+    /// True if the declarations stay. Otherwise all is as if the entry had never been.
     pub keep: bool,
-    /// What is printed of it.
+    /// The printed part of it.
     pub tell: Tell,
 }
 
-/// What is printed of an entry besides what it prints itself.
+/// The part of an entry's result that is printed besides what it prints itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tell {
     Nothing,
@@ -70,20 +70,20 @@ pub enum Tell {
     All,
 }
 
-/// What came of a task.
+/// The result of a task.
 #[derive(Default)]
 pub struct Answer {
-    /// What was found.
+    /// The diagnostics found.
     pub diagnostics: Vec<Diagnostic>,
     /// Paths written, as the host showed them.
     pub written: Vec<String>,
-    /// Whether all went well. If not, the memory is as it was before.
+    /// True if all went well. If not, the memory is as it was before.
     pub ok: bool,
-    /// Whether the user ended it.
+    /// True if the user ended it.
     pub interrupted: bool,
-    /// Whether the evaluator itself broke down, which a person's session outlives.
+    /// True if the evaluator itself broke down, which a person's session outlives.
     pub defect: bool,
-    /// Whether the memory is another now, so that there is something to take back.
+    /// True if the memory is another now, so that there is something to take back.
     pub kept: bool,
 }
 
@@ -102,7 +102,7 @@ impl Evaluator {
         self.0.run(task, files, host).unwrap_or(Answer { interrupted: true, ..Answer::default() })
     }
 
-    /// Whether a task is still being done that nobody waits for any more.
+    /// Returns true while a task is being done that nobody waits for any more.
     pub fn is_left(&self) -> bool {
         self.0.is_left()
     }
@@ -304,7 +304,7 @@ impl<'a> Interpreter<'a> {
         Ok(())
     }
 
-    /// What failed was said when it failed, and that may have been in an entry before.
+    /// Refuses an unknown value: its failure was reported when it failed, perhaps in an entry before.
     fn check_known(&mut self, value: &Value, span: Span) {
         if value.is_unknown() && self.reported.errors == 0 {
             let message = "this has no value, because of a mistake that was shown before";

@@ -73,7 +73,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// What the sides of a comparison were: `1.2 mm > 2 mm`.
+    /// Returns the sides of a comparison as text: `1.2 mm > 2 mm`.
     pub fn sides(&mut self, condition: &Expr, frame: &mut Frame) -> Eval<String> {
         use crate::check::typed::{BinaryOp as Op, ExprKind};
         let ExprKind::Binary { op, left, right } = &condition.kind else { return Ok(String::new()) };

@@ -11,7 +11,7 @@ pub enum Stop {
     Halt,
 }
 
-/// What evaluating gives.
+/// The result of evaluating.
 pub type Eval<T> = Result<T, Stop>;
 
 impl From<Diagnostic> for Stop {

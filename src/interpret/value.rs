@@ -19,10 +19,10 @@ use std::sync::Arc;
 /// A value of a running program.
 #[derive(Clone, Debug)]
 pub enum Value {
-    /// What an error left behind, or what only a run can know. Whatever is computed from it is
+    /// The value of something that an error was told about, or that only a run can know. Whatever is computed from it is
     /// unknown too, in silence. Lists, records and instances never contain it: they are unknown.
     Unknown,
-    /// What `print` gives.
+    /// The result of `print`.
     Nothing,
     /// The missing value of an optional type.
     Missing,
@@ -68,7 +68,7 @@ pub enum Lazy {
     Done(Value),
 }
 
-/// What can be called through a value.
+/// A function that is called through a value.
 #[derive(Debug)]
 pub enum Callable {
     Lambda {
@@ -159,7 +159,7 @@ pub struct JointSpec {
     pub axis: Vec3,
     /// Ranges of position, speed, acceleration and effort.
     pub limits: Limits,
-    /// Whether no motor drives it.
+    /// True if no motor drives it.
     pub passive: bool,
 }
 
@@ -246,7 +246,7 @@ impl Value {
         }
     }
 
-    /// Whether two values are equal, as `==` says; `None` where that is not defined.
+    /// Returns true if two values are equal, as `==` says; `None` where that is not defined.
     pub fn same(&self, other: &Value) -> Option<bool> {
         use Value::*;
         Some(match (self, other) {

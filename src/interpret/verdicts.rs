@@ -1,4 +1,4 @@
-//! What the judge found, in words and as diagnostics at the lines that are to blame.
+//! The findings of the judge, in words and as diagnostics at the lines that are to blame.
 
 use super::behavior::{in_library, with_instance};
 use super::causes::CauseRecord;
@@ -175,7 +175,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// What a plan was excused from and by which looser options, to be printed when it is written.
+    /// Returns the exemptions of a plan and its looser options, to be printed when it is written.
     pub fn excuses(&self, planned: &PlanValue, settings: &Settings) -> Vec<String> {
         let strict = self.judge_settings();
         let mut lines = Vec::new();

@@ -4,7 +4,7 @@
 //! of its thread cancelled unwinds the stack to [`catch`], which returns `None`; no partial result can be
 //! mistaken for a whole one. The caller of `catch` restores what the work changed outside of itself.
 //!
-//! Where no checkpoint is passed for a while (inside a foreign solver), the waiting thread may abandon the
+//! If no checkpoint is passed for a while (inside a foreign solver), the waiting thread may abandon the
 //! work ([`CancelState::abandon`]): it stops waiting, the work ends at its next checkpoint, and its result
 //! is dropped.
 //!

@@ -99,7 +99,7 @@ fn behavior(robot: Option<Rc<Design>>, node: Node) -> Value {
     Value::Behavior(Rc::new(Behavior { robot, node: Arc::new(node) }))
 }
 
-/// What an action has beside its command: condition, timeout, where its arguments stand.
+/// The parts of an action beside its command: condition, timeout, spans of its arguments.
 struct Extras {
     until: Option<Condition>,
     timeout: Option<f64>,

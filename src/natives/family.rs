@@ -93,7 +93,7 @@ fn bad_cell(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> 
     fault(code::BAD_LATTICE, at, message, "neither cell nor gap")
 }
 
-/// Where a character of a text stands in its `"""..."""` or `"..."`; all that was given where it is not
+/// Returns the span of a character of a text in its `"""..."""` or `"..."`; of all that was given where it is not
 /// written there.
 fn character_span(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> Span {
     let source = interpreter.shared.sources.text(span);
@@ -142,7 +142,7 @@ arguments! {
         edge: Positive as "the edge",
         /// The number of parts of an edge.
         divisions: usize as "the number of divisions",
-        /// Whether nodes inside are kept.
+        /// True if nodes inside are kept.
         interior: bool,
     }
 }

@@ -136,7 +136,7 @@ fn collect(instance: &Rc<Instance>, kind: crate::check::typed::DefId, found: &mu
     }
 }
 
-/// Where a port or a module's body is in the frame of its robot's base module.
+/// Returns the pose of a port or a module's body in the frame of its robot's base module.
 fn place(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<(Rc<Design>, Pose)>> {
     match call.arg(name) {
         Value::Port(port) => {

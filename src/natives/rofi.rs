@@ -25,7 +25,7 @@ pub const TABLE: &[Native] = &[
     Native::pure("tangle", parameters![n: usize, actions: usize, seed: usize], tangle),
 ];
 
-/// Where the library declares the module.
+/// The file of the library that declares the module.
 const LIBRARY: &str = "std/rofi.mod";
 
 /// RoFI's tools take a loop for closed when no entry of its matrices is farther off than this, in

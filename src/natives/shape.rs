@@ -77,7 +77,7 @@ fn prism(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     solid(call, Shape::Hull { points: end(-height / 2.0).chain(end(height / 2.0)).collect() })
 }
 
-/// Whether a closed outline turns one way round, and once.
+/// Returns true if a closed outline turns one way round, and once.
 fn convex(outline: &[Vec3]) -> bool {
     let n = outline.len();
     let side = |i: usize| outline[(i + 1) % n].xy() - outline[i % n].xy();

@@ -64,7 +64,7 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// How something is drawn, by the end of the file's name.
+/// A way of drawing, chosen by the end of the file's name.
 #[derive(Clone, Copy)]
 pub enum Form {
     Page,

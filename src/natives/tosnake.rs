@@ -435,7 +435,7 @@ fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
         .into()
 }
 
-/// How far a search came that did not come to its end.
+/// Returns the refusal of a search that did not come to its end, with its progress.
 fn fell_short(at: Span, what: &str, status: &SearchStatus, hint: &str) -> Stop {
     let SearchStatus { needed, made, tried, work, longest, chains, .. } = status;
     let message =

@@ -264,7 +264,7 @@ impl<F: Fn() -> bool> Progress for Timed<F> {
     }
 }
 
-/// What to say when a planner did not go on.
+/// Returns the fault of a planner that was stopped by its time limit.
 fn timed_out(host: &HostProxy, call: &Call, so_far: &str) -> Stop {
     if host.cancelled() {
         return Stop::Halt;

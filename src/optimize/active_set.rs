@@ -59,7 +59,7 @@ pub(super) struct ActiveSet {
     multipliers: Vec<f64>,
     /// The lower triangle C of the active rows' Gram matrix, `C Cᵀ`, by rows.
     gram: Vec<Vec<f64>>,
-    /// How far a row may be off, in the units of its right side.
+    /// The tolerance of a row, in the units of its right side.
     tolerance: f64,
     work: Vec<f64>,
 }

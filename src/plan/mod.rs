@@ -1,4 +1,4 @@
-//! What a plan is, and the one judge of plans.
+//! Plans, and the one judge of plans.
 //!
 //! A [`Plan`] stands alone: the library it uses, its start, its body, its program, its events and
 //! causes, and the world it is judged under. The [`Body`] is of one of three families, each in a folder

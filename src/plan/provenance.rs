@@ -1,4 +1,4 @@
-//! What made a plan, and what was done to it since.
+//! The origin of a plan, and the changes to it since.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

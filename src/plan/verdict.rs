@@ -250,7 +250,7 @@ impl Dynamics {
     }
 }
 
-/// What the judge found about a plan.
+/// The findings of the judge about a plan.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Verdict {

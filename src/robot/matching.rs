@@ -125,14 +125,14 @@ fn same_kind(a: (&Library, usize), b: (&Library, usize)) -> bool {
     *of_a == renumbered
 }
 
-/// What is docked at a port.
+/// The port that is docked at a port, and its turn.
 #[derive(Clone, Copy)]
 struct Docked {
     module: usize,
     port: usize,
     turn: u32,
     bond: usize,
-    /// Whether this port is the first of the bond; kept only where that matters, in hinges.
+    /// True if this port is the first of the bond; kept only where that matters, in hinges.
     leads: Option<bool>,
 }
 

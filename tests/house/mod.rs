@@ -8,3 +8,4 @@ pub mod readme;
 pub mod reference;
 pub mod tidy;
 pub mod tour;
+pub mod words;

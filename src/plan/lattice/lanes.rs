@@ -28,7 +28,7 @@ struct Place {
 struct Lanes {
     /// By lane; in order along the axis before the stage.
     places: Vec<Place>,
-    /// Where each lane begins in `places`, and the end.
+    /// The beginning of each lane in `places`, and the end.
     starts: Vec<usize>,
     sections: Vec<Section>,
     /// Of each lane, in order.

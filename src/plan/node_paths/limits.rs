@@ -37,7 +37,7 @@ pub struct TrussLimits {
     /// The least angle between struts that share a node, rad; of 0 there is none.
     #[serde(default)]
     pub angle: f64,
-    /// What the singular values of the rigidity matrix (rows of unit vectors) that belong to no rigid motion
+    /// The bound that the singular values of the rigidity matrix (rows of unit vectors) that belong to no rigid motion
     /// stay above at the keyframes; of 0 there is nothing.
     #[serde(default)]
     pub rigidity: f64,

@@ -1,6 +1,6 @@
 //! Dynamic programme for the order of folding of least energy: mean torques of the moving joints, without gravity.
 //!
-//! What hinge a spends on face m depends only on which hinges between them have folded before, so on
+//! The energy that hinge a spends on face m depends only on which hinges between them have folded before, so on
 //! the order of m's own path. Going down the tree, each face is put into every place of its
 //! ancestors' order; orders that agree on their common ancestors can always be merged.
 

@@ -7,7 +7,7 @@
 //! energy is the paper's sum of mean torques (N·m) for steps of one second, and goes with the inverse square of
 //! the step's time.
 //!
-//! How a plan comes about: the task checks the problem; *proposals* are layouts from branch and bound
+//! The stages of a plan: the task checks the problem; *proposals* are layouts from branch and bound
 //! ([`branch_and_bound`], [`lagrangian`]), enumeration ([`enumerate`]), local search ([`local_search`]) or the
 //! paper's heuristic ([`heuristic`]); the *evaluation* puts them before the judge in order of their value; where
 //! none passes, layouts of strips ([`strip_layouts`]) and other orders ([`collision_free_order`]) are tried.

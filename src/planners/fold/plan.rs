@@ -16,7 +16,7 @@ use crate::planners::{Progress, Solution};
 /// Plans the folding of a sheet of panels into a target, for the least energy (or peak torque, or steps), and
 /// lets the judge decide about every layout in order of that quantity.
 ///
-/// Where the judge refuses the order that the settings ask for, layouts made of strips and other orders are
+/// If the judge refuses the order that the settings ask for, layouts made of strips and other orders are
 /// tried, and the lesser of what they find is the answer: then `report.optimal` is false. All actions of the
 /// program have cause 0.
 ///

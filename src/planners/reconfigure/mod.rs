@@ -182,7 +182,7 @@ pub fn plan_with_cache(
     Ok(solution(whole(&there, &back)?, &there, &back, None))
 }
 
-/// What both halves share.
+/// The parts that both halves share.
 struct Search<'s> {
     problem: &'s Problem<'s>,
     settings: &'s Settings,

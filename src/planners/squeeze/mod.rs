@@ -2,7 +2,7 @@
 //! kinodynamic motion planning for a class of modular self-reconfigurable robots" (Reif and Slee). Plans are
 //! time-optimal in order: O(√n) for n cells of bounded acceleration.
 //!
-//! What is mended of the paper, what is better than it, and by which conditions plans are judged:
+//! The mistakes of the paper that are mended, the improvements, and the conditions by which plans are judged:
 //! `docs/planners/squeeze.md`.
 //!
 //! A problem is solved through a row: a motion from either shape to one row, the second backwards

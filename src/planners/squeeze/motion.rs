@@ -49,7 +49,7 @@ pub struct PlanLimits {
     pub euclidean: bool,
 }
 
-/// What a motion needs to become the body of a plan.
+/// The data that a motion needs to become the body of a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanHeader {
     /// The cell's index in the library.

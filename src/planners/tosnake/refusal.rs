@@ -65,13 +65,13 @@ pub enum InvalidStart {
 pub struct Overload {
     /// The joint, and its torque by its limit.
     pub load: JointLoad,
-    /// What the robot was to do.
+    /// The operation that was refused.
     pub operation: Operation,
-    /// How far the search was.
+    /// The progress of the search.
     pub status: SearchStatus,
 }
 
-/// What a robot that is held by one module was to do when a joint would have been overloaded.
+/// The operation of a robot that is held by one module at which a joint would have been overloaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// Holding the start configuration.

@@ -24,7 +24,7 @@ pub struct Settings {
     pub detour_pairs_max: usize,
     /// Settings of the inverse kinematics that closes loops.
     pub inverse_kinematics: inverse_kinematics::Settings,
-    /// Where collisions are checked; everything but the default is the paper's own method.
+    /// The places where collisions are checked; everything but the default is the paper's own method.
     pub collisions: Collisions,
     /// Settings of FABRIK, the paper's own inverse kinematics.
     pub fabrik: fabrik::Settings,
@@ -52,7 +52,7 @@ impl Default for Settings {
     }
 }
 
-/// Where collisions are checked.
+/// The places where collisions are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collisions {
     /// At all instants of every motion: this planner's own search.

@@ -54,7 +54,7 @@ pub enum InvalidTruss {
     NotSolid {
         /// The number of the obstacle.
         obstacle: usize,
-        /// What is wrong with its shapes.
+        /// The fault of its shapes.
         why: Unsound,
     },
     /// The limit of the angle between struts is not in [0, π/3).

@@ -34,7 +34,7 @@ pub struct QuadraticCost {
     pub absolutes: Vec<Vec<(usize, f64)>>,
 }
 
-/// What one step has to do: minimise a cost under the constraints of a truss.
+/// The problem of one step: minimise a cost under the constraints of a truss.
 pub struct StepProblem<'a> {
     /// The truss with its limits.
     pub truss: &'a Structure,
@@ -61,7 +61,7 @@ pub enum StepError {
     NotConverged(Vec<Constraint>),
 }
 
-/// What one step hands on to the next to start from.
+/// The starting point that one step hands on to the next.
 #[derive(Clone, Debug, Default)]
 pub struct WarmStart {
     /// The constraints that were nearly active at the end of the step.

@@ -23,7 +23,7 @@ pub struct Advancement<'a> {
     robot: &'a Assembly,
     bodies: Bodies,
     bounds: MotionBounds,
-    /// Where segments begin and end: intervals are cut there rather than anywhere.
+    /// The instants at which segments begin and end: intervals are cut there rather than anywhere.
     instants: Vec<f64>,
     precision: Precision,
     samples_max: usize,

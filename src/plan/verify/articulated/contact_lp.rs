@@ -164,7 +164,7 @@ fn nodes(query: &ContactQuery) -> (Vec<Node>, Vec<usize>) {
     (nodes, node_of)
 }
 
-/// What a piece gets from its children, from the ground and by its weight, it passes on; the root has
+/// Each rigid piece passes on the wrench that it gets from its children, from the ground and by its weight; the root has
 /// no one to pass it on to. The root's equations come first.
 fn balances(
     query: &ContactQuery,

@@ -1,7 +1,7 @@
 //! Reference links: for each pair of modules the link relative to which their motion is bounded, by a centroid
 //! decomposition of the tree of modules.
 //!
-//! How far a link deviations from uniform motion is bounded by a sum over the joints between it and the
+//! The deviation of a link from uniform motion is bounded by a sum over the joints between it and the
 //! frame that it is seen from; from the far end of a long snake that sum is hopeless. A centroid
 //! splits the tree of modules into halves at most; pairs on different sides of it are seen from
 //! it, and each side is split again. So every pair has one frame on the path between its two

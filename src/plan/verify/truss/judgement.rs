@@ -13,7 +13,7 @@ pub struct Step {
     pub from: Vec<Vec3>,
     /// Node positions at the end, m.
     pub to: Vec<Vec3>,
-    /// How the nodes move between the two.
+    /// The interpolation of the nodes between the two.
     pub interpolation: Interpolation,
     /// The time of the start, s.
     pub start: f64,

@@ -1,4 +1,4 @@
-//! What a plan of a truss keeps beside the limits of its struts: angles between struts that share a node,
+//! The limits of a truss beside those of its struts: angles between struts that share a node,
 //! sums of lengths, and how far the truss is from losing its rigidity.
 //!
 //! Angles (by conservative advancement) and sums (by bisection) are proved between the keyframes; rigidity is

@@ -16,7 +16,7 @@ pub struct NearPair {
     pub struts: (usize, usize),
     /// The least distance at any sample, m.
     pub distance: f64,
-    /// Where that sample is, from 0 at the start of the step to 1 at its end.
+    /// The time of that sample, from 0 at the start of the step to 1 at its end.
     pub part: f64,
     /// True if they are proved to keep the clearance during the whole step.
     pub holds: bool,
