@@ -1,5 +1,5 @@
-//! The display of values: on one line, as `print` shows them ([`value`]), and as a session shows a result,
-//! on several lines ([`pretty`]).
+//! The display of values: on one line, as `print` shows them (`value`), and as a session shows a result,
+//! on several lines (`pretty`).
 
 mod motion;
 mod pretty;

@@ -10,7 +10,7 @@ use crate::natives::folding::LayoutValue;
 use std::any::Any;
 
 /// Lines of a display; what is beyond is counted.
-pub const LINES_MAX: usize = 40;
+pub(super) const LINES_MAX: usize = 40;
 
 impl Interpreter<'_> {
     /// A value over as many lines as it needs, the first of which can stand alone.
@@ -63,7 +63,7 @@ fn quoted(text: &str) -> String {
 }
 
 /// A branch of a tree drawn with lines.
-pub struct Branch {
+pub(super) struct Branch {
     /// The line of the branch itself.
     pub text: String,
     /// The branches that go off it.
@@ -72,12 +72,12 @@ pub struct Branch {
 
 impl Branch {
     /// Returns a branch with nothing below it.
-    pub fn leaf(text: impl Into<String>) -> Branch {
+    pub(super) fn leaf(text: impl Into<String>) -> Branch {
         Branch { text: text.into(), below: Vec::new() }
     }
 
     /// Two columns for each level; what does not fit is counted.
-    pub fn drawn(&self) -> String {
+    pub(super) fn drawn(&self) -> String {
         let mut lines = vec![self.text.clone()];
         self.draw_below("", &mut lines);
         let more = lines.len().saturating_sub(LINES_MAX);
@@ -98,12 +98,12 @@ impl Branch {
 }
 
 /// `1 module`, `3 modules`
-pub fn counted(n: usize, what: &str) -> String {
+pub(super) fn counted(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 /// Names with the ends of equal beginnings joined, no more of them than fit a line.
-pub fn listed(names: &[String]) -> String {
+pub(super) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 6;
     let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
     if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }

@@ -10,7 +10,7 @@ const COLUMNS_MAX: i64 = 120;
 const ROWS_MAX: i64 = 60;
 
 /// Layer by layer from the highest, each as `cells` reads it: y up, x to the right.
-pub fn cells(cells: &Cells) -> String {
+pub(super) fn cells(cells: &Cells) -> String {
     let count = counted(cells.places.len(), "cell");
     let ends = |axis: usize| {
         let along = cells.places.iter().map(|place| place[axis]);
@@ -40,7 +40,7 @@ pub fn cells(cells: &Cells) -> String {
 const PITCH: usize = 4;
 
 /// A pattern of equal triangles: each with its number between its sides, rows as they lie.
-pub fn pattern(pattern: &Report) -> String {
+pub(super) fn pattern(pattern: &Report) -> String {
     let count = counted(pattern.target.faces.len(), "panel");
     let flat = Pattern::of(&pattern.target, &pattern.layout);
     let Some(places) = flat.cells else {

@@ -25,7 +25,7 @@ const FRONT: Side = |p| [p.x, p.z];
 const ABOVE: Side = |p| [p.x, p.y];
 
 /// A truss with its facts and two pictures.
-pub fn truss(design: &Design, truss: &TrussDesign) -> String {
+pub(super) fn truss(design: &Design, truss: &TrussDesign) -> String {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     let nodes: Vec<Vec3> = truss.nodes.iter().map(|node| node.place).collect();
     let lengths = truss.struts.iter().map(|&(a, b)| (nodes[a] - nodes[b]).norm());
@@ -56,7 +56,7 @@ pub fn truss(design: &Design, truss: &TrussDesign) -> String {
 }
 
 /// Returns the planner's figures of its plan, and the truss before and after.
-pub fn made(planned: &PlanValue) -> Vec<String> {
+pub(super) fn made(planned: &PlanValue) -> Vec<String> {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     let mut lines = Vec::new();
     if let Some(morph::Report { distance, start, ended, .. }) = planned.report() {

@@ -1,12 +1,12 @@
 //! Configurations: parts, connections, initial positions; Definitions IV.2 and V.1.
 
 use crate::check::typed::{ConfigClause, ConfigDef, Expr, PartCount, PartDef, Require};
-use crate::interpret::args::Args;
 use crate::interpret::design::{
     ConfigDesign, Design, FlatModule, Instance, PartElement, PartGroup, SetRecord, join_path,
 };
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::routines::Args;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
 use crate::robot::JointOwner;

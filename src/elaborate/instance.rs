@@ -1,10 +1,10 @@
 //! Instances: a declaration and its arguments, elaborated once and shared.
 
 use crate::check::typed::{DefId, DefKind, Expr, Param};
-use crate::interpret::args::Args;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::routines::Args;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::source::{Diagnostic, Span, code};

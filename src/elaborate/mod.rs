@@ -2,7 +2,7 @@
 //!
 //! A declaration with its arguments is elaborated once to a design ([`instance`]): modules with their links,
 //! joints and ports ([`module`]), configurations of modules ([`config`], [`connect`]), lattices of cells
-//! ([`lattice`], [`facts`]), trusses ([`truss`]). The right wing gets them as robots ([`robot_of`]).
+//! ([`lattice`], [`facts`]), trusses ([`truss`]). The right wing gets them as robots ([`robot_of`](mod@robot_of)).
 
 mod check;
 pub mod config;
@@ -18,10 +18,10 @@ pub mod sweep;
 pub mod truss;
 
 use crate::check::typed::DefId;
-use crate::interpret::args::Args;
 use crate::interpret::design::Design;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::robot::Robot;
+use crate::interpret::routines::Args;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::{PortValue, Value};
 use crate::source::Span;

@@ -22,6 +22,6 @@ pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
 }
 
 /// Returns the number of the line in which `rest`, an end of `bytes`, begins, counted from 1.
-pub fn line_of(bytes: &[u8], rest: &[u8]) -> usize {
+pub(super) fn line_of(bytes: &[u8], rest: &[u8]) -> usize {
     1 + bytes[..bytes.len() - rest.len()].iter().filter(|b| **b == b'\n').count()
 }

@@ -11,7 +11,7 @@ use tobj::{LoadError, LoadOptions};
 ///
 /// # Errors
 /// The fault in words.
-pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let plain = plain(bytes);
     let mut rest: &[u8] = &plain;
     let options = LoadOptions { ignore_points: true, ignore_lines: true, ..LoadOptions::default() };

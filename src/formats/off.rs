@@ -12,7 +12,7 @@ const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
 ///
 /// # Errors
 /// The fault in words.
-pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_string())?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.split('#').next().unwrap_or("")));

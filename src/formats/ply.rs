@@ -11,7 +11,7 @@ const SHOWN: usize = 120;
 ///
 /// # Errors
 /// The fault in words.
-pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let mut reader = Reader::new(bytes);
     let parser = Parser::<Row>::new();
     let header = parser.read_header(&mut reader).map_err(|error| said(&error))?;

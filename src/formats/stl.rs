@@ -15,7 +15,7 @@ const TRIANGLE: usize = 50;
 ///
 /// # Errors
 /// The fault in words.
-pub fn read(bytes: &[u8]) -> Result<Content, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let count = bytes.get(80..HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let corners = match count {
         Some(count) if bytes.len() == HEADER + TRIANGLE * count => binary(&bytes[HEADER..]),

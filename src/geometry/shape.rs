@@ -11,39 +11,54 @@ use serde::{Deserialize, Serialize};
 pub enum Shape {
     /// Edge lengths along x, y, z.
     Box {
+        /// Edge lengths, m.
         #[schemars(with = "[f64; 3]")]
         size: Vec3,
     },
     /// `axis` is a unit vector; `length` along it.
     Cylinder {
+        /// Metres.
         radius: f64,
+        /// Metres.
         length: f64,
+        /// Unit vector.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
+    /// A ball about the origin of its frame.
     Sphere {
+        /// Metres.
         radius: f64,
     },
     /// `length` between the centres of the two caps.
     Capsule {
+        /// Metres.
         radius: f64,
+        /// Metres.
         length: f64,
+        /// Unit vector.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
     /// The convex hull of at least four points that do not lie in one plane. A prism is one, too.
     Hull {
+        /// Points whose convex hull it is, m.
         #[schemars(with = "Vec<[f64; 3]>")]
         points: Vec<Vec3>,
     },
     /// A closed triangle mesh; `name` is the file it was read from.
     Mesh {
+        /// Name of the file, relative to the project.
         name: String,
+        /// Positions, m.
         #[schemars(with = "Vec<[f64; 3]>")]
         vertices: Vec<Vec3>,
+        /// Indices of vertices, counterclockwise as seen from outside.
         triangles: Vec<[u32; 3]>,
     },
+    /// Solids that are one; they may overlap.
     Union {
+        /// The solids with their poses.
         parts: Vec<Placed>,
     },
 }

@@ -19,15 +19,28 @@ pub enum Unsound {
     /// A number that is not finite, or larger than [`SIZE_MAX`].
     NotFinite,
     /// The named size is zero, negative or less than [`THICKNESS_MIN`].
-    TooThin { what: &'static str, value: f64 },
+    TooThin {
+        /// The name of the size: `radius`.
+        what: &'static str,
+        /// Metres.
+        value: f64,
+    },
     /// The axis has no direction.
     NoAxis,
     /// Fewer than four points, or all in one plane.
     Flat,
     /// A triangle names a vertex that there isn't.
-    NoVertex { triangle: usize },
+    NoVertex {
+        /// Index of the triangle.
+        triangle: usize,
+    },
     /// An edge is not shared by two triangles in opposite directions.
-    Open { a: u32, b: u32 },
+    Open {
+        /// Vertex at the start of the edge.
+        a: u32,
+        /// Vertex at its end.
+        b: u32,
+    },
     /// The triangles enclose nothing, or are turned inside out.
     NoInside,
     /// No shape at all.

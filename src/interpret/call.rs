@@ -1,12 +1,12 @@
 //! Calls: of functions, built-ins, function values and behaviours.
 
-use super::args::Args;
 use super::behavior::with_otherwise;
 use super::design::Instance;
 use super::eval::Frame;
 use super::host::Mode;
 use super::interpreter::Interpreter;
 use super::native::{Call, Effect};
+use super::routines::Args;
 use super::stop::{Eval, fault};
 use super::value::{Behavior, Callable, Value};
 use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param};

@@ -1,6 +1,6 @@
 //! Typed tree to values, effects and plans.
 //!
-//! The way through this room: [`run`] puts an evaluator on a thread of its own ([`evaluator_thread`]), which
+//! The way through this room: [`run`](mod@run) puts an evaluator on a thread of its own ([`evaluator_thread`]), which
 //! walks expressions ([`eval`], [`operators`], [`call`], [`statements`]) to values ([`value`]).
 //! Declarations become designs ([`crate::elaborate`]); behaviours become plans ([`behavior`], [`planning`]),
 //! and what is wrong with these goes back to the lines that caused it ([`causes`], [`verdicts`]). The
@@ -16,7 +16,6 @@ pub mod eval;
 pub mod interpreter;
 pub mod operators;
 
-pub mod args;
 pub mod argument;
 pub mod call;
 pub mod native;

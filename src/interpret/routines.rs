@@ -4,7 +4,6 @@
 //! called, values are printed. The evaluator does not know these rooms; whoever runs a program hands them in
 //! as functions ([`crate::execute`]).
 
-use super::args::Args;
 use super::design::Design;
 use super::interpreter::Interpreter;
 use super::native::Native;
@@ -14,6 +13,22 @@ use super::value::{PortValue, Value};
 use crate::check::typed::DefId;
 use crate::source::{Span, Symbol};
 use std::rc::Rc;
+
+/// Arguments in the order of the parameters; `None`: the default is wanted.
+pub struct Args {
+    /// The arguments.
+    pub values: Vec<Option<Value>>,
+    /// The span of each argument; of the whole call for those left out.
+    pub spans: Vec<Span>,
+}
+
+impl Args {
+    /// Returns arguments that all stand at one span.
+    pub fn plain(values: Vec<Value>, span: Span) -> Args {
+        let spans = vec![span; values.len()];
+        Args { values: values.into_iter().map(Some).collect(), spans }
+    }
+}
 
 /// A robot; `None` where its design is broken or describes none.
 pub type Assembled = Eval<Option<Rc<Robot>>>;

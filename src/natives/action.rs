@@ -19,7 +19,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::pure(
         "move",
         parameters![joint: &JointValue, to: Option<f64>, by: Option<f64>, in: Option<Positive>, profile: Profile, until: Option<&ConditionValue>, timeout: Option<Positive>],

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::pure("row", parameters![n: usize], |i, call| {
         block(i, call, [call.count("n", "a number of cells")?, 1, 1])
     }),

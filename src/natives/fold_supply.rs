@@ -2,10 +2,10 @@
 
 use super::fold_surface::unfoldable;
 use crate::elaborate::instance::params_of;
-use crate::interpret::args::Args;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, FlatModule, Instance};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
+use crate::interpret::routines::Args;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::planners::fold::{Panel, Panels, TOLERANCES, Target, equal_sides};

@@ -10,7 +10,7 @@ use crate::interpret::value::Value;
 use std::cmp::Ordering;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::pure("len", parameters![list: &[Value]], |_, call| {
         Ok(Value::count(call.get::<&[Value]>("list")?.len()))
     }),

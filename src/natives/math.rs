@@ -15,7 +15,7 @@ use num_traits::{FromPrimitive, Signed, Zero};
 use std::cmp::Ordering;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::pure("abs", parameters![x: &Value], abs),
     Native::pure("sign", parameters![x: f64], sign),
     Native::pure("min", parameters![values: &[Value]], |_, call| extreme(call, Ordering::Less)),
@@ -106,7 +106,7 @@ fn extreme(call: &Call, wanted: Ordering) -> Eval<Value> {
 }
 
 /// Exact among whole numbers.
-pub fn order(a: &Value, b: &Value) -> Option<Ordering> {
+pub(super) fn order(a: &Value, b: &Value) -> Option<Ordering> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Some(x.cmp(y)),
         (Value::Int(_) | Value::Big(_), Value::Int(_) | Value::Big(_)) => Some(a.as_big()?.cmp(&b.as_big()?)),

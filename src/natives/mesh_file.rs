@@ -10,14 +10,24 @@ use crate::source::{Diagnostic, code};
 
 /// Returns the mesh in the file that an argument names, with its path in the project; `scale` is the
 /// length of one of the file's units, m.
-pub fn read(interpreter: &mut Interpreter, call: &Call, name: &str, scale: f64) -> Eval<(String, Mesh)> {
+pub(super) fn read(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    name: &str,
+    scale: f64,
+) -> Eval<(String, Mesh)> {
     let (path, read) = read_as(interpreter, call, name, "mesh", MESH_FORMATS, Format::read_mesh)?;
     let vertices = read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect();
     Ok((path, Mesh { vertices, faces: read.faces }))
 }
 
 /// Returns the points in the file that an argument names; `scale` as in [`read`].
-pub fn read_cloud(interpreter: &mut Interpreter, call: &Call, name: &str, scale: f64) -> Eval<Vec<Vec3>> {
+pub(super) fn read_cloud(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    name: &str,
+    scale: f64,
+) -> Eval<Vec<Vec3>> {
     let (_, read) = read_as(interpreter, call, name, "cloud", CLOUD_FORMATS, Format::read_cloud)?;
     Ok(read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect())
 }

@@ -23,7 +23,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::on_run("print", parameters![values: &[Value]], print),
     Native::on_run(
         "emit",
@@ -176,7 +176,7 @@ fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 /// Returns the settings of the judge that `sample`, `unstable_for` and `stability` ask for.
-pub fn settings(interpreter: &Interpreter, call: &Call) -> Eval<Settings> {
+pub(super) fn settings(interpreter: &Interpreter, call: &Call) -> Eval<Settings> {
     let unstable_for: f64 = call.get("unstable_for")?;
     if unstable_for < 0.0 {
         return Err(call.refuse("unstable_for", "a time must not be negative"));
@@ -228,7 +228,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 /// The file named by an argument, below the output folder, and its name as written.
-pub fn output_path(call: &Call, argument: &str) -> Eval<(String, String)> {
+pub(super) fn output_path(call: &Call, argument: &str) -> Eval<(String, String)> {
     let name = call.get::<&str>(argument)?.to_string();
     match files::join("", &name).filter(|path| !path.is_empty()) {
         Some(path) => Ok((path, name)),
@@ -237,7 +237,12 @@ pub fn output_path(call: &Call, argument: &str) -> Eval<(String, String)> {
 }
 
 /// Writes a file into the output folder, on behalf of what stands at `at`. Returns the path to show.
-pub fn write_output(interpreter: &mut Interpreter, at: Span, path: &str, bytes: Vec<u8>) -> Eval<String> {
+pub(super) fn write_output(
+    interpreter: &mut Interpreter,
+    at: Span,
+    path: &str,
+    bytes: Vec<u8>,
+) -> Eval<String> {
     match interpreter.shared.host.write(path, bytes) {
         Ok(shown) => {
             if !interpreter.reported.written.contains(&shown) {

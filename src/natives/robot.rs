@@ -15,7 +15,7 @@ use crate::units::Dimension;
 use std::rc::Rc;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::pure("order", parameters![of: &Rc<Instance>], |_, call| {
         Ok(Value::count(call.get::<&Rc<Instance>>("of")?.design.order()))
     }),

@@ -20,7 +20,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::pure("load", parameters![file: &str], load),
     Native::pure("tangle", parameters![n: usize, actions: usize, seed: usize], tangle),
 ];
@@ -243,7 +243,7 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
 }
 
 /// Returns the robot to be saved as the data of a RoFI file; `None` if the robot is erroneous (reported).
-pub fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<World>> {
+pub(super) fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<World>> {
     let Value::Instance(instance) = call.get::<&Value>("what")? else {
         unreachable!("`check` lets only robots and foldings through, and foldings have files of their own");
     };

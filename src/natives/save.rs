@@ -14,7 +14,7 @@ use crate::interpret::value::Value;
 use crate::planners::fold::{Net, Report};
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
+pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
 
 fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;

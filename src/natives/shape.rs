@@ -21,7 +21,7 @@ macro_rules! solid_parameters {
 }
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[
+pub(super) const TABLE: &[Native] = &[
     Native::pure("box", solid_parameters![x: f64, y: f64, z: f64], cuboid),
     Native::pure("cylinder", solid_parameters![radius: f64, length: f64, axis: Vec3], cylinder),
     Native::pure("sphere", solid_parameters![radius: f64], sphere),
@@ -132,7 +132,7 @@ fn axis(call: &Call, name: &str) -> Eval<Vec3> {
 }
 
 /// Returns the points of a list.
-pub fn points(call: &Call, name: &str) -> Eval<Vec<Vec3>> {
+pub(super) fn points(call: &Call, name: &str) -> Eval<Vec<Vec3>> {
     let point = |value: &Value| match value {
         Value::Vec3(p, _) => Ok(*p),
         _ => Err(call.refuse(name, "points are wanted")),

@@ -24,7 +24,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// The natives of this file.
-pub const TABLE: &[Native] = &[Native::on_run(
+pub(super) const TABLE: &[Native] = &[Native::on_run(
     "show",
     parameters![
         what: &Value,
@@ -66,7 +66,7 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 /// A way of drawing, chosen by the end of the file's name.
 #[derive(Clone, Copy)]
-pub enum Form {
+pub(super) enum Form {
     Page,
     Svg,
     Png { time: f64, side: Side },

@@ -10,7 +10,7 @@ use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, code};
 
 /// The arguments about limits, under the names of their parameters.
-pub struct LimitArguments<'c> {
+pub(super) struct LimitArguments<'c> {
     pub angle: f64,
     pub rigidity: f64,
     pub failed: &'c [Value],
@@ -18,7 +18,7 @@ pub struct LimitArguments<'c> {
 }
 
 /// Returns the limits with struts as numbers.
-pub fn limits(call: &Call, truss: &TrussDesign, arguments: LimitArguments) -> Eval<Limits> {
+pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: LimitArguments) -> Eval<Limits> {
     let mut loops = Vec::new();
     for list in arguments.perimeters {
         let Value::List(list) = list else {
@@ -35,7 +35,7 @@ pub fn limits(call: &Call, truss: &TrussDesign, arguments: LimitArguments) -> Ev
 }
 
 /// Returns the shapes of each of the `obstacles`, in the world's frame.
-pub fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>> {
+pub(super) fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>> {
     let shape = |value: &Value| match value {
         Value::Shape(shape) => Ok(shape.parts.clone()),
         _ => Err(call.refuse("obstacles", "shapes are wanted")),

@@ -70,7 +70,12 @@ pub struct JointId(pub u32);
 pub enum JointOwner {
     /// Module and index in its `joints`. Fixed joints are listed too, so that numbering is plain;
     /// they and mimics take no commands, and what the state holds for them is ignored.
-    Module { module: usize, joint: usize },
+    Module {
+        /// Index of the module.
+        module: usize,
+        /// Index among the joints of its type.
+        joint: usize,
+    },
     /// The hinge of a bond.
     Bond(usize),
 }

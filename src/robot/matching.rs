@@ -43,15 +43,41 @@ impl Matching {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mismatch {
     /// Different numbers of modules.
-    Count { a: usize, b: usize },
+    Count {
+        /// Modules of A.
+        a: usize,
+        /// Modules of B.
+        b: usize,
+    },
     /// B is not in one piece, so that its modules can't be told by their bonds.
     Pieces,
     /// B has a module whose type A lacks.
-    Kind { module: String, kind: String },
+    Kind {
+        /// Path of the module in B.
+        module: String,
+        /// Name of its type.
+        kind: String,
+    },
     /// In the best attempt, these modules differ in what is docked at this port.
-    Bond { a: String, b: String, port: String },
+    Bond {
+        /// Path of the module in A.
+        a: String,
+        /// Path of the module in B.
+        b: String,
+        /// Name of the port.
+        port: String,
+    },
     /// In the best attempt, these joints have different positions, rad or m.
-    Joint { a: String, b: String, a_position: f64, b_position: f64 },
+    Joint {
+        /// Joint of A, with the path of its module.
+        a: String,
+        /// Joint of B, with the path of its module.
+        b: String,
+        /// Position in A, rad or m.
+        a_position: f64,
+        /// Position in B, rad or m.
+        b_position: f64,
+    },
 }
 
 impl std::fmt::Display for Mismatch {

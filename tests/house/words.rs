@@ -38,7 +38,16 @@ const OLD_NAMES: &[(&str, &str)] = &[
 
 /// Beginnings of a comment that hide its subject.
 const OPENINGS: &[&str] = &[
-    "What ", "How ", "Whether ", "By how ", "By so ", "Where ", "From how ", "So many ", "So far ", "So much ",
+    "What ",
+    "How ",
+    "Whether ",
+    "By how ",
+    "By so ",
+    "Where ",
+    "From how ",
+    "So many ",
+    "So far ",
+    "So much ",
 ];
 
 #[test]
@@ -80,5 +89,10 @@ fn documentation_begins_with_its_subject() {
             before = comment;
         }
     }
-    assert!(faults.is_empty(), "{} comments that do not begin with their subject:\n  {}", faults.len(), faults.join("\n  "));
+    assert!(
+        faults.is_empty(),
+        "{} comments that do not begin with their subject:\n  {}",
+        faults.len(),
+        faults.join("\n  ")
+    );
 }

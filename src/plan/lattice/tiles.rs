@@ -7,10 +7,10 @@ use super::grid::Cube;
 use std::collections::BTreeMap;
 
 /// A cross-section: lower and upper face along the two axes across the motion, in grid lines.
-pub type Section = [(i64, i64); 2];
+pub(super) type Section = [(i64, i64); 2];
 
 /// Coordinates of a tile, along the second axis and the first.
-pub type Tile = (i64, i64);
+pub(super) type Tile = (i64, i64);
 
 /// Greatest number of tiles in the dense table, for each cell.
 const TABLE_MAX: usize = 4;
@@ -18,7 +18,7 @@ const TABLE_MAX: usize = 4;
 const NONE: u32 = u32::MAX;
 
 /// The lanes by the tile of their cross-section's lower corner.
-pub struct Tiles {
+pub(super) struct Tiles {
     lines: i64,
     origin: (i64, i64),
     /// Tiles along the first axis.
@@ -34,7 +34,7 @@ pub struct Tiles {
 
 impl Tiles {
     /// Returns an index without lanes for the cross-sections of these cells along the axes `b` and `c`.
-    pub fn over(cubes: &[Cube], (b, c): (usize, usize), lines: i64) -> Tiles {
+    pub(super) fn over(cubes: &[Cube], (b, c): (usize, usize), lines: i64) -> Tiles {
         let low = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).min().unwrap_or(0);
         let high = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).max().unwrap_or(0);
         let side = |axis: usize, low: i64| ((high(axis) - low) / lines + 1) as usize;
@@ -52,7 +52,7 @@ impl Tiles {
 
     /// Returns the number of the lane with a cross-section, a new one if there is none yet. Each comparison
     /// takes one from the budget `left`; `None` once it is used up.
-    pub fn lane(&mut self, section: Section, left: &mut usize) -> Option<u32> {
+    pub(super) fn lane(&mut self, section: Section, left: &mut usize) -> Option<u32> {
         let tile = self.tile(&section);
         let first = match &mut self.table {
             Some(table) => &mut table[tile.0 as usize * self.width + tile.1 as usize],
@@ -73,7 +73,7 @@ impl Tiles {
     }
 
     /// Returns all lanes with their tiles, row after row.
-    pub fn order(&self) -> Vec<(Tile, u32)> {
+    pub(super) fn order(&self) -> Vec<(Tile, u32)> {
         let mut order = Vec::with_capacity(self.sections.len());
         let mut add = |first: u32| {
             let mut at = first;

@@ -4,10 +4,10 @@ use super::grid::Cube;
 use std::cmp::Ordering;
 
 /// A fraction: numerator and positive denominator, not reduced.
-pub type Fraction = (i128, i128);
+pub(super) type Fraction = (i128, i128);
 
 /// Compares two fractions exactly.
-pub fn order(a: Fraction, b: Fraction) -> Ordering {
+pub(super) fn order(a: Fraction, b: Fraction) -> Ordering {
     (a.0 * b.1).cmp(&(b.0 * a.1))
 }
 
@@ -56,7 +56,7 @@ impl Window {
 
 /// Returns the part of `window` on which the projections of two moving cells onto an axis overlap. Each
 /// cell is given by its state before and after the stage; faces move linearly. `None`: nowhere.
-pub fn overlap([a, b]: [(&Cube, &Cube); 2], axis: usize, window: Window) -> Option<Window> {
+pub(super) fn overlap([a, b]: [(&Cube, &Cube); 2], axis: usize, window: Window) -> Option<Window> {
     let above =
         |p: (&Cube, &Cube), q: (&Cube, &Cube)| (p.0.hi[axis] - q.0.lo[axis], p.1.hi[axis] - q.1.lo[axis]);
     [above(a, b), above(b, a), above(a, a), above(b, b)]

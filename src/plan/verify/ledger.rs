@@ -10,7 +10,7 @@ const FAILURES_MAX: usize = 100;
 const ROUNDING: f64 = 1e-9;
 
 /// Records failures, excuses, notes and worst values while a plan is judged, and makes the verdict of them.
-pub struct Ledger<'a> {
+pub(super) struct Ledger<'a> {
     exemptions: &'a [Exemption],
     /// The end of the plan, which is never excused, s.
     end: f64,
@@ -25,13 +25,13 @@ pub struct Ledger<'a> {
 
 impl<'a> Ledger<'a> {
     /// Returns an empty record for a plan with these exemptions that ends at `end` (s).
-    pub fn new(exemptions: &'a [Exemption], end: f64) -> Ledger<'a> {
+    pub(super) fn new(exemptions: &'a [Exemption], end: f64) -> Ledger<'a> {
         let verdict = Verdict { duration: end, ..Verdict::default() };
         Ledger { exemptions, end, used: vec![false; exemptions.len()], excused: vec![], untold: 0, verdict }
     }
 
     /// Returns true if an exemption of the kind excuses what happens at `t` (s), and marks it as needed.
-    pub fn excuses(&mut self, kind: CheckKind, t: f64, of: impl Fn(&ExemptionKind) -> bool) -> bool {
+    pub(super) fn excuses(&mut self, kind: CheckKind, t: f64, of: impl Fn(&ExemptionKind) -> bool) -> bool {
         let mut excused = false;
         for (i, exemption) in self.exemptions.iter().enumerate() {
             if t < self.end && exemption.from <= t && t <= exemption.to && of(&exemption.kind) {
@@ -45,7 +45,7 @@ impl<'a> Ledger<'a> {
     }
 
     /// Marks an exemption that another part of the judge found to be needed.
-    pub fn use_exemption(&mut self, index: usize, kind: CheckKind) {
+    pub(super) fn use_exemption(&mut self, index: usize, kind: CheckKind) {
         self.used[index] = true;
         self.note_excuse(kind);
     }
@@ -57,7 +57,7 @@ impl<'a> Ledger<'a> {
     }
 
     /// Records a failure; beyond [`FAILURES_MAX`] only counts it.
-    pub fn fail(&mut self, failure: Failure) {
+    pub(super) fn fail(&mut self, failure: Failure) {
         if self.verdict.failures.len() < FAILURES_MAX {
             self.verdict.failures.push(failure);
         } else {
@@ -66,19 +66,19 @@ impl<'a> Ledger<'a> {
     }
 
     /// Records a note, once.
-    pub fn note(&mut self, note: String) {
+    pub(super) fn note(&mut self, note: String) {
         if !self.verdict.notes.contains(&note) {
             self.verdict.notes.push(note);
         }
     }
 
     /// Returns the failures so far, to add blame to them.
-    pub fn failures_mut(&mut self) -> &mut [Failure] {
+    pub(super) fn failures_mut(&mut self) -> &mut [Failure] {
         &mut self.verdict.failures
     }
 
     /// Records a check: failed if there is a failure of its kind, exempt if one was excused.
-    pub fn check(&mut self, kind: CheckKind, otherwise: Status) {
+    pub(super) fn check(&mut self, kind: CheckKind, otherwise: Status) {
         let failed = self.verdict.failures.iter().any(|f| f.kind == kind);
         let status = match (failed, self.excused.contains(&kind)) {
             (true, _) => Status::Failed,
@@ -105,7 +105,7 @@ impl<'a> Ledger<'a> {
     }
 
     /// Returns the verdict: failures in order of time, exemptions that nothing needed listed.
-    pub fn finish(mut self) -> Verdict {
+    pub(super) fn finish(mut self) -> Verdict {
         self.verdict.failures.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.kind.cmp(&b.kind)));
         self.verdict.unneeded_exemptions = (0..self.used.len()).filter(|&i| !self.used[i]).collect();
         self.verdict.events.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -119,7 +119,7 @@ impl<'a> Ledger<'a> {
 }
 
 /// Keeps the lower of a worst value so far and a new one, with its time (s) and names.
-pub fn keep_least(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
+pub(super) fn keep_least(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
     if worst.as_ref().is_none_or(|w| value < w.value) {
         *worst = Some(Worst { value, time, at: at() });
     }

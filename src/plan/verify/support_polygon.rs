@@ -2,7 +2,7 @@
 //! the centre of mass inside such a polygon.
 
 /// A point on the ground, m.
-pub type Point = [f64; 2];
+pub(super) type Point = [f64; 2];
 
 /// Hulls narrower than this are lines, m.
 const WIDTH_MIN: f64 = 1e-6;
@@ -20,7 +20,7 @@ pub struct Margin {
 
 /// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise, as indices; collinear points are left out. Of
 /// coinciding points the first is taken. One or two corners where the points do not span an area.
-pub fn hull(points: &[Point]) -> Vec<usize> {
+pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {
         points[a][0].total_cmp(&points[b][0]).then(points[a][1].total_cmp(&points[b][1])).then(a.cmp(&b))
@@ -53,7 +53,7 @@ fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
 }
 
 /// Returns the margin of `at` in the hull of `points`; `None` where they do not span an area.
-pub fn margin(points: &[Point], at: Point) -> Option<Margin> {
+pub(super) fn margin(points: &[Point], at: Point) -> Option<Margin> {
     let corners = hull(points);
     if corners.len() < 3 {
         return None;

@@ -15,9 +15,10 @@
 //! end. The proof holds up to the sum of the additions, `TOLERANCES.perturbation` of the energy.
 
 use super::edge_exchange;
-use super::lagrangian::{self, AscentLimits, Lagrangian, Multipliers};
+use super::lagrangian::{self, AscentLimits, Lagrangian};
 use super::layout::Layout;
 use super::observer::Observer;
+use super::open_node::{Node, NodePaths};
 use super::pattern::Pattern;
 use super::shortest_paths::{self, Allowed, Arc, ShortestPaths};
 use super::symmetry;
@@ -25,15 +26,11 @@ use super::tabu_unfolding;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 /// The greatest size of the queue of open nodes, bytes.
 const QUEUE_BYTES_MAX: usize = 1 << 29;
-
-/// The size of a node by its faces, bytes: a path shared with its parent, a cost, uses, arcs.
-const FACE_BYTES: usize = 48;
 
 /// Rounds of one subgradient ascent.
 const ROUNDS: usize = 6;
@@ -245,47 +242,6 @@ struct Found {
     layout: Layout,
     energy: f64,
 }
-
-struct Node {
-    root: usize,
-    bound: f64,
-    number: u64,
-    /// The paths of the node; `None` while only its bound is known.
-    ways: Option<NodePaths>,
-}
-
-/// The relaxed solution of a node.
-struct NodePaths {
-    allowed: Allowed,
-    paths: Vec<Rc<[Arc]>>,
-    costs: Vec<f64>,
-    multipliers: Rc<Multipliers>,
-    /// The length of the next step of an ascent, as a part of the gap.
-    length: f64,
-    /// True while another ascent may raise the bound further.
-    rising: bool,
-    /// By face and side: the number of paths that entered there at the end of the last ascent.
-    uses: Vec<[u32; 3]>,
-}
-
-/// The node of least bound is the greatest; of equal ones the newest, then that of the first root.
-impl Ord for Node {
-    fn cmp(&self, other: &Node) -> Ordering {
-        let newest = self.number.cmp(&other.number);
-        other.bound.total_cmp(&self.bound).then(newest).then(other.root.cmp(&self.root))
-    }
-}
-impl PartialOrd for Node {
-    fn partial_cmp(&self, other: &Node) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for Node {
-    fn eq(&self, other: &Node) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Node {}
 
 /// The computation of bounds.
 struct Bounds<'s> {
@@ -608,14 +564,6 @@ impl<'s> Search<'s, '_, '_> {
         let bound = (self.open_bound.min(best.energy * (1.0 - TOLERANCES.bound)) - self.slack).max(0.0);
         let proof = if closed { Proof::Optimal } else { Proof::Open };
         Ok(Optimum { layout: best.layout, energy: best.energy, bound, proof, roots, nodes: self.nodes })
-    }
-}
-
-impl Node {
-    /// Returns about its size, bytes.
-    fn size(&self) -> usize {
-        let Some(ways) = &self.ways else { return 0 };
-        FACE_BYTES * ways.paths.len() + size_of_val(&*ways.multipliers)
     }
 }
 

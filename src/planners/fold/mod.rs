@@ -15,6 +15,7 @@
 
 // The problem and the answer.
 mod observer;
+mod open_node;
 mod panel;
 mod plan;
 mod plate;

@@ -258,7 +258,7 @@ pub(super) struct Rollout<'a> {
 
 impl Rollout<'_> {
     /// Continues for at most `steps` steps; `None` if it is still on its way then.
-    pub fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
+    pub(super) fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
         let first = self.travel.steps;
         while let Some(place) = self.path.get(self.travel.reached) {
             let centre = self.truss.centre_of_mass(&self.x);
@@ -308,7 +308,7 @@ impl Rollout<'_> {
     }
 
     /// Returns the distance left, along straight lines from place to place, m.
-    pub fn distance_left(&self) -> f64 {
+    pub(super) fn distance_left(&self) -> f64 {
         let centre = self.truss.centre_of_mass(&self.x);
         let rest = &self.path[self.travel.reached.min(self.path.len())..];
         let places: Vec<[f64; 2]> = [[centre.x, centre.y]].into_iter().chain(rest.iter().copied()).collect();

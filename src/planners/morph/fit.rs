@@ -17,7 +17,7 @@ const PIECES: usize = 4;
 
 /// The weights of the terms of the cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weights {
+pub(super) struct Weights {
     /// The squared distances from surface to target, relative to those from target to surface.
     pub surface_to_target: f64,
     /// The fraction of a squared distance that counts only across the surface (point to plane).
@@ -64,7 +64,7 @@ struct Residual {
 }
 
 /// The distances of a truss from its target, with the residuals that they come from.
-pub struct Fit {
+pub(super) struct Fit {
     /// The distances.
     pub distance: Distance,
     forward: Vec<Residual>,
@@ -73,7 +73,7 @@ pub struct Fit {
 
 /// Measures the fit of the outer triangles `faces` of nodes at `x`, m. `guesses` holds for each sample point
 /// the triangle that was closest last, and is updated.
-pub fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Vec<usize>) -> Fit {
+pub(super) fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Vec<usize>) -> Fit {
     let corners: Vec<[Vec3; 3]> = faces.iter().map(|f| f.map(|node| x[node])).collect();
     let normals: Vec<Vec3> =
         corners.iter().map(|t| (t[1] - t[0]).cross(&(t[2] - t[0])).normalize()).collect();
@@ -121,7 +121,7 @@ pub fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Vec<
 impl Fit {
     /// Returns the Gauss-Newton model of the weighted squared distances, with springs and damping, as a cost
     /// of displacements of the nodes from `x`, m.
-    pub fn cost(&self, truss: &Structure, x: &[Vec3], weights: &Weights) -> QuadraticCost {
+    pub(super) fn cost(&self, truss: &Structure, x: &[Vec3], weights: &Weights) -> QuadraticCost {
         let mut sums = Sums { blocks: BTreeMap::new(), linear: vec![Vec3::zeros(); truss.nodes] };
         // All residuals of one face have the same metric, so their weights can be added up first.
         let mut faces: BTreeMap<[usize; 3], Face> = BTreeMap::new();

@@ -5,6 +5,7 @@
 //! [`rearrangement`] searches strokes from one sheet to another, [`lattice_sheet`] carries them out.
 #![allow(non_snake_case)]
 
+mod face_groups;
 pub mod lattice_sheet;
 pub mod rearrangement;
 pub mod sheets;

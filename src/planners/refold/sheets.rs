@@ -9,6 +9,7 @@
 //! panels walk from the one sheet to the other. Growth begins anew with other choices
 //! among equals as long as the budget lasts.
 
+use super::face_groups::groups;
 use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};
 use super::rearrangement::{Goal, PanelSolids, pair, rearranged};
 use crate::planners::fold::Layout;
@@ -568,31 +569,6 @@ impl PieceSearch<'_, '_> {
         }
         self.begun(missing, pieces)
     }
-}
-
-/// Into how many groups those faces fall which are not gone and hang together with none of the first.
-fn groups(target: &Target, gone: impl Fn(usize) -> bool, first: impl Iterator<Item = usize>) -> usize {
-    let mut seen: Vec<bool> = (0..target.faces.len()).map(gone).collect();
-    let flood = |seen: &mut Vec<bool>, mut stack: Vec<usize>| {
-        while let Some(face) = stack.pop() {
-            for (_, other) in target.around(face) {
-                if !std::mem::replace(&mut seen[other], true) {
-                    stack.push(other);
-                }
-            }
-        }
-    };
-    let first: Vec<usize> = first.collect();
-    first.iter().for_each(|face| seen[*face] = true);
-    flood(&mut seen, first);
-    let mut groups = 0;
-    for face in 0..seen.len() {
-        if !std::mem::replace(&mut seen[face], true) {
-            groups += 1;
-            flood(&mut seen, vec![face]);
-        }
-    }
-    groups
 }
 
 /// Choices among few: the remainder prefers none noticeably.

@@ -15,7 +15,7 @@ pub fn accordion(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
 
 /// Returns the same motion through an array whose sides are both even, the squarest: mirror symmetry keeps its
 /// angular momentum at zero. `None` if the count has no such factors.
-pub fn balanced_accordion(limits: PlanLimits, count: u64) -> Option<Result<Motion, Refusal>> {
+pub(super) fn balanced_accordion(limits: PlanLimits, count: u64) -> Option<Result<Motion, Refusal>> {
     let root = rounded_root(count);
     let even = |height: u64| count.is_multiple_of(height) && (count / height).is_multiple_of(2);
     let height = (1..=root / 2).rev().map(|half| 2 * half).find(|&height| even(height))?;
@@ -39,7 +39,7 @@ fn of_height(limits: PlanLimits, count: u64, height: u64) -> Result<Motion, Refu
 }
 
 /// Returns the place in the column of each cell at the end of [`accordion`].
-pub fn places_in_column(count: u64) -> Vec<u64> {
+pub(super) fn places_in_column(count: u64) -> Vec<u64> {
     let array = Array::new(count, rounded_root(count).max(1));
     (0..count).map(|i| array.index(i) as u64).collect()
 }

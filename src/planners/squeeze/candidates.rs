@@ -15,7 +15,7 @@ use super::unroll::unroll;
 use super::{Method, Refusal};
 
 /// A motion with the method that it stands for.
-pub struct Candidate {
+pub(super) struct Candidate {
     /// The method.
     pub method: Method,
     /// The motion.
@@ -23,7 +23,7 @@ pub struct Candidate {
 }
 
 /// Every way that the constructions give, of one method or of all.
-pub fn candidates(
+pub(super) fn candidates(
     limits: PlanLimits,
     from: &Shape,
     to: &Shape,
@@ -89,7 +89,7 @@ pub fn candidates(
 }
 
 /// The greatest number of cells that melt: each takes some stages, in all of which all cells move a little.
-pub const MELT_MAX: usize = 400;
+pub(super) const MELT_MAX: usize = 400;
 
 /// Returns true if the cells lie in a plane.
 fn flat_only(shape: &Shape) -> bool {

@@ -11,7 +11,7 @@ pub struct CellState {
 }
 
 /// The side of a cell at its full size, in quarters.
-pub const WHOLE: i64 = 4;
+pub(super) const WHOLE: i64 = 4;
 
 impl CellState {
     /// Returns the state of a cell of full size at a place of the lattice.
@@ -44,7 +44,7 @@ impl Domain {
 
 /// Returns the cells `lo..hi` in blocks whose numbers share all but their low bits, split by parity: on each
 /// block every function is affine that is a sum of functions of single bits and of the lowest.
-pub fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
+pub(super) fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
     let mut domains = Vec::new();
     let mut at = lo;
     while at < hi {
@@ -59,7 +59,7 @@ pub fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
 
 /// Returns the cells `first + low + 2^bits·q` for all `low` of that many bits and `q` in 0..times, split by
 /// parity.
-pub fn free_bits(first: u64, bits: u32, times: u64) -> Vec<Domain> {
+pub(super) fn free_bits(first: u64, bits: u32, times: u64) -> Vec<Domain> {
     let counters: Vec<(u64, i64)> =
         std::iter::once((times, 1_i64 << bits)).chain((1..bits).rev().map(|bit| (2, 1_i64 << bit))).collect();
     let parities = if bits == 0 { 0..1 } else { 0..2 };

@@ -44,7 +44,7 @@ pub fn fold(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
 }
 
 /// Returns the row of a cell before fold `k`.
-pub fn row(i: u64, k: u32) -> u64 {
+pub(super) fn row(i: u64, k: u32) -> u64 {
     let differing = if i & 1 == 1 { !i } else { i };
     // Bit 1 is the first, and the highest.
     if k == 0 { 0 } else { (differing >> 1).reverse_bits() >> (u64::BITS - k) }

@@ -7,24 +7,24 @@ use crate::plan::lattice::{Cube, greatest_relative_displacement};
 use crate::plan::{ArithmeticRun, arithmetic_runs};
 
 /// Configurations one after another, each a list of the states of all cells.
-pub struct Listed {
+pub(super) struct Listed {
     start: Vec<CellState>,
     stages: Vec<(&'static str, Vec<CellState>)>,
 }
 
 impl Listed {
     /// Begins at a configuration.
-    pub fn new(start: Vec<CellState>) -> Listed {
+    pub(super) fn new(start: Vec<CellState>) -> Listed {
         Listed { start, stages: vec![] }
     }
 
     /// Returns the last configuration.
-    pub fn last(&self) -> &[CellState] {
+    pub(super) fn last(&self) -> &[CellState] {
         self.stages.last().map_or(&self.start, |(_, states)| states)
     }
 
     /// Appends a stage that takes each cell to the state that `change` makes of its last one.
-    pub fn stage(&mut self, name: &'static str, mut change: impl FnMut(usize, &mut CellState)) {
+    pub(super) fn stage(&mut self, name: &'static str, mut change: impl FnMut(usize, &mut CellState)) {
         crate::interrupt::checkpoint();
         let mut states = self.last().to_vec();
         states.iter_mut().enumerate().for_each(|(i, state)| change(i, state));
@@ -35,7 +35,7 @@ impl Listed {
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit.
-    pub fn into_motion(self, limits: PlanLimits, number: &[u64]) -> Result<Motion, Refusal> {
+    pub(super) fn into_motion(self, limits: PlanLimits, number: &[u64]) -> Result<Motion, Refusal> {
         let renumbered = |states: Vec<CellState>| {
             let mut new = states.clone();
             number.iter().zip(states).for_each(|(&to, state)| new[to as usize] = state);

@@ -65,7 +65,7 @@ pub struct PlanHeader {
 type Place<'a> = Box<dyn Fn(u64) -> CellState + 'a>;
 
 /// Builds a motion stage by stage.
-pub struct Builder<'a> {
+pub(super) struct Builder<'a> {
     limits: PlanLimits,
     motion: Motion,
     last: Place<'a>,
@@ -83,7 +83,7 @@ struct Displacements {
 impl<'a> Builder<'a> {
     /// Begins at a configuration: `place` must be affine on each of the domains, which together hold each of
     /// `count` cells once.
-    pub fn new(
+    pub(super) fn new(
         limits: PlanLimits,
         count: u64,
         domains: &[Domain],
@@ -100,7 +100,7 @@ impl<'a> Builder<'a> {
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit.
-    pub fn stage(
+    pub(super) fn stage(
         &mut self,
         name: &'static str,
         parting: i64,
@@ -123,7 +123,7 @@ impl<'a> Builder<'a> {
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit.
-    pub fn two_phase_stage(
+    pub(super) fn two_phase_stage(
         &mut self,
         name: &'static str,
         parting: i64,
@@ -154,7 +154,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Returns the motion.
-    pub fn motion(self) -> Motion {
+    pub(super) fn motion(self) -> Motion {
         self.motion
     }
 }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Returns domains on which the places in the column (and all that is affine in bits) are affine, and the place of
 /// each cell.
-pub fn of(count: u64, folds: u32) -> (Vec<Domain>, impl Fn(u64) -> i64) {
+pub(super) fn of(count: u64, folds: u32) -> (Vec<Domain>, impl Fn(u64) -> i64) {
     let mut places = vec![0_i64; count as usize];
     let rows = (0..1 << folds).map(|row| cell_of(row, folds)).filter(|&cell| cell < count);
     rows.enumerate().for_each(|(place, cell)| places[cell as usize] = place as i64);

@@ -10,7 +10,7 @@ use crate::plan::{Law, Ratio, Stages};
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if forces can't be found.
-pub fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
+pub(super) fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
     let peaks = peak_forces(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     let least: Vec<Ratio> = peaks
         .iter()

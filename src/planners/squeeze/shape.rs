@@ -1,7 +1,7 @@
 //! The shape of a set of cells.
 
 /// Places of cells, moved so that the lowest along each axis is 0, in order.
-pub struct Shape {
+pub(super) struct Shape {
     /// The places.
     pub places: Vec<[i64; 3]>,
     /// The sides of the bounding box, in cells.
@@ -10,7 +10,7 @@ pub struct Shape {
 
 impl Shape {
     /// Returns the shape of the cells at these places.
-    pub fn of(places: &[[i64; 3]]) -> Shape {
+    pub(super) fn of(places: &[[i64; 3]]) -> Shape {
         let low = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis]).min().unwrap_or(0));
         let mut places: Vec<[i64; 3]> =
             places.iter().map(|p| [p[0] - low[0], p[1] - low[1], p[2] - low[2]]).collect();
@@ -20,23 +20,23 @@ impl Shape {
     }
 
     /// Returns the number of cells.
-    pub fn count(&self) -> u64 {
+    pub(super) fn count(&self) -> u64 {
         self.places.len() as u64
     }
 
     /// Returns true if the cells fill their bounding box.
-    pub fn is_box(&self) -> bool {
+    pub(super) fn is_box(&self) -> bool {
         let volume = self.sides.iter().try_fold(1_u64, |volume, side| volume.checked_mul(*side));
         volume == Some(self.count())
     }
 
     /// Returns true if the cells are a straight row along an axis; a lone cell is so along every axis.
-    pub fn is_row_along(&self, axis: usize) -> bool {
+    pub(super) fn is_row_along(&self, axis: usize) -> bool {
         self.sides[axis] == self.count()
     }
 
     /// Returns true if all cells are in one plane across an axis.
-    pub fn is_flat_across(&self, axis: usize) -> bool {
+    pub(super) fn is_flat_across(&self, axis: usize) -> bool {
         self.sides[axis] == 1
     }
 }

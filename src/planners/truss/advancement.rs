@@ -11,7 +11,7 @@ use crate::geometry::closest_points::segment_segment;
 /// Returns the constraints on lengths, angles, loops and the given pairs of struts that are violated
 /// somewhere between x and y, each with the shortfall, m. A distance may fall short of `truss.clearance` by
 /// `margin`, m, never by more; where it is computed, half the margin is asked for, so that advancement ends.
-pub fn violations(
+pub(super) fn violations(
     truss: &Structure,
     x: &[Vec3],
     y: &[Vec3],

@@ -14,7 +14,7 @@ const SKIN: f64 = 0.3;
 /// Neighbour list: all pairs of struts without a common node that can come nearer than the clearance while
 /// no node is farther than `skin` (m) from where it was, each with a lower bound on its distance.
 #[derive(Clone, Debug)]
-pub struct NeighbourList {
+pub(super) struct NeighbourList {
     pairs: Vec<Pair>,
     skin: f64,
     /// Positions of the nodes when the list was made, and now, m.
@@ -55,7 +55,7 @@ impl NeighbourList {
 
     /// Returns the pairs that may come nearer than the clearance plus `more`, m, while the nodes move
     /// linearly from x to y. Reuses the list in `known` if it still covers the motion, else rebuilds it.
-    pub fn candidates(
+    pub(super) fn candidates(
         known: &mut Option<NeighbourList>,
         truss: &Structure,
         (x, y): (&[Vec3], &[Vec3]),
@@ -82,7 +82,7 @@ impl NeighbourList {
     }
 
     /// Updates the bounds on distances after linear motion of the nodes to y.
-    pub fn moved(&mut self, truss: &Structure, y: &[Vec3]) {
+    pub(super) fn moved(&mut self, truss: &Structure, y: &[Vec3]) {
         let reach = reach(truss, &self.now, y);
         for pair in &mut self.pairs {
             pair.apart -= reach[pair.struts.0] + reach[pair.struts.1];
@@ -111,7 +111,7 @@ fn moved(x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
 
 /// Returns the pairs of struts without a common node whose bounding boxes are within `reach` of each other,
 /// with the distance between the boxes, both in m.
-pub fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
+pub(super) fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
     let ends = |strut| -> [Vec3; 2] { truss.segment(x, strut).into() };
     let boxes: Vec<Aabb> = (0..truss.struts.len()).map(|strut| Aabb::around(ends(strut))).collect();
     let mut found = Vec::new();

@@ -7,7 +7,12 @@ use crate::geometry::Vec3;
 
 /// Returns the obstacle constraints that fall short by more than half of `margin`, m, somewhere between x
 /// and y, each with the shortfall, m; both ends of a strut get a row.
-pub fn obstacle_violations(truss: &Structure, x: &[Vec3], y: &[Vec3], margin: f64) -> Vec<(Constraint, f64)> {
+pub(super) fn obstacle_violations(
+    truss: &Structure,
+    x: &[Vec3],
+    y: &[Vec3],
+    margin: f64,
+) -> Vec<(Constraint, f64)> {
     let mut found = Vec::new();
     for strut in 0..truss.struts.len() {
         let (from, to) = (truss.segment(x, strut), truss.segment(y, strut));
@@ -64,7 +69,7 @@ fn obstacle_shortfall(
 
 /// Returns the constraints of nodes and struts that get too far below uneven ground somewhere between x and
 /// y, each with the depth, m; none on flat ground, where the ends of the step decide.
-pub fn ground_violations(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<(Constraint, f64)> {
+pub(super) fn ground_violations(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<(Constraint, f64)> {
     let Some(terrain) = &truss.surroundings.terrain else { return Vec::new() };
     let nodes = (0..truss.nodes).filter_map(|node| {
         let (_, height) = terrain.lowest(x[node], y[node]);

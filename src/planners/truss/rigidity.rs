@@ -15,7 +15,7 @@ const RIGID: usize = 6;
 /// A singular value of the rigidity matrix with its singular vectors: over the struts (left) and over the
 /// nodes' coordinates (right).
 #[derive(Clone)]
-pub struct Mode {
+pub(super) struct Mode {
     /// The singular value, without unit.
     pub value: f64,
     struts: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct Mode {
 
 /// Returns the `count` least singular values in ascending order, those of rigid motions left out. Found as
 /// square roots of the eigenvalues of RᵀR, so values below about 1e-8 are noise.
-pub fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
+pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
     let n = 3 * truss.nodes;
     let along = |strut: usize| {
         let (a, b) = truss.struts[strut];
@@ -56,7 +56,7 @@ pub fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
 /// [`Constraint::Rigidity`](super::constraint::Constraint). Where two singular values nearly coincide, their
 /// vectors are any two of the plane that they span, and a step that keeps both values may still lower one
 /// in between.
-pub fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
+pub(super) fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
     if i == j {
         return modes[i].clone();
     }
@@ -72,12 +72,12 @@ pub fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
 
 impl Mode {
     /// Returns the singular value minus its limit, times the unit, m.
-    pub fn spare(&self, truss: &Structure) -> f64 {
+    pub(super) fn spare(&self, truss: &Structure) -> f64 {
         (self.value - truss.limits.rigidity) * truss.unit
     }
 
     /// Returns the gradient of the singular value times the unit, by node: `uᵀ dR v`.
-    pub fn gradient(&self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
+    pub(super) fn gradient(&self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         let mut sums = vec![Vec3::zeros(); truss.nodes];
         for (strut, &(a, b)) in truss.struts.iter().enumerate() {
             let d = x[a] - x[b];

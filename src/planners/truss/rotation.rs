@@ -20,7 +20,7 @@ pub(in crate::planners) struct Axis {
 
 impl Axis {
     /// Returns the rotation by an angle, rad, as a function of points, m.
-    pub fn rotation(&self, angle: f64) -> impl Fn(Vec3) -> Vec3 + use<> {
+    pub(super) fn rotation(&self, angle: f64) -> impl Fn(Vec3) -> Vec3 + use<> {
         let (origin, rotation) = (self.origin, turned(self.along, angle).rotation);
         move |p| origin + rotation * (p - origin)
     }

@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const NEARLY: f64 = 1.0 / 16.0;
 
 /// The state of the search over all intervals.
-pub struct Advancement<'a> {
+pub(super) struct Advancement<'a> {
     robot: &'a Assembly,
     bodies: Bodies,
     bounds: MotionBounds,
@@ -59,7 +59,7 @@ struct Open {
 
 impl<'a> Advancement<'a> {
     /// Returns a search over a plan; at most `samples_max` intervals are examined.
-    pub fn new(
+    pub(super) fn new(
         tracks: &'a Tracks,
         bodies: Bodies,
         precision: Precision,
@@ -82,7 +82,7 @@ impl<'a> Advancement<'a> {
 
     /// Judges a window of time in which bonds stay as they are. Parts that do not hang together are judged each by
     /// itself: how they lie to one another is unknown.
-    pub fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
+    pub(super) fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
         let mut seen = vec![false; self.robot.modules.len()];
         while let Some(first) = seen.iter().position(|seen| !seen) {
             let part = Kinematics::new(self.robot, bonds, first);
@@ -100,7 +100,7 @@ impl<'a> Advancement<'a> {
     }
 
     /// Returns the least distance at one instant, m; `None` where no two links may not touch.
-    pub fn clearance_at(&mut self, bonds: &[bool], time: f64) -> Option<f64> {
+    pub(super) fn clearance_at(&mut self, bonds: &[bool], time: f64) -> Option<f64> {
         self.clearance = None;
         self.collisions.clear();
         self.window(bonds, (time, time), &[]);
@@ -108,7 +108,7 @@ impl<'a> Advancement<'a> {
     }
 
     /// Returns what was found.
-    pub fn findings(self, exemptions: &[Exemption]) -> Findings {
+    pub(super) fn findings(self, exemptions: &[Exemption]) -> Findings {
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
         collisions.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.modules.cmp(&b.modules)));
         let status = if self.samples >= self.samples_max {
@@ -382,7 +382,7 @@ impl<'a> Advancement<'a> {
 }
 
 /// Returns the pairs of links that carry mated ports of bonds that hold, in both orders.
-pub fn mated(robot: &Assembly, bonds: &[bool], kinematics: &Kinematics) -> BTreeSet<(usize, usize)> {
+pub(super) fn mated(robot: &Assembly, bonds: &[bool], kinematics: &Kinematics) -> BTreeSet<(usize, usize)> {
     let holding = robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds);
     holding
         .flat_map(|(bond, _)| {

@@ -17,13 +17,13 @@ const TURN_WEIGHT: f64 = 1e-8;
 const TURN_ROUNDS: usize = 4;
 
 /// Returns the rotation by a rotation vector, rad.
-pub fn rotation(omega: Vec3) -> Mat3 {
+pub(super) fn rotation(omega: Vec3) -> Mat3 {
     *turned(omega, omega.norm()).rotation.to_rotation_matrix().matrix()
 }
 
 /// Returns the rotation from the new robot frame to the old that moves the masses least about the centre of
 /// mass. It does not depend on which module is the base.
-pub fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
+pub(super) fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
     let mut S = Mat3::zeros();
     for &link in &model.attached {
         let body = &model.bodies[link];
@@ -40,7 +40,7 @@ pub fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
 
 /// Returns the rotation about a horizontal axis that keeps the loaded contacts of the sample before at their
 /// heights above the ground: without it a swinging arm would turn the guess.
-pub fn height_keeping_turn(
+pub(super) fn height_keeping_turn(
     features: &[Feature],
     contact_points: &[ContactPoint],
     tolerances: &Tolerances,

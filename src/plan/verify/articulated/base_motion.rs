@@ -10,7 +10,7 @@ use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
 use crate::units::{Dimension, quantity};
 
 /// Follows the base, sums slip, and watches for penetrating contact with a fixed base.
-pub struct Monitor<'a> {
+pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
     start: Option<Pose>,
     last: Pose,
@@ -25,7 +25,7 @@ pub struct Monitor<'a> {
 
 impl<'a> Monitor<'a> {
     /// Returns a monitor before the first sample.
-    pub fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
+    pub(super) fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
         let identity = Pose::identity();
         Monitor {
             tolerances,
@@ -40,7 +40,7 @@ impl<'a> Monitor<'a> {
     }
 
     /// Takes a sample.
-    pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
+    pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.samples += 1;
         if !self.grounds.contains(&sample.world.ground) {
             self.grounds.push(sample.world.ground);
@@ -110,7 +110,7 @@ impl<'a> Monitor<'a> {
     }
 
     /// Records displacement, heading, slip and the statuses; `names` gives the name of a link.
-    pub fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
+    pub(super) fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
         self.end_penetration(end, ledger);
         if let Some(start) = self.start {
@@ -147,7 +147,7 @@ impl<'a> Monitor<'a> {
 }
 
 /// Returns the deepest contact point that penetrates the ground by more than its module may.
-pub fn penetrating_contact<'s>(sample: &Sample<'s>) -> Option<&'s ContactPoint> {
+pub(super) fn penetrating_contact<'s>(sample: &Sample<'s>) -> Option<&'s ContactPoint> {
     let deepest = sample.stance.contact_points.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
     deepest.filter(|t| {
         let module = sample.model.bodies[t.link].module;

@@ -14,7 +14,7 @@ use crate::plan::{CauseId, CheckKind, Failure, Tracks};
 use crate::robot::{JointId, JointOwner};
 
 /// Actions that are named, and that are tried.
-pub const BLAMED_MAX: usize = 3;
+pub(super) const BLAMED_MAX: usize = 3;
 const TRIED_MAX: usize = 24;
 
 /// Failures for which the blame is sought; the rest name whoever moves.
@@ -24,7 +24,7 @@ const FAILURES_MAX: usize = 12;
 const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame.
-pub struct Suspect {
+pub(super) struct Suspect {
     /// The joint that it moves.
     pub joint: usize,
     /// When its segment begins, s.
@@ -36,7 +36,7 @@ pub struct Suspect {
 }
 
 /// Adds the actions to blame to the failures that do not name any.
-pub fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
+pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
     let mut sought = 0;
     for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {
         let suspects = suspects(rollout.tracks, failure.time);
@@ -68,7 +68,7 @@ pub fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Fail
 }
 
 /// Returns the actions begun before a time (s), latest first.
-pub fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
+pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
     let mut found = Vec::new();
     for track in &tracks.tracks {
         let begun = track.segments.partition_point(|s| s.start < t);

@@ -10,7 +10,7 @@ use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
 /// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
-pub fn judge(rollout: &Rollout, ledger: &mut Ledger) {
+pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     let tracks = rollout.tracks;
     let found =
         match collision::judge(tracks, rollout.settings, rollout.exemptions, &rollout.tolerances.collision) {

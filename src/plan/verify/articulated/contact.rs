@@ -40,7 +40,7 @@ pub struct ContactPatch {
 
 /// Returns all points within their module's contact tolerance of the ground, which is `height` (m) below the
 /// centre of mass, with normal forces as on elastic ground.
-pub fn contact_points(
+pub(super) fn contact_points(
     model: &Model,
     features: &[Feature],
     height: f64,
@@ -67,13 +67,16 @@ pub fn contact_points(
 }
 
 /// Returns true if a contact point is within the contact tolerance of its module.
-pub fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
+pub(super) fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
     contact_point.gap <= model.bodies[contact_point.link].contact
 }
 
 /// Returns the static stability margin in the support polygon of the contact points that `chosen` selects; its
 /// edge is given by indices of `contact_points`.
-pub fn margin(contact_points: &[ContactPoint], chosen: impl Fn(&ContactPoint) -> bool) -> Option<Margin> {
+pub(super) fn margin(
+    contact_points: &[ContactPoint],
+    chosen: impl Fn(&ContactPoint) -> bool,
+) -> Option<Margin> {
     let indices: Vec<usize> = (0..contact_points.len()).filter(|&i| chosen(&contact_points[i])).collect();
     let points: Vec<_> = indices.iter().map(|&i| [contact_points[i].p.x, contact_points[i].p.y]).collect();
     let found = support_polygon::margin(&points, [0.0, 0.0])?;
@@ -82,7 +85,7 @@ pub fn margin(contact_points: &[ContactPoint], chosen: impl Fn(&ContactPoint) ->
 
 /// Returns the contact points gathered by link, in order of link: one patch a link, since a wheel with two rims that
 /// each stuck would track as wide as its outer rim.
-pub fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
+pub(super) fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     let mut found: Vec<ContactPatch> = Vec::new();
     let loaded = || contact_points.iter().filter(|t| t.load > 0.0);
     for contact_point in loaded() {

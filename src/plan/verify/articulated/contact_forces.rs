@@ -25,7 +25,7 @@ const COLUMNS_MAX: usize = 100_000;
 
 /// A unit of a force that may act: an edge of a contact's pyramid, or a component of what a bond that
 /// closes a loop transmits.
-pub struct Column {
+pub(super) struct Column {
     /// The wrenches of one unit of it.
     pub wrenches: Vec<Wrench>,
     /// It may also act the other way round.
@@ -34,7 +34,7 @@ pub struct Column {
 
 /// Contact forces in balance, with the loads that they cause.
 #[derive(Clone, Debug)]
-pub struct ContactForces {
+pub(super) struct ContactForces {
     /// Greatest load by its limit, with forces that balance.
     pub ratio: f64,
     /// Index of that load.
@@ -47,7 +47,7 @@ pub struct ContactForces {
 
 /// Contact forces of an earlier sample: where contacts stay the same, nearly the same forces balance again.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct WarmStart {
+pub(super) struct WarmStart {
     /// Feature and point, in order.
     contacts: Vec<(usize, u8)>,
     /// Of each contact, along the edges of its pyramid.
@@ -60,7 +60,7 @@ pub struct WarmStart {
 const EDGES: usize = 4;
 
 /// A query for contact forces in one stance.
-pub struct ContactQuery<'a> {
+pub(super) struct ContactQuery<'a> {
     /// The robot.
     pub model: &'a Model<'a>,
     /// Its loads.
@@ -87,7 +87,7 @@ pub struct ContactQuery<'a> {
 
 impl ContactQuery<'_> {
     /// The forces of a warm_start, brought to balance here: a quick certified, or none.
-    pub fn warm_started(&self, warm_start: &WarmStart) -> Option<ContactForces> {
+    pub(super) fn warm_started(&self, warm_start: &WarmStart) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
         let mut sizes = Vec::with_capacity(columns.len());
@@ -106,13 +106,13 @@ impl ContactQuery<'_> {
     }
 
     /// Returns the size of the LP, columns and loads, as a measure of its cost.
-    pub fn lp_size(&self) -> usize {
+    pub(super) fn lp_size(&self) -> usize {
         self.columns(&self.contacts()).len() + self.loads.len()
     }
 
     /// Solves the LP of the least greatest load; `None` where no forces balance the weight, or
     /// the solver did not get there.
-    pub fn minimise_peak_load(&self) -> Option<ContactForces> {
+    pub(super) fn minimise_peak_load(&self) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
         if columns.len() > COLUMNS_MAX {
@@ -168,7 +168,7 @@ impl ContactQuery<'_> {
     }
 
     /// Returns force and moment of a column about the centre of mass, in parts of the weight.
-    pub fn balance(&self, column: &Column) -> Vector6<f64> {
+    pub(super) fn balance(&self, column: &Column) -> Vector6<f64> {
         let mut sum = Vector6::zeros();
         for push in column.wrenches.iter().filter(|_| !column.free) {
             let (f, m) = (push.f / self.weight, push.p.cross(&push.f) / self.weight);

@@ -25,7 +25,7 @@ const DIRECTIONS: [[f64; 3]; 9] = [
 
 /// Forces are in parts of the weight, moments in parts of the weight times a metre. Columns: sizes of
 /// the wrenches, then six for every node but the first, then the greatest load.
-pub struct ContactLp {
+pub(super) struct ContactLp {
     /// The linear programme for the solver.
     pub problem: LinearProgram,
     rows: Vec<Row>,
@@ -50,7 +50,7 @@ struct Row {
 
 impl ContactLp {
     /// Builds the LP of a query over these columns.
-    pub fn new(query: &ContactQuery, columns: &[Column]) -> ContactLp {
+    pub(super) fn new(query: &ContactQuery, columns: &[Column]) -> ContactLp {
         let (nodes, node_of) = nodes(query);
         let rows = rows(query);
         let first = |node: usize| columns.len() + 6 * (node - 1);
@@ -79,7 +79,7 @@ impl ContactLp {
     /// Returns a lower bound on the greatest load from dual multipliers, whatever solver made them: for any weights `z ≥ 0` of the rows that sum to 1
     /// and any `y`, `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ
     /// of the contacts' forces sum to 1, so that the least coefficient bounds the sum.
-    pub fn bound(&self, query: &ContactQuery, columns: &[Column], solution: &LinearSolution) -> f64 {
+    pub(super) fn bound(&self, query: &ContactQuery, columns: &[Column], solution: &LinearSolution) -> f64 {
         let z: Vec<f64> = solution.z[..self.rows.len()].iter().map(|z| z.max(0.0)).collect();
         let total: f64 = z.iter().sum();
         if total <= 0.0 {

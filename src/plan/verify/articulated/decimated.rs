@@ -1,7 +1,7 @@
 //! Decimation: an even selection from a sequence of unknown length.
 
 /// At most so many items at even distances, however many are seen.
-pub struct Decimated<T> {
+pub(super) struct Decimated<T> {
     kept: Vec<T>,
     most: usize,
     /// One in so many is kept.
@@ -11,12 +11,12 @@ pub struct Decimated<T> {
 
 impl<T> Decimated<T> {
     /// Returns an empty selection of at most `most` items.
-    pub fn new(most: usize) -> Decimated<T> {
+    pub(super) fn new(most: usize) -> Decimated<T> {
         Decimated { kept: vec![], most, stride: 1, seen: 0 }
     }
 
     /// Counts one more item; returns true if it is to be kept.
-    pub fn next_is_kept(&mut self) -> bool {
+    pub(super) fn next_is_kept(&mut self) -> bool {
         let next_is_kept = self.seen.is_multiple_of(self.stride);
         self.seen += 1;
         if next_is_kept && self.kept.len() == self.most {
@@ -31,22 +31,22 @@ impl<T> Decimated<T> {
     }
 
     /// Keeps the one whose next_is_kept it is.
-    pub fn keep(&mut self, item: T) {
+    pub(super) fn keep(&mut self, item: T) {
         self.kept.push(item);
     }
 
     /// Returns the number of items seen for each one kept.
-    pub fn stride(&self) -> usize {
+    pub(super) fn stride(&self) -> usize {
         self.stride
     }
 
     /// Returns the number of items seen.
-    pub fn seen(&self) -> usize {
+    pub(super) fn seen(&self) -> usize {
         self.seen
     }
 
     /// Returns the items kept, in order.
-    pub fn into_kept(self) -> Vec<T> {
+    pub(super) fn into_kept(self) -> Vec<T> {
         self.kept
     }
 }

@@ -10,7 +10,7 @@ use crate::units::{Dimension, quantity};
 
 /// Judges every docking, and that the robot is one piece from the start to the end. Returns the bonds
 /// that missed.
-pub fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
+pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     let tracks = rollout.tracks;
     let mut missed = Vec::new();
     let mut bonds = tracks.start.bonds.clone();
@@ -82,7 +82,7 @@ fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &Dock, ledger: &mut Ledg
 }
 
 /// Watches the loops that the bonds close: mated faces must not be driven against each other.
-pub struct Monitor<'a> {
+pub(super) struct Monitor<'a> {
     rollout: &'a Rollout<'a>,
     /// Bonds that did not dock: that their loops are open is no news.
     missed: Vec<usize>,
@@ -92,12 +92,12 @@ pub struct Monitor<'a> {
 
 impl<'a> Monitor<'a> {
     /// Returns a monitor; `missed` are bonds that did not dock.
-    pub fn new(rollout: &'a Rollout<'a>, missed: Vec<usize>) -> Monitor<'a> {
+    pub(super) fn new(rollout: &'a Rollout<'a>, missed: Vec<usize>) -> Monitor<'a> {
         Monitor { rollout, missed, samples: 0, open: vec![] }
     }
 
     /// Checks the closure of every loop at a sample.
-    pub fn observe(&mut self, sample: &Sample) {
+    pub(super) fn observe(&mut self, sample: &Sample) {
         if sample.model.kinematics.tree.closing.is_empty() {
             return;
         }
@@ -125,7 +125,7 @@ impl<'a> Monitor<'a> {
     }
 
     /// Records the failures and the status.
-    pub fn finish(self, ledger: &mut Ledger) {
+    pub(super) fn finish(self, ledger: &mut Ledger) {
         self.open.into_iter().for_each(|failure| ledger.fail(failure));
         let status = if self.samples == 0 { Status::Proved } else { Status::Sampled(self.samples) };
         ledger.check(CheckKind::Closure, status);
@@ -145,7 +145,7 @@ fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
 }
 
 /// Returns true if a loop is open in a sample, by the name of its bond.
-pub fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> bool {
+pub(super) fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> bool {
     residuals(sample)
         .iter()
         .any(|r| bond_name(sample.model.robot, r.bond) == name && !within(sample.model.robot, r, tolerances))

@@ -10,7 +10,7 @@ const PIECES_MAX: usize = 4096;
 
 /// Returns the greatest value over 0..1 and where it is, by subdivision (the convex hull property). It is never below the true one, and above it by no more
 /// than rounding, unless a polynomial is so wild that the pieces run out.
-pub fn greatest(control: &[f64]) -> (f64, f64) {
+pub(super) fn greatest(control: &[f64]) -> (f64, f64) {
     let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));
     let (first, last) = (control[0], control[control.len() - 1]);
     let mut best = if last > first { (last, 1.0) } else { (first, 0.0) };
@@ -33,7 +33,7 @@ pub fn greatest(control: &[f64]) -> (f64, f64) {
 }
 
 /// Returns the control points of the same polynomial at a higher degree (degree elevation).
-pub fn elevated(control: &[f64], degree: usize) -> Vec<f64> {
+pub(super) fn elevated(control: &[f64], degree: usize) -> Vec<f64> {
     let mut points = control.to_vec();
     while points.len() <= degree {
         let n = points.len() as f64;

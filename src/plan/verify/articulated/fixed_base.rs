@@ -18,7 +18,7 @@ use crate::robot::Motion;
 
 /// The result about the time between samples.
 #[derive(Clone, Debug, PartialEq)]
-pub enum BetweenSamples {
+pub(super) enum BetweenSamples {
     /// No load is ever over its limit.
     Proved,
     /// Not examined, or not decided.
@@ -28,7 +28,7 @@ pub enum BetweenSamples {
 }
 
 /// Judges the whole plan, if its base is held fast all the time and no loop leaves open who carries what.
-pub fn prove(rollout: &Rollout) -> BetweenSamples {
+pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
     let held = |world: &crate::plan::World| world.ground == Ground::Held;
     let excused = |e: &crate::plan::Exemption| matches!(e.kind, ExemptionKind::Overload(_));
     if !rollout.worlds.iter().all(|w| held(&w.world)) || rollout.exemptions.iter().any(excused) {

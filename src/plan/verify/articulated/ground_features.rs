@@ -6,11 +6,11 @@
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
 /// A 3×3 matrix, mostly a rotation.
-pub type Mat3 = nalgebra::Matrix3<f64>;
+pub(super) type Mat3 = nalgebra::Matrix3<f64>;
 
 /// Points that stand for a circle: the lowest, and others round it so that a disc lying flat is more
 /// than one point.
-pub const CIRCLE_POINTS: u8 = 8;
+pub(super) const CIRCLE_POINTS: u8 = 8;
 
 /// A circle whose plane is level within this (sine of the angle) has no lowest point of its own.
 const LEVEL: f64 = 1e-9;
@@ -128,7 +128,7 @@ fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
 
 /// Returns the features of a link's shapes, in the frame of the link, in an order that depends on nothing
 /// but the declaration.
-pub fn features(shapes: &[Placed]) -> Vec<Feature> {
+pub(super) fn features(shapes: &[Placed]) -> Vec<Feature> {
     let mut found = Vec::new();
     let mut open: Vec<(Pose, &Shape)> = shapes.iter().rev().map(|s| (s.pose, &s.shape)).collect();
     for _ in 0..UNIONS_MAX {

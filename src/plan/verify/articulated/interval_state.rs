@@ -18,7 +18,7 @@ use nalgebra::Matrix3;
 
 /// The state of all links in the middle of an interval, with bounds on their motion.
 #[derive(Clone, Debug, Default)]
-pub struct IntervalState {
+pub(super) struct IntervalState {
     /// The joints over the interval.
     pub interval: Interval,
     poses: Vec<Pose>,
@@ -33,7 +33,7 @@ pub struct IntervalState {
 
 /// Pose and velocity of a link, in the frame of the root link.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Moving {
+pub(super) struct Moving {
     /// Orientation.
     pub R: Matrix3<f64>,
     /// Position of the origin, m.
@@ -46,7 +46,7 @@ pub struct Moving {
 
 /// Bounds on the difference of a link's velocities, relative to a reference link, from those in the middle.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Deviation {
+pub(super) struct Deviation {
     /// Of the link's origin, m/s.
     pub velocity: f64,
     /// For each metre that a point is away from the link's origin, 1/s.
@@ -59,7 +59,7 @@ pub struct Deviation {
 
 impl IntervalState {
     /// Computes poses and velocities in the middle of `from..to` (s).
-    pub fn set(&mut self, kinematics: &Kinematics, bounds: &MotionBounds, from: f64, to: f64) {
+    pub(super) fn set(&mut self, kinematics: &Kinematics, bounds: &MotionBounds, from: f64, to: f64) {
         bounds.over(from, to, &mut self.interval);
         self.poses.resize(kinematics.link_count(), Pose::identity());
         self.links.resize(kinematics.link_count(), Moving::default());
@@ -97,7 +97,7 @@ impl IntervalState {
     }
 
     /// Computes the bounds of all links at a level, when first asked for.
-    pub fn deviations(&mut self, kinematics: &Kinematics, levels: &ReferenceLinks, level: usize) {
+    pub(super) fn deviations(&mut self, kinematics: &Kinematics, levels: &ReferenceLinks, level: usize) {
         if self.known.len() != levels.levels.len() {
             self.known.resize(levels.levels.len(), false);
             self.deviations.resize(levels.levels.len(), Vec::new());
@@ -122,12 +122,12 @@ impl IntervalState {
     }
 
     /// Returns the bound of a link at a level that was computed before.
-    pub fn deviation(&self, level: usize, link: usize) -> &Deviation {
+    pub(super) fn deviation(&self, level: usize, link: usize) -> &Deviation {
         &self.deviations[level][link]
     }
 
     /// Returns `X_AB`, the pose of link b in link a, in the middle.
-    pub fn relative(&self, a: usize, b: usize) -> Pose {
+    pub(super) fn relative(&self, a: usize, b: usize) -> Pose {
         self.poses[a].inverse() * self.poses[b]
     }
 

@@ -27,7 +27,7 @@ struct Piece {
 }
 
 /// Judges range, speed and acceleration of every joint and motor that states a limit.
-pub fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
+pub(super) fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
     let drives = drives(&tracks.robot);
     for drive in &drives {
         let pieces = pieces(tracks, drive);

@@ -71,7 +71,7 @@ impl SlidingPatch {
 
 /// Returns the pose that the robot moves to, and the slip of each loaded link (m) with its part of the weight:
 /// half of it for the patch of the sample before, half for that of this one.
-pub fn displacement(
+pub(super) fn displacement(
     model: &Model,
     old: &Stance,
     posture: &Posture,

@@ -6,7 +6,7 @@ use crate::plan::{Tracks, polynomial};
 
 /// The tracks of all joints, with bounds of their derivatives.
 #[derive(Clone, Debug)]
-pub struct MotionBounds {
+pub(super) struct MotionBounds {
     start: Vec<f64>,
     /// Of each joint, in order of time.
     pieces: Vec<Vec<Piece>>,
@@ -27,7 +27,7 @@ struct Piece {
 
 /// All joints over one interval; indexed by joint.
 #[derive(Clone, Debug, Default)]
-pub struct Interval {
+pub(super) struct Interval {
     /// The middle, s.
     pub middle: f64,
     /// Half the length, s.
@@ -44,7 +44,7 @@ pub struct Interval {
 
 impl MotionBounds {
     /// Computes the derivatives of all tracks and their bounds.
-    pub fn new(tracks: &Tracks) -> MotionBounds {
+    pub(super) fn new(tracks: &Tracks) -> MotionBounds {
         let joints = tracks.start.joints.len();
         let mut bounds = MotionBounds {
             start: tracks.start.joints.clone(),
@@ -62,7 +62,7 @@ impl MotionBounds {
     }
 
     /// Writes the motion of all joints over `from..to` (s) to `out`.
-    pub fn over(&self, from: f64, to: f64, out: &mut Interval) {
+    pub(super) fn over(&self, from: f64, to: f64, out: &mut Interval) {
         out.middle = (from + to) / 2.0;
         out.half = (to - from) / 2.0;
         out.smooth = true;

@@ -13,7 +13,7 @@ const NOWHERE: u32 = u32::MAX;
 
 /// The centroid decomposition of the tree of modules.
 #[derive(Clone, Debug)]
-pub struct ReferenceLinks {
+pub(super) struct ReferenceLinks {
     /// The levels of the decomposition, coarsest first.
     pub levels: Vec<ReferenceLevel>,
     /// For each level, the centroid whose body link is the reference of each module.
@@ -22,7 +22,7 @@ pub struct ReferenceLinks {
 
 /// All modules that are not yet centroids themselves, each seen from the centroid of its part.
 #[derive(Clone, Debug, Default)]
-pub struct ReferenceLevel {
+pub(super) struct ReferenceLevel {
     /// The body link of each centroid.
     pub origins: Vec<usize>,
     /// From links already reached to their neighbours.
@@ -33,7 +33,7 @@ pub struct ReferenceLevel {
 
 /// From one link to a neighbour over a step of the kinematics.
 #[derive(Clone, Copy, Debug)]
-pub struct Hop {
+pub(super) struct Hop {
     /// The link already reached.
     pub from: u32,
     /// Its neighbour.
@@ -48,7 +48,7 @@ pub struct Hop {
 
 impl ReferenceLinks {
     /// Decomposes the tree of the modules that `kinematics` reaches.
-    pub fn new(robot: &Assembly, kinematics: &Kinematics) -> ReferenceLinks {
+    pub(super) fn new(robot: &Assembly, kinematics: &Kinematics) -> ReferenceLinks {
         let modules = robot.modules.len();
         let neighbours = neighbours(robot, kinematics);
         let mut centroids: Vec<Vec<u32>> = Vec::new();
@@ -73,19 +73,19 @@ impl ReferenceLinks {
 
     /// The level at which a centroid lies between two modules, or is one of them. A module is looked
     /// at from itself.
-    pub fn between(&self, a: usize, b: usize) -> usize {
+    pub(super) fn between(&self, a: usize, b: usize) -> usize {
         let same = |level: &&Vec<u32>| level[a] == level[b] && level[a] != NOWHERE;
         self.centroids.iter().take_while(same).count() - 1
     }
 
     /// Returns the reference link of a link at a level.
-    pub fn origin(&self, level: usize, link: usize) -> usize {
+    pub(super) fn origin(&self, level: usize, link: usize) -> usize {
         self.levels[level].origin_of[link] as usize
     }
 }
 
 /// Returns the centroid of all modules that `kinematics` reaches.
-pub fn middle(robot: &Assembly, kinematics: &Kinematics) -> usize {
+pub(super) fn middle(robot: &Assembly, kinematics: &Kinematics) -> usize {
     let taken = vec![false; robot.modules.len()];
     let neighbours = neighbours(robot, kinematics);
     centroid(&reach(&neighbours, &taken, kinematics.root))

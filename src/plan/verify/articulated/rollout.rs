@@ -78,6 +78,7 @@ pub struct TipOver {
 /// The reason for which a rollout ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RolloutEnd {
+    /// The rollout reached the end of the plan.
     AtEnd,
     /// Too many samples; it got to this time.
     Limit(f64),
@@ -408,12 +409,12 @@ struct Step {
 }
 
 /// Returns true if an exemption allows the robot to tip at `t` (s).
-pub fn excused(exemptions: &[Exemption], t: f64) -> bool {
+pub(super) fn excused(exemptions: &[Exemption], t: f64) -> bool {
     exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.from <= t && t <= e.to)
 }
 
 /// Writes the joint positions at a time (s), with the blamed joint held.
-pub fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
+pub(super) fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
     joints.clear();
     joints.extend_from_slice(&rollout.tracks.start.joints);
     for track in &rollout.tracks.tracks {
@@ -427,7 +428,7 @@ pub fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
 }
 
 /// Returns for each bond if it holds just after a time (s).
-pub fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
+pub(super) fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
     let mut bonds = tracks.start.bonds.clone();
     for dock in tracks.docks.iter().take_while(|d| d.time <= t) {
         bonds[dock.bond] = dock.kind == DockKind::Dock;
@@ -436,6 +437,6 @@ pub fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
 }
 
 /// Returns the world just after a time (s).
-pub fn world_at(worlds: &[WorldFrom], t: f64) -> World {
+pub(super) fn world_at(worlds: &[WorldFrom], t: f64) -> World {
     worlds.iter().take_while(|w| w.from <= t).last().map_or_else(World::default, |w| w.world)
 }

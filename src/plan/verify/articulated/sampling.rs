@@ -7,7 +7,7 @@ use crate::robot::JointId;
 
 /// Returns every instant that is a sample whatever the settings say, in order: starts and ends of segments,
 /// docking, changes of the world, ends of exemptions, the start and the end.
-pub fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
+pub(super) fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
     let mut all = tracks.instants();
     all.extend(worlds.iter().map(|w| w.from));
     all.extend(exemptions.iter().flat_map(|e| [e.from, e.to]));
@@ -18,7 +18,13 @@ pub fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption])
 }
 
 /// Returns the number of samples between two neighbouring instants (s); 0 where no joint moves.
-pub fn divisions(tracks: &Tracks, t0: f64, t1: f64, settings: &Settings, tolerances: &Tolerances) -> usize {
+pub(super) fn divisions(
+    tracks: &Tracks,
+    t0: f64,
+    t1: f64,
+    settings: &Settings,
+    tolerances: &Tolerances,
+) -> usize {
     let travel = tracks.tracks.iter().map(|track| travel(tracks, track.joint, t0, t1)).fold(0.0, f64::max);
     if travel == 0.0 {
         return 0;
@@ -30,7 +36,7 @@ pub fn divisions(tracks: &Tracks, t0: f64, t1: f64, settings: &Settings, toleran
 }
 
 /// Returns the number of samples of a plan, refinements not included.
-pub fn count(
+pub(super) fn count(
     tracks: &Tracks,
     worlds: &[WorldFrom],
     exemptions: &[Exemption],

@@ -10,7 +10,7 @@ use crate::robot::Kinematics;
 
 /// Two modules that are not proved to be separated yet.
 #[derive(Clone, Copy, Debug)]
-pub struct ModulePair {
+pub(super) struct ModulePair {
     /// The first module.
     pub a: u32,
     /// The second module.
@@ -21,7 +21,7 @@ pub struct ModulePair {
 
 /// Two bodies that are not proved to be separated yet.
 #[derive(Clone, Copy, Debug)]
-pub struct BodyPair {
+pub(super) struct BodyPair {
     /// The first body.
     pub a: u32,
     /// The second body.
@@ -38,7 +38,7 @@ pub struct BodyPair {
 
 /// Lower bounds on the distance of a pair over an interval.
 #[derive(Clone, Copy, Debug)]
-pub struct Bound {
+pub(super) struct Bound {
     /// Lower bound of the distance over the whole interval, m.
     pub least: f64,
     /// Lower bound of the distance in the middle, m.
@@ -47,7 +47,7 @@ pub struct Bound {
 
 /// The state of an interval with what it refers to.
 #[derive(Clone, Copy)]
-pub struct View<'a> {
+pub(super) struct View<'a> {
     /// The middle of the interval.
     pub state: &'a IntervalState,
     /// The reference links.
@@ -63,7 +63,7 @@ struct Motion {
 }
 
 /// Returns the bound from a bounding sphere of each module.
-pub fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> Bound {
+pub(super) fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> Bound {
     let state = view.state;
     let [a, b] = [pair.a, pair.b].map(|m| view.kinematics.link(m as usize, 0));
     let level = pair.level as usize;
@@ -76,7 +76,7 @@ pub fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> Bound {
 }
 
 /// Returns the bound from a bounding sphere of each body.
-pub fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound {
+pub(super) fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound {
     let state = view.state;
     let (x, y) = (state.centre(a), state.centre(b));
     let origin = &state.links[view.levels.origin(level as usize, a.carrier)];
@@ -96,7 +96,7 @@ pub fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound {
 /// Returns the bound from the slab between two bodies along a direction of a's carrier that is held still in the state of
 /// the level's origin. Points of each body move with its velocity and spin; a linear function's least
 /// value over a convex body and over the interval is at one of the interval's ends.
-pub fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
+pub(super) fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
     let state = view.state;
     let level = pair.level as usize;
     let (x, y) = (&state.links[a.carrier], &state.links[b.carrier]);
@@ -125,7 +125,7 @@ pub fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
 
 /// Returns the signed distance in the middle (m), exact only below `enough`, and leaves its direction in the
 /// pair.
-pub fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
+pub(super) fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
     let X_AB = state.relative(a.carrier, b.carrier);
     let start = (pair.normal != Vec3::zeros()).then_some(pair.normal);
     let found = signed_distance_within(&a.part, &b.part, &X_AB, start, enough);

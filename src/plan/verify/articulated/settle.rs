@@ -31,7 +31,7 @@ const SHORTENINGS_MAX: usize = 60;
 
 /// The attitude at which the descent ended.
 #[derive(Clone, Debug)]
-pub struct SettledAttitude {
+pub(super) struct SettledAttitude {
     /// The rotation from where it began.
     pub turn: Mat3,
     /// Height of the centre of mass above the lowest point, m.
@@ -39,13 +39,13 @@ pub struct SettledAttitude {
 }
 
 /// Returns the height of the centre of mass (the origin) over the lowest point, with `up` pointing up.
-pub fn height(features: &[Feature], up: &Vec3) -> f64 {
+pub(super) fn height(features: &[Feature], up: &Vec3) -> f64 {
     -features.iter().map(|feature| feature.lowest(up)).fold(f64::INFINITY, f64::min)
 }
 
 /// Returns the attitude at which a robot comes to rest from its present one; `features` have the centre of mass at the origin and
 /// +z up.
-pub fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
+pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
     let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);
     let mut turn = Mat3::identity();
     let mut level = height(features, &Vec3::z());

@@ -9,7 +9,7 @@ use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Stability
 use crate::units::{Dimension, quantity};
 
 /// Watches a rollout for the loss of support.
-pub struct Monitor<'a> {
+pub(super) struct Monitor<'a> {
     settings: &'a Settings,
     tolerances: &'a Tolerances,
     /// The present loss of support.
@@ -25,7 +25,7 @@ pub struct Monitor<'a> {
 
 /// An interval of time without support.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SupportLoss {
+pub(super) struct SupportLoss {
     /// When it begins, s.
     pub since: f64,
     /// When it ends, s.
@@ -42,7 +42,7 @@ pub struct SupportLoss {
 
 impl<'a> Monitor<'a> {
     /// Returns a monitor before the first sample.
-    pub fn new(settings: &'a Settings, tolerances: &'a Tolerances) -> Monitor<'a> {
+    pub(super) fn new(settings: &'a Settings, tolerances: &'a Tolerances) -> Monitor<'a> {
         Monitor {
             settings,
             tolerances,
@@ -56,7 +56,7 @@ impl<'a> Monitor<'a> {
     }
 
     /// Judges a sample. Returns a loss of support that lasted longer than is allowed, where it ends.
-    pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<SupportLoss> {
+    pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<SupportLoss> {
         self.fixed_base |= sample.world.ground == Ground::Held;
         if matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0 {
             self.standing = false;
@@ -91,17 +91,17 @@ impl<'a> Monitor<'a> {
     }
 
     /// Returns true if support is missing at the moment.
-    pub fn lacking(&self) -> bool {
+    pub(super) fn lacking(&self) -> bool {
         self.loss.is_some()
     }
 
     /// Returns the loss that lasts to the end of the plan, at `t` (s): support must be back by then.
-    pub fn end(&mut self, t: f64) -> Option<SupportLoss> {
+    pub(super) fn end(&mut self, t: f64) -> Option<SupportLoss> {
         self.loss.take().map(|loss| SupportLoss { until: t, ..loss })
     }
 
     /// Records the status.
-    pub fn finish(&self, ledger: &mut Ledger) {
+    pub(super) fn finish(&self, ledger: &mut Ledger) {
         let why = if self.fixed_base { "what is held fast does not fall" } else { "there is no ground" };
         let none = || Status::NotChecked(why.to_owned());
         let status = match (self.ground, self.proved) {
@@ -188,7 +188,7 @@ impl<'a> Monitor<'a> {
 
 impl SupportLoss {
     /// Returns the failure.
-    pub fn failure(&self) -> Failure {
+    pub(super) fn failure(&self) -> Failure {
         let time = |t| quantity(t, Dimension::TIME);
         let edge = if self.edge.is_empty() { String::new() } else { format!(" over {}", self.edge) };
         let (message, value) = match (self.drop, self.margin) {

@@ -13,7 +13,7 @@ use crate::robot::{Motion, Step};
 use nalgebra::DMatrix;
 
 /// Everything of a model that holds loads; compiled once for its bonds.
-pub struct Structure {
+pub(super) struct Structure {
     /// All loads that have a limit.
     pub loads: Vec<Load>,
     /// True if some motor's effort does not follow from those of its joints.
@@ -27,7 +27,7 @@ pub struct Structure {
 
 /// Something that holds a load and says how much it can.
 #[derive(Clone, Debug)]
-pub struct Load {
+pub(super) struct Load {
     /// The name in reports.
     pub name: String,
     /// The kind of load, which says how its terms combine.
@@ -40,7 +40,7 @@ pub struct Load {
 
 /// The kind of a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LoadKind {
+pub(super) enum LoadKind {
     /// Torque or force of a joint; or of a motor, by the joint that it drives first.
     Joint { joint: usize, turns: bool },
     /// Pull along the normal of a bond.
@@ -61,7 +61,7 @@ enum Cut {
 /// A cut in the present posture: forces on the links beyond `link` count by `dir·f`, or by
 /// `dir·((p - at) × f)` if they are moments.
 #[derive(Clone, Copy, Debug)]
-pub struct Section {
+pub(super) struct Section {
     /// The first link beyond the cut.
     pub link: usize,
     /// A point of the cut, from the centre of mass, level axes, m.
@@ -74,14 +74,14 @@ pub struct Section {
 
 impl Section {
     /// Returns the component that a force `f` at `p` with a moment `m` contributes.
-    pub fn of(&self, p: &Vec3, f: &Vec3, m: &Vec3) -> f64 {
+    pub(super) fn of(&self, p: &Vec3, f: &Vec3, m: &Vec3) -> f64 {
         if self.moment { self.dir.dot(&((p - self.at).cross(f) + m)) } else { self.dir.dot(f) }
     }
 }
 
 /// A wrench on a link.
 #[derive(Clone, Copy, Debug)]
-pub struct Wrench {
+pub(super) struct Wrench {
     /// The link that it acts on.
     pub link: usize,
     /// Point of application, from the centre of mass, level axes, m.
@@ -94,7 +94,7 @@ pub struct Wrench {
 
 impl Structure {
     /// Compiles the loads of a model with the bonds that hold.
-    pub fn new(model: &Model) -> Structure {
+    pub(super) fn new(model: &Model) -> Structure {
         let mut structure = Structure {
             loads: vec![],
             motors_open: false,
@@ -110,20 +110,20 @@ impl Structure {
     }
 
     /// Returns true if `link` is `at` or lies beyond it in the tree.
-    pub fn beyond(&self, at: usize, link: usize) -> bool {
+    pub(super) fn beyond(&self, at: usize, link: usize) -> bool {
         let ((first, last), (number, _)) = (self.span[at], self.span[link]);
         first <= number && number <= last
     }
 
     /// Returns the first link beyond a cut.
-    pub fn cut_link(&self, cut: usize) -> usize {
+    pub(super) fn cut_link(&self, cut: usize) -> usize {
         match self.cuts[cut] {
             Cut::Step { link, .. } | Cut::Bond { link, .. } => link,
         }
     }
 
     /// Returns all cuts in a stance.
-    pub fn sections(&self, stance: &Stance) -> Vec<Section> {
+    pub(super) fn sections(&self, stance: &Stance) -> Vec<Section> {
         let R = |link: usize| stance.R * stance.posture.R[link];
         let p = |link: usize| stance.R * (stance.posture.p[link] - stance.posture.centre);
         self.cuts
@@ -147,7 +147,7 @@ impl Structure {
     }
 
     /// Returns the load at every cut from these wrenches, N or N·m.
-    pub fn held(&self, model: &Model, sections: &[Section], wrenches: &[Wrench]) -> Vec<f64> {
+    pub(super) fn held(&self, model: &Model, sections: &[Section], wrenches: &[Wrench]) -> Vec<f64> {
         let mut force = vec![Vec3::zeros(); model.bodies.len()];
         let mut moment = vec![Vec3::zeros(); model.bodies.len()];
         for push in wrenches {
@@ -164,7 +164,7 @@ impl Structure {
     }
 
     /// Returns the size of a load from what its cuts hold, N·m or N; a pull is signed.
-    pub fn size(&self, load: &Load, held: &[f64]) -> f64 {
+    pub(super) fn size(&self, load: &Load, held: &[f64]) -> f64 {
         let term = |&(cut, factor): &(usize, f64)| factor * held[cut];
         match load.kind {
             LoadKind::Joint { .. } => load.terms.iter().map(term).sum::<f64>().abs(),
@@ -175,7 +175,7 @@ impl Structure {
 
     /// Returns the generalised force that a motor supplies at a joint, by virtual work: the cuts that the joint
     /// moves, with their factors.
-    pub fn joint_effort(&self, joint: usize, held: &[f64], effects: &[Vec<(usize, f64)>]) -> f64 {
+    pub(super) fn joint_effort(&self, joint: usize, held: &[f64], effects: &[Vec<(usize, f64)>]) -> f64 {
         -effects[joint].iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>()
     }
 
@@ -294,7 +294,7 @@ impl Structure {
     }
 
     /// Returns the position of a bond that closes a loop: its port `a`, from the centre of mass, m.
-    pub fn closing_place(&self, model: &Model, stance: &Stance, bond: usize) -> Vec3 {
+    pub(super) fn closing_place(&self, model: &Model, stance: &Stance, bond: usize) -> Vec3 {
         let a = model.robot.bonds[bond].a;
         let port = &model.robot.module_type(a.module).ports[a.port];
         let link = model.kinematics.link(a.module, port.link);
@@ -318,12 +318,12 @@ fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
 }
 
 /// Returns true if a joint drives a step.
-pub fn moves(step: &Step) -> bool {
+pub(super) fn moves(step: &Step) -> bool {
     step.motion != Motion::Fixed && !step.terms().is_empty()
 }
 
 /// Returns for each joint the moving steps that it drives, numbered among the moving steps, with factors.
-pub fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
+pub(super) fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
     let count = model.robot.joints().count();
     let mut effects = vec![Vec::new(); count];
     for (cut, step) in model.kinematics.steps.iter().filter(|step| moves(step)).enumerate() {

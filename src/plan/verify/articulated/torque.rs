@@ -17,7 +17,7 @@ use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
 use crate::units::{Dimension, quantity};
 
 /// Judges loads from sample to sample.
-pub struct Monitor<'a> {
+pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
     compiled: Option<Compiled>,
     /// Loads over their limits at the last sample that moved, with their ratios.
@@ -52,7 +52,7 @@ const UNDECIDED: &str =
 
 /// A load over its limit.
 #[derive(Clone, Debug)]
-pub struct Overload {
+pub(super) struct Overload {
     /// The name of the load.
     pub name: String,
     /// Its kind.
@@ -91,7 +91,7 @@ struct Loads {
 
 impl<'a> Monitor<'a> {
     /// Returns a monitor before the first sample.
-    pub fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
+    pub(super) fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
         Monitor {
             tolerances,
             compiled: None,
@@ -111,7 +111,7 @@ impl<'a> Monitor<'a> {
     }
 
     /// Judges the loads of a sample.
-    pub fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
+    pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             self.over.clear();
             return;
@@ -278,7 +278,7 @@ impl<'a> Monitor<'a> {
     }
 
     /// Takes in what was proved about the time between samples.
-    pub fn between(&mut self, between: &BetweenSamples, rollout: &Rollout) {
+    pub(super) fn between(&mut self, between: &BetweenSamples, rollout: &Rollout) {
         self.proved = *between == BetweenSamples::Proved;
         if let (BetweenSamples::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
             let model = Model::new(&rollout.tracks.robot, &bonds_at(rollout.tracks, *time));
@@ -290,12 +290,12 @@ impl<'a> Monitor<'a> {
     }
 
     /// Returns the overloads found, in order of time.
-    pub fn overloaded(&self) -> &[Overload] {
+    pub(super) fn overloaded(&self) -> &[Overload] {
         &self.failures
     }
 
     /// Records energy, notes and the statuses.
-    pub fn finish(&self, ledger: &mut Ledger) {
+    pub(super) fn finish(&self, ledger: &mut Ledger) {
         ledger.verdict.energy = self.energy;
         if let Some(uneven) = &self.uneven {
             let (time, name) = (quantity(uneven.time, Dimension::TIME), &uneven.name);
@@ -341,7 +341,7 @@ impl<'a> Monitor<'a> {
 
 impl Overload {
     /// Returns the failure of the overload.
-    pub fn failure(&self) -> Failure {
+    pub(super) fn failure(&self) -> Failure {
         let (kind, dimension, what) = match self.kind {
             LoadKind::Joint { turns: true, .. } => {
                 (CheckKind::Torque, Dimension::TORQUE, "would have to hold")
@@ -374,14 +374,14 @@ impl Overload {
 
 /// Reads loads without judging them.
 #[derive(Default)]
-pub struct LoadGauge {
+pub(super) struct LoadGauge {
     compiled: Option<Compiled>,
 }
 
 impl LoadGauge {
     /// Returns the ratio of load to limit of every joint that states one, with the ground's forces spread evenly and
     /// without friction: (joint, ratio). Empty where nothing is weighed.
-    pub fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
+    pub(super) fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             return vec![];
         }
@@ -401,7 +401,7 @@ impl LoadGauge {
 }
 
 /// Returns true if a load of this name is over its limit in a sample: for finding which command is to blame.
-pub fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
+pub(super) fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
     let mut observe = Monitor::new(tolerances);
     observe.observe(sample, ledger);
     observe.failures.iter().any(|f| f.name == name)

@@ -11,7 +11,7 @@ use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
     /// K1: checks the smallest and the largest edge at the end of a stage. Returns false where one fails.
-    pub fn sizes(
+    pub(super) fn sizes(
         &self,
         change: &Change,
         lines: i64,
@@ -38,7 +38,7 @@ impl Judgement<'_> {
     }
 
     /// K4 and K6: checks the greatest acceleration and the greatest rate of a size.
-    pub fn laws(&self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn laws(&self, step: &Step, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
         let lines = 2 * i128::from(step.lines);
         // K4: acceleration, along each axis or in the Euclidean norm.
@@ -85,7 +85,7 @@ impl Judgement<'_> {
     }
 
     /// K5: checks the greatest relative speed over contacts that last the stage.
-    pub fn contact_speed(&self, step: &Step, forest: &ContactForest, ledger: &mut Ledger) {
+    pub(super) fn contact_speed(&self, step: &Step, forest: &ContactForest, ledger: &mut Ledger) {
         let (a, b) = forest.fastest;
         self.note_speed(step, forest.relative, 2 * step.lines, &[a, b], ledger);
         let limit = self.stages.limits.speed_squared;
@@ -95,7 +95,13 @@ impl Judgement<'_> {
     }
 
     /// Records that two cells in contact move too fast relative to each other.
-    pub fn contact_too_fast(&self, step: &Step, relative: i64, (a, b): (u32, u32), ledger: &mut Ledger) {
+    pub(super) fn contact_too_fast(
+        &self,
+        step: &Step,
+        relative: i64,
+        (a, b): (u32, u32),
+        ledger: &mut Ledger,
+    ) {
         let value = self.speed(step, relative, 2 * step.lines);
         let message = format!(
             "cells {a} and {b}, in contact, move past or from each other at {}; their greatest speed is {}",
@@ -118,7 +124,7 @@ impl Judgement<'_> {
     }
 
     /// F1 and F3: checks linear and angular momentum. Also records peak speed and energies.
-    pub fn momentum(&self, step: &Step, dynamics: &mut Dynamics, ledger: &mut Ledger) {
+    pub(super) fn momentum(&self, step: &Step, dynamics: &mut Dynamics, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
         if let Some(axis) = (0..3).find(|&axis| change.drift[axis] != 0) {
             let axis = ["x", "y", "z"][axis];
@@ -148,7 +154,13 @@ impl Judgement<'_> {
     }
 
     /// F2 and F4: checks that contact forces explain the motion, and their limit.
-    pub fn forces(&self, step: &Step, forest: &ContactForest, dynamics: &mut Dynamics, ledger: &mut Ledger) {
+    pub(super) fn forces(
+        &self,
+        step: &Step,
+        forest: &ContactForest,
+        dynamics: &mut Dynamics,
+        ledger: &mut Ledger,
+    ) {
         if step.change.drift != [0; 3] {
             return;
         }
@@ -181,7 +193,7 @@ impl Judgement<'_> {
     }
 
     /// K2: records an overlap of two cells.
-    pub fn overlapping(
+    pub(super) fn overlapping(
         &self,
         overlap: &Overlap,
         from: f64,
@@ -197,7 +209,7 @@ impl Judgement<'_> {
     }
 
     /// K3: checks that contacts connect all cells.
-    pub fn connected(
+    pub(super) fn connected(
         &self,
         forest: &mut ContactForest,
         time: f64,

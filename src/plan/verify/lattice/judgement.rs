@@ -7,7 +7,7 @@ use crate::plan::{CheckKind, Failure, Stage, Stages};
 use crate::robot::Cell;
 
 /// A plan under judgement.
-pub struct Judgement<'a> {
+pub(super) struct Judgement<'a> {
     /// The stages.
     pub stages: &'a Stages,
     /// The cell that they are made of.
@@ -15,7 +15,7 @@ pub struct Judgement<'a> {
 }
 
 /// One stage with the configurations at its two ends.
-pub struct Step<'a> {
+pub(super) struct Step<'a> {
     /// The stage.
     pub stage: &'a Stage,
     /// The start of the stage, s.
@@ -36,7 +36,7 @@ pub struct Step<'a> {
 
 impl Judgement<'_> {
     /// Records a failure of a stage that has no value and no limit.
-    pub fn fail(
+    pub(super) fn fail(
         &self,
         kind: CheckKind,
         time: f64,
@@ -48,7 +48,7 @@ impl Judgement<'_> {
     }
 
     /// Records a failure of a stage with its value, its limit and the cells concerned.
-    pub fn fail_at(
+    pub(super) fn fail_at(
         &self,
         kind: CheckKind,
         time: f64,
@@ -61,7 +61,7 @@ impl Judgement<'_> {
     }
 
     /// Returns an empty failure, blamed on the command behind the stage.
-    pub fn failure(&self, kind: CheckKind, time: f64, stage: Option<&Stage>) -> Failure {
+    pub(super) fn failure(&self, kind: CheckKind, time: f64, stage: Option<&Stage>) -> Failure {
         Failure {
             kind,
             time,
@@ -77,6 +77,6 @@ impl Judgement<'_> {
 }
 
 /// Returns the names of cells in a report.
-pub fn names(cells: &[u32]) -> Vec<String> {
+pub(super) fn names(cells: &[u32]) -> Vec<String> {
     cells.iter().map(|cell| format!("cell {cell}")).collect()
 }

@@ -15,7 +15,7 @@ use std::fmt;
 const WORK_MAX: u64 = 1_000_000_000;
 
 /// A reason for which a lattice plan is not judged.
-pub enum NotJudged {
+pub(super) enum NotJudged {
     /// There are no exact integers for it.
     Lattice(LatticeFault),
     /// Its world has gravity or a ground.
@@ -53,7 +53,7 @@ impl fmt::Display for NotJudged {
 
 impl Judgement<'_> {
     /// Checks what the model assumes: no gravity, no ground, and units that the cell is capable of.
-    pub fn assumptions(&self, plan: &Plan) -> Result<(), NotJudged> {
+    pub(super) fn assumptions(&self, plan: &Plan) -> Result<(), NotJudged> {
         let floats = |world: &World| world.gravity == 0.0 && world.ground == Ground::Off;
         if !plan.worlds.iter().all(|w| floats(&w.world)) {
             return Err(NotJudged::World);
@@ -77,7 +77,7 @@ impl Judgement<'_> {
     }
 
     /// Judges the start and then stage after stage.
-    pub fn stages(&self, ledger: &mut Ledger) -> Result<(), NotJudged> {
+    pub(super) fn stages(&self, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let grid = Grid::of(self.stages)?;
         // A cell that no run names has no size.
         let mut before = vec![Cube::default(); self.stages.count as usize];

@@ -11,7 +11,7 @@ use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
     /// Judges the start of a plan of one keyframe as a step in which nothing moves.
-    pub fn at_rest(&self, x: &[Vec3], world: World, standing: &mut Standing, ledger: &mut Ledger) {
+    pub(super) fn at_rest(&self, x: &[Vec3], world: World, standing: &mut Standing, ledger: &mut Ledger) {
         let step = Step {
             from: x.to_vec(),
             to: x.to_vec(),
@@ -34,7 +34,7 @@ impl Judgement<'_> {
     }
 
     /// Checks lengths of struts and their rates on a step; a rigid roll changes neither.
-    pub fn lengths(&self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn lengths(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
         }
@@ -70,7 +70,7 @@ impl Judgement<'_> {
     }
 
     /// Checks distances between struts on a step; a rigid roll does not change them.
-    pub fn distances(&self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn distances(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
         }
@@ -100,7 +100,7 @@ impl Judgement<'_> {
     }
 
     /// Checks that no node goes into the ground on a step.
-    pub fn ground(&self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn ground(&self, step: &Step, ledger: &mut Ledger) {
         if let Some(terrain) = &self.paths.surroundings.terrain {
             return self.uneven(step, terrain, ledger);
         }
@@ -117,7 +117,13 @@ impl Judgement<'_> {
     }
 
     /// Records displacement, events and the status of every check.
-    pub fn summary(&self, places: &[Vec<Vec3>], standing: &Standing, plan: &Plan, ledger: &mut Ledger) {
+    pub(super) fn summary(
+        &self,
+        places: &[Vec<Vec3>],
+        standing: &Standing,
+        plan: &Plan,
+        ledger: &mut Ledger,
+    ) {
         let (first, last) = (&places[0], &places[places.len() - 1]);
         let travel = support::centre(self.paths, last) - support::centre(self.paths, first);
         ledger.verdict.travel = [travel.x, travel.y, travel.z];

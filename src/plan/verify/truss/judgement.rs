@@ -8,7 +8,7 @@ use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::robot::Strut;
 
 /// The motion from one keyframe to the next.
-pub struct Step {
+pub(super) struct Step {
     /// Node positions at the start, m.
     pub from: Vec<Vec3>,
     /// Node positions at the end, m.
@@ -22,7 +22,7 @@ pub struct Step {
 }
 
 /// A truss plan under judgement.
-pub struct Judgement<'a> {
+pub(super) struct Judgement<'a> {
     /// The plan's body.
     pub paths: &'a NodePaths,
     /// The tolerances of all checks.
@@ -39,13 +39,13 @@ pub struct Judgement<'a> {
 
 impl Judgement<'_> {
     /// Returns the name of a strut in a report, made of the names of its nodes.
-    pub fn strut_name(&self, strut: usize) -> String {
+    pub(super) fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.paths.struts[strut];
         format!("{} -- {}", self.paths.node_names[a], self.paths.node_names[b])
     }
 
     /// Returns a failure at a time, blamed on the command behind the step that follows.
-    pub fn failure(&self, kind: CheckKind, time: f64, at: Vec<String>, message: String) -> Failure {
+    pub(super) fn failure(&self, kind: CheckKind, time: f64, at: Vec<String>, message: String) -> Failure {
         let cause =
             self.paths.keyframes.iter().find(|keyframe| keyframe.time > time).map(|keyframe| keyframe.cause);
         Failure { kind, time, at, blame: cause.into_iter().collect(), ..Failure::form(message) }

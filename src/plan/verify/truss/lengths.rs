@@ -4,7 +4,7 @@
 use super::judgement::Step;
 
 /// Extremes of the length of one strut on a step.
-pub struct Lengths {
+pub(super) struct Lengths {
     /// The least length, m, and its time, s.
     pub least: (f64, f64),
     /// The greatest length, m, and its time, s.
@@ -15,19 +15,19 @@ pub struct Lengths {
 
 impl Lengths {
     /// Returns a length outside a range (m) by more than `tolerance`, with its time; `None` if there is none.
-    pub fn outside(&self, (low, high): (f64, f64), tolerance: f64) -> Option<(f64, f64)> {
+    pub(super) fn outside(&self, (low, high): (f64, f64), tolerance: f64) -> Option<(f64, f64)> {
         let short = (self.least.0 < low - tolerance).then_some(self.least);
         short.or_else(|| (self.most.0 > high + tolerance).then_some(self.most))
     }
 
     /// Returns true if the rate exceeds a limit (m/s) by more than a relative `tolerance`.
-    pub fn too_fast(&self, limit: f64, tolerance: f64) -> bool {
+    pub(super) fn too_fast(&self, limit: f64, tolerance: f64) -> bool {
         self.rate > limit * (1.0 + tolerance)
     }
 }
 
 /// Returns the extremes for the strut between nodes `a` and `b`, which move on straight lines.
-pub fn along(step: &Step, a: usize, b: usize) -> Lengths {
+pub(super) fn along(step: &Step, a: usize, b: usize) -> Lengths {
     let (from, to) = (step.from[a] - step.from[b], step.to[a] - step.to[b]);
     let change = to - from;
     // |from + u change|² is least where its slope is zero.

@@ -20,7 +20,7 @@ const RIGID_MOTIONS: usize = 6;
 
 impl Judgement<'_> {
     /// Checks angles, sums of lengths and rigidity on a step; a rigid roll changes none of them.
-    pub fn shape(&self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn shape(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
         }
@@ -151,7 +151,7 @@ impl Judgement<'_> {
 
 /// Returns the least singular value of the rigidity matrix that does not belong to a rigid motion of the whole
 /// truss. Rows are unit vectors along the struts, so it has no unit; 0 where the truss is not rigid.
-pub fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
+pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     let struts = &paths.struts;
     let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
     for (row, &(a, b)) in struts.iter().enumerate() {
@@ -168,7 +168,7 @@ pub fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
 }
 
 /// Two struts that share a node.
-pub struct Corner {
+pub(super) struct Corner {
     node: usize,
     /// Their other nodes.
     ends: (usize, usize),
@@ -177,14 +177,14 @@ pub struct Corner {
 
 impl Corner {
     /// Returns the angle between its struts at node positions `x`, rad.
-    pub fn angle(&self, x: &[Vec3]) -> f64 {
+    pub(super) fn angle(&self, x: &[Vec3]) -> f64 {
         let (p, q) = self.ends;
         between(x[p] - x[self.node], x[q] - x[self.node])
     }
 }
 
 /// Returns all pairs of struts that share a node, in order of node.
-pub fn corners(paths: &NodePaths) -> Vec<Corner> {
+pub(super) fn corners(paths: &NodePaths) -> Vec<Corner> {
     let mut at_node: Vec<Vec<(usize, usize)>> = vec![Vec::new(); paths.node_names.len()];
     for (strut, &(a, b)) in paths.struts.iter().enumerate() {
         at_node[a].push((strut, b));

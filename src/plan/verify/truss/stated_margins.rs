@@ -11,7 +11,13 @@ use crate::units::number;
 impl Judgement<'_> {
     /// Returns the failure of the first margin of a keyframe that is not as stated; `x` are the node positions at
     /// the keyframe, m.
-    pub fn margins(&self, stated: &Margins, x: &[Vec3], time: f64, standing: &Standing) -> Option<Failure> {
+    pub(super) fn margins(
+        &self,
+        stated: &Margins,
+        x: &[Vec3],
+        time: f64,
+        standing: &Standing,
+    ) -> Option<Failure> {
         let Margins { length, clearance, obstacle, support, angle, rigidity, sum } = *stated;
         let found = |stated: Option<f64>, found: &dyn Fn() -> Option<f64>, what: &'static str| {
             let stated = stated?;

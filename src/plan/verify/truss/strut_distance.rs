@@ -11,7 +11,7 @@ use crate::plan::NodePaths;
 const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 
 /// Two struts near each other on a step.
-pub struct NearPair {
+pub(super) struct NearPair {
     /// Their indices, in ascending order.
     pub struts: (usize, usize),
     /// The least distance at any sample, m.
@@ -25,7 +25,7 @@ pub struct NearPair {
 /// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the
 /// `clearance` (m), with their distances. Narrow phase: conservative advancement, with `tolerance` (m) below the
 /// clearance.
-pub fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance: f64) -> Vec<NearPair> {
+pub(super) fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance: f64) -> Vec<NearPair> {
     let shares = |i: usize, j: usize| {
         let ((a, b), (c, d)) = (paths.struts[i], paths.struts[j]);
         a == c || a == d || b == c || b == d

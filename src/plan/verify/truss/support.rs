@@ -11,7 +11,7 @@ use crate::units::{Dimension, quantity};
 const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 
 /// Judges static stability step after step, and records slip on the way.
-pub struct Standing<'a> {
+pub(super) struct Standing<'a> {
     judgement: &'a Judgement<'a>,
     contact: f64,
     /// Distance that each node slid over the ground, m.
@@ -23,13 +23,13 @@ pub struct Standing<'a> {
 }
 
 /// Returns the centre of mass, m: half of each strut's mass is at each of its ends.
-pub fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
+pub(super) fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
     let sum: Vec3 = paths.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
     sum / paths.struts.len().max(1) as f64
 }
 
 /// Returns the least height of a node on a step, m, and where on the step (0 to 1) it is reached.
-pub fn lowest(step: &Step, node: usize) -> (f64, f64) {
+pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
     let (from, to) = (step.from[node], step.to[node]);
     let ends = if from.z <= to.z { (from.z, 0.0) } else { (to.z, 1.0) };
     let Interpolation::RigidRoll { edge, angle } = step.interpolation else { return ends };
@@ -52,7 +52,7 @@ pub fn lowest(step: &Step, node: usize) -> (f64, f64) {
 
 impl<'a> Standing<'a> {
     /// Returns the state before the first step.
-    pub fn new(judgement: &'a Judgement<'a>) -> Standing<'a> {
+    pub(super) fn new(judgement: &'a Judgement<'a>) -> Standing<'a> {
         let paths = judgement.paths;
         let first = &paths.keyframes[0].nodes;
         let length = |&(a, b): &(usize, usize)| (Vec3::from(first[a]) - Vec3::from(first[b])).norm();
@@ -67,7 +67,7 @@ impl<'a> Standing<'a> {
     }
 
     /// Returns the greatest distance that a node slid, m, and the node.
-    pub fn slid(&self) -> (f64, usize) {
+    pub(super) fn slid(&self) -> (f64, usize) {
         let most = |best: (f64, usize), (node, slid): (usize, &f64)| {
             if *slid > best.0 { (*slid, node) } else { best }
         };
@@ -75,7 +75,7 @@ impl<'a> Standing<'a> {
     }
 
     /// Returns in words what is not judged of sliding.
-    pub fn sliding(&self) -> String {
+    pub(super) fn sliding(&self) -> String {
         let words = "nodes may slide on the ground";
         if self.steepest == 0.0 {
             return words.to_owned();
@@ -88,7 +88,7 @@ impl<'a> Standing<'a> {
     }
 
     /// Returns true if a point is on the ground, within the contact tolerance.
-    pub fn touches(&self, p: Vec3) -> bool {
+    pub(super) fn touches(&self, p: Vec3) -> bool {
         self.judgement.paths.surroundings.above(p) <= self.contact
     }
 
@@ -105,7 +105,7 @@ impl<'a> Standing<'a> {
     }
 
     /// Judges static stability during a step.
-    pub fn step(&mut self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn step(&mut self, step: &Step, ledger: &mut Ledger) {
         match step.interpolation {
             Interpolation::Linear => self.straight(step, ledger),
             Interpolation::RigidRoll { edge, angle } => self.roll(step, edge, angle, ledger),

@@ -15,7 +15,7 @@ use crate::units::{Dimension, quantity};
 const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 
 /// An obstacle of the plan's surroundings.
-pub struct Obstacle {
+pub(super) struct Obstacle {
     solid: Solid,
     /// Its name in a report.
     name: String,
@@ -26,7 +26,7 @@ pub struct Obstacle {
 /// # Errors
 ///
 /// The first shape that is no solid.
-pub fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
+pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
     let obstacles = paths.surroundings.obstacles.iter().enumerate();
     obstacles
         .map(|(i, shapes)| Ok(Obstacle { solid: Solid::new(shapes)?, name: format!("obstacle {}", i + 1) }))
@@ -34,7 +34,7 @@ pub fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
 }
 
 /// Returns the position of a node, m, at a part of a step from 0 to 1.
-pub fn place(step: &Step, node: usize, part: f64) -> Vec3 {
+pub(super) fn place(step: &Step, node: usize, part: f64) -> Vec3 {
     match step.interpolation {
         Interpolation::Linear => step.from[node] + (step.to[node] - step.from[node]) * part,
         Interpolation::RigidRoll { edge, angle } => {
@@ -58,7 +58,7 @@ fn way(step: &Step, node: usize) -> f64 {
 
 impl Judgement<'_> {
     /// Checks the distances of all struts to all obstacles on a step.
-    pub fn obstacles(&self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn obstacles(&self, step: &Step, ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
             for strut in 0..self.paths.struts.len() {
                 for part in &obstacle.solid.parts {
@@ -124,7 +124,7 @@ impl Judgement<'_> {
     }
 
     /// Returns the least distance of any strut to any obstacle at node positions `x`, m; `None` without obstacles.
-    pub fn nearest_obstacle(&self, x: &[Vec3]) -> Option<f64> {
+    pub(super) fn nearest_obstacle(&self, x: &[Vec3]) -> Option<f64> {
         let parts = || self.obstacles.iter().flat_map(|obstacle| &obstacle.solid.parts);
         let mut least = None;
         for &(a, b) in &self.paths.struts {
@@ -142,7 +142,7 @@ impl Judgement<'_> {
     }
 
     /// Checks that no node begins inside an obstacle: inside a hollow one it may be far from the walls.
-    pub fn enclosed(&self, x: &[Vec3], ledger: &mut Ledger) {
+    pub(super) fn enclosed(&self, x: &[Vec3], ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
             if let Some(node) = x.iter().position(|p| obstacle.solid.encloses(p)) {
                 let name = self.paths.node_names[node].clone();
@@ -154,7 +154,7 @@ impl Judgement<'_> {
     }
 
     /// Checks that nodes stay above uneven ground, and that struts go no deeper into it than half their clearance.
-    pub fn uneven(&self, step: &Step, terrain: &HeightField, ledger: &mut Ledger) {
+    pub(super) fn uneven(&self, step: &Step, terrain: &HeightField, ledger: &mut Ledger) {
         let nodes = (0..step.from.len()).map(|node| (vec![node], 0.0));
         let struts = self.paths.struts.iter().map(|&(a, b)| (vec![a, b], self.strut.clearance / 2.0));
         let found = nodes.chain(struts).filter_map(|(ends, sink)| {

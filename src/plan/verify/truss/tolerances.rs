@@ -2,7 +2,7 @@
 
 /// Tolerances of the judgement of trusses. Lengths in metres, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerances {
+pub(super) struct Tolerances {
     /// Excess of a strut's length over its range. Default 1e-9 m: rounding of the plan's coordinates.
     pub length: f64,
     /// Relative excess of a strut's rate over its limit. Default 1e-9: rounding of the plan's coordinates and

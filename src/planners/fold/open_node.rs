@@ -1,0 +1,59 @@
+//! Nodes of branch and bound that are open, in the order of best-first search.
+
+use super::lagrangian::Multipliers;
+use super::shortest_paths::{Allowed, Arc};
+use std::cmp::Ordering;
+use std::rc::Rc;
+
+/// The size of a node by its faces, bytes: a path shared with its parent, a cost, uses, arcs.
+const FACE_BYTES: usize = 48;
+
+/// A node of the search: the layouts of one root with some arcs left out.
+pub(super) struct Node {
+    pub(super) root: usize,
+    pub(super) bound: f64,
+    pub(super) number: u64,
+    /// The paths of the node; `None` while only its bound is known.
+    pub(super) ways: Option<NodePaths>,
+}
+
+/// The relaxed solution of a node.
+pub(super) struct NodePaths {
+    pub(super) allowed: Allowed,
+    pub(super) paths: Vec<Rc<[Arc]>>,
+    pub(super) costs: Vec<f64>,
+    pub(super) multipliers: Rc<Multipliers>,
+    /// The length of the next step of an ascent, as a part of the gap.
+    pub(super) length: f64,
+    /// True while another ascent may raise the bound further.
+    pub(super) rising: bool,
+    /// By face and side: the number of paths that entered there at the end of the last ascent.
+    pub(super) uses: Vec<[u32; 3]>,
+}
+
+/// The node of least bound is the greatest; of equal ones the newest, then that of the first root.
+impl Ord for Node {
+    fn cmp(&self, other: &Node) -> Ordering {
+        let newest = self.number.cmp(&other.number);
+        other.bound.total_cmp(&self.bound).then(newest).then(other.root.cmp(&self.root))
+    }
+}
+impl PartialOrd for Node {
+    fn partial_cmp(&self, other: &Node) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Node {
+    fn eq(&self, other: &Node) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Node {}
+
+impl Node {
+    /// Returns about its size, bytes.
+    pub(super) fn size(&self) -> usize {
+        let Some(ways) = &self.ways else { return 0 };
+        FACE_BYTES * ways.paths.len() + size_of_val(&*ways.multipliers)
+    }
+}
