@@ -116,6 +116,8 @@ fn programs() -> impl Strategy<Value = Arc<Node>> {
 }
 
 proptest! {
+    #![proptest_config(crate::support::properties::cases(256))]
+
     #[test]
     fn conflicts_agree_with_their_definition(program in programs()) {
         let (mut errors, mut warnings) = (false, false);

@@ -369,7 +369,7 @@ fn no_cells_overlap_at_any_instant_that_is_looked_at() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(200))]
 
     /// Rows that slide past each other, and open and close: the judge finds them in one piece just where
     /// sampling does.

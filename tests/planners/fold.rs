@@ -447,7 +447,7 @@ emit(reverse(quad.plan), \"quadruped_unfold.plan.json\")
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(24))]
 
     /// The proof against enumeration, with and without overlap.
     #[test]

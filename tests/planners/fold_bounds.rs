@@ -210,7 +210,7 @@ fn shaken() -> impl Strategy<Value = Target> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(12))]
 
     /// No layout that growth and exchange find, from anywhere, undercuts a bound.
     #[test]

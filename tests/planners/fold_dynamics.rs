@@ -116,7 +116,7 @@ fn torques_under_gravity_are_those_of_another_program() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(48))]
 
     /// Alg. 1 against the closed form: any mesh, tree and root, every joint for itself.
     #[test]

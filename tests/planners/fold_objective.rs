@@ -281,7 +281,7 @@ fn hinges_too_thick_to_close_are_named() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(24))]
 
     /// Peaks by the closed form are those of the simulation, and no layout undercuts the bounds.
     #[test]

@@ -105,7 +105,7 @@ fn gcd(a: usize, b: usize) -> usize {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: if std::env::var_os("MODL_WHOLE").is_some() { 400 } else { 32 }, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(32))]
 
     #[test]
     fn no_proof_is_wrong(target in meshes(), root in 0..80usize, seed in 0..1000usize) {

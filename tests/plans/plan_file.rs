@@ -316,6 +316,8 @@ fn numbers_that_are_not_finite_are_refused() {
 }
 
 proptest! {
+    #![proptest_config(crate::support::properties::cases(256))]
+
     #[test]
     fn numbers_survive_to_the_bit(a in any::<f64>(), b in any::<f64>(), c in any::<f64>()) {
         prop_assume!([a, b, c].iter().all(|x| x.is_finite()));

@@ -114,7 +114,7 @@ fn programs() -> impl Strategy<Value = Arc<Node>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(400))]
 
     #[test]
     fn random_programs_give_sound_tracks_or_a_refusal(program in programs(), cut in 0.0..1.0) {

@@ -1,13 +1,12 @@
 //! Cholesky's decomposition in the envelope against nalgebra's, and the order of Cuthill and McKee.
 
-use crate::support::robots;
 use modl::optimize::cholesky::{PivotRule, SymmetricMatrix};
 use modl::optimize::cuthill_mckee::{neighbours, reverse_order};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, ..robots::seeded() })]
+    #![proptest_config(crate::support::properties::cases(100))]
 
     #[test]
     fn factors_and_solutions_are_those_of_nalgebra(

@@ -156,7 +156,7 @@ fn any_part() -> impl Strategy<Value = Solid> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, ..crate::support::robots::seeded() })]
+    #![proptest_config(crate::support::properties::cases(2000))]
 
     /// Bracketed from both sides: the gap along the normal found is never more than the distance;
     /// no other direction has a larger gap; and a shift by the distance along the normal makes the

@@ -110,7 +110,7 @@ fn by_differences(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, ..robots::seeded() })]
+    #![proptest_config(crate::support::properties::cases(40))]
 
     #[test]
     fn the_jacobian_is_the_derivative_of_forward_kinematics(

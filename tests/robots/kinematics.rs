@@ -341,7 +341,7 @@ fn sine_and_cosine_are_right_to_a_unit_or_two_in_the_last_place() {
 }
 
 proptest! {
-    #![proptest_config(robots::seeded())]
+    #![proptest_config(crate::support::properties::cases(256))]
 
     /// `K · K⁻¹`: parent and child may swap roles, whatever the joints and whichever the root.
     #[test]

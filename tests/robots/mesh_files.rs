@@ -199,7 +199,7 @@ fn meshes_of_files_that_do_not_fold_name_their_faces() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::properties::cases(64))]
 
     /// Bytes changed, cut off and doubled: the file is read or refused, and nothing else happens.
     #[test]

@@ -1,6 +1,5 @@
 //! Closest points against brute force and identities, and the broad phase against all pairs.
 
-use crate::support::robots;
 use modl::geometry::broad_phase::{Aabb, near_boxes, near_points};
 use modl::geometry::closest_points::{
     end_segment, point_box, point_segment, point_segment_distance, point_triangle, segment_part,
@@ -35,7 +34,7 @@ fn sampled(p: (Vec3, Vec3), q: (Vec3, Vec3)) -> (f64, f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, ..robots::seeded() })]
+    #![proptest_config(crate::support::properties::cases(200))]
 
     #[test]
     fn segments_are_as_far_apart_as_samples_say(p in segment(), q in segment()) {

@@ -21,8 +21,9 @@ impl Case {
         0.5 * x.dot(&(&self.hessian * x)) + self.linear.dot(x)
     }
 
+    /// Returns true if x keeps all rows, up to rounding: where rows are nearly parallel, x is far away.
     fn keeps(&self, x: &DVector<f64>) -> bool {
-        (&self.rows * x - &self.right).iter().all(|over| *over <= 1e-9)
+        (&self.rows * x - &self.right).iter().all(|over| *over <= 1e-9 * (1.0 + x.norm()))
     }
 
     /// By trying every set of rows.
@@ -83,6 +84,8 @@ fn cases() -> impl Strategy<Value = Case> {
 }
 
 proptest! {
+    #![proptest_config(crate::support::properties::cases(256))]
+
     /// All rows at once, and one after another, with a solution in between.
     #[test]
     fn the_best_of_all_sets_is_found(case in cases()) {

@@ -6,6 +6,7 @@ pub mod generated;
 pub mod lattices;
 pub mod motions;
 pub mod programs;
+pub mod properties;
 pub mod replay;
 pub mod robots;
 pub mod sources;

@@ -138,15 +138,6 @@ pub fn smores_library() -> Arc<Library> {
     Arc::new(Library { connectors: vec![face], modules: vec![smores()], ..Library::default() })
 }
 
-/// Random cases that are the same on every run, and leave no files.
-pub fn seeded() -> proptest::test_runner::Config {
-    proptest::test_runner::Config {
-        rng_seed: proptest::test_runner::RngSeed::Fixed(4),
-        failure_persistence: None,
-        ..Default::default()
-    }
-}
-
 /// Puts modules of one kind together by name.
 pub struct Design(pub Assembly);
 
