@@ -445,7 +445,7 @@ pub struct PartDef {
     pub of: DefId,
     /// The number of parts, for a list of parts.
     pub count: Option<PartCount>,
-    /// The arguments, in the order of the parameters of `of`.
+    /// The arguments, in the order of the parameters of `of`; `None`: the default.
     pub args: Vec<Option<Expr>>,
     /// The span of the type and its arguments.
     pub ty_span: Span,

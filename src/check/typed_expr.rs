@@ -97,9 +97,10 @@ pub enum ExprKind {
     Member { object: Box<Expr>, member: MemberId },
     /// A joint of a module instance; `joint` indexes [`ModuleDef::joints`](super::typed::ModuleDef::joints).
     Joint { object: Box<Expr>, joint: usize },
-    /// A port or a port array of a module instance; indexes [`ModuleDef::ports`](super::typed::ModuleDef::ports).
+    /// A port or a port array of a module instance; `port` indexes
+    /// [`ModuleDef::ports`](super::typed::ModuleDef::ports).
     Port { object: Box<Expr>, port: usize },
-    /// The joint that lives in the connection at a port.
+    /// The joint of the connection at a port.
     Hinge(Box<Expr>),
     /// A field of a record.
     Field { object: Box<Expr>, field: Symbol },
@@ -125,7 +126,7 @@ pub enum ExprKind {
     Index { object: Box<Expr>, index: Box<Expr> },
     /// `if condition { then } else { otherwise }`
     If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
-    /// `{ statements value }`
+    /// `{ statements value }`: a block; without `value` it has none.
     Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
     /// Runs in a frame of its own: the parameters are its first slots, and each capture copies a
     /// local of the frame where the lambda stands (first) to a slot of the new one (second).

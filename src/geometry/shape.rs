@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
-    /// Edge lengths along x, y, z.
+    /// A cuboid with its edges along x, y and z.
     Box {
         /// Edge lengths, m.
         #[schemars(with = "[f64; 3]")]

@@ -36,11 +36,17 @@ pub struct Design {
 
 /// The kinds of declarations that have instances.
 pub enum DesignKind {
+    /// A module.
     Module(ModuleDesign),
+    /// A configuration: instances of modules and configurations, connected by bonds.
     Config(ConfigDesign),
+    /// A cell of a lattice.
     Cell(Cell),
+    /// A strut of a truss.
     Strut(Strut),
+    /// A lattice of cells.
     Lattice(LatticeDesign),
+    /// A truss of struts and nodes.
     Truss(TrussDesign),
 }
 
@@ -320,7 +326,9 @@ impl Design {
         design.module().expect("only modules are listed").module.clone()
     }
 
-    /// Path name of a module; a lone module goes by the name of its type.
+    /// Returns the path name of the module at an index, such as `leg[2].m[0]`; for a design that is no
+    /// configuration, the name of the design. Panics if the modules of a configuration are not listed yet, or
+    /// the index is out of range.
     pub fn module_name(&self, index: usize) -> Rc<str> {
         match &self.kind {
             DesignKind::Config(config) => {

@@ -244,6 +244,9 @@ impl<'a> Interpreter<'a> {
     }
 
     /// Reports a finding and ends the run.
+    ///
+    /// # Errors
+    /// Always [`Stop::Halt`].
     pub fn halt<T>(&mut self, diagnostic: Diagnostic) -> Eval<T> {
         self.add_report(diagnostic);
         Err(Stop::Halt)

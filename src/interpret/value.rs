@@ -163,12 +163,12 @@ pub struct JointSpec {
     pub passive: bool,
 }
 
-/// A surface of flat faces.
+/// A polygon mesh: a surface of flat faces over shared vertices.
 #[derive(Debug)]
 pub struct Mesh {
-    /// The corners, m.
+    /// The vertices, m.
     pub vertices: Vec<Vec3>,
-    /// Places in `vertices`, counterclockwise from outside; at least three each.
+    /// The indices of each face's corners in `vertices`, counterclockwise from outside; at least three each.
     pub faces: Vec<Vec<usize>>,
 }
 
@@ -193,17 +193,17 @@ impl Value {
         Value::Quantity(x, Dimension::TIME)
     }
 
-    /// Returns a whole number.
+    /// Returns a count as a whole number. Panics if it is 2⁶³ or more.
     pub fn count(n: usize) -> Value {
         Value::Int(i64::try_from(n).expect("counts are far below 2^63"))
     }
 
-    /// A list, or unknown where an element is.
+    /// Returns a list, or unknown if an element is unknown.
     pub fn list(elements: Vec<Value>) -> Value {
         if elements.iter().any(Value::is_unknown) { Value::Unknown } else { Value::List(Rc::new(elements)) }
     }
 
-    /// A whole number in its shortest form.
+    /// Returns a whole number in its shortest form: [`Value::Int`] where it fits.
     pub fn whole(n: BigInt) -> Value {
         i64::try_from(&n).map_or_else(|_| Value::Big(Rc::new(n)), Value::Int)
     }

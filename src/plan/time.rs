@@ -8,12 +8,12 @@ pub const TICK: f64 = 1.0 / (1u64 << 36) as f64;
 /// The longest plan, s (18 h): 2⁵² ticks, beyond which ticks would be lost.
 pub const DURATION_MAX: f64 = (1u64 << 16) as f64;
 
-/// Returns the first tick that is not before `t`. Infinite times stay as they are.
+/// Returns the first tick that is not before the time `t`, both in s. Infinite times stay as they are.
 pub fn tick_after(t: f64) -> f64 {
     libm::ceil(t / TICK) * TICK
 }
 
-/// Returns the tick nearest to `t`, s.
+/// Returns the tick nearest to the time `t`, both in s.
 pub fn tick_near(t: f64) -> f64 {
     libm::round(t / TICK) * TICK
 }

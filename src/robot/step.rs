@@ -70,7 +70,8 @@ impl Motion {
         }
     }
 
-    /// Returns a turn about an axis, which need not be of unit length but must not be zero.
+    /// Returns the rotation about `axis`, in the frame in which `axis` is given. It need not be of unit
+    /// length but must not be zero; once normalised, components below 1e-15 count as zero.
     pub fn revolute(axis: Vec3) -> Motion {
         let axis = axis.normalize().map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
         match (axis.x != 0.0, axis.y != 0.0, axis.z != 0.0) {

@@ -175,9 +175,7 @@ pub struct TypeParam {
     pub bound: Option<Name>,
 }
 
-/// A record: `extern type Folding is Plan { layout: Layout  fn at(t: Time) -> State }`
-///   layout: Layout
-///   fn at(t: Time) -> State }`
+/// A record: `extern type Folding is Plan { layout: Layout fn at(t: Time) -> State }`
 #[derive(Clone, Debug)]
 pub struct ExternType {
     /// Its name.

@@ -1,7 +1,8 @@
-//! The one judge of plans. It knows no planner, and believes nothing that a plan says of itself.
+//! The one judge of plans. It knows no planner, and uses nothing that a plan states about its own
+//! correctness.
 //!
 //! There is a judge for each family of plans: [`articulated`] robots are followed from sample to sample,
-//! [`lattice`]s are judged in whole numbers, [`truss`]es in closed form. Each family's module tells the
+//! [`lattice`]s are judged in whole numbers, [`truss`]es in closed form. Each family's module describes the
 //! order of its checks.
 #![allow(non_snake_case)]
 
@@ -18,7 +19,8 @@ use super::{
 };
 use crate::robot::{Assembly, State};
 
-/// Judges a plan under its stated worlds and settings. What it says of itself is recomputed.
+/// Returns the verdict on a plan under its own worlds and settings; the verdict that the plan states is not
+/// read. A plan that [`validation::check`] refuses gets a verdict whose only check, the form, has failed.
 pub fn verify(plan: &Plan) -> Verdict {
     if let Err(fault) = validation::check(plan) {
         return malformed(&fault);

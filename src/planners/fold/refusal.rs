@@ -120,7 +120,7 @@ pub enum Rejection {
 pub struct BestPattern {
     /// The quantity that was minimised.
     pub minimise: Minimise,
-    /// Its peak torque where that is minimised, else its energy, N·m.
+    /// The value of the minimised quantity for this pattern: its peak torque, else its energy; N·m.
     pub reached: f64,
     /// The lower bound for all layouts, N·m.
     pub bound: f64,

@@ -24,13 +24,13 @@ pub struct Torques {
     pub steps: Vec<Vec<Size>>,
 }
 
-/// The joints whose torques count.
+/// The joints whose torques are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Count {
-    /// Those of the joints that move: the others are locked.
+    /// The joints that move; the others are locked.
     #[default]
     Moving,
-    /// Those of all joints.
+    /// All joints, those that are held included.
     All,
 }
 

@@ -91,14 +91,15 @@ pub struct SweepCheck<'t> {
     reach: Vec<f64>,
 }
 
-/// The panels in their places in the target.
+/// The panels in their poses in the target.
 enum Form {
     Triangles(Vec<Triangle>),
     Solids(Solids),
 }
 
 impl<'t> SweepCheck<'t> {
-    /// Sets up the check for triangles that are shrunk by a part.
+    /// Sets up the check for panels without thickness: triangles shrunk towards their centroids by the
+    /// fraction `shrunk`, so that neighbours do not collide.
     pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> SweepCheck<'t> {
         let smaller = |face: usize| {
             let middle = target.centroid(face);

@@ -42,13 +42,13 @@ pub struct Hinge {
 }
 
 impl Hinge {
-    /// Returns the face across from one of the two.
+    /// Returns the face across the hinge from `face`, which must be one of its two faces.
     #[inline]
     pub fn other(&self, face: usize) -> usize {
         if self.faces[0] == face { self.faces[1] } else { self.faces[0] }
     }
 
-    /// Returns the number of the side of one of the two faces that it is.
+    /// Returns the side (0 to 2) of `face` at which the hinge lies; `face` must be one of its two faces.
     #[inline]
     pub fn side_of(&self, face: usize) -> usize {
         self.sides[usize::from(self.faces[1] == face)]

@@ -32,14 +32,14 @@ pub enum Hold {
 /// The settings of `locomote`. Lengths in "units" are multiples of the mean strut length at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// A place of the path is reached when the centre of mass is nearer than this, units. 0.25: a path
-    /// need not be met exactly, and a robot that rolls goes in leaps.
+    /// The distance of the centre of mass, units, below which a point of the path is reached. 0.25: a path
+    /// need not be met exactly, and a robot moves in jumps as it rolls over an edge.
     pub arrival_distance: f64,
-    /// The distance of the centre of mass in one step, units. 0.05: the paper's step.
+    /// The distance that the centre of mass moves in one step, units. 0.05: the paper's step.
     pub stride: f64,
     /// The cost that each step minimises. Springs, (17): the most robust.
     pub objective: Objective,
-    /// The contacts that stay where they are. Three.
+    /// The number of contacts that keep their position. Three.
     pub hold: Hold,
     /// True if the truss may fall over an edge onto other nodes; else it places a node beyond the edge
     /// first, where it can, as variable topology trusses roll without impact. True, as in the paper.
@@ -49,7 +49,7 @@ pub struct Settings {
     pub lookahead: usize,
     /// True if relaxed steps are tried where no step is found. True.
     pub fallbacks: bool,
-    /// The greatest number of steps. 100 000: five thousand units of way.
+    /// The greatest number of steps. 100 000: a distance of five thousand units.
     pub steps_max: usize,
     /// The placing of nodes without impact.
     pub foothold: Foothold,
@@ -62,14 +62,14 @@ pub struct Settings {
 /// The settings of placing a node on the ground beyond an edge of the support polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foothold {
-    /// A node is placed when the next step would bring the centre of mass this near to an edge, units. 0.1:
-    /// two steps.
+    /// The distance of the centre of mass to an edge, units, below which a node is placed beyond it before
+    /// the next step. 0.1: two steps.
     pub trigger: f64,
-    /// The least distance of the node beyond the edge, units. 0.2.
+    /// The least distance of the placed node beyond the edge, units. 0.2.
     pub beyond: f64,
-    /// The weight of its way down beside the cost of the step, without unit. 100.
+    /// The weight of the placed node's distance to the ground in the cost of a step, without unit. 100.
     pub weight: f64,
-    /// Steps until another node is tried. 60: three units of way.
+    /// The number of steps after which another node is tried. 60: a distance of three units.
     pub steps_max: usize,
 }
 
@@ -156,8 +156,10 @@ const RELAXATIONS: [Relaxation; 8] = [
     Relaxation { speed: 0.0, level: true, other_hold: false, springs: true },
 ];
 
-/// Moves a truss that rests on the ground with its nodes at `start`, m, so that its centre of mass follows a
-/// path of places (x, y), m; the first may be where it is.
+/// Returns the motion of a truss whose centre of mass follows a path of points (x, y), m, after sections IV.A
+/// to IV.C of the paper; the first point may be where it is. `start`: the positions of the nodes, m, resting
+/// on the ground. It always returns the motion found so far; [`Travel::end`] gives the reason that it ended,
+/// also where `progress` ended the search.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 pub fn follow_path(

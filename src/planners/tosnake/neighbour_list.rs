@@ -47,7 +47,9 @@ impl<'a> NeighbourList<'a> {
         NeighbourList { scene, meeting, parts, list, reach: 0.0, listed, before }
     }
 
-    /// Returns all pairs whose centres are nearer than `reach` (pitches).
+    /// Returns the pairs of balls whose centres are nearer than `reach` (pitches) at `poses` (by index of the
+    /// tree). Left out: pairs of one rigid part, pairs that touch by design, and the pair whose docks are to
+    /// meet.
     pub fn within(&mut self, reach: f64, poses: &[RigidTransform]) -> Vec<Neighbours> {
         let displacement = |from: &[Vec3]| {
             let squared = |(pose, from): (&RigidTransform, &Vec3)| (pose.translation - from).norm_squared();

@@ -37,7 +37,7 @@ pub struct State {
     pub docked: Vec<(usize, usize)>,
     /// The steps so far.
     pub steps: Vec<Step>,
-    /// Forward kinematics of the whole robot evaluated so far.
+    /// The number of forward-kinematics evaluations of the whole robot so far.
     pub work: u64,
     /// The gravity model; `None` if the robot floats.
     pub gravity: Option<Arc<GravityModel>>,

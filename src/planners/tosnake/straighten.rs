@@ -92,8 +92,9 @@ fn holds_loads(state: &mut State, joint: JointRef, to: f64) -> bool {
     holds
 }
 
-/// Perturbs the robot by random turns to multiples of 45°. A turn is made if it is free and does not reduce
-/// the spread by more than a random part of `slack`. Returns how many of the `turns` tried were made.
+/// Perturbs the robot by random turns of single joints to multiples of 45° (for γ, by multiples of 45°). A
+/// turn is made if it is free of collisions, overloads no joint, and reduces the spread by at most a random
+/// fraction of it between 0 and `slack`. Returns the number of turns made of the `turns` tried.
 pub fn perturb(state: &mut State, rng: &mut SplitMix64, turns: usize, slack: f64) -> usize {
     let joints = state.tree.all_joints();
     let mut made = 0;

@@ -337,7 +337,7 @@ impl<'a> Advancement<'a> {
         region.excused.iter().find(|excuse| excuse.covers(a, b))
     }
 
-    /// Measures in the middle and stays_open the least.
+    /// Measures the distance of a pair in the middle of the interval, m, and keeps the least.
     fn measure(&mut self, pair: &mut BodyPair, enough: f64, time: f64) -> f64 {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let distance = separation::measure(&self.state, a, b, pair, enough);

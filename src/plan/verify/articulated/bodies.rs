@@ -97,7 +97,9 @@ impl Bodies {
         self.first[module]..self.first[module + 1]
     }
 
-    /// Returns the pairs of bodies within a module that may not meet, or not deeper than they are drawn.
+    /// Returns the pairs of bodies within a module that are checked for collision, by index among the
+    /// module's own bodies. Each may penetrate by [`InnerPair::allowed`]: `touch`, plus the overlap as drawn
+    /// for two links that a joint joins.
     pub fn inner(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner
     }

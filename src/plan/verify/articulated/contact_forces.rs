@@ -86,7 +86,8 @@ pub(super) struct ContactQuery<'a> {
 }
 
 impl ContactQuery<'_> {
-    /// The forces of a warm_start, brought to balance here: a quick certified, or none.
+    /// Returns the forces of an earlier sample brought to balance here, which certifies them without an LP;
+    /// `None` where they cannot be.
     pub(super) fn warm_started(&self, warm_start: &WarmStart) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);

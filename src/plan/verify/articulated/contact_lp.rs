@@ -1,6 +1,6 @@
-//! The linear LP of the least greatest load, kept sparse: what is passed on at every cut of
-//! the tree is a variable of its own, so that a robot of hundreds of modules is no denser than a
-//! small one.
+//! The linear program (LP) of the least greatest load, kept sparse: the wrench that is passed on at every cut
+//! of the tree is a variable of its own, so that a robot of hundreds of modules is no denser than a small
+//! one.
 
 use super::contact_forces::{Column, ContactQuery};
 use super::statics::{Load, LoadKind};
@@ -26,7 +26,7 @@ const DIRECTIONS: [[f64; 3]; 9] = [
 /// Forces are in parts of the weight, moments in parts of the weight times a metre. Columns: sizes of
 /// the wrenches, then six for every node but the first, then the greatest load.
 pub(super) struct ContactLp {
-    /// The linear programme for the solver.
+    /// The linear program for the solver.
     pub problem: LinearProgram,
     rows: Vec<Row>,
 }

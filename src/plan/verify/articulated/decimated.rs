@@ -1,10 +1,10 @@
-//! Decimation: an even selection from a sequence of unknown length.
+//! Decimation: a selection at even distances from a sequence of unknown length.
 
-/// At most so many items at even distances, however many are seen.
+/// A bounded selection of items at even distances from a sequence, however long it grows.
 pub(super) struct Decimated<T> {
     kept: Vec<T>,
     most: usize,
-    /// One in so many is kept.
+    /// The distance between selected items: one in this many is kept.
     stride: usize,
     seen: usize,
 }
@@ -15,7 +15,7 @@ impl<T> Decimated<T> {
         Decimated { kept: vec![], most, stride: 1, seen: 0 }
     }
 
-    /// Counts one more item; returns true if it is to be kept.
+    /// Counts one more item; returns true if it belongs to the selection.
     pub(super) fn next_is_kept(&mut self) -> bool {
         let next_is_kept = self.seen.is_multiple_of(self.stride);
         self.seen += 1;
@@ -30,7 +30,7 @@ impl<T> Decimated<T> {
         next_is_kept
     }
 
-    /// Keeps the one whose next_is_kept it is.
+    /// Keeps the item for which `next_is_kept` returned true.
     pub(super) fn keep(&mut self, item: T) {
         self.kept.push(item);
     }

@@ -27,13 +27,14 @@ pub struct Feature {
     pub form: Form,
 }
 
-/// The shape of a feature.
+/// The shape of a feature; vectors are in the frame of its [`Feature`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
+    /// A point.
     Vertex,
-    /// Unit axis; radius in metres.
+    /// A circle: unit normal of its plane; radius, m.
     Circle(Vec3, f64),
-    /// Radius in metres.
+    /// A sphere: radius, m.
     Sphere(f64),
 }
 
@@ -52,7 +53,7 @@ impl Feature {
         if matches!(self.form, Form::Circle(..)) { CIRCLE_POINTS } else { 1 }
     }
 
-    /// Returns the height of its lowest point along the unit vector `up`.
+    /// Returns the height of its lowest point along the unit vector `up`, m.
     pub fn lowest(&self, up: &Vec3) -> f64 {
         let centre = up.dot(&self.centre);
         match self.form {
@@ -65,7 +66,7 @@ impl Feature {
         }
     }
 
-    /// Returns point `k` of those that represent it; 0 is the lowest along `up`.
+    /// Returns point `k` of those that represent it, m; 0 is the lowest along `up`.
     pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
         match self.form {
             Form::Vertex => self.centre,

@@ -1,12 +1,12 @@
 //! The robot in the middle of an interval of time, with bounds on how it moves until the ends.
 //!
-//! Positions and velocities in the middle are exact. What follows from them to the ends is bounded,
-//! for each link as seen from an origin link (see [`levels`](super::reference_links)), by how far velocities
-//! can deviation from those in the middle:
+//! Positions and velocities in the middle are exact. What follows from them to the ends is bounded, for each
+//! link as seen from an origin link (see [`levels`](super::reference_links)), by how far velocities can
+//! deviate from those in the middle:
 //!
-//! - turning: `ω' = ω + q̇ z`, where the axis z turns with the link before, deviations by the joint's own
+//! - turning: `ω' = ω + q̇ z`, where the axis z turns with the link before, deviates by the joint's own
 //!   deviation plus `|q̇|` times the angle that z can turn by;
-//! - moving: `v' = v + ω × r`, where r turns with its link, deviations by the deviation of ω times `|r|` plus
+//! - moving: `v' = v + ω × r`, where r turns with its link, deviates by the deviation of ω times `|r|` plus
 //!   `|ω|` times the distance that the tip of r can move.
 
 use super::motion_bounds::{Interval, MotionBounds};
@@ -26,7 +26,7 @@ pub(super) struct IntervalState {
     pub links: Vec<Moving>,
     /// Of each step of the kinematics.
     joints: Vec<JointStretch>,
-    /// Of each level that was asked for: how each link deviations.
+    /// Of each level that was asked for: the deviation of each link.
     deviations: Vec<Vec<Deviation>>,
     known: Vec<bool>,
 }

@@ -11,7 +11,7 @@ use super::model::{Model, Posture};
 use super::stance::Stance;
 use crate::geometry::Vec3;
 
-/// PlanarPose and heading on the ground: metres, radians.
+/// Position (m) and heading (rad) on the ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlanarPose {
     /// Position along the first world axis, m.

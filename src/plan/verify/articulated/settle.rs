@@ -1,8 +1,8 @@
 //! Settling: the attitude near a given one in which the centre of mass is lowest, by a proximal bundle method.
 //!
 //! Standing on level ground with its own "up" `u`, a robot's centre of mass is at the height
-//! `H(u) = max u·(c - p)` over its points p. SettledAttitude is a local minimum of H. It is found by a proximal
-//! bundle method: the points near the ground make planes under H, and the lowest point of those
+//! `H(u) = max u·(c - p)` over its points p. An attitude of rest is a local minimum of H. It is found by a
+//! proximal bundle method: the points near the ground make planes under H, and the lowest point of those
 //! planes, not too far away, is the next trial.
 
 use super::alignment::rotation;

@@ -52,16 +52,19 @@ pub struct SettleAttempt {
 /// The outcome of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepOutcome {
+    /// The fall is within the tolerance.
     Steady,
-    /// The fall is more than the motion can explain.
+    /// The robot tips over: the fall is more than the motion can explain.
     TipOver,
-    /// To be tried again with a shorter step.
+    /// The step is to be tried again, shorter.
     Undecided,
 }
 
 impl Stance {
-    /// Stands a robot on the ground as `X_WB` has it turned, lowered; then settled unless `kept`.
-    /// Returns how far the centre of mass fell and by which angle the robot turned.
+    /// Returns the stance of a robot with the base at `X_WB`: kept there (`Kept::Pose`), lowered to the
+    /// ground with its orientation (`Kept::Orientation`), or lowered and then settled (`Kept::Nothing`). Also
+    /// returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless
+    /// it settles.
     pub fn start(
         model: &Model,
         posture: Posture,
@@ -227,8 +230,9 @@ pub enum Kept {
 }
 
 impl SettleAttempt {
-    /// The centre of mass' height over its attitude moves by no more than the points do, so following
-    /// the old minimum releases at most twice that; a fall of more is a minimum that vanished.
+    /// Returns the outcome: steady, tipped over, or undecided. The height of the centre of mass over its
+    /// attitude moves by no more than the points do, so following the old minimum releases at most twice
+    /// that; a fall of more is a minimum that vanished.
     pub fn outcome(&self, tolerances: &Tolerances) -> StepOutcome {
         if self.fall <= tolerances.fall_floor {
             StepOutcome::Steady
