@@ -61,7 +61,7 @@ pub enum Kind {
     Optional(&'static Kind),
 }
 
-/// Why a value is not what a native asks for.
+/// The reason that a value is not what a native asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Misfit {
     /// It has another type, which `check` excludes.

@@ -1,4 +1,4 @@
-//! Behaviours: which robot they move, what excuses them, and what is wrong with them before any run.
+//! Behaviours: the robot that they move, what excuses them, and what is wrong with them before any run.
 
 use super::causes::CauseRecord;
 use super::design::Design;
@@ -17,7 +17,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Interpreter<'_> {
-    /// The one robot that two things belong to.
+    /// Returns the one robot that two things belong to; `None` if neither belongs to one.
+    ///
+    /// # Errors
+    /// A fault at `span` where they belong to two robots.
     pub fn common_robot(
         &self,
         a: Option<&Rc<Design>>,
@@ -30,7 +33,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The robot of a joint, for an action; `None` where something is wrong with it.
+    /// Returns the robot of a joint, for an action; `None` where something is wrong with it, which has been
+    /// reported.
+    ///
+    /// # Errors
+    /// A fault at `span` where the robot is a configuration whose clauses still run.
     pub fn robot_at(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let running = design.config().is_some_and(|config| !config.complete.get());
         if running {
@@ -45,7 +52,7 @@ impl Interpreter<'_> {
         self.robot_of_checked(design)
     }
 
-    /// The robot even of a configuration with mistakes, so that its behaviours can be looked at.
+    /// Returns the robot even of a configuration with mistakes, so that its behaviours can be checked.
     fn robot_of_checked(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
         let broken = design.broken.replace(false);
         let robot = self.robot_of(design);
@@ -53,7 +60,11 @@ impl Interpreter<'_> {
         robot
     }
 
-    /// `allows unstable, collision(a, b)`
+    /// Returns a behaviour with the exemptions of `allows unstable, collision(a, b)`, the first outermost;
+    /// unknown where an operand is unknown.
+    ///
+    /// # Errors
+    /// A fault where an exemption names another robot, or `collision` something that is not a single module.
     pub fn exempt(
         &mut self,
         behavior: &Rc<Behavior>,
@@ -103,7 +114,10 @@ impl Interpreter<'_> {
         }))
     }
 
-    /// `a <-> b`
+    /// Returns the condition `a <-> b`, that two ports are docked to each other.
+    ///
+    /// # Errors
+    /// A fault at `span` where the ports belong to two robots.
     pub fn mated_condition(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Value> {
         let (Value::Port(a), Value::Port(b)) = (a, b) else { return Ok(Value::Unknown) };
         let robot = self.common_robot(Some(&a.robot), Some(&b.robot), span)?;
@@ -111,8 +125,8 @@ impl Interpreter<'_> {
         Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))
     }
 
-    /// Reports what is wrong with a behaviour before any run: commands in conflict, limits of the
-    /// joints; gives whether nothing is.
+    /// Reports what is wrong with a behaviour before any run: commands in conflict, limits of the joints.
+    /// Returns true if nothing is.
     pub fn check_behavior(&mut self, behavior: &Behavior) -> Eval<bool> {
         let Some(design) = &behavior.robot else { return Ok(true) };
         let Some(robot) = self.robot_of_checked(design)? else { return Ok(false) };
@@ -171,7 +185,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The instance a joint belongs to is the subject of its commands.
+    /// Returns the cause of an action; the instance that the joint belongs to is the subject of its commands.
     pub fn action_cause(&mut self, span: Span, args: Vec<(Part, Span)>, joint: &JointValue) -> CauseId {
         let subject = joint.name();
         self.cause(span, args, &subject)
@@ -194,7 +208,8 @@ pub fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
 }
 
 impl Interpreter<'_> {
-    /// A cause at the place where evaluation is.
+    /// Returns the cause of a command at `span` in the state of evaluation: with the loop variables, and the
+    /// call in the user's own file where `span` is in the library.
     pub fn cause(&mut self, span: Span, args: Vec<(Part, Span)>, subject: &str) -> CauseId {
         let notes = self.binder_notes();
         let instance = match (subject.is_empty(), notes.is_empty()) {
@@ -212,7 +227,7 @@ pub fn with_instance(label: String, record: &CauseRecord) -> String {
     if label.contains(&*record.instance) { label } else { format!("{label} [{}]", record.instance) }
 }
 
-/// Behind the user's own line, the one in the library.
+/// Labels, behind the user's own line, the one in the library.
 pub fn in_library(diagnostic: Diagnostic, record: &CauseRecord) -> Diagnostic {
     match record.caller {
         Some(_) => diagnostic.label(record.span, "the command itself, in the library"),

@@ -26,7 +26,7 @@ impl Interpreter<'_> {
         Ok(Args { values, spans })
     }
 
-    /// Calls a declared function or a built-in.
+    /// Calls a declared function or a built-in; unknown for other declarations.
     pub fn call_def(
         &mut self,
         def: DefId,
@@ -38,7 +38,7 @@ impl Interpreter<'_> {
         self.apply_def(def, args, span)
     }
 
-    /// Calls a function value.
+    /// Evaluates a function value and its arguments, and calls it; unknown where the function is.
     pub fn eval_call_value(
         &mut self,
         callee: &Expr,
@@ -54,7 +54,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Calls a function value.
+    /// Calls a function value with its arguments, in the order of the parameters.
     pub fn apply(&mut self, callable: &Callable, values: Vec<Value>, span: Span) -> Eval<Value> {
         match callable {
             Callable::Lambda { body, captured, frame, this } => {
@@ -178,7 +178,8 @@ impl Interpreter<'_> {
         self.exempt(&behavior, &declared.allows, &mut frame)
     }
 
-    /// The behaviour that a declaration gives with all its defaults; `None` where a parameter has none.
+    /// Returns the behaviour that a declaration gives with all its defaults; `None` where a parameter has
+    /// none.
     pub fn default_behavior(&mut self, object: &Rc<Instance>, behavior: &BehaviorDef) -> Eval<Option<Value>> {
         if behavior.params.iter().any(|p| p.default.is_none() && !p.variadic) {
             return Ok(None);
@@ -188,7 +189,7 @@ impl Interpreter<'_> {
             .map(Some)
     }
 
-    /// `action else b`: what follows the timeout of an action.
+    /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action.
     pub fn timeout_else(&mut self, action: &Value, otherwise: &Value, span: Span) -> Eval<Value> {
         let (Value::Behavior(action), Value::Behavior(otherwise)) = (action, otherwise) else {
             return Ok(Value::Unknown);

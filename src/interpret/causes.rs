@@ -1,4 +1,4 @@
-//! Who commanded what: spans on the side of the language, numbered causes on the side of plans.
+//! The causes of commands: spans on the side of the language, numbered causes on the side of plans.
 
 use crate::behavior::Part;
 use crate::plan::{Action, Cause, CauseId, Node, Otherwise};
@@ -7,21 +7,21 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The place of a cause in the source, and the calls that led there.
+/// The span of a cause in the source, and the call that led there.
 #[derive(Clone, Debug)]
 pub struct CauseRecord {
     /// The expression that commands.
     pub span: Span,
-    /// Of the arguments of an action.
+    /// The spans of the arguments of an action.
     pub args: Vec<(Part, Span)>,
-    /// Which instance: `leg[2].m[0].tilt`, `i = 3`.
+    /// The instance or the loop variables: `leg[2].m[0].tilt`, `i = 3`.
     pub instance: Rc<str>,
     /// The call in the user's own files, where `span` is in the library.
     pub caller: Option<Span>,
 }
 
 impl CauseRecord {
-    /// The span to show first: the user's own line.
+    /// Returns the span to show first: the user's own line.
     pub fn primary(&self) -> Span {
         self.caller.unwrap_or(self.span)
     }
@@ -32,12 +32,12 @@ impl CauseRecord {
     }
 }
 
-/// All causes of a run, each once: the same call gives the same behaviour. A plan gets a table of its
+/// All causes of a run, each once, so that the same call gives the same behaviour. A plan gets a table of its
 /// own, of those that it names.
 #[derive(Clone, Default)]
 pub struct Causes {
     records: Vec<CauseRecord>,
-    /// By what tells causes apart; the arguments stand within the span.
+    /// The number of each cause, by span, instance and caller; the arguments lie within the span.
     known: HashMap<(Span, Rc<str>, Option<Span>), CauseId>,
 }
 
@@ -62,7 +62,7 @@ impl Causes {
 /// The causes of one plan, in order of first mention.
 #[derive(Default)]
 pub struct PlanCauses {
-    /// From the plan's numbers to the run's.
+    /// The run's number of each cause, by the plan's number.
     pub ids: Vec<CauseId>,
     known: HashMap<CauseId, CauseId>,
 }
@@ -76,7 +76,7 @@ impl PlanCauses {
         })
     }
 
-    /// The graph with the plan's own numbers. What is shared stays shared.
+    /// Returns the graph with the plan's own numbers. Shared nodes stay shared.
     pub fn renumber(&mut self, node: &Arc<Node>) -> Arc<Node> {
         self.renumber_shared(node, &mut HashMap::new())
     }
@@ -124,7 +124,7 @@ impl PlanCauses {
         action
     }
 
-    /// The table that goes into the plan.
+    /// Returns the table that goes into the plan.
     pub fn table(&self, causes: &Causes, sources: &Sources) -> Vec<Cause> {
         self.ids.iter().map(|id| described(causes.get(*id), sources)).collect()
     }

@@ -1,12 +1,12 @@
-//! Arrangements of cells: rows, blocks, and what is drawn as text.
+//! Arrangements of cells: rows, blocks, and layers drawn as text.
 
 use std::collections::{BTreeMap, VecDeque};
 
-/// Places of cells on the grid; x to the right, y up (in a text the first line is the top), z up.
-/// Each place once, in the order in which the cells are numbered.
+/// Cells on the grid; x to the right, y up (in a text the first line is the top), z up. Each cell once, in
+/// the order in which the cells are numbered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cells {
-    /// Whole coordinates, in the order of counting.
+    /// The whole coordinates of each cell, in the order of the numbers.
     pub places: Vec<[i64; 3]>,
 }
 
@@ -15,13 +15,16 @@ pub struct Cells {
 pub struct BadCell {
     /// The character that is neither cell nor gap.
     pub character: char,
-    /// From 0, in lines and in bytes of the line.
+    /// The line of the character, from 0.
     pub line: usize,
-    /// The place of the character in its line, in bytes.
+    /// The offset of the character in its line, in bytes.
     pub offset: usize,
 }
 
-/// Cells of one layer from text: `#` is a cell, `.` and a blank are not.
+/// Returns the cells of one layer, at height `z`, from text: `#` is a cell, `.` and a blank are not.
+///
+/// # Errors
+/// The first character that is none of these.
 pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
     let lines: Vec<&str> = text.lines().collect();
     let mut places = Vec::new();
@@ -38,7 +41,7 @@ pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
 }
 
 impl Cells {
-    /// Returns a block of cells with a corner at the origin.
+    /// Returns a block of cells, `size` along x, y and z, with a corner at the origin.
     pub fn block(size: [usize; 3]) -> Cells {
         let mut places = Vec::with_capacity(size.iter().product());
         for z in 0..size[2] {
@@ -49,8 +52,8 @@ impl Cells {
         Cells { places }
     }
 
-    /// Sizes of the pieces that hang together over faces, in order of their first cell; one for a
-    /// connected arrangement.
+    /// Returns the number of cells of each connected component (over faces), in order of their first cell;
+    /// one component for a connected arrangement.
     pub fn pieces(&self) -> Vec<usize> {
         let index: BTreeMap<[i64; 3], usize> =
             self.places.iter().enumerate().map(|(i, place)| (*place, i)).collect();

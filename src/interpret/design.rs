@@ -24,13 +24,13 @@ const NAMES_SHOWN: usize = 12;
 pub struct Design {
     /// The declaration.
     pub def: DefId,
-    /// With its arguments where they differ from the defaults: `Walker(bend: 35deg)`.
+    /// The name, with the arguments where they differ from the defaults: `Walker(bend: 35deg)`.
     pub name: String,
     /// One value for every parameter.
     pub args: Vec<Value>,
     /// The kind of declaration, with what it declares.
     pub kind: DesignKind,
-    /// Something is wrong with it, and has been reported: instances of it are unknown.
+    /// True if something is wrong with it, which has been reported: instances of it are unknown.
     pub broken: Flag<bool>,
 }
 
@@ -52,40 +52,42 @@ pub enum DesignKind {
 
 /// A module, elaborated.
 pub struct ModuleDesign {
-    /// Its ports' connectors are indices into `connectors` here, not into a library.
+    /// The module; its ports' connectors are indices into `connectors` here, not into a library.
     pub module: Rc<ModuleType>,
     /// The declarations of its connectors.
     pub connectors: Vec<DefId>,
-    /// First port and number of ports of every [`ModuleDef::ports`](crate::check::typed::ModuleDef).
+    /// The first port and the number of ports of each of
+    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef).
     pub port_groups: Vec<(usize, usize)>,
-    /// Dimension of each joint's position.
+    /// The dimension of each joint's position.
     pub joint_dimensions: Vec<Dimension>,
     /// The robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
 }
 
-/// Filled in order while the body is elaborated; the body can refer to what is there already.
+/// A configuration, filled in order while its body is elaborated; the body can refer to what is there
+/// already.
 #[derive(Default)]
 pub struct ConfigDesign {
-    /// By [`PartDef`](crate::check::typed::PartDef).
+    /// The parts, by [`PartDef`](crate::check::typed::PartDef).
     pub parts: OnceCell<Vec<PartGroup>>,
     /// All modules, those of the parts in order.
     pub modules: OnceCell<Vec<FlatModule>>,
     /// The connections, in the order of the clauses.
     pub bonds: RefCell<Vec<BondRecord>>,
-    /// The bond at each port that has one.
+    /// The index of the bond at each port (module, port) that has one.
     pub taken: RefCell<HashMap<(usize, usize), usize>>,
-    /// Which modules hang together so far.
+    /// The connected components of modules so far.
     pub groups: RefCell<Groups>,
     /// The start positions, in the order of the clauses.
     pub sets: RefCell<Vec<SetRecord>>,
-    /// Index of the module named by `base`.
+    /// The index of the module named by `base`.
     pub base: Flag<Option<usize>>,
     /// True if loops may be closed.
     pub closed: bool,
-    /// One more than the largest order of its parts.
+    /// The order of the configuration: one more than the largest order of its parts.
     pub order: Flag<usize>,
-    /// True once all clauses have been run, so that questions about geometry make sense.
+    /// True once all clauses have been run, so that its geometry is known.
     pub complete: Flag<bool>,
     /// The robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
@@ -103,39 +105,39 @@ pub struct PartGroup {
 pub struct PartElement {
     /// The elaborated declaration.
     pub design: Rc<Design>,
-    /// Index of its first module.
+    /// The index of its first module.
     pub offset: usize,
-    /// `leg` or `leg[2]`
+    /// The name, `leg` or `leg[2]`.
     pub name: Rc<str>,
 }
 
 /// A module of a configuration.
 #[derive(Clone)]
 pub struct FlatModule {
-    /// Path name: `leg[2].m[0]`.
+    /// The path name: `leg[2].m[0]`.
     pub name: Rc<str>,
     /// The elaborated declaration.
     pub design: Rc<Design>,
 }
 
-/// `connect`, with where it stands.
+/// A connection (`connect`), with its position in the source.
 #[derive(Clone)]
 pub struct BondRecord {
     /// Module and port of the first end.
     pub a: (usize, usize),
     /// Module and port of the second end.
     pub b: (usize, usize),
-    /// In steps of the connector's turns.
+    /// The turn of the second connector, in steps of the connectors' symmetry.
     pub turn: u32,
     /// The clause.
     pub span: Span,
-    /// Of the two paths.
+    /// The spans of the two paths.
     pub ends: (Span, Span),
-    /// Which instance: the path of the part, the loop variables.
+    /// The instance: the path of the part, the loop variables.
     pub instance: Rc<str>,
 }
 
-/// `set`, with where it stands.
+/// A start position (`set`), with its position in the source.
 #[derive(Clone)]
 pub struct SetRecord {
     /// The joint.
@@ -144,7 +146,7 @@ pub struct SetRecord {
     pub value: f64,
     /// The clause.
     pub span: Span,
-    /// Which instance: the path of the part, the loop variables.
+    /// The instance: the path of the part, the loop variables.
     pub instance: Rc<str>,
 }
 
@@ -152,7 +154,7 @@ pub struct SetRecord {
 pub struct LatticeDesign {
     /// The cell.
     pub of: Rc<Design>,
-    /// The places of the cells.
+    /// The positions of the cells.
     pub cells: Rc<Cells>,
 }
 
@@ -162,18 +164,18 @@ pub struct TrussDesign {
     pub of: Rc<Design>,
     /// The nodes, in the order of the declaration.
     pub nodes: Vec<Node>,
-    /// The ends of each strut.
+    /// The two nodes of each strut, by index.
     pub struts: Vec<(usize, usize)>,
-    /// The rank of the rigidity matrix in the start pose, and what follows from it.
+    /// The rank of the rigidity matrix in the start pose, with the degrees of freedom that follow from it.
     pub rigidity: Rigidity,
 }
 
 /// A node of a truss.
 #[derive(Clone)]
 pub struct Node {
-    /// `ring[3]`
+    /// The name: `ring[3]`, or `top` for a node that is no array's.
     pub name: String,
-    /// `ring`
+    /// The name of the array, `ring`; `None` for a single node.
     pub group: Option<Symbol>,
     /// The place in the start pose, m.
     pub place: Vec3,
@@ -182,13 +184,13 @@ pub struct Node {
 }
 
 impl TrussDesign {
-    /// Returns the names of both ends of a strut.
+    /// Returns the name of a strut: those of its two nodes.
     pub fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.struts[strut];
         format!("{} -- {}", self.nodes[a].name, self.nodes[b].name)
     }
 
-    /// Returns the kind of the struts.
+    /// Returns the kind of the struts; `None` where it is broken.
     pub fn strut_kind(&self) -> Option<&Strut> {
         match &self.of.kind {
             DesignKind::Strut(strut) => Some(strut),
@@ -196,7 +198,7 @@ impl TrussDesign {
         }
     }
 
-    /// Returns each free motion in words: the nodes that move, and where to.
+    /// Returns each free motion in words: the nodes that move, and in which direction.
     pub fn free_motions(&self) -> Vec<String> {
         let moves = |(node, d): &(usize, Vec3)| {
             let axis = ["x", "y", "z"];
@@ -210,7 +212,7 @@ impl TrussDesign {
         motions.map(|m| shorten(&m.nodes.iter().map(moves).collect::<Vec<_>>())).collect()
     }
 
-    /// Returns the place of a node, or of all nodes of an array; `None` where there is no such node.
+    /// Returns the position of a node, or the list of those of an array; `None` where there is no such node.
     pub fn place_of(&self, name: Symbol) -> Option<Value> {
         let place = |node: &Node| Value::Vec3(node.place, Dimension::LENGTH);
         let mut of_group = self.nodes.iter().filter(|n| n.group == Some(name)).peekable();
@@ -226,13 +228,13 @@ impl TrussDesign {
 pub struct ConnectorDesign {
     /// The declaration.
     pub def: DefId,
-    /// Its `mates` are empty here: they are declarations, below.
+    /// The connector; its `mates` are empty here, as they are declarations, below.
     pub connector: Connector,
     /// The connectors that it docks with.
     pub mates: Vec<DefId>,
 }
 
-/// Which modules hang together: a forest that grows (union and find).
+/// The connected components of modules: a disjoint-set forest (union and find).
 #[derive(Default)]
 pub struct Groups(Vec<usize>);
 
@@ -247,7 +249,7 @@ impl Groups {
         at
     }
 
-    /// Returns whether two modules hang together.
+    /// Returns true if two modules are in one component.
     pub fn together(&mut self, a: usize, b: usize) -> bool {
         self.root(a) == self.root(b)
     }
@@ -259,8 +261,8 @@ impl Groups {
 }
 
 impl ConfigDesign {
-    /// Modules side by side, one list of parts, with nothing connected yet: of what no declaration's body
-    /// describes.
+    /// Returns a configuration of modules side by side, one list of parts, with no bonds yet, for a robot
+    /// that no declaration's body describes.
     pub fn of_modules(modules: Vec<FlatModule>) -> ConfigDesign {
         let config = ConfigDesign::default();
         let part = |(offset, module): (usize, &FlatModule)| PartElement {
@@ -301,7 +303,7 @@ impl Design {
         }
     }
 
-    /// Number of modules; 0 for what is no robot or not far enough elaborated.
+    /// Returns the number of modules; 0 for a design that is no robot or not far enough elaborated.
     pub fn module_count(&self) -> usize {
         match &self.kind {
             DesignKind::Module(_) => 1,
@@ -310,7 +312,8 @@ impl Design {
         }
     }
 
-    /// The module design at an index.
+    /// Returns the module design at an index; itself for a design that is no configuration. Panics if the
+    /// modules of a configuration are not listed yet, or the index is out of range.
     pub fn module_at(self: &Rc<Design>, index: usize) -> Rc<Design> {
         match &self.kind {
             DesignKind::Config(config) => {
@@ -320,7 +323,8 @@ impl Design {
         }
     }
 
-    /// Returns the type of the module at an index.
+    /// Returns the type of the module at an index. Panics if the modules of a configuration are not listed
+    /// yet, the index is out of range, or the design is no robot.
     pub fn module_type(self: &Rc<Design>, index: usize) -> Rc<ModuleType> {
         let design = self.module_at(index);
         design.module().expect("only modules are listed").module.clone()
@@ -338,23 +342,24 @@ impl Design {
         }
     }
 
-    /// 0 for a module, one more than the largest order of its parts for a configuration.
+    /// Returns 0 for a module, one more than the largest order of its parts for a configuration.
     pub fn order(&self) -> usize {
         self.config().map_or(0, |config| config.order.get())
     }
 
-    /// Returns the connections; none of what is no configuration.
+    /// Returns the connections; an empty list for a design that is no configuration.
     pub fn bonds(&self) -> Vec<BondRecord> {
         self.config().map_or_else(Vec::new, |config| config.bonds.borrow().clone())
     }
 
-    /// One of them.
+    /// Returns the connection at an index. Panics if the design is no configuration, or the index is out of
+    /// range.
     pub fn bond(&self, index: usize) -> BondRecord {
         let config = self.config().expect("only configurations have bonds");
         config.bonds.borrow()[index].clone()
     }
 
-    /// Returns the start positions that are set.
+    /// Returns the start positions that are set; an empty list for a design that is no configuration.
     pub fn sets(&self) -> Vec<SetRecord> {
         self.config().map_or_else(Vec::new, |config| config.sets.borrow().clone())
     }
@@ -366,19 +371,19 @@ impl std::fmt::Debug for Design {
     }
 }
 
-/// A design at a place of a robot.
+/// A design as a part of a robot, or as the whole.
 pub struct Instance {
     /// The elaborated declaration.
     pub design: Rc<Design>,
     /// The outermost design.
     pub robot: Rc<Design>,
-    /// Index of its first module among the robot's.
+    /// The index of its first module among the robot's.
     pub offset: usize,
-    /// Path name within the robot; empty for the whole.
+    /// The path name within the robot; empty for the whole.
     pub path: Rc<str>,
-    /// By part group; made when first asked for.
+    /// The parts as values, by part group; made when they are first asked for.
     parts: OnceCell<Vec<Value>>,
-    /// Lets and ports of the body, by member.
+    /// The lets and ports of the body, by member.
     pub lazy: RefCell<HashMap<usize, Lazy>>,
 }
 
@@ -396,7 +401,7 @@ impl Instance {
         })
     }
 
-    /// The parts of a configuration as values: an instance or a list of instances for each group.
+    /// Returns the parts of a configuration as values: an instance or a list of instances for each group.
     /// `None` while they are being elaborated.
     pub fn parts(&self) -> Option<&[Value]> {
         let config = self.design.config()?;
@@ -420,7 +425,7 @@ impl Instance {
         })
     }
 
-    /// A joint of a module instance.
+    /// Returns a joint of a module instance; `None` for an instance that is no module.
     pub fn joint(&self, joint: usize) -> Option<Value> {
         let module = self.design.module()?;
         let dimension = *module.joint_dimensions.get(joint)?;
@@ -428,7 +433,8 @@ impl Instance {
         Some(Value::Joint(JointValue { robot: self.robot.clone(), owner, dimension }))
     }
 
-    /// A port of a module instance, or the list of an array's ports.
+    /// Returns a port of a module instance, or the list of an array's ports; `None` for an instance that is
+    /// no module.
     pub fn port(&self, group: usize, array: bool) -> Option<Value> {
         let module = self.design.module()?;
         let (first, count) = *module.port_groups.get(group)?;
@@ -437,7 +443,7 @@ impl Instance {
         if array { Some(Value::List(Rc::new(ports.collect()))) } else { ports.next() }
     }
 
-    /// Path name, or the name of the design for the whole.
+    /// Returns the path name, or the name of the design for the whole.
     pub fn title(&self) -> &str {
         if self.path.is_empty() { &self.design.name } else { &self.path }
     }
@@ -450,7 +456,7 @@ impl std::fmt::Debug for Instance {
 }
 
 impl JointValue {
-    /// Path name: `leg[2].m[0].tilt`; the joint of a connection goes by its two ports.
+    /// Returns the path name: `leg[2].m[0].tilt`; the joint of a connection goes by its two ports.
     pub fn name(&self) -> String {
         match self.owner {
             JointOwner::Module { module, joint } => {
@@ -475,7 +481,7 @@ impl PortValue {
     }
 }
 
-/// `a` and `b` as one path name; either may be empty.
+/// Returns `a` and `b` as one path name, `a.b`; either may be empty.
 pub fn join_path(a: &str, b: &str) -> Rc<str> {
     match (a.is_empty(), b.is_empty()) {
         (true, _) => b.into(),
@@ -484,7 +490,7 @@ pub fn join_path(a: &str, b: &str) -> Rc<str> {
     }
 }
 
-/// A list of names that does not grow beyond what can be read.
+/// Returns a list of names in words, cut off where it is too long to read.
 pub fn shorten(names: &[String]) -> String {
     if names.len() <= NAMES_SHOWN {
         return names.join(", ");
@@ -494,18 +500,18 @@ pub fn shorten(names: &[String]) -> String {
 }
 
 impl Robot {
-    /// Returns the number of a joint.
+    /// Returns the number of a joint among those of the assembly.
     pub fn joint(&self, joint: &JointValue) -> JointId {
         self.joint_of(joint.owner)
     }
 
-    /// Returns the pose of a port in the frame of the base module.
+    /// Returns the pose of a port in the frame of the base module in the start state.
     pub fn port_pose(&self, port: &PortValue) -> Pose {
         self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
     }
 }
 
-/// Returns a port as an assembly names it.
+/// Returns a port by module and port index, as an assembly names it.
 pub fn port_ref(port: &PortValue) -> PortRef {
     PortRef { module: port.module, port: port.port }
 }

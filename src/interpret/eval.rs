@@ -1,4 +1,4 @@
-//! Expressions to values.
+//! The evaluation of expressions to values.
 
 use super::design::{DesignKind, Instance};
 use super::interpreter::Interpreter;
@@ -12,14 +12,14 @@ use std::sync::Arc;
 /// The variables of a body, and the instance whose body it is.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
-    /// The values, by slot; unknown where nothing was put yet.
+    /// The values, by slot; unknown where none was put yet.
     pub slots: Vec<Value>,
     /// The instance whose body is evaluated.
     pub this: Option<Rc<Instance>>,
 }
 
 impl Frame {
-    /// Returns a frame of so many unknown values.
+    /// Returns a frame of `size` unknown values.
     pub fn new(size: usize, this: Option<Rc<Instance>>) -> Frame {
         Frame { slots: vec![Value::Unknown; size], this }
     }
@@ -44,14 +44,17 @@ impl Frame {
 }
 
 impl Interpreter<'_> {
-    /// The value of an expression. A fault is reported and leaves an unknown value.
+    /// Returns the value of an expression. A fault is reported and leaves an unknown value.
+    ///
+    /// # Errors
+    /// Only [`Stop::Halt`](super::stop::Stop::Halt).
     pub fn eval(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
         self.step(expr.span)?;
         let result = self.with_depth(expr.span, |this| this.eval_kind(expr, frame));
         self.recover(result)
     }
 
-    /// The value of an expression that may be left out.
+    /// Returns the value of an expression that may be left out.
     pub fn eval_optional(&mut self, expr: Option<&Expr>, frame: &mut Frame) -> Eval<Option<Value>> {
         expr.map(|e| self.eval(e, frame)).transpose()
     }
@@ -255,8 +258,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Runs `body` for every element of a list or of a range of whole numbers; gives whether the
-    /// elements are known at all.
+    /// Runs `body` for every element of a list or of a range of whole numbers. Returns false if the elements
+    /// are unknown.
     pub fn for_each(
         &mut self,
         values: &Value,
@@ -295,7 +298,7 @@ impl Interpreter<'_> {
         Ok(true)
     }
 
-    /// The name of the loop variable, which stands before `in` and the expression at `span`.
+    /// Returns the name of the loop variable, which stands before `in` and the expression at `span`.
     fn binder_name(&self, span: Span) -> crate::source::Symbol {
         let text = &self.shared.sources.file(span.file).text[..span.start as usize];
         let before = text.trim_end().strip_suffix("in").unwrap_or("").trim_end();
@@ -336,7 +339,10 @@ impl Interpreter<'_> {
         })
     }
 
-    /// The value of a top-level `let`.
+    /// Returns the value of a top-level `let`; it is evaluated once.
+    ///
+    /// # Errors
+    /// A fault where the value needs itself.
     pub fn global(&mut self, def: DefId, span: Span) -> Eval<Value> {
         let index = def.0 as usize;
         match &self.memory.globals[index] {
@@ -362,7 +368,10 @@ impl Interpreter<'_> {
             .into()
     }
 
-    /// A member of an instance, by index in its declaration.
+    /// Returns a member of an instance, by index in its declaration; a `let` or a port is evaluated once.
+    ///
+    /// # Errors
+    /// A fault where the member needs itself, or parts that are still being elaborated.
     pub fn member(&mut self, instance: &Rc<Instance>, member: MemberId, span: Span) -> Eval<Value> {
         use crate::check::typed::MemberKind;
         let program = self.shared.program;
@@ -455,10 +464,10 @@ impl Interpreter<'_> {
             .into())
     }
 
-    /// Refuses a list that is longer than the limit.
+    /// Refuses a list that is longer than the limit of the run.
     ///
     /// # Errors
-    /// A fault where it is.
+    /// A fault where it is longer.
     pub fn check_list(&mut self, length: usize, span: Span) -> Eval<()> {
         let limit = self.limits().list;
         if length <= limit {
@@ -467,10 +476,10 @@ impl Interpreter<'_> {
         self.too_large(span, format!("a list of more than {limit} elements"))
     }
 
-    /// Refuses a text that is longer than the limit, in bytes.
+    /// Refuses a text that is longer than the limit of the run, in bytes.
     ///
     /// # Errors
-    /// A fault where it is.
+    /// A fault where it is longer.
     pub fn check_text(&mut self, length: usize, span: Span) -> Eval<()> {
         let limit = self.limits().text;
         if length <= limit {
@@ -484,7 +493,8 @@ impl Interpreter<'_> {
     }
 }
 
-/// The members of a declaration with a body, and the slots that their expressions need.
+/// Returns the members of a declaration with a body, and the number of slots that their expressions need;
+/// `None` for other declarations.
 pub fn members_of(kind: &DefKind) -> Option<(&[crate::check::typed::Member], usize)> {
     Some(match kind {
         DefKind::Module(d) => (&d.members, d.frame),

@@ -1,7 +1,7 @@
-//! A thread with a large stack for the evaluator, and the way from there to the outside.
+//! A thread with a large stack for the evaluator, and its requests to the host.
 //!
-//! Evaluation is recursive, and programs nest deeper than the stack of a thread that somebody else
-//! made. The outside (files and host) stays on the thread of the caller, which serves requests.
+//! Evaluation is recursive, and programs nest deeper than the stack of a thread that another program made.
+//! Files and host stay on the thread of the caller, which serves requests.
 
 use super::host::{Host, WriteError};
 use crate::interrupt::{self, CancelState};
@@ -9,34 +9,41 @@ use crate::source::{Files, ReadError};
 use std::cell::Cell;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 
-/// Room for the evaluator's recursion; pages that are never touched cost nothing.
+/// The size of the evaluator's stack; pages that are never touched cost nothing.
 const STACK_BYTES: usize = 1 << 30;
 
-/// Requests that wait to be served: who prints faster than a terminal takes it has to wait, too.
+/// The greatest number of requests that wait to be served; an evaluator that prints faster than the terminal
+/// takes it is blocked.
 const WAITING_MAX: usize = 256;
 
+/// A request of the evaluator to the caller's thread, or a report that it is done.
 enum Request {
+    /// Print a line.
     Print(String),
+    /// Show a progress report.
     Progress(String),
+    /// Write a file of the output folder.
     Write(String, Vec<u8>, Sender<Result<String, WriteError>>),
+    /// Read a file of the project.
     Read(String, Sender<Result<Vec<u8>, ReadError>>),
+    /// Return the seconds since some instant.
     Elapsed(Sender<f64>),
     /// The job at hand is done, and its result waits.
     Done,
-    /// Nobody is to wait for the job at hand any longer.
+    /// The user abandons the job at hand: nobody is to wait for it.
     GivenUp,
 }
 
-/// The evaluator's end of the way to the outside.
+/// The evaluator's access to files and host, which answer on the caller's thread.
 #[derive(Clone)]
 pub struct HostProxy {
     requests: SyncSender<Request>,
-    /// Returns true once the user wants the run to end.
+    /// The cancellation state of the run.
     pub cancel_state: CancelState,
 }
 
 impl HostProxy {
-    /// Prints a line.
+    /// Prints a line, which has no line end.
     pub fn print(&self, line: String) {
         self.send(Request::Print(line));
     }
@@ -48,11 +55,17 @@ impl HostProxy {
     }
 
     /// Writes a file of the output folder and returns the path to show.
+    ///
+    /// # Errors
+    /// The path leads out of the output folder, or the system refuses.
     pub fn write(&self, path: &str, bytes: Vec<u8>) -> Result<String, WriteError> {
         self.ask(|reply| Request::Write(path.into(), bytes, reply))
     }
 
     /// Reads a file of the project.
+    ///
+    /// # Errors
+    /// The file can't be read.
     pub fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
         self.ask(|reply| Request::Read(path.into(), reply))
     }
@@ -62,12 +75,13 @@ impl HostProxy {
         self.cancel_state.is_cancelled()
     }
 
-    /// Seconds since some instant; see [`Host::elapsed`].
+    /// Returns the seconds since some instant; see [`Host::elapsed`].
     pub fn elapsed(&self) -> f64 {
         self.ask(Request::Elapsed)
     }
 
-    /// Asked again and again by a search: whether it may go on, for so many seconds from now at most.
+    /// Returns the function that a search asks whether to continue: true until the user cancels, or `timeout`
+    /// seconds from now have passed.
     pub fn until(&self, timeout: Option<f64>) -> impl Fn() -> bool {
         let begun = self.elapsed();
         move || !self.cancelled() && timeout.is_none_or(|most| self.elapsed() - begun <= most)
@@ -79,7 +93,8 @@ impl HostProxy {
         receiver.recv().unwrap_or_else(|_| interrupt::unwind())
     }
 
-    /// Sends a request to the outside; if that is gone, so is who wanted the work, and the work ends.
+    /// Sends a request to the caller's thread; unwinds the evaluation if that has dropped the receiver, since
+    /// then nobody wants the result.
     fn send(&self, request: Request) {
         interrupt::checkpoint();
         if self.requests.send(request).is_err() {
@@ -88,7 +103,8 @@ impl HostProxy {
     }
 }
 
-/// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
+/// Runs `evaluate` on a thread of its own and serves its requests here until it ends. Panics of the evaluator
+/// are resumed here.
 pub fn run<T: Send>(
     files: &dyn Files,
     host: &mut dyn Host,
@@ -107,20 +123,21 @@ pub fn run<T: Send>(
     })
 }
 
-/// An evaluator that stays, with what it keeps from job to job.
+/// An evaluator thread that stays from job to job, with its memory.
 pub struct EvaluatorThread<J, R> {
     jobs: Sender<J>,
     requests: Receiver<Request>,
     results: Receiver<R>,
     cancel_state: CancelState,
-    /// Puts a request of the outside's own among those of the evaluator.
+    /// A sender for requests of the caller's thread to itself.
     waker: SyncSender<Request>,
-    /// Returns true while a job is being done that nobody waits for any more.
+    /// True while a job runs that nobody waits for any more.
     left: Cell<bool>,
 }
 
 impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
-    /// `begin` is called on the evaluator's thread; what it gives does the jobs, one by one.
+    /// Starts the thread. `begin` is called on it; the function that `begin` returns does the jobs, one by
+    /// one.
     pub fn new<W: FnMut(J) -> R>(
         cancel_state: CancelState,
         begin: impl FnOnce(HostProxy) -> W + Send + 'static,
@@ -136,7 +153,7 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
                 let mut work = begin(HostProxy { requests: requests.clone(), cancel_state: obeyed });
                 for job in to_do {
                     let result = work(job);
-                    // Whoever does not wait for the result any more has dropped the other end.
+                    // A caller that does not wait for the result any more has dropped the receiver.
                     if done.send(result).is_err() || requests.send(Request::Done).is_err() {
                         return;
                     }
@@ -146,18 +163,19 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
         EvaluatorThread { jobs, requests: asked, results, cancel_state, waker, left: Cell::new(false) }
     }
 
-    /// Has a job done, and serves its requests here until it is, or until nobody is to wait any longer:
-    /// then it gives `None`, and the job ends by itself at its next checkpoint. The job before is settled.
+    /// Runs a job and serves its requests here until it is done. Returns `None` if the user abandons it
+    /// meanwhile; then the job ends by itself at its next checkpoint. Panics if an abandoned job has not been
+    /// waited for.
     pub fn run(&self, job: J, files: &dyn Files, host: &mut dyn Host) -> Option<R> {
         assert!(!self.left.get(), "the job before was settled");
         let waker = self.waker.clone();
-        // Where so many requests wait, who serves them is awake.
+        // With a full queue the serving thread is awake.
         self.cancel_state.on_abandon(move || drop(waker.try_send(Request::GivenUp)));
         self.jobs.send(job).expect("the evaluator waits for jobs");
         for request in &self.requests {
             match request {
                 Request::Done => break,
-                // Nobody wants to read on.
+                // After cancelling, output is not shown any more.
                 Request::Print(_) | Request::Progress(_) if self.cancel_state.is_cancelled() => {}
                 request => answer(request, files, host),
             }
@@ -169,13 +187,13 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
         Some(self.results.recv().expect("a job that is done has a result"))
     }
 
-    /// Returns true while a job is being done that nobody waits for any more.
+    /// Returns true while a job runs that nobody waits for any more.
     pub fn is_left(&self) -> bool {
         self.left.get()
     }
 
-    /// Waits for a job that was left, and gives what came of it after all; `None` where nobody is to wait
-    /// any longer. It stays cancelled.
+    /// Waits for an abandoned job and returns its result; `None` if the user abandons the wait, too. The job
+    /// stays cancelled.
     pub fn settle(&self) -> Option<R> {
         self.cancel_state.resume_waiting();
         for request in &self.requests {
@@ -185,7 +203,7 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
                     return Some(self.results.recv().expect("a job that is done has a result"));
                 }
                 _ if self.cancel_state.is_abandoned() => return None,
-                // Who asks for anything is not answered, and ends.
+                // Requests are not answered, so the job ends at its next one.
                 _ => {}
             }
         }
@@ -193,7 +211,7 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
     }
 }
 
-/// An answer that nobody waits for any more is dropped.
+/// Serves a request. An answer that nobody waits for any more is dropped.
 fn answer(request: Request, files: &dyn Files, host: &mut dyn Host) {
     match request {
         Request::Done | Request::GivenUp => {}

@@ -3,33 +3,36 @@
 use crate::interrupt::CancelState;
 use crate::source::Diagnostic;
 
-/// Why an output can't be written.
+/// The reason that an output can't be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteError {
     /// The path, or a link on it, leads out of the output folder.
     Outside,
-    /// Anything else, in the system's words.
+    /// Any other reason, in the system's words.
     Failed(String),
 }
 
-/// The outside of a run: `main` gives it a terminal and an output folder, tests a buffer.
+/// The environment of a run: `main` gives it a terminal and an output folder, tests a buffer.
 pub trait Host {
-    /// One line that the program prints, without its line end.
+    /// Prints one line of the program, without its line end.
     fn print(&mut self, line: &str);
 
-    /// Writes a whole file below the output folder, or nothing; gives the path to show.
+    /// Writes a whole file below the output folder, or nothing; returns the path to show.
+    ///
+    /// # Errors
+    /// The path leads out of the output folder, or the system refuses.
     fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError>;
 
-    /// A line about how far long work has come; shown on terminals only.
+    /// Shows a line about the progress of long work; on terminals only.
     fn progress(&mut self, line: &str);
 
-    /// The token by which the user cancels the run; checked every few milliseconds.
+    /// Returns the token by which the user cancels the run; it is checked every few milliseconds.
     fn cancel_state(&self) -> CancelState {
         CancelState::default()
     }
 
-    /// Seconds since some instant, for timeouts, which refuse and choose nothing. Without a clock there
-    /// are none.
+    /// Returns the seconds since some instant, for timeouts, which refuse and choose nothing. Without a
+    /// clock, 0: then there are no timeouts.
     fn elapsed(&self) -> f64 {
         0.0
     }
@@ -50,38 +53,38 @@ pub enum Mode {
 /// The choices of a user for a run.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Tests whose name contains this are run.
+    /// The text that the names of the tests to run contain; `None`: all tests.
     pub filter: Option<String>,
-    /// Default seed of planners.
+    /// The default seed of planners.
     pub seed: u64,
-    /// True if every plan that is emitted is drawn, too; where there is none, the declared robots are.
+    /// True if a page is drawn of every plan that is emitted; where there is none, of the declared robots.
     pub pages: bool,
     /// The command that runs the program again, for the pages that it draws.
     pub command: String,
-    /// Width and height of still pictures; `None`: as large as they are by themselves.
+    /// The width and height of still pictures, pixels; `None`: their natural size.
     pub picture: Option<(usize, usize)>,
     /// Bounds on what the program may use.
     pub limits: Limits,
-    /// Threads that a planner may use, at least one; no result depends on it.
+    /// The number of threads that a planner may use, at least one; no result depends on it.
     pub threads: usize,
 }
 
 /// Bounds on what a program may use. Reaching one is a diagnostic.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// Evaluation steps: expressions evaluated.
+    /// The greatest number of evaluation steps: expressions evaluated.
     pub steps: u64,
-    /// Calls within calls.
+    /// The greatest depth of calls within calls.
     pub recursion: usize,
-    /// Elements of one list.
+    /// The greatest number of elements of one list.
     pub list: usize,
-    /// Bytes of one text.
+    /// The greatest length of one text, bytes.
     pub text: usize,
-    /// Decimal digits of one whole number.
+    /// The greatest number of decimal digits of one whole number.
     pub digits: usize,
-    /// Modules of one robot.
+    /// The greatest number of modules of one robot.
     pub modules: usize,
-    /// Samples of one verification.
+    /// The greatest number of samples of one verification.
     pub samples: usize,
 }
 
@@ -104,18 +107,18 @@ impl Default for Limits {
 pub struct TestResult {
     /// The name of the test.
     pub name: String,
-    /// The first diagnostic of a failed test is also in [`Outcome::diagnostics`].
+    /// True if it passed. The first diagnostic of a failed test is also in [`Outcome::diagnostics`].
     pub passed: bool,
 }
 
 /// The outcome of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
-    /// Errors first, then warnings and notes.
+    /// The diagnostics: errors first, then warnings and notes.
     pub diagnostics: Vec<Diagnostic>,
     /// The tests that were run, in order.
     pub tests: Vec<TestResult>,
-    /// Paths written, as the host showed them.
+    /// The paths written, as the host showed them.
     pub written: Vec<String>,
     /// True if the user ended the run.
     pub cancelled: bool,

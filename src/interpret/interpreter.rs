@@ -1,4 +1,4 @@
-//! The state of a run: what has been computed, what was reported, where evaluation is.
+//! The state of a run: what has been computed, what was reported, and the position of evaluation.
 
 use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
@@ -16,14 +16,15 @@ use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
-/// Most findings of one run; more help nobody.
+/// The greatest number of findings of one run; more help nobody.
 const REPORTS_MAX: usize = 200;
-/// Most calls that a message shows.
+/// The greatest number of calls that a message shows.
 const CALLS_SHOWN: usize = 4;
-/// Evaluations within evaluations. The stack of [`super::evaluator_thread`] is made for this many.
+/// The greatest depth of evaluations within evaluations. The stack of [`super::evaluator_thread`] is made for
+/// this many.
 const NESTING_MAX: usize = 40_000;
 
-/// The state of a run: what all of it shares, what was found, what is remembered, and where evaluation is.
+/// The state of a run: its inputs, its findings, its memory, and the position of evaluation.
 pub struct Interpreter<'a> {
     /// The inputs of the run, which never change.
     pub shared: Shared<'a>,
@@ -31,7 +32,7 @@ pub struct Interpreter<'a> {
     pub reported: Reported,
     /// Values by declaration, and what they refer to.
     pub memory: Memory,
-    /// Members that were computed in this run, for a session that has to forget those that failed.
+    /// The members that were computed in this run, for a session that has to forget those that failed.
     pub computed: Vec<(Rc<Instance>, usize)>,
     /// The position of evaluation: calls and bindings.
     pub stack: Stack,
@@ -39,7 +40,7 @@ pub struct Interpreter<'a> {
 
 /// The inputs of a run, which it does not change.
 pub struct Shared<'a> {
-    /// The rooms above the evaluator.
+    /// The functions of the rooms above the evaluator.
     pub routines: &'a Routines,
     /// The typed program.
     pub program: &'a Program,
@@ -49,9 +50,9 @@ pub struct Shared<'a> {
     pub options: &'a Options,
     /// The part of the program that is evaluated.
     pub mode: Mode,
-    /// The way to files and terminal.
+    /// The access to files and terminal.
     pub host: HostProxy,
-    /// By declaration: whether `check` found mistakes in it. What comes of it is unknown.
+    /// True, by declaration, if `check` found mistakes in it. Values that depend on it are unknown.
     pub faulty: Vec<bool>,
 }
 
@@ -63,7 +64,7 @@ pub struct Reported {
     /// The number of errors, repeated ones included.
     pub errors: usize,
     known: HashSet<(Code, Option<Span>, Option<String>)>,
-    /// Paths written, as the host showed them.
+    /// The paths written, as the host showed them.
     pub written: Vec<String>,
     /// The tests that were run.
     pub tests: Vec<TestResult>,
@@ -74,24 +75,24 @@ pub struct Reported {
 /// The computed values that stay: for the rest of the run, and in a session for the next entries.
 #[derive(Clone, Default)]
 pub struct Memory {
-    /// Top-level lets, by declaration.
+    /// The top-level lets, by declaration.
     pub globals: Vec<Lazy>,
-    /// Elaborated declarations with their arguments, by declaration.
+    /// The elaborated declarations with their arguments, by declaration.
     pub designs: Vec<Vec<Rc<Design>>>,
-    /// Connectors, by declaration; `Some(None)` of those that are not sound.
+    /// The connectors, by declaration; `Some(None)` for those that are broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
     /// The last plans of behaviours.
     pub plans: Vec<Rc<PlanValue>>,
-    /// Searches of `tosnake` that were done.
+    /// The finished searches of `tosnake`.
     pub search_cache: SearchCache,
-    /// The source lines behind commands.
+    /// The causes of commands, with their source lines.
     pub causes: Causes,
-    /// Exemptions of the user's own files that were judged, and whether any plan needed them.
+    /// The exemptions of the user's own files that were judged, and true if any plan needed them.
     pub exemptions: BTreeMap<Span, bool>,
 }
 
 impl Memory {
-    /// Makes room for so many declarations.
+    /// Makes room for `declarations` declarations.
     pub fn resize(&mut self, declarations: usize) {
         self.globals.resize(declarations, Lazy::Waiting);
         self.designs.resize(declarations, Vec::new());
@@ -104,7 +105,7 @@ impl Memory {
 pub struct Stack {
     /// The calls that evaluation is in, outermost first.
     pub calls: Vec<CallSite>,
-    /// Loop variables with their values, outermost first.
+    /// The loop variables with their values, outermost first.
     pub binders: Vec<Binder>,
     steps: u64,
     depth: usize,
@@ -113,11 +114,11 @@ pub struct Stack {
 /// A call of something that a user or the library wrote.
 #[derive(Clone, Debug)]
 pub struct CallSite {
-    /// The call.
+    /// The span of the call.
     pub span: Span,
     /// The function that is called.
     pub name: Symbol,
-    /// Length of [`Stack::binders`] at the call: those before belong to the caller.
+    /// The length of [`Stack::binders`] at the call: those before belong to the caller.
     binders: usize,
 }
 
@@ -126,7 +127,7 @@ pub struct CallSite {
 pub struct Binder {
     /// The name of the variable.
     pub name: Symbol,
-    /// Its value at hand.
+    /// Its present value.
     pub value: Value,
 }
 
@@ -161,7 +162,10 @@ impl<'a> Interpreter<'a> {
         self.shared.program.def(def).name
     }
 
-    /// Counts a step; ends the run at the limit or when the user wants it.
+    /// Counts an evaluation step.
+    ///
+    /// # Errors
+    /// [`Stop::Halt`] at the limit of steps, or when the user cancels.
     pub fn step(&mut self, span: Span) -> Eval<()> {
         self.stack.steps += 1;
         if self.stack.steps > self.limits().steps {
@@ -187,7 +191,10 @@ impl<'a> Interpreter<'a> {
         interrupt::progress_checkpoint(|| format!("evaluating: {steps} steps of at most {most}"));
     }
 
-    /// Runs `body` one level of evaluation deeper; refuses where the stack would not bear it.
+    /// Runs `body` one level of evaluation deeper.
+    ///
+    /// # Errors
+    /// [`Stop::Halt`] where the stack would not bear it, besides the errors of `body`.
     pub fn with_depth<T>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<T> {
         if self.stack.depth >= NESTING_MAX {
             return self.halt(
@@ -202,6 +209,9 @@ impl<'a> Interpreter<'a> {
     }
 
     /// Runs `body` as the body of a call from `span`.
+    ///
+    /// # Errors
+    /// [`Stop::Halt`] at the limit of recursion, besides the errors of `body`.
     pub fn with_call<T>(
         &mut self,
         span: Span,
@@ -235,7 +245,7 @@ impl<'a> Interpreter<'a> {
         self.halt(diagnostic.hint("a function that calls itself needs a case in which it does not"))
     }
 
-    /// Runs `body` with a loop variable.
+    /// Runs `body` with a loop variable, whose value is part of the findings in it.
     pub fn with_binding<T>(&mut self, name: Symbol, value: &Value, body: impl FnOnce(&mut Self) -> T) -> T {
         self.stack.binders.push(Binder { name, value: value.clone() });
         let result = body(self);
@@ -252,14 +262,15 @@ impl<'a> Interpreter<'a> {
         Err(Stop::Halt)
     }
 
-    /// Reports a finding with the calls that led to it and the loop variables it depends on. One
-    /// finding of a kind at one place is enough.
+    /// Reports a finding with the calls that led to it and the loop variables it depends on. Of equal
+    /// findings at one span, only the first is reported.
     pub fn report(&mut self, diagnostic: Diagnostic) {
         let diagnostic = self.with_calls(diagnostic);
         self.add_report(diagnostic);
     }
 
-    /// Reports a finding that is about more than the place where evaluation is.
+    /// Reports a finding that is about more than the position of evaluation, without calls and loop
+    /// variables.
     pub fn add_report(&mut self, diagnostic: Diagnostic) {
         self.reported.errors += usize::from(diagnostic.is_error());
         // What the judge finds differs from robot to robot, at one and the same line.
@@ -270,7 +281,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs `body` and hands back its findings instead of reporting them.
+    /// Runs `body` and returns its findings instead of reporting them.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
         let value = body(self);
@@ -285,7 +296,10 @@ impl<'a> Interpreter<'a> {
         self.reported.errors > mark
     }
 
-    /// Runs a step whose fault is reported and does not hinder the next; a halt passes.
+    /// Runs a step whose fault is reported and does not hinder the next; `None` after a fault.
+    ///
+    /// # Errors
+    /// Only [`Stop::Halt`].
     pub fn attempt<T>(&mut self, step: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<Option<T>> {
         match step(self) {
             Ok(value) => Ok(Some(value)),
@@ -297,7 +311,10 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Turns a fault into a report and an unknown value; a halt passes.
+    /// Turns a fault into a report and an unknown value.
+    ///
+    /// # Errors
+    /// Only [`Stop::Halt`].
     pub fn recover(&mut self, result: Eval<Value>) -> Eval<Value> {
         match result {
             Err(Stop::Fault(diagnostic)) => {
@@ -308,12 +325,12 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Returns whether a span lies in a file of the standard library.
+    /// Returns true if a span lies in a file of the standard library.
     pub fn is_library(&self, span: Span) -> bool {
         self.shared.sources.file(span.file).library
     }
 
-    /// The innermost call that stands in the user's own files.
+    /// Returns the innermost call that is written in the user's own files.
     pub fn user_call(&self) -> Option<&CallSite> {
         self.stack.calls.iter().rev().find(|call| !self.is_library(call.span))
     }
@@ -341,7 +358,7 @@ impl<'a> Interpreter<'a> {
         diagnostic
     }
 
-    /// The loop variables of the body at hand: `i = 3, j = 0`.
+    /// Returns the loop variables of the present body in words: `i = 3, j = 0`.
     pub fn binder_notes(&self) -> String {
         let from = self.stack.calls.last().map_or(0, |call| call.binders);
         let notes = self.stack.binders[from.min(self.stack.binders.len())..]
@@ -362,7 +379,7 @@ impl<'a> Interpreter<'a> {
         Some(format!("{} = {shown}", binder.name))
     }
 
-    /// A root instance of a design.
+    /// Returns an instance that is the whole of a design.
     pub fn whole(&self, design: &Rc<Design>) -> Rc<Instance> {
         Instance::whole(design.clone())
     }

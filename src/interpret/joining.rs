@@ -1,4 +1,4 @@
-//! Plans out of plans: one after another, backwards, a stretch of one.
+//! Operations on plans as values: one after another, and any change of one plan.
 
 use super::interpreter::Interpreter;
 use super::plan_value::PlanValue;
@@ -11,7 +11,11 @@ use crate::source::{Span, code};
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// `p ++ q`, `p ++ b`: a behaviour begins where the plan before it ends.
+    /// Returns the plan `p ++ q` or `p ++ b`: one plan after another; a behaviour begins where the plan
+    /// before it ends. Unknown where one of them is.
+    ///
+    /// # Errors
+    /// A fault where the plans do not fit together, or a behaviour can't be planned.
     pub fn join_plans(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Value> {
         let Some(first) = self.plan_of(a, span)? else { return Ok(Value::Unknown) };
         let second = match b {
@@ -33,7 +37,10 @@ impl Interpreter<'_> {
         Ok(Value::Record(Rc::new(Record::Plan(Rc::new(joined)))))
     }
 
-    /// A plan of the same robot made from another.
+    /// Returns the plan that `change` makes of a plan of the same robot; the causes stay.
+    ///
+    /// # Errors
+    /// A fault at `span` where `change` refuses.
     pub fn changed(
         &mut self,
         planned: &Rc<PlanValue>,

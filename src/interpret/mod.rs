@@ -1,10 +1,11 @@
-//! Typed tree to values, effects and plans.
+//! The evaluator: typed tree to values, effects and plans.
 //!
-//! The way through this room: [`run`](mod@run) puts an evaluator on a thread of its own ([`evaluator_thread`]), which
-//! walks expressions ([`eval`], [`operators`], [`call`], [`statements`]) to values ([`value`]).
+//! The parts of this room: [`run`](mod@run) puts an evaluator on a thread of its own ([`evaluator_thread`]),
+//! which walks expressions ([`eval`], [`operators`], [`call`], [`statements`]) to values ([`value`]).
 //! Declarations become designs ([`crate::elaborate`]); behaviours become plans ([`behavior`], [`planning`]),
 //! and what is wrong with these goes back to the lines that caused it ([`causes`], [`verdicts`]). The
-//! built-ins ([`crate::natives`]) are the only bridge between the wings.
+//! built-ins ([`crate::natives`]) are the only bridge between the front end (the language) and the back end
+//! (robotics).
 
 pub mod host;
 

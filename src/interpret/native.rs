@@ -10,9 +10,9 @@ use crate::source::{ReadError, Span, code};
 /// The modes in which a built-in does its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// Whenever it is called.
+    /// It does its work whenever it is called.
     None,
-    /// Only when the program is run: `modl check` evaluates its arguments and no more.
+    /// It does its work only when the program is run: `modl check` evaluates its arguments and no more.
     OnRun,
 }
 
@@ -22,7 +22,7 @@ pub type NativeBody = fn(&mut Interpreter, &Call) -> Eval<Value>;
 /// A built-in function.
 #[derive(Clone, Copy)]
 pub struct Native {
-    /// `move`, or `Plan.at` for a method, which takes its object first.
+    /// The key: `move`, or `Plan.at` for a method, which takes its object first.
     pub key: &'static str,
     /// The parameters in any order; a test compares them with the declaration.
     pub parameters: &'static [Parameter],
@@ -54,7 +54,7 @@ pub struct Call<'c> {
     pub params: &'c [Param],
     /// The arguments, in the order of the declaration.
     pub args: &'c [Value],
-    /// The places of the arguments; the whole call for those left out.
+    /// The spans of the arguments; that of the whole call for those left out.
     pub spans: &'c [Span],
 }
 
@@ -82,17 +82,17 @@ impl<'c> Call<'c> {
         }
     }
 
-    /// Returns the span of an argument; of the call where it was left out.
+    /// Returns the span of an argument; that of the call where it was left out.
     pub fn at(&self, name: &str) -> Span {
         self.spans.get(self.index(name)).copied().unwrap_or(self.span)
     }
 
-    /// Returns an argument as it is.
+    /// Returns the value of an argument.
     pub fn arg(&self, name: &str) -> &'c Value {
         self.args.get(self.index(name)).unwrap_or(&Value::Missing)
     }
 
-    /// Returns a fault about an argument.
+    /// Returns a fault at an argument.
     pub fn refuse(&self, name: &str, message: impl Into<String>) -> Stop {
         let message = message.into();
         fault(code::BAD_VALUE, self.at(name), message.clone(), message)
@@ -122,7 +122,7 @@ impl<'c> Call<'c> {
         self.get_named(name, what)
     }
 
-    /// Returns the place of a parameter in the declaration.
+    /// Returns the index of a parameter in the declaration.
     fn index(&self, name: &str) -> usize {
         let found = self.params.iter().position(|param| param.name.as_str() == name);
         found.unwrap_or_else(|| unreachable!("`{}` declares no parameter `{name}`", self.native.key))

@@ -15,7 +15,10 @@ use std::cmp::Ordering;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// A whole number as written, of more digits than a machine word holds.
+    /// Returns a whole number as written, of more digits than a machine word holds.
+    ///
+    /// # Errors
+    /// A fault where it has more digits than the limit of the run.
     pub fn big_literal(&mut self, digits: &str, span: Span) -> Eval<Value> {
         let limit = self.limits().digits;
         if digits.len() > limit {
@@ -25,7 +28,7 @@ impl Interpreter<'_> {
         Ok(digits.parse::<BigInt>().map_or(Value::Unknown, Value::whole))
     }
 
-    /// Applies an operator to one value.
+    /// Applies a prefix operator to a value; unknown where the operand is.
     pub fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval<Value> {
         Ok(match (op, value) {
             (_, Value::Unknown) => Value::Unknown,
@@ -50,7 +53,8 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Evaluates an operator with two operands; `and` and `or` leave out the second where the first decides.
+    /// Evaluates an infix operator with its two operands; `and` and `or` leave out the second where the first
+    /// decides.
     pub fn eval_binary(
         &mut self,
         op: BinaryOp,
@@ -153,7 +157,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Exact arithmetic; `/` of whole numbers gives a number.
+    /// Returns the result of exact arithmetic; `/` of whole numbers gives a number.
     fn whole_arithmetic(
         &mut self,
         op: BinaryOp,
@@ -190,7 +194,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// An exponent that passed the limit on digits; where the base is -1, 0 or 1 its parity suffices.
+/// Returns an exponent that passed the limit on digits; where the base is -1, 0 or 1 its parity suffices.
 fn exponent(y: &BigInt) -> u32 {
     u32::try_from(y).unwrap_or(if y.is_even() { 2 } else { 1 })
 }
@@ -203,7 +207,7 @@ fn x_as_f64(x: &BigInt) -> f64 {
     num_traits::ToPrimitive::to_f64(x).unwrap_or(f64::INFINITY)
 }
 
-/// Whole-number arithmetic where everything fits; `None`: do it the long way.
+/// Returns the result of whole-number arithmetic in machine words; `None` where it overflows.
 fn small(op: BinaryOp, x: i64, y: i64) -> Option<i64> {
     match op {
         BinaryOp::Add => x.checked_add(y),
@@ -258,7 +262,7 @@ fn vectors(op: BinaryOp, a: &Value, b: &Value, span: Span, right: Span) -> Eval<
     }
 }
 
-/// A whole power by repeated squaring, so that it is the same on every platform.
+/// Returns a whole power by repeated squaring, so that it is the same on every platform.
 fn power(x: f64, dimension: Dimension, n: i64, span: Span, right: Span) -> Eval<Value> {
     if n < 0 && x == 0.0 {
         return Err(by_zero(right));
@@ -276,7 +280,7 @@ fn power(x: f64, dimension: Dimension, n: i64, span: Span, right: Span) -> Eval<
     finite(result, i32::try_from(n).ok().and_then(|n| dimension.power(n)), span)
 }
 
-/// A result that is a number; what overflows is a fault, so that no infinity spreads.
+/// Returns a result that is a finite number; an overflow is a fault, so that no infinity spreads.
 fn finite(value: f64, dimension: Option<Dimension>, span: Span) -> Eval<Value> {
     match dimension {
         Some(dimension) if value.is_finite() => Ok(Value::Quantity(value, dimension)),

@@ -13,7 +13,7 @@ use std::rc::Rc;
 pub struct PlanValue {
     /// The robot, lattice or truss that moves.
     pub robot: Rc<Design>,
-    /// The robot as an assembly, where it is articulated.
+    /// The robot as an assembly; `None` for a lattice or a truss.
     pub body: Option<Rc<Robot>>,
     /// The plan itself.
     pub plan: Plan,
@@ -21,13 +21,13 @@ pub struct PlanValue {
     pub causes: Vec<CauseId>,
     /// The number of actions.
     pub actions: u64,
-    /// The planner's report; `None` of plans that no planner made.
+    /// The planner's report; `None` for plans that no planner made.
     report: Option<Rc<dyn PlannerReport>>,
-    /// Verdicts so far.
+    /// The verdicts so far.
     pub(super) judged: RefCell<Vec<Judged>>,
 }
 
-/// A verdict with what it was given under.
+/// A verdict with the settings and worlds that it was given under.
 pub(super) struct Judged {
     /// The options of the judge.
     pub settings: Settings,
@@ -46,7 +46,7 @@ pub trait PlannerReport: Any {
 /// A field of a report, with the function that reads it.
 pub type ReportField<R> = (&'static str, fn(&mut Interpreter, &Rc<PlanValue>, &R) -> Value);
 
-/// A report whose fields stand in one table.
+/// A report whose fields are listed in one table.
 pub trait ReportFields: Sized + 'static {
     /// The fields in the order of the declaration.
     const FIELDS: &'static [ReportField<Self>];
@@ -109,7 +109,7 @@ impl PlanValue {
         usize::try_from(self.actions).unwrap_or(usize::MAX)
     }
 
-    /// Returns the number of stretches between one change of commands and the next.
+    /// Returns the number of intervals from one change of commands to the next.
     pub fn steps(&self) -> usize {
         self.plan.body.instants().len().saturating_sub(1)
     }

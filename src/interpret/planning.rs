@@ -1,4 +1,4 @@
-//! Behaviours to plans, and plans before the judge.
+//! Planning of behaviours, and judging of plans.
 
 use super::causes::PlanCauses;
 use super::design::Design;
@@ -19,33 +19,43 @@ use std::cell::OnceCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Plans that are kept, so that `verify` and `emit` of one behaviour plan and judge it once.
+/// The greatest number of plans that are kept, so that `verify` and `emit` of one behaviour plan and judge it
+/// once.
 const KEPT_MAX: usize = 32;
 
-/// Who set the start pose: joints, and bonds by index.
+/// The causes of the start pose.
 #[derive(Default)]
 struct StartCauses {
+    /// The causes of start positions: (joint, cause).
     joints: Vec<(JointId, CauseId)>,
+    /// The cause of each bond: (bond, cause).
     bonds: Vec<(usize, CauseId)>,
 }
 
-/// The state in which a behaviour begins (else the robot's start pose), and its world.
+/// The state in which a behaviour begins, and its world.
 #[derive(Default)]
 pub struct Beginning {
-    /// The state in which the behaviour begins.
+    /// The state in which the behaviour begins; `None`: the robot's start pose.
     pub start: Option<State>,
     /// The world that is assumed.
     pub world: World,
 }
 
 impl Interpreter<'_> {
-    /// The plan of a behaviour from the start pose of its robot; `None` where something is wrong
-    /// with it, which has been reported.
+    /// Returns the plan of a behaviour from the start pose of its robot; `None` where something is wrong with
+    /// it, which has been reported.
+    ///
+    /// # Errors
+    /// As [`plan_from`](Self::plan_from).
     pub fn plan_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<Option<Rc<PlanValue>>> {
         self.plan_from(behavior, Beginning::default(), span)
     }
 
-    /// Plans a behaviour from a state and under a world; `None` after an error that was reported.
+    /// Returns the plan of a behaviour from a state and under a world; `None` after an error that was
+    /// reported, and when the program is only checked.
+    ///
+    /// # Errors
+    /// A fault at `span` where no action names a robot, or where the behaviour has no motion.
     pub fn plan_from(
         &mut self,
         behavior: &Behavior,
@@ -92,7 +102,7 @@ impl Interpreter<'_> {
         Ok(Some(planned))
     }
 
-    /// A plan of what was scheduled, with what was too fast in it.
+    /// Returns the plan of a scheduled behaviour, with the actions that are too fast for the joints' limits.
     pub fn assemble_plan(
         &self,
         design: Rc<Design>,
@@ -108,7 +118,7 @@ impl Interpreter<'_> {
         (PlanValue::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
     }
 
-    /// A plan without a program, and without a verdict. Without a planner nobody planned it.
+    /// Returns a plan without a program and without a verdict; `planner` names who made it in its provenance.
     pub fn bare_plan(
         &self,
         planner: &str,
@@ -131,7 +141,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The causes of a plan all of which one call of a planner commands: number 0 is that call.
+    /// Returns the causes of a plan that one call of a planner commands as a whole: number 0 is that call.
     pub fn planner_causes(&mut self, call: Span) -> PlanCauses {
         let mut causes = PlanCauses::default();
         let cause = self.cause(call, Vec::new(), "");
@@ -139,12 +149,13 @@ impl Interpreter<'_> {
         causes
     }
 
-    /// The default options of the judge, within the limits of the run.
+    /// Returns the default settings of the judge, within the limits of the run.
     pub fn judge_settings(&self) -> Settings {
         Settings { samples_max: self.limits().samples, ..Settings::default() }
     }
 
-    /// Durations that turned out shorter than the joints' limits allow; gives whether there are none.
+    /// Reports durations that turned out shorter than the joints' limits allow; returns true if there are
+    /// none. `ids`: the run's number of each cause of the plan.
     pub fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
         for issue in issues {
             let issue = behavior::Issue { cause: ids[issue.cause.0 as usize], ..issue.clone() };
@@ -154,8 +165,8 @@ impl Interpreter<'_> {
         issues.is_empty()
     }
 
-    /// A plan of the same behaviour of the same robot. Causes may differ: the same commands called
-    /// from another line are other causes, and then it is planned anew.
+    /// Returns a kept plan of the same behaviour of the same robot. Causes may differ: the same commands
+    /// called from another line have other causes, and then the behaviour is planned again.
     fn kept_plan(
         &self,
         design: &Rc<Design>,
@@ -183,7 +194,7 @@ impl Interpreter<'_> {
         self.memory.plans.push(planned);
     }
 
-    /// Causes of the joints' start positions and of the bonds.
+    /// Returns the causes of the joints' start positions and of the bonds.
     fn start_causes(&mut self, design: &Rc<Design>, robot: &Robot, causes: &mut PlanCauses) -> StartCauses {
         let mut start = StartCauses::default();
         for set in design.sets() {
@@ -209,7 +220,7 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Names and hashes of all texts.
+    /// Returns the names and hashes of all texts of the program.
     pub fn provenance(&self) -> Provenance {
         let mut sources: Vec<(String, String)> = self
             .shared
@@ -226,7 +237,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A robot in its start pose as a plan that lasts no time.
+    /// Returns the start pose of a robot as a plan of duration 0; `None` where its design is broken or no
+    /// robot.
     pub fn plan_pose(&mut self, design: &Rc<Design>, world: World) -> Eval<Option<Rc<PlanValue>>> {
         let Some(robot) = self.robot_of(design)? else { return Ok(None) };
         let mut causes = PlanCauses::default();
@@ -251,7 +263,8 @@ impl Interpreter<'_> {
         Ok(Some(Rc::new(self.assemble_plan(design.clone(), robot, scheduled, &causes, world).0)))
     }
 
-    /// The verdict on a plan under these options; each asked for once.
+    /// Returns the verdict on a plan under these settings; `world`: in place of the plan's worlds. A verdict
+    /// is computed once and kept with the plan.
     pub fn judge(&mut self, planned: &PlanValue, settings: Settings, world: Option<World>) -> Rc<Verdict> {
         let worlds = match world {
             Some(world) => vec![WorldFrom { from: 0.0, world }],
@@ -268,7 +281,10 @@ impl Interpreter<'_> {
         verdict
     }
 
-    /// The state at a time; refused where there are no joints, at the place that asks.
+    /// Returns the state at a time (s), clamped to the duration of the plan.
+    ///
+    /// # Errors
+    /// A fault at `span` where the plan's robot has no joints.
     pub fn state_at(&mut self, planned: &Rc<PlanValue>, time: f64, span: Span) -> Eval<Value> {
         let Some(body) = &planned.body else {
             let message = "a state is one of joints, and this robot has none";
@@ -286,7 +302,8 @@ impl Interpreter<'_> {
         }))))
     }
 
-    /// The plan that a value is or gives.
+    /// Returns the plan that a value is or gives: a plan, a record about one, a behaviour, or the start pose
+    /// of an instance; `None` for other values.
     pub fn plan_of(&mut self, value: &Value, span: Span) -> Eval<Option<Rc<PlanValue>>> {
         match value {
             Value::Behavior(behavior) => self.plan_behavior(behavior, span),
@@ -306,7 +323,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// The corners of the area that a robot stands on, in the frame of its base as it rests.
+/// Returns the corners of the support polygon of a robot at rest, in the frame of its base, m.
 pub fn footprint(robot: &Robot) -> Vec<Vec3> {
     crate::plan::verify::articulated::area(&robot.assembly, &robot.start)
 }

@@ -39,19 +39,19 @@ pub trait NativeRecord: Any + std::fmt::Debug {
     /// Returns the record on one line, as `print` shows it.
     fn show(&self) -> String;
 
-    /// Returns the plan that the record is about and stands for.
+    /// Returns the plan that the record is about and stands for; `None` if there is none.
     fn plan(&self) -> Option<&Rc<PlanValue>> {
         None
     }
 }
 
-/// A state of a robot, with when and where it was taken.
+/// A state of a robot, with its time and the plan that it was taken from.
 pub struct StateValue {
     /// The robot.
     pub robot: Rc<Design>,
     /// The robot as an assembly.
     pub body: Rc<Robot>,
-    /// Positions of the joints, and the bonds that hold.
+    /// The positions of the joints, and the bonds that hold.
     pub state: State,
     /// The time in the plan, s.
     pub time: f64,
@@ -64,7 +64,7 @@ pub struct StateValue {
 /// A field of a record, with the function that reads it.
 pub type Field<T> = (&'static str, fn(&T) -> Value);
 
-/// Reads a field from its table.
+/// Returns the value of a field by its table. Panics if the table has no such field, which `check` excludes.
 pub fn read_field<T>(fields: &[Field<T>], record: &T, field: &str) -> Value {
     let found = fields.iter().find(|(name, _)| *name == field);
     found.map_or_else(|| unreachable!("`check` knows no field `{field}` here"), |(_, read)| read(record))
@@ -87,7 +87,7 @@ impl std::fmt::Debug for StateValue {
 }
 
 impl StateValue {
-    /// World poses of all links.
+    /// Returns the world poses of all links.
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
@@ -96,8 +96,8 @@ impl StateValue {
         poses
     }
 
-    /// The pose of the base module's body in the world: where standing, rolling and tipping have brought
-    /// it by then.
+    /// Returns the pose of the base module's body in the world, with all standing, rolling and tipping up to
+    /// its time.
     pub fn base(&self) -> Pose {
         let grounded = self.planned.plan.worlds.iter().any(|w| w.world.ground != Ground::Off);
         let stand = || {
@@ -113,7 +113,7 @@ impl StateValue {
 /// Nodes, and struts by pairs of nodes.
 type NodesAndStruts = (Vec<Vec3>, Vec<(usize, usize)>);
 
-/// Nodes and struts of a `Frame`.
+/// Returns the nodes (m) and struts of a `Frame`; `None` for other values.
 pub fn frame_parts(value: &Value) -> Option<NodesAndStruts> {
     match value {
         Value::Record(record) => match &**record {

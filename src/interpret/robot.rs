@@ -1,4 +1,4 @@
-//! A configuration as the right wing sees it: an assembly with its start state and kinematics.
+//! A configuration as robotics sees it: an assembly with its start state and kinematics.
 
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{Assembly, JointId, JointOwner, Kinematics, Residual, State};
@@ -8,11 +8,11 @@ use std::sync::Arc;
 pub struct Robot {
     /// Modules, bonds and the library of their types.
     pub assembly: Arc<Assembly>,
-    /// Joints as `set`, all bonds, the base module's body at the origin.
+    /// The start state: joints as `set`, all bonds, the base module's body at the origin.
     pub start: State,
-    /// The tree of links.
+    /// The kinematic tree of the links.
     pub kinematics: Kinematics,
-    /// Poses of all links in the start state.
+    /// The poses of all links in the start state, in the frame of the base module.
     pub poses: Vec<Pose>,
 }
 
@@ -29,7 +29,7 @@ impl Robot {
         owner.map_or_else(String::new, |owner| self.assembly.joint_name(owner))
     }
 
-    /// Returns how far each bond that closes a loop is from closing it in the start state.
+    /// Returns the residual of each bond that closes a loop in the start state.
     pub fn residuals(&self) -> Vec<Residual> {
         self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
     }
@@ -40,7 +40,7 @@ impl Robot {
     }
 }
 
-/// Returns the place of a joint among those of the tree.
+/// Returns the index of a joint among those of the kinematic tree. Panics if it is a bond without a joint.
 pub fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
     match owner {
         JointOwner::Module { module, joint } => kinematics.joint(module, joint),

@@ -1,4 +1,4 @@
-//! The rooms above the evaluator, as it is given them.
+//! The functions of the rooms above the evaluator, as it is given them.
 //!
 //! Evaluating an expression needs what lies above: declarations are elaborated to designs, built-ins are
 //! called, values are printed. The evaluator does not know these rooms; whoever runs a program hands them in
@@ -14,16 +14,16 @@ use crate::check::typed::DefId;
 use crate::source::{Span, Symbol};
 use std::rc::Rc;
 
-/// Arguments in the order of the parameters; `None`: the default is wanted.
+/// The arguments in the order of the parameters; `None`: the default is wanted.
 pub struct Args {
     /// The arguments.
     pub values: Vec<Option<Value>>,
-    /// The span of each argument; of the whole call for those left out.
+    /// The span of each argument; that of the whole call for those left out.
     pub spans: Vec<Span>,
 }
 
 impl Args {
-    /// Returns arguments that all stand at one span.
+    /// Returns arguments that all have one span.
     pub fn plain(values: Vec<Value>, span: Span) -> Args {
         let spans = vec![span; values.len()];
         Args { values: values.into_iter().map(Some).collect(), spans }
@@ -64,7 +64,7 @@ impl Interpreter<'_> {
         (self.shared.routines.robot_of)(self, design)
     }
 
-    /// Returns a value on one line: as it could be written, with units that suit its size.
+    /// Returns a value on one line, as it could be written in a program, with units that suit its size.
     pub fn show(&self, value: &Value) -> String {
         (self.shared.routines.show)(self, value)
     }

@@ -1,4 +1,4 @@
-//! The door: a checked program, run.
+//! The entry point: runs a checked program.
 
 use super::evaluator_thread;
 use super::host::{Host, Mode, Options, Outcome};

@@ -17,7 +17,7 @@ use crate::source::{Diagnostic, FileId, Files, Span, code};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-/// Entries that can be taken back.
+/// The greatest number of entries that can be taken back.
 pub const UNDO_MAX: usize = 200;
 
 /// Evaluates entries one after the other, each with what those before it left.
@@ -33,16 +33,16 @@ pub struct Task {
     pub work: Work,
 }
 
-/// The tasks of an evaluator.
+/// The kinds of tasks of an evaluator.
 pub enum Work {
     /// Evaluate the newest entry.
     Enter(Entered),
     /// Take back the last entry that was kept.
     Undo,
     /// Texts changed: elaborate declarations with their defaults, and forget values that do not hold any
-    /// more. Entries before can't be taken back.
+    /// more. Earlier entries can't be taken back.
     Reload { check: Vec<DefId>, stale: Vec<DefId> },
-    /// Forget all values; entries can't be taken back any more.
+    /// Forget all values; earlier entries can't be taken back.
     Forget,
 }
 
@@ -50,9 +50,9 @@ pub enum Work {
 pub struct Entered {
     /// The text of the entry.
     pub file: FileId,
-    /// Declarations of other files to elaborate first.
+    /// The declarations of other files to elaborate first.
     pub check: Vec<DefId>,
-    /// Declarations whose values do not hold any more.
+    /// The declarations whose values do not hold any more.
     pub stale: Vec<DefId>,
     /// True if the declarations stay. Otherwise all is as if the entry had never been.
     pub keep: bool,
@@ -63,10 +63,11 @@ pub struct Entered {
 /// The part of an entry's result that is printed besides what it prints itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tell {
+    /// Nothing.
     Nothing,
-    /// Values of expressions.
+    /// The values of expressions.
     Values,
-    /// Values, with their types, and what declarations declare.
+    /// The values, with their types, and what declarations declare.
     All,
 }
 
@@ -75,15 +76,15 @@ pub enum Tell {
 pub struct Answer {
     /// The diagnostics found.
     pub diagnostics: Vec<Diagnostic>,
-    /// Paths written, as the host showed them.
+    /// The paths written, as the host showed them.
     pub written: Vec<String>,
     /// True if all went well. If not, the memory is as it was before.
     pub ok: bool,
     /// True if the user ended it.
     pub interrupted: bool,
-    /// True if the evaluator itself broke down, which a person's session outlives.
+    /// True if the evaluator itself panicked; a session survives this.
     pub defect: bool,
-    /// True if the memory is another now, so that there is something to take back.
+    /// True if the memory changed, so that there is something to take back.
     pub kept: bool,
 }
 
@@ -96,8 +97,8 @@ impl Evaluator {
         }))
     }
 
-    /// The task before is settled. An interrupted one is waited for no longer than whoever wished its
-    /// end does.
+    /// Runs a task and returns its result. An abandoned task counts as interrupted. Panics if an abandoned
+    /// task has not been waited for ([`settle`](Self::settle)).
     pub fn run(&self, task: Task, files: &dyn Files, host: &mut dyn Host) -> Answer {
         self.0.run(task, files, host).unwrap_or(Answer { interrupted: true, ..Answer::default() })
     }
@@ -107,8 +108,8 @@ impl Evaluator {
         self.0.is_left()
     }
 
-    /// Waits for a task that was left; says whether it went well after all and changed the memory. `None`:
-    /// nobody is to wait any longer.
+    /// Waits for an abandoned task; returns true if it went well after all and changed the memory. `None` if
+    /// the user abandons the wait, too.
     pub fn settle(&self) -> Option<bool> {
         self.0.settle().map(|answer| answer.kept)
     }
@@ -189,8 +190,11 @@ fn evaluate(
 
 /// A piece of an entry, in the order of the text.
 enum Piece<'p> {
+    /// A declaration.
     Declaration(DefId),
+    /// A statement.
     Statement(&'p Stmt),
+    /// A test.
     Test(&'p Test),
 }
 

@@ -1,4 +1,4 @@
-//! Statements and tests.
+//! The execution of statements and tests.
 
 use super::eval::Frame;
 use super::host::{Mode, TestResult};
@@ -73,7 +73,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns the sides of a comparison as text: `1.2 mm > 2 mm`.
+    /// Returns the sides of a comparison in words: `1.2 mm > 2 mm`.
     pub fn sides(&mut self, condition: &Expr, frame: &mut Frame) -> Eval<String> {
         use crate::check::typed::{BinaryOp as Op, ExprKind};
         let ExprKind::Binary { op, left, right } = &condition.kind else { return Ok(String::new()) };

@@ -1,17 +1,24 @@
-//! Why evaluation ends early.
+//! The reasons that evaluation ends early.
 
 use crate::source::{Code, Diagnostic, Span};
 
-/// A fault ends the expression that it is in and leaves an unknown value; a halt ends the run.
+/// The reason that evaluation ends early. A fault ends the expression that it is in and leaves an unknown
+/// value; a halt ends the run.
 #[derive(Debug)]
 pub enum Stop {
-    /// Not reported yet.
+    /// A mistake of the program, not reported yet.
     Fault(Box<Diagnostic>),
     /// A limit was reached or the user wants the run to end; already reported.
     Halt,
 }
 
 /// The result of evaluating.
+///
+/// Every function that returns it may end early: with [`Stop::Fault`] where the program is mistaken at that
+/// point, which [`recover`](super::interpreter::Interpreter::recover) and
+/// [`attempt`](super::interpreter::Interpreter::attempt) turn into a report and an unknown value; with
+/// [`Stop::Halt`] where a limit is reached or the user cancels, which passes through to the end of the run. A
+/// function with an `# Errors` section also refuses something by itself.
 pub type Eval<T> = Result<T, Stop>;
 
 impl From<Diagnostic> for Stop {
@@ -20,7 +27,7 @@ impl From<Diagnostic> for Stop {
     }
 }
 
-/// A fault with one label that repeats nothing of the message.
+/// Returns a fault with one label that repeats nothing of the message.
 pub fn fault(code: Code, span: Span, message: impl Into<String>, label: impl Into<String>) -> Stop {
     Diagnostic::error(code, message).label(span, label).into()
 }

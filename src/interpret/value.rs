@@ -19,68 +19,96 @@ use std::sync::Arc;
 /// A value of a running program.
 #[derive(Clone, Debug)]
 pub enum Value {
-    /// The value of something that an error was told about, or that only a run can know. Whatever is computed from it is
-    /// unknown too, in silence. Lists, records and instances never contain it: they are unknown.
+    /// The value where an error was reported, or that only a run can know. Whatever is computed from it is
+    /// unknown too, without another report. Lists, records and instances never contain it: they are unknown.
     Unknown,
     /// The result of `print`.
     Nothing,
     /// The missing value of an optional type.
     Missing,
+    /// A truth value.
     Bool(bool),
+    /// A whole number that fits in 64 bits.
     Int(i64),
     /// A whole number beyond `i64`; see [`Value::whole`].
     Big(Rc<BigInt>),
-    /// SI.
+    /// A quantity in SI units, with its dimension.
     Quantity(f64, Dimension),
+    /// A text.
     Text(Rc<str>),
     /// A word of a choice.
     Word(Symbol),
+    /// A list.
     List(Rc<Vec<Value>>),
-    /// SI.
+    /// A vector in SI units, with the dimension of its components.
     Vec3(Vec3, Dimension),
+    /// A pose: position (m) and orientation.
     Pose(Rc<Pose>),
+    /// A range `from..to` of two values.
     Range(Rc<(Value, Value)>),
+    /// A function.
     Fn(Rc<Callable>),
+    /// An instance of a module, configuration, lattice or truss.
     Instance(Rc<Instance>),
+    /// A joint.
     Joint(JointValue),
+    /// A port.
     Port(PortValue),
+    /// A behaviour.
     Behavior(Rc<Behavior>),
+    /// A signal of a sensor.
     Signal(Rc<SignalValue>),
+    /// A condition.
     Condition(Rc<ConditionValue>),
+    /// A shape.
     Shape(Rc<Solid>),
+    /// A kind of joint: `revolute(...)`.
     JointKind(Rc<JointSpec>),
+    /// An arrangement of cells.
     Cells(Rc<Cells>),
+    /// A polygon mesh.
     Mesh(Rc<Mesh>),
+    /// Points, m.
     Cloud(Rc<Vec<Vec3>>),
+    /// A height field.
     Terrain(Rc<HeightField>),
+    /// A record.
     Record(Rc<Record>),
 }
 
 /// A value that is computed when it is first needed.
 #[derive(Clone, Debug, Default)]
 pub enum Lazy {
-    /// Not asked for yet.
+    /// It was not asked for yet.
     #[default]
     Waiting,
-    /// Being computed: who asks for it now is a part of it.
+    /// It is being computed: asking for it now is a cycle.
     Running,
-    /// Computed; unknown where that failed.
+    /// It was computed; unknown where that failed.
     Done(Value),
 }
 
 /// A function that is called through a value.
 #[derive(Debug)]
 pub enum Callable {
+    /// A lambda.
     Lambda {
+        /// The body.
         body: Arc<Expr>,
-        /// Slots of the lambda's frame with what they hold from outside.
+        /// The slots of the lambda's frame with their values from outside.
         captured: Vec<(Local, Value)>,
+        /// The number of slots of its frame.
         frame: usize,
+        /// The instance in whose body it is written.
         this: Option<Rc<Instance>>,
     },
+    /// A declared function.
     Def(DefId),
+    /// A behaviour of an instance.
     Behavior {
+        /// The instance.
         object: Rc<Instance>,
+        /// The index of the behaviour in the declaration.
         behavior: usize,
     },
 }
@@ -93,7 +121,7 @@ pub struct JointValue {
     pub robot: Rc<Design>,
     /// The module or the connection that has the joint.
     pub owner: JointOwner,
-    /// Of its position.
+    /// The dimension of its position.
     pub dimension: Dimension,
 }
 
@@ -135,27 +163,27 @@ pub struct ConditionValue {
     pub condition: plan::Condition,
 }
 
-/// A shape with what it says about its link.
+/// A shape with what it declares about its link.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
-    /// Shapes in the frame of the whole.
+    /// The shapes in the frame of the whole.
     pub parts: Vec<Placed>,
-    /// The mass, kg.
+    /// The mass, kg; `None`: not stated.
     pub mass: Option<f64>,
-    /// The centre of mass, m.
+    /// The centre of mass, m; `None`: not stated.
     pub com: Option<Vec3>,
-    /// xx, yy, zz, xy, xz, yz about the centre of mass.
+    /// The inertia xx, yy, zz, xy, xz, yz about the centre of mass, kg·m²; `None`: not stated.
     pub inertia: Option<[f64; 6]>,
-    /// The coefficient of friction.
+    /// The coefficient of friction; `None`: not stated.
     pub friction: Option<f64>,
 }
 
-/// `revolute(...)`, `prismatic(...)`, `fixed()`.
+/// A kind of joint with its axis and limits: `revolute(...)`, `prismatic(...)`, `fixed()`.
 #[derive(Debug)]
 pub struct JointSpec {
     /// Revolute, prismatic or fixed.
     pub kind: JointKind,
-    /// As written; need not be of unit length.
+    /// The axis as written; it need not be of unit length.
     pub axis: Vec3,
     /// Ranges of position, speed, acceleration and effort.
     pub limits: Limits,
@@ -208,17 +236,17 @@ impl Value {
         i64::try_from(&n).map_or_else(|_| Value::Big(Rc::new(n)), Value::Int)
     }
 
-    /// Returns a value, or the missing value.
+    /// Returns a value, or the missing value for `None`.
     pub fn optional(value: Option<Value>) -> Value {
         value.unwrap_or(Value::Missing)
     }
 
-    /// Returns whether an error was told where the value should be.
+    /// Returns true if the value is unknown.
     pub fn is_unknown(&self) -> bool {
         matches!(self, Value::Unknown)
     }
 
-    /// A quantity or whole number in SI.
+    /// Returns a quantity or whole number in SI units; `None` for other values.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Value::Quantity(x, _) => Some(*x),
@@ -228,7 +256,7 @@ impl Value {
         }
     }
 
-    /// Returns the dimension of a number or a vector.
+    /// Returns the dimension of a number or a vector; `None` for other values.
     pub fn as_dimension(&self) -> Option<Dimension> {
         match self {
             Value::Quantity(_, d) | Value::Vec3(_, d) => Some(*d),
@@ -237,7 +265,7 @@ impl Value {
         }
     }
 
-    /// Returns a whole number, however large.
+    /// Returns a whole number, however large; `None` for other values.
     pub fn as_big(&self) -> Option<BigInt> {
         match self {
             Value::Int(n) => Some(BigInt::from(*n)),

@@ -13,7 +13,7 @@ use crate::source::{Code, Diagnostic, Label, Span, code};
 use crate::units::{Dimension, number, quantity};
 use std::collections::BTreeSet;
 
-/// Failures that are told one by one; the rest is counted.
+/// The greatest number of failures that are reported one by one; the rest is counted.
 const FAILURES_SHOWN: usize = 8;
 
 fn seconds(t: f64) -> String {
@@ -30,7 +30,7 @@ pub fn check_line(check: &Check) -> String {
     format!("{}: {}", check.kind.name(), check.status)
 }
 
-/// Returns a line for each worst value that there is, with its time and place.
+/// Returns a line for each worst value that there is, with its time and the bodies or joints concerned.
 pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     let line = |(kind, worst): (WorstKind, &Worst)| {
         let value = match kind.measure {
@@ -44,7 +44,7 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     verdict.worst_values().map(line).collect()
 }
 
-/// A verdict as `print` shows it.
+/// Returns a verdict in words, as `print` shows it.
 pub fn in_words(verdict: &Verdict) -> String {
     let [x, y, _] = verdict.travel;
     let travel = quantity(libm::hypot(x, y), Dimension::LENGTH);
@@ -79,9 +79,9 @@ fn failure_code(kind: CheckKind) -> Code {
 }
 
 impl Interpreter<'_> {
-    /// Reports the failures at what is to blame for them: one finding for all of a kind that the same
-    /// commands caused. What is found after a fall follows from it and is not told. `page` is the file
-    /// that shows them.
+    /// Reports the failures at the commands to blame for them: one finding for all of a kind that the same
+    /// commands caused. Failures after a fall follow from it and are not reported. `page` is the file that
+    /// shows them.
     pub fn report_failures(
         &mut self,
         planned: &PlanValue,
@@ -148,19 +148,20 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Remembers which exemptions were needed: one clause covers many intervals and many plans.
+    /// Records for each exemption of the user's own files if this verdict needed it: one clause covers many
+    /// intervals and many plans.
     pub fn note_exemptions(&mut self, planned: &PlanValue, verdict: &Verdict) {
         for (index, exemption) in planned.plan.exemptions.iter().enumerate() {
             let needed = !verdict.unneeded_exemptions.contains(&index);
             let span = self.memory.causes.get(planned.causes[exemption.cause.0 as usize]).span;
-            // Those of the library are its own affair.
+            // Those of the library are not reported.
             if !self.is_library(span) {
                 *self.memory.exemptions.entry(span).or_default() |= needed;
             }
         }
     }
 
-    /// Exemptions that no plan of the run needed.
+    /// Reports the exemptions that no plan of the run needed, as warnings.
     pub fn report_unneeded(&mut self) {
         for (span, needed) in std::mem::take(&mut self.memory.exemptions) {
             if needed {
@@ -215,7 +216,7 @@ fn add_label(mut diagnostic: Diagnostic, span: Span, text: String) -> Diagnostic
     diagnostic
 }
 
-/// A behaviour that is no plan, at the action that is to blame.
+/// Returns the fault of a behaviour that gives no plan, at the action to blame.
 pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], span: Span) -> Stop {
     let diagnostic = Diagnostic::error(refusal_code(&refusal.reason), refusal.reason.to_string());
     let diagnostic = match refusal.cause {
