@@ -14,8 +14,8 @@ const CELLS_PER_BOX: f64 = 8.0;
 const CELLS_ALONG: u64 = 1 << 21;
 const CELLS_HALF: i64 = 1 << 20;
 
-/// The end of a list of boxes in a cell.
-const NO_ENTRY: u32 = u32::MAX;
+/// No box, and the end of a list of boxes in a cell.
+const NONE: u32 = u32::MAX;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,15 +94,7 @@ pub fn near_points(
 /// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0) of each other along every
 /// axis, up to rounding: a superset of those that are nearer than `reach`. Ordered by j, then by cell and i. `cell` (> 0)
 /// is the size of a cell at least, best about that of a box; grids of more than eight cells for each box are made coarser.
-///
-/// Pairs for which `wanted(i, j)` is false are left out, before the dearer search for the cell that reports a pair.
-pub fn near_boxes(
-    boxes: &[Aabb],
-    reach: f64,
-    cell: f64,
-    wanted: impl Fn(usize, usize) -> bool,
-    mut found: impl FnMut(usize, usize),
-) {
+pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, mut found: impl FnMut(usize, usize)) {
     let margin = Vec3::repeat(reach / 2.0);
     let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, b| low.inf(&b.low)) - margin;
     let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, b| high.sup(&b.high)) + margin;
@@ -114,8 +106,10 @@ pub fn near_boxes(
     let counts = counts(size).map(|count| (count as usize).max(1));
     let index = |p: Vec3| ((p - low) / size).map(|v| v.max(0.0) as usize);
     // The boxes in each cell, in order, as linked lists of (box, next entry); of each cell the first and last entry.
-    let mut cells = vec![(NO_ENTRY, NO_ENTRY); counts.product()];
+    let mut cells = vec![(NONE, NONE); counts.product()];
     let mut entries: Vec<(u32, u32)> = Vec::with_capacity(8 * boxes.len());
+    // The last box that each was tested against: two boxes may share many cells.
+    let mut tested = vec![NONE; boxes.len()];
     for (j, box_j) in boxes.iter().enumerate() {
         let (from, to) = (index(box_j.low - margin), index(box_j.high + margin));
         for a in from.x..=to.x.min(counts.x - 1) {
@@ -123,23 +117,21 @@ pub fn near_boxes(
                 for c in from.z..=to.z.min(counts.z - 1) {
                     let (first, last) = &mut cells[(a * counts.y + b) * counts.z + c];
                     let mut at = *first;
-                    while at != NO_ENTRY {
+                    while at != NONE {
                         let (i, next) = entries[at as usize];
                         at = next;
                         let i = i as usize;
-                        let gap = boxes[i].gap(box_j);
-                        if gap.x > reach || gap.y > reach || gap.z > reach || !wanted(i, j) {
+                        if std::mem::replace(&mut tested[i], j as u32) == j as u32 {
                             continue;
                         }
-                        // Of the cells that both are in, the first speaks for the pair.
-                        let corner = boxes[i].low.sup(&box_j.low) - margin;
-                        if index(corner) == nalgebra::Vector3::new(a, b, c) {
+                        let gap = boxes[i].gap(box_j);
+                        if gap.x <= reach && gap.y <= reach && gap.z <= reach {
                             found(i, j);
                         }
                     }
                     let entry = entries.len() as u32;
-                    entries.push((j as u32, NO_ENTRY));
-                    if *last == NO_ENTRY {
+                    entries.push((j as u32, NONE));
+                    if *last == NONE {
                         *first = entry;
                     } else {
                         entries[*last as usize].1 = entry;

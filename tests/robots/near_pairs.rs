@@ -143,7 +143,7 @@ proptest! {
         let boxes: Vec<Aabb> =
             corners.iter().map(|(a, b)| Aabb::around([a * spread, a * spread + b])).collect();
         let mut found = Vec::new();
-        near_boxes(&boxes, reach, cell, |_, _| true, |i, j| found.push((i, j)));
+        near_boxes(&boxes, reach, cell, |i, j| found.push((i, j)));
         found.sort_unstable();
         let near = |&(i, j): &(usize, usize)| boxes[i].gap(&boxes[j]).iter().all(|gap| *gap <= reach);
         let all: Vec<(usize, usize)> =

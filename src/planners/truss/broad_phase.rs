@@ -115,8 +115,11 @@ pub(super) fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, us
     let ends = |strut| -> [Vec3; 2] { truss.segment(x, strut).into() };
     let boxes: Vec<Aabb> = (0..truss.struts.len()).map(|strut| Aabb::around(ends(strut))).collect();
     let mut found = Vec::new();
-    let apart = |i: usize, j: usize| boxes[i].gap(&boxes[j]).norm_squared();
-    let wanted = |i: usize, j: usize| apart(i, j) < reach * reach && !truss.share_node(i, j);
-    near_boxes(&boxes, reach, truss.unit, wanted, |i, j| found.push((i, j, apart(i, j).sqrt())));
+    near_boxes(&boxes, reach, truss.unit, |i, j| {
+        let squared = boxes[i].gap(&boxes[j]).norm_squared();
+        if squared < reach * reach && !truss.share_node(i, j) {
+            found.push((i, j, squared.sqrt()));
+        }
+    });
     found
 }

@@ -38,9 +38,10 @@ pub(super) fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance:
     // Twice the clearance, so that a distance is told where nothing is nearer.
     let reach = 2.0 * clearance;
     let mut found = Vec::new();
-    let wanted = |i: usize, j: usize| !shares(i, j);
-    near_boxes(&boxes, reach, cell, wanted, |i, j| {
-        found.push(pair(paths, step, (i, j), (clearance, tolerance)));
+    near_boxes(&boxes, reach, cell, |i, j| {
+        if !shares(i, j) {
+            found.push(pair(paths, step, (i, j), (clearance, tolerance)));
+        }
     });
     found.sort_by_key(|near| near.struts);
     found
