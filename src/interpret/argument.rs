@@ -150,6 +150,18 @@ impl Parameter {
     pub const fn new<'c, T: Argument<'c>>(name: &'static str) -> Parameter {
         Parameter { name, kind: T::KIND, rust_type: std::any::type_name::<T> }
     }
+
+    /// Returns a native's own parameters and then those of the part that it shares with others, if any; `N` in
+    /// all.
+    pub const fn concatenated<const N: usize>(own: &[Parameter], part: &[&[Parameter]]) -> [Parameter; N] {
+        let mut all = [Parameter::new::<bool>(""); N];
+        let mut i = 0;
+        while i < N {
+            all[i] = if i < own.len() { own[i] } else { part[0][i - own.len()] };
+            i += 1;
+        }
+        all
+    }
 }
 
 /// Lists the parameters of a native: `parameters![list: &[Value], places: (f64, f64)]`.
@@ -160,20 +172,28 @@ macro_rules! parameters {
 }
 
 /// Declares a struct with one field for each parameter of a native, with `PARAMETERS` for its table and
-/// `read(call)`. `as "a budget"` is what messages call the argument.
+/// `read(call)`. `as "a budget"` is what messages call the argument. Parameters that several natives have are
+/// a struct of their own, which each of them names last: `..search: SearchArguments`.
 macro_rules! arguments {
     ($(#[$meta:meta])* $vis:vis struct $Name:ident $(<$c:lifetime>)? {
-        $($(#[$doc:meta])* $field:ident: $type:ty $(as $what:literal)?),* $(,)?
+        $($(#[$doc:meta])* $field:ident: $type:ty $(as $what:literal)?,)*
+        $(..$part:ident: $Part:ident $(<$p:lifetime>)?,)?
     }) => {
         $(#[$meta])*
         $vis struct $Name $(<$c>)? {
-            $($(#[$doc])* pub $field: $type),*
+            $($(#[$doc])* pub $field: $type,)*
+            $(pub $part: $Part $(<$p>)?,)?
         }
 
         impl $(<$c>)? $Name $(<$c>)? {
             /// The parameters, as the declaration lists them.
             $vis const PARAMETERS: &'static [$crate::interpret::argument::Parameter] =
-                &[$($crate::interpret::argument::Parameter::new::<$type>(stringify!($field))),*];
+                &$crate::interpret::argument::Parameter::concatenated::<{
+                    <[&str]>::len(&[$(stringify!($field)),*]) $(+ $Part::PARAMETERS.len())?
+                }>(
+                    &[$($crate::interpret::argument::Parameter::new::<$type>(stringify!($field))),*],
+                    &[$($Part::PARAMETERS)?],
+                );
 
             /// Reads all arguments of a call; an argument out of range is a fault.
             $vis fn read(
@@ -183,7 +203,8 @@ macro_rules! arguments {
                     $($field: call.get_named(
                         stringify!($field),
                         [$($what,)? stringify!($field)][0],
-                    )?),*
+                    )?,)*
+                    $($part: $Part::read(call)?,)?
                 })
             }
         }

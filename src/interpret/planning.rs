@@ -129,15 +129,8 @@ impl Interpreter<'_> {
     ) -> Plan {
         Plan {
             provenance: Provenance { planner: planner.to_owned(), ..self.provenance() },
-            worlds: vec![WorldFrom { from: 0.0, world }],
-            settings: self.judge_settings(),
-            library,
-            body,
-            program: None,
-            nominal: false,
             causes: causes.table(&self.memory.causes, self.shared.sources),
-            exemptions: Vec::new(),
-            verdict: None,
+            ..Plan::bare(library, body, world, self.judge_settings())
         }
     }
 
@@ -243,15 +236,8 @@ impl Interpreter<'_> {
         let Some(robot) = self.robot_of(design)? else { return Ok(None) };
         let mut causes = PlanCauses::default();
         let set = self.start_causes(design, &robot, &mut causes);
-        let tracks = Tracks {
-            robot: robot.assembly.as_ref().clone(),
-            start: robot.start.clone(),
-            tracks: Vec::new(),
-            docks: Vec::new(),
-            duration: 0.0,
-            start_causes: set.joints,
-            bond_causes: set.bonds,
-        };
+        let still = Tracks::at_rest(robot.assembly.as_ref().clone(), robot.start.clone());
+        let tracks = Tracks { start_causes: set.joints, bond_causes: set.bonds, ..still };
         let scheduled = Scheduled {
             tracks,
             program: crate::plan::Program { root: Arc::new(Node::Series(Vec::new())) },

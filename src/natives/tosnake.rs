@@ -14,7 +14,7 @@ use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
 use crate::interpret::verdicts::failure_line;
 use crate::interrupt;
-use crate::plan::{Ground, Plan, World};
+use crate::plan::{Body, Ground, Plan, Program, World};
 use crate::planners::tosnake::conversion::{JOINTS, port_name};
 use crate::planners::tosnake::motion_check::LOAD_SPARE;
 use crate::planners::tosnake::{
@@ -46,11 +46,7 @@ arguments! {
     /// The arguments of `tosnake`.
     struct TosnakeArguments<'c> {
         robot: &'c Rc<Instance>,
-        gravity: WordOr<Gravity, f64>,
-        seed: usize as "a seed",
-        budget: usize as "a budget",
-        timeout: Option<Positive> as "a timeout",
-        collisions: Collisions,
+        ..search: SearchArguments,
     }
 }
 
@@ -59,6 +55,13 @@ arguments! {
     struct ReconfigureArguments<'c> {
         from: &'c Rc<Instance>,
         to: &'c Rc<Instance>,
+        ..search: SearchArguments,
+    }
+}
+
+arguments! {
+    /// The arguments about the search, which both calls have.
+    struct SearchArguments {
         gravity: WordOr<Gravity, f64>,
         seed: usize as "a seed",
         budget: usize as "a budget",
@@ -101,19 +104,42 @@ struct Options {
 }
 
 impl Options {
-    /// Checks what only some combinations allow.
-    fn checked(self, call: &Call) -> Eval<Options> {
-        if self.world.gravity > 0.0 && self.collisions != Collisions::Motion {
+    /// Returns the options that the arguments ask for.
+    ///
+    /// # Errors
+    /// A fault where gravity points upwards, or the paper's own method is to reckon with it.
+    fn of(call: &Call, arguments: &SearchArguments) -> Eval<Options> {
+        let SearchArguments { gravity, seed, budget, timeout, collisions } = *arguments;
+        let world = world(call, gravity)?;
+        if world.gravity > 0.0 && collisions != Collisions::Motion {
             let why = "the paper's own method knows no weight: leave out `gravity` or `collisions`";
             return Err(call.refuse("gravity", why));
         }
-        Ok(self)
+        let timeout = timeout.map(|Positive(seconds)| seconds);
+        Ok(Options { world, seed: seed as u64, budget: budget as u64, timeout, collisions })
     }
 
     fn settings(&self, interpreter: &Interpreter) -> Settings {
         let Options { seed, budget, collisions, .. } = *self;
         let threads = interpreter.shared.options.threads.max(1);
         Settings { seed, budget, collisions, threads, ..Settings::default() }
+    }
+
+    /// Returns the plan of a motion that a search with these options found.
+    fn plan(
+        &self,
+        interpreter: &Interpreter,
+        planner: &str,
+        (body, program): (Body, Option<Program>),
+        robot: &Robot,
+        causes: &PlanCauses,
+    ) -> Plan {
+        let library = robot.assembly.library.clone();
+        let mut plan = interpreter.bare_plan(planner, body, library, self.world, causes);
+        plan.program = program;
+        plan.provenance.seed = Some(self.seed);
+        plan.provenance.budget = Some(self.budget);
+        plan
     }
 }
 
@@ -195,16 +221,8 @@ impl Subject {
 }
 
 fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let TosnakeArguments { robot, gravity, seed, budget, timeout, collisions } =
-        TosnakeArguments::read(call)?;
-    let options = Options {
-        world: world(call, gravity)?,
-        seed: seed as u64,
-        budget: budget as u64,
-        timeout: timeout.map(|Positive(seconds)| seconds),
-        collisions,
-    }
-    .checked(call)?;
+    let TosnakeArguments { robot, search } = TosnakeArguments::read(call)?;
+    let options = Options::of(call, &search)?;
     let Some(subject) = Subject::of(interpreter, call, "robot", robot)? else { return Ok(Value::Unknown) };
     let causes = interpreter.planner_causes(call.span);
     let settings = options.settings(interpreter);
@@ -215,27 +233,16 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         tosnake::plan_with_cache(&problem, &settings, &mut interpreter.memory.search_cache, &mut observer);
     let Solution { body, program, report } =
         solution.map_err(|refusal| refused(interpreter, call, &subject, &causes, &refusal))?;
-    let library = assembly.library.clone();
     let planner = options.collisions.planner();
-    let mut plan = Plan { program, ..interpreter.bare_plan(planner, body, library, options.world, &causes) };
-    plan.provenance.seed = Some(options.seed);
-    plan.provenance.budget = Some(options.budget);
+    let plan = options.plan(interpreter, planner, (body, program), &subject.robot, &causes);
     let Subject { design, robot, .. } = subject;
     let planned = PlanValue::new(design, Some(robot), plan, causes.ids, report.actions).with_report(report);
     judged(interpreter, call, planned, &options)
 }
 
 fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let ReconfigureArguments { from, to, gravity, seed, budget, timeout, collisions } =
-        ReconfigureArguments::read(call)?;
-    let options = Options {
-        world: world(call, gravity)?,
-        seed: seed as u64,
-        budget: budget as u64,
-        timeout: timeout.map(|Positive(seconds)| seconds),
-        collisions,
-    }
-    .checked(call)?;
+    let ReconfigureArguments { from, to, search } = ReconfigureArguments::read(call)?;
+    let options = Options::of(call, &search)?;
     let counts = [from, to].map(|instance| instance.design.module_count());
     if counts[0] != counts[1] {
         return Err(module_counts_differ(call, counts[0], counts[1]));
@@ -259,11 +266,7 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
         reconfigure::Refusal::To(refusal) => refused(interpreter, call, &to, &causes, &refusal),
         other => no_reconfiguration(call, &other),
     })?;
-    let library = from.robot.assembly.library.clone();
-    let bare = interpreter.bare_plan("reconfigure", body, library, options.world, &causes);
-    let mut plan = Plan { program, ..bare };
-    plan.provenance.seed = Some(options.seed);
-    plan.provenance.budget = Some(options.budget);
+    let mut plan = options.plan(interpreter, "reconfigure", (body, program), &from.robot, &causes);
     plan.provenance.history = report.history;
     // Either half has a cause of its own; both are this call.
     plan.causes.extend_from_within(..);

@@ -39,12 +39,8 @@ arguments! {
         budget: usize as "a number of steps",
         orientations: usize as "a number of orientations",
         seed: usize as "a seed",
-        angle: f64,
-        rigidity: f64,
-        failed: &'c [Value],
-        perimeters: &'c [Value],
         timeout: Option<Positive> as "a timeout",
-        obstacles: &'c [Value],
+        ..limits: LimitArguments<'c>,
     }
 }
 
@@ -57,15 +53,11 @@ arguments! {
         hold: Hold,
         fallbacks: bool,
         budget: usize as "a budget",
-        angle: f64,
-        rigidity: f64,
-        failed: &'c [Value],
-        perimeters: &'c [Value],
         timeout: Option<Positive> as "a timeout",
         impact: bool,
-        obstacles: &'c [Value],
         terrain: Option<&'c HeightField>,
         lookahead: usize as "a number of steps",
+        ..limits: LimitArguments<'c>,
     }
 }
 
@@ -117,9 +109,7 @@ pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
 fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = MorphArguments::read(call)?;
     let design = arguments.truss.design.clone();
-    let MorphArguments { angle, rigidity, failed, perimeters, obstacles, .. } = arguments;
-    let limits = LimitArguments { angle, rigidity, failed, perimeters };
-    let Some(truss) = problem(call, &design, limits, obstacles, None)? else { return Ok(Value::Unknown) };
+    let Some(truss) = problem(call, &design, &arguments.limits, None)? else { return Ok(Value::Unknown) };
     let problem = morph::Problem { truss, target: target(call, arguments.target)? };
     let settings = morph::Settings {
         tolerance: arguments.tolerance.0,
@@ -159,9 +149,9 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = LocomoteArguments::read(call)?;
     let design = arguments.truss.design.clone();
-    let LocomoteArguments { angle, rigidity, failed, perimeters, obstacles, terrain, .. } = arguments;
-    let limits = LimitArguments { angle, rigidity, failed, perimeters };
-    let Some(truss) = problem(call, &design, limits, obstacles, terrain)? else { return Ok(Value::Unknown) };
+    let Some(truss) = problem(call, &design, &arguments.limits, arguments.terrain)? else {
+        return Ok(Value::Unknown);
+    };
     // Heights of the path mean nothing.
     let place = |value: &Value| match value {
         Value::Vec3(p, _) => Ok([p.x, p.y]),
@@ -206,11 +196,10 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn problem(
     call: &Call,
     design: &Design,
-    limited: LimitArguments,
-    around: &[Value],
+    limited: &LimitArguments,
     terrain: Option<&HeightField>,
 ) -> Eval<Option<TrussProblem>> {
-    let obstacles = obstacles(call, around)?;
+    let obstacles = obstacles(call, limited.obstacles)?;
     let Some(truss) = truss_of(design) else { return Ok(None) };
     let Some(strut) = truss.strut_kind().cloned() else { return Ok(None) };
     Ok(Some(TrussProblem {

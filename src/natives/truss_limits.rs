@@ -1,6 +1,7 @@
 //! The limits that a call of `morph` or `locomote` sets beside those of the struts, and the obstacles it names.
 
 use crate::geometry::Placed;
+use crate::interpret::argument::arguments;
 use crate::interpret::design::TrussDesign;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop};
@@ -9,16 +10,19 @@ use crate::planners::truss::Limits;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, code};
 
-/// The arguments about limits, under the names of their parameters.
-pub(super) struct LimitArguments<'c> {
-    pub angle: f64,
-    pub rigidity: f64,
-    pub failed: &'c [Value],
-    pub perimeters: &'c [Value],
+arguments! {
+    /// The arguments about limits, of `morph` and of `locomote`.
+    pub(super) struct LimitArguments<'c> {
+        angle: f64,
+        rigidity: f64,
+        failed: &'c [Value],
+        perimeters: &'c [Value],
+        obstacles: &'c [Value],
+    }
 }
 
 /// Returns the limits with struts as numbers.
-pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: LimitArguments) -> Eval<Limits> {
+pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArguments) -> Eval<Limits> {
     let mut loops = Vec::new();
     for list in arguments.perimeters {
         let Value::List(list) = list else {

@@ -25,3 +25,18 @@ pub struct Cause {
     /// The call in the user's own file that led here, where `file` is the library's.
     pub caller: Option<Box<Cause>>,
 }
+
+impl Cause {
+    /// Returns the cause that stands for the call of a planner until the caller, who alone knows its place,
+    /// puts its own in.
+    pub fn planner_call() -> Cause {
+        Cause {
+            file: String::new(),
+            line: 1,
+            column: 1,
+            text: String::new(),
+            instance: String::new(),
+            caller: None,
+        }
+    }
+}

@@ -5,7 +5,7 @@ use super::cause::Cause;
 use super::program::Program;
 use super::provenance::Provenance;
 use super::verdict::Verdict;
-use super::world::{Exemption, Settings, WorldFrom};
+use super::world::{Exemption, Settings, World, WorldFrom};
 use crate::robot::Library;
 use std::sync::Arc;
 
@@ -32,4 +32,23 @@ pub struct Plan {
     pub exemptions: Vec<Exemption>,
     /// Of the last verification; recomputed whenever it matters.
     pub verdict: Option<Verdict>,
+}
+
+impl Plan {
+    /// Returns the plan of a body in one world, and nothing more: without provenance, program, causes,
+    /// exemptions and verdict.
+    pub fn bare(library: Arc<Library>, body: Body, world: World, settings: Settings) -> Plan {
+        Plan {
+            provenance: Provenance::default(),
+            worlds: vec![WorldFrom { from: 0.0, world }],
+            settings,
+            library,
+            body,
+            program: None,
+            nominal: false,
+            causes: Vec::new(),
+            exemptions: Vec::new(),
+            verdict: None,
+        }
+    }
 }

@@ -31,15 +31,8 @@ fn plan(robot: Assembly, tracks: Vec<(usize, Vec<Segment>)>, duration: f64) -> T
         start.joints[*joint] = segments[0].control[0];
     }
     let track = |(joint, segments)| Track { joint: JointId(joint as u32), segments };
-    Tracks {
-        robot,
-        start,
-        tracks: tracks.into_iter().map(track).collect(),
-        docks: vec![],
-        duration,
-        start_causes: vec![],
-        bond_causes: vec![],
-    }
+    let tracks = tracks.into_iter().map(track).collect();
+    Tracks { tracks, duration, ..Tracks::at_rest(robot, start) }
 }
 
 fn judged(tracks: &Tracks) -> Findings {

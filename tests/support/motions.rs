@@ -19,17 +19,7 @@ pub struct Motion {
 impl Motion {
     pub fn new(robot: Assembly) -> Motion {
         let start = robots::at_rest(&robot);
-        Motion {
-            tracks: Tracks {
-                robot,
-                start,
-                tracks: vec![],
-                docks: vec![],
-                duration: 0.0,
-                start_causes: vec![],
-                bond_causes: vec![],
-            },
-        }
+        Motion { tracks: Tracks::at_rest(robot, start) }
     }
 
     pub fn joint(&self, module: &str, joint: usize) -> usize {

@@ -144,6 +144,19 @@ impl Track {
 }
 
 impl Tracks {
+    /// Returns the motion of a robot that stays in a state: it lasts no time, and nothing has a cause.
+    pub fn at_rest(robot: Assembly, start: State) -> Tracks {
+        Tracks {
+            robot,
+            start,
+            tracks: Vec::new(),
+            docks: Vec::new(),
+            duration: 0.0,
+            start_causes: Vec::new(),
+            bond_causes: Vec::new(),
+        }
+    }
+
     /// Returns the track of a joint, if it ever moves.
     pub fn track(&self, joint: JointId) -> Option<&Track> {
         let at = self.tracks.binary_search_by_key(&joint, |t| t.joint).ok()?;

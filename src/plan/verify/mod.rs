@@ -14,8 +14,7 @@ pub mod lattice;
 pub mod truss;
 
 use super::{
-    Body, Check, CheckKind, Failure, Plan, PlanFault, Provenance, Settings, Status, Tracks, Verdict, World,
-    WorldFrom, validation,
+    Body, Check, CheckKind, Failure, Plan, PlanFault, Settings, Status, Tracks, Verdict, World, validation,
 };
 use crate::robot::{Assembly, State};
 
@@ -34,27 +33,8 @@ pub fn verify(plan: &Plan) -> Verdict {
 
 /// Judges one state of a robot: Definition V.2 of the compositional-design paper.
 pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &Settings) -> Verdict {
-    let tracks = Tracks {
-        robot: robot.clone(),
-        start: state.clone(),
-        tracks: vec![],
-        docks: vec![],
-        duration: 0.0,
-        start_causes: vec![],
-        bond_causes: vec![],
-    };
-    verify(&Plan {
-        provenance: Provenance::default(),
-        worlds: vec![WorldFrom { from: 0.0, world: *world }],
-        settings: *settings,
-        library: robot.library.clone(),
-        body: Body::Tracks(tracks),
-        program: None,
-        nominal: false,
-        causes: vec![],
-        exemptions: vec![],
-        verdict: None,
-    })
+    let tracks = Tracks::at_rest(robot.clone(), state.clone());
+    verify(&Plan::bare(robot.library.clone(), Body::Tracks(tracks), *world, *settings))
 }
 
 /// A plan that means nothing is judged no further.

@@ -2,7 +2,7 @@
 
 use crate::behavior::{self, Scheduled};
 use crate::interrupt;
-use crate::plan::{self, Body, Cause, CauseId, Failure, Node, Plan, Provenance, Verdict, World, WorldFrom};
+use crate::plan::{self, Body, Cause, CauseId, Failure, Node, Plan, Verdict, World};
 use crate::planners::Solution;
 use crate::robot::{Assembly, State};
 use std::sync::Arc;
@@ -60,18 +60,9 @@ pub(crate) fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
         return Err(Fault::TooFast);
     }
     interrupt::start_task(format!("verifying {name}"));
-    let plan = Plan {
-        provenance: Provenance::default(),
-        worlds: vec![WorldFrom { from: 0.0, world }],
-        settings: judge,
-        library: tracks.robot.library.clone(),
-        body: Body::Tracks(tracks),
-        program: Some(program),
-        nominal,
-        causes: vec![call()],
-        exemptions,
-        verdict: None,
-    };
+    let bare = Plan::bare(tracks.robot.library.clone(), Body::Tracks(tracks), world, judge);
+    let causes = vec![Cause::planner_call()];
+    let plan = Plan { program: Some(program), nominal, causes, exemptions, ..bare };
     let verdict = plan::verify::verify(&plan);
     if !verdict.ok() {
         let first = verdict.failures.into_iter().reduce(|a, b| if b.time < a.time { b } else { a });
@@ -80,16 +71,4 @@ pub(crate) fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
     }
     let Plan { body, program, .. } = plan;
     Ok(Solution { body, program, report: Judged { actions, verdict } })
-}
-
-/// Returns the only cause of such a plan: the call of the planner, wherever that is.
-fn call() -> Cause {
-    Cause {
-        file: String::new(),
-        line: 1,
-        column: 1,
-        text: String::new(),
-        instance: String::new(),
-        caller: None,
-    }
 }

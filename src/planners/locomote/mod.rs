@@ -101,12 +101,6 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-impl From<InvalidTruss> for Refusal {
-    fn from(invalid: InvalidTruss) -> Refusal {
-        Refusal::Truss(invalid)
-    }
-}
-
 /// Plans a motion along the path, as far as it gets: a search that gets stuck, or that `progress` ends, gives
 /// the motion so far, and the report says why. The body is node paths for a world with gravity and ground.
 ///
@@ -117,9 +111,9 @@ pub fn plan(
     settings: &Settings,
     progress: &mut dyn Progress,
 ) -> Result<Solution<Report>, Refusal> {
-    let truss = problem.truss.structure(settings.tolerances)?;
+    let truss = problem.truss.structure(settings.tolerances).map_err(Refusal::Truss)?;
     let start = roll::settled(&truss, &problem.truss.nodes).ok_or(Refusal::NeverRests)?;
-    problem.truss.check_start(&truss, &start)?;
+    problem.truss.check_start(&truss, &start).map_err(Refusal::Truss)?;
     if problem.path.is_empty() {
         return Err(Refusal::EmptyPath);
     }

@@ -119,12 +119,6 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-impl From<InvalidTruss> for Refusal {
-    fn from(invalid: InvalidTruss) -> Refusal {
-        Refusal::Truss(invalid)
-    }
-}
-
 /// Plans a motion towards the target, as near as it gets: a search that gets stuck, or that `progress` ends,
 /// gives the motion to the best fit so far, and the report says why. The body is node paths for a world
 /// without gravity and ground.
@@ -136,9 +130,9 @@ pub fn plan(
     settings: &Settings,
     progress: &mut dyn Progress,
 ) -> Result<Solution<Report>, Refusal> {
-    let truss = problem.truss.structure(settings.tolerances)?;
+    let truss = problem.truss.structure(settings.tolerances).map_err(Refusal::Truss)?;
     let start = &problem.truss.nodes;
-    problem.truss.check_start(&truss, start)?;
+    problem.truss.check_start(&truss, start).map_err(Refusal::Truss)?;
     let target = target(&problem.target, settings.sample_spacing * truss.unit)?;
     let found = descend(&truss, start, &target, settings, progress)
         .map_err(|open| Refusal::NoSurface { edges: open.edges })?;

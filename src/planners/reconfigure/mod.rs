@@ -4,9 +4,7 @@
 //! With gravity one module is held fast all the time. Then the second robot has to be held by a shoe that
 //! ends at the same place of the snake as the shoe by which the first is held.
 
-use crate::plan::{
-    self, Cause, Change, OperationError, Plan, Provenance, Verdict, World, WorldFrom, joined, reversed,
-};
+use crate::plan::{self, Cause, Change, OperationError, Plan, Verdict, World, joined, reversed};
 use crate::planners::tosnake::gravity::GravityModel;
 use crate::planners::tosnake::search::StepSequence;
 use crate::planners::tosnake::{self, SearchCache};
@@ -204,27 +202,9 @@ impl Search<'_> {
     /// The plan of a step sequence, with one cause that stands for the call.
     fn half(&self, task: &tosnake::Task, found: &StepSequence) -> Result<Half, tosnake::Refusal> {
         let Solution { body, program, report } = task.solution(found)?;
-        let robot = body.tracks().expect("RoFI modules move by joints").robot.library.clone();
-        let cause = Cause {
-            file: String::new(),
-            line: 0,
-            column: 0,
-            text: String::new(),
-            instance: String::new(),
-            caller: None,
-        };
-        let plan = Plan {
-            provenance: Provenance::default(),
-            worlds: vec![WorldFrom { from: 0.0, world: self.problem.world }],
-            settings: self.settings.judge,
-            library: robot,
-            body,
-            program,
-            nominal: false,
-            causes: vec![cause],
-            exemptions: Vec::new(),
-            verdict: None,
-        };
+        let library = body.tracks().expect("RoFI modules move by joints").robot.library.clone();
+        let bare = Plan::bare(library, body, self.problem.world, self.settings.judge);
+        let plan = Plan { program, causes: vec![Cause::planner_call()], ..bare };
         Ok(Half { plan, report })
     }
 

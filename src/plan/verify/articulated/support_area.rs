@@ -11,15 +11,7 @@ use crate::robot::{Assembly, State};
 /// Returns the corners of the support polygon, the hull of what touches the ground, counter-clockwise from above, in the frame of the
 /// base module's body as it rests; m. Fewer than three where the contacts span no area.
 pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
-    let tracks = Tracks {
-        robot: robot.clone(),
-        start: state.clone(),
-        tracks: vec![],
-        docks: vec![],
-        duration: 0.0,
-        start_causes: vec![],
-        bond_causes: vec![],
-    };
+    let tracks = Tracks::at_rest(robot.clone(), state.clone());
     let rollout = Rollout {
         tracks: &tracks,
         worlds: &[WorldFrom { from: 0.0, world: World::default() }],
