@@ -3,7 +3,7 @@
 //!
 //! Two actions are unordered where the lowest node over both is parallel. So a node needs to know of
 //! each joint under it no more than one command, and one with another setpoint if there is one; where
-//! two branches of a parallel node share a joint, these show a contradiction if there is any. What a
+//! two branches of a parallel node share a joint, these show a contradiction if there is any. A command that a
 //! finished branch left in force counts, since its command is not before those of its siblings.
 //!
 //! Every distinct node is visited once. Tables are handed up, the smaller merged into the larger; a
@@ -176,8 +176,8 @@ fn commanded(command: &Command) -> Option<JointId> {
     }
 }
 
-/// Returns `true` where two commands to one joint set the same setpoint. What is relative to where the joint is
-/// when the command comes is never the same twice.
+/// Returns `true` where two commands to one joint set the same setpoint. A setpoint relative to the joint's
+/// position when the command comes is never the same twice.
 fn same(a: &Command, b: &Command) -> bool {
     match (a, b) {
         (Command::Move { target: Target::To(a), .. }, Command::Move { target: Target::To(b), .. }) => a == b,

@@ -196,8 +196,8 @@ struct Moved {
     absolute: bool,
 }
 
-/// A track over one round, begun at `cut` and wrapped round the end of the round. What comes after
-/// the end goes on from where the joint is then.
+/// A track over one round, begun at `cut` and wrapped round the end of the round. The part after the end goes
+/// on from where the joint is then.
 fn wrapped(track: &Track, start: f64, cut: f64, duration: f64) -> Moved {
     let gain = track.position(start, duration) - start;
     let mut segments = Vec::new();

@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub struct Issue {
     /// The command of the source that this comes from.
     pub cause: CauseId,
-    /// Which of the command's arguments is at fault.
+    /// The argument of the command that is at fault.
     pub part: Part,
     /// The demand that cannot be met.
     pub kind: IssueKind,

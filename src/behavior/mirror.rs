@@ -136,7 +136,7 @@ impl Mirror {
     /// The nearest joint of the same type that is where the mirror puts this one.
     fn image(&self, mark: &Mark, marks: &[Option<Mark>]) -> Option<(JointId, f64)> {
         let (centre, foot) = (self.point(mark.centre), self.point(mark.foot));
-        // What turns right-handed about an axis turns left-handed about the axis in the mirror.
+        // A right-handed turn about an axis is a left-handed turn about the axis in the mirror.
         let axis = if mark.prismatic { self.direction(mark.axis) } else { -self.direction(mark.axis) };
         let candidates = marks.iter().enumerate().filter_map(|(index, other)| {
             let other = other.as_ref()?;

@@ -30,7 +30,7 @@ pub enum Reason {
     },
     /// A duration, speed, target or keyframe that is not finite, is negative, or is out of order.
     BadNumber {
-        /// Which number.
+        /// The number that is meant, in words.
         what: &'static str,
         /// The number.
         value: f64,

@@ -20,7 +20,7 @@ pub(super) struct Run<'a> {
     pub(super) motions: Vec<Motion>,
     /// Positions at the start, joints of new bonds included.
     pub(super) start: Vec<f64>,
-    /// Which bonds hold.
+    /// True for each bond that holds.
     pub(super) holds: Vec<bool>,
     pub(super) docks: Vec<Dock>,
     pub(super) exemptions: Vec<Exemption>,
@@ -83,7 +83,7 @@ struct Active<'a> {
     parent: Option<usize>,
     action: Option<&'a Action>,
     began: f64,
-    /// Which of the slot's tenants this is: events of earlier ones are void.
+    /// The number of the slot's tenant, counted on: events of earlier ones are void.
     generation: u64,
     /// The joint to hold if the action ends before its motion.
     holds: Option<(JointId, CauseId)>,

@@ -2,8 +2,8 @@
 //!
 //! The run goes from event to event. An action begins when all actions before it have completed; it
 //! completes when its motion has, or, if it has one, when its condition holds, or when its time runs
-//! out. What it commanded stays in force until the next command to the same joint, which takes over
-//! from where the joint is then.
+//! out. Its command stays in force until the next command to the same joint, which takes over from where the
+//! joint is then.
 
 use super::joints::{self, JointFacts};
 use super::limits::Issue;
@@ -26,7 +26,7 @@ pub struct Problem {
     pub program: Arc<Node>,
     /// Handed on to the tracks: who set the start pose.
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// Who connected which bond.
+    /// The cause of each connection: (bond, cause).
     pub bond_causes: Vec<(usize, CauseId)>,
     /// Limits and tolerances.
     pub settings: Settings,

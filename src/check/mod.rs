@@ -1,7 +1,7 @@
 //! Tree to typed tree: names, imports, types and units.
 //!
-//! The room knows no robots. What depends on values (an occupied port, a joint out of range) is found
-//! later, when `interpret` elaborates the declarations.
+//! The room knows no robots. Faults that depend on values (an occupied port, a joint out of range) are found
+//! later, when `elaborate` works the declarations out.
 //!
 //! Reading order: `load` reads files, `checker` holds the state, `scope` the locals, `items` drives; `members`,
 //! `module`, `config` and `families` check declarations, `expr`, `literals`, `names`,

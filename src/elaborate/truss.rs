@@ -212,7 +212,7 @@ impl Interpreter<'_> {
             let diagnostic = Diagnostic::error(code::BAD_TRUSS, message);
             faults.push((a.span, diagnostic.label(a.span, "here").label(b.span, "and here").into()));
         }
-        // What struts of two nodes at one place would be told follows from that.
+        // Faults of struts between two nodes at one place would only follow from that.
         let sound = |(a, b, _): &(usize, usize, Span)| !twins.iter().any(|(twin, _)| twin == a || twin == b);
         for (index, strut) in draft.struts.iter().enumerate().filter(|(_, strut)| sound(strut)) {
             if let Err(stop) = self.check_strut(draft, strut, &draft.struts[..index], kind) {

@@ -17,7 +17,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     let options = LoadOptions { ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
     let no_materials = |_: &std::path::Path| Err(LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut rest, &options, no_materials).map_err(|error| {
-        // What is wrong with a line is found before the next is read; the rest at the end.
+        // The reader finds the fault of a line before it reads the next, and other faults at the end.
         let line = line_of(&plain, rest) - 1;
         match error {
             LoadError::FaceVertexOutOfBounds => "a face names a vertex that there isn't".into(),

@@ -1,7 +1,7 @@
 //! Clouds of points from XYZ files: a point a line, its coordinates first.
 //!
-//! A reader of our own, for the format is no more than that. What else is on a line, a colour or a
-//! normal, is left out; so is what follows a `#`.
+//! A reader of our own, for the format is no more than that. Other numbers of a line, a colour or a normal, are
+//! left out; so is the rest of a line from a `#` on.
 
 use super::content::{Content, Fault};
 

@@ -22,7 +22,7 @@ const PARALLEL_SINE_SQUARED: f64 = 1e-9;
 pub struct SegmentPair {
     /// The distance of the two points, m; not negative.
     pub distance: f64,
-    /// The unit vector from the second segment's point to the first's. Where the segments meet, it is across both of
+    /// The unit vector from the second segment's point to the first's. If the segments meet, it is across both of
     /// them, with arbitrary sign, and +z where they have no common perpendicular.
     pub normal: Vec3,
     /// The positions of the points along the first and the second segment, as parts of the lengths, 0 to 1.
@@ -33,7 +33,7 @@ pub struct SegmentPair {
 ///
 /// Of parallel segments, which have many closest pairs, it gives one that depends continuously on neither. Segments at
 /// an angle of less than 3e-5 rad count as parallel; the distance is then too great by at most the angle times half
-/// a length. Where that matters, [`segment_segment_distance`] is exact at any angle.
+/// a length. If that matters, [`segment_segment_distance`] is exact at any angle.
 pub fn segment_segment(p: Segment, q: Segment) -> SegmentPair {
     let (u, v, w) = (p.1 - p.0, q.1 - q.0, p.0 - q.0);
     let (a, b, c, d, e) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));

@@ -24,7 +24,8 @@ pub struct SignedDistance {
 }
 
 /// Returns the signed distance of two parts; `X_AB` is the pose of b's frame in a's. It is exact to 1e-8 m where the
-/// parts are apart. Where round parts overlap it is exact to about a micrometre, and the depth is never too small.
+/// parts are apart. For round parts that overlap it is exact to about a micrometre, and the depth is never too
+/// small.
 pub fn signed_distance(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     signed_distance_within(a, b, X_AB, None, f64::MAX)
 }

@@ -128,7 +128,8 @@ fn on_face(a: &Vec3, b: &Vec3, c: &Vec3) -> Option<Vec3> {
     let area = normal.norm_squared();
     let weights = [b.cross(c).dot(&normal), c.cross(a).dot(&normal), a.cross(b).dot(&normal)];
     let inside = area > 0.0 && weights.iter().all(|w| *w > 0.0);
-    // By the weights and not along the normal: a combination of corners is never outside the body.
+    // The point is found by the weights and not along the normal: a combination of corners is never outside the
+    // body.
     inside.then(|| (a * weights[0] + b * weights[1] + c * weights[2]) / weights.iter().sum::<f64>())
 }
 

@@ -17,8 +17,8 @@ pub struct Faces {
 
 /// Returns the surface of the convex hull of points; `None` where they do not span a volume.
 pub fn faces(points: &[Vec3]) -> Option<Faces> {
-    // Which points are corners does not depend on an affine map: coordinates are whitened, so that a thin hull is as
-    // thick as wide and not taken for flat.
+    // An affine map leaves the corners the same: coordinates are whitened, so that a thin hull is as thick as wide
+    // and not taken for flat.
     let [along, across, up] = extents(points, 0.0)?;
     let whitening = Matrix3::from_columns(&[along, across, up]).try_inverse()?;
     let whitened: Vec<_> = points.iter().map(|p| (whitening * (p - points[0])).into()).collect();

@@ -273,7 +273,7 @@ impl<'a> Interpreter<'a> {
     /// variables.
     pub fn add_report(&mut self, diagnostic: Diagnostic) {
         self.reported.errors += usize::from(diagnostic.is_error());
-        // What the judge finds differs from robot to robot, at one and the same line.
+        // The judge's findings differ from robot to robot, at one and the same line.
         let judged = diagnostic.code.0.starts_with("E06").then(|| diagnostic.message.clone());
         let key = (diagnostic.code, diagnostic.span(), judged);
         if self.reported.reports.len() < REPORTS_MAX && self.reported.known.insert(key) {
@@ -348,7 +348,7 @@ impl<'a> Interpreter<'a> {
             diagnostic.labels.insert(0, crate::source::Label { span: call.span, text });
         }
         let mut shown: HashSet<Span> = diagnostic.labels.iter().map(|l| l.span).collect();
-        // What `check` elaborates by itself is called from nowhere: its span is the name.
+        // A declaration that `check` elaborates by itself is called from nowhere: its span is the name.
         let named = |call: &&CallSite| self.shared.sources.text(call.span) != call.name.as_str();
         for call in self.stack.calls.iter().rev().filter(named).take(CALLS_SHOWN) {
             if shown.insert(call.span) {

@@ -10,8 +10,8 @@ use crate::check::typed::DefKind;
 use crate::interrupt;
 use crate::source::{Files, Severity};
 
-/// Runs a checked program. What `check` reported is not repeated; parts that it could not
-/// understand are passed over in silence.
+/// Runs a checked program. Faults that `check` reported are not repeated; parts that it could not understand
+/// are passed over in silence.
 pub fn run(
     routines: &Routines,
     checked: &Checked,
@@ -22,7 +22,7 @@ pub fn run(
 ) -> Outcome {
     evaluator_thread::run(files, host, |host| {
         let mut interpreter = Interpreter::new(routines, checked, mode, options, host);
-        // What halts a run has been reported, and nothing needs to be said of what the user halts.
+        // The error that halts a run has been reported, and a run that the user halts needs no error.
         let cancel_state = interpreter.shared.host.cancel_state.clone();
         let progress_sink = interpreter.shared.host.progress_sink();
         let _ = interrupt::catch(&cancel_state, progress_sink, || interpreter.drive());

@@ -187,7 +187,7 @@ fn panel_of(
 
 /// The panels of all faces, as designs and as numbers.
 pub(super) struct Sheet {
-    /// By face.
+    /// The design of each face's panel.
     pub designs: Vec<Rc<Design>>,
     /// The panels as numbers, for the planner.
     pub panels: Panels,

@@ -8,11 +8,13 @@
 //!   `call.get::<&str>("with")?`. The type that is read is the one in the list.
 //! - Many arguments: `arguments! { struct SqueezeArguments<'c> { .. } }` declares a field for each parameter;
 //!   `SqueezeArguments::PARAMETERS` goes into the table, `SqueezeArguments::read(call)?` reads them all.
+//! - Parameters that several natives have: an `arguments!` struct of their own, which each of the others takes in
+//!   with `..search: SearchArguments`.
 //! - A choice of words is an enum that implements [`Choice`](crate::interpret::argument::Choice): its words
 //!   stand there and in the declaration, nowhere else.
 //! - `T?` without a default is an `Option`; `auto | Int` is a `WordOr<Auto, usize>`; a parameter of several
 //!   types is a `&Value`.
-//! - What a planner reports beside its plan is a record: `impl ReportFields for Report` holds one table from
+//! - The report of a planner beside its plan is a record: `impl ReportFields for Report` holds one table from
 //!   field to reader. Other records of a native implement `NativeRecord`.
 //!
 //! A test compares names, types, what may be missing, words and fields with the declarations. A file of

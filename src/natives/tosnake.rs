@@ -399,7 +399,8 @@ fn invalid_start(at: Span, robot: &Robot, invalid: &InvalidStart) -> Stop {
     }
 }
 
-/// Which joint would have to hold what, when doing what.
+/// Returns the diagnostic of a joint that would have to hold more than it can: its torque, its limit, and the
+/// operation.
 fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
     let Overload { load, operation, status } = overload;
     let assembly = &robot.assembly;

@@ -64,8 +64,8 @@ impl QuadraticProgram {
     /// # Errors
     /// Why there is none. `Numerical` also where a strictly convex program has a solution that rounding hides.
     pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
-        // Where the active-set method fails the other decides, for rounding may hide a way there; if that can't,
-        // either, what was found first holds.
+        // If the active-set method fails the other decides, for rounding may hide a way there; if that can't,
+        // either, the first finding holds.
         let mut doubt = Unsolved::Numerical;
         if let Some(active) = &mut self.active {
             match active.solve() {

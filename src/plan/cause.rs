@@ -20,7 +20,7 @@ pub struct Cause {
     pub column: usize,
     /// The text of the line, without the blanks around it.
     pub text: String,
-    /// Which instance, such as `i = 3` or `leg[2].m[0].tilt`; empty where there is only one.
+    /// The instance that it concerns, such as `i = 3` or `leg[2].m[0].tilt`; empty where there is only one.
     pub instance: String,
     /// The call in the user's own file that led here, where `file` is the library's.
     pub caller: Option<Box<Cause>>,

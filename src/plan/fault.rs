@@ -30,7 +30,7 @@ pub enum PlanFault {
     },
     /// Times that must ascend and do not.
     TimeOrder {
-        /// Whose times they are.
+        /// The things that have these times.
         what: &'static str,
     },
     /// A number that no file can hold, in a part of the plan.

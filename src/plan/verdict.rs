@@ -109,7 +109,7 @@ macro_rules! worst_value {
     };
 }
 
-/// Every worst value of a verdict, in the order in which it is shown. What prints, compares or rounds worst
+/// Every worst value of a verdict, in the order in which it is shown. All that prints, compares or rounds worst
 /// values goes through this table.
 pub const WORST_VALUES: [WorstKind; 8] = [
     worst_value!(clearance, "clearance", Some("clearance"), Length),
@@ -297,7 +297,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Returns true if nothing failed. What was not checked, or has no limit, is told apart in `checks`.
+    /// Returns true if nothing failed. Checks that were not made, or have no limit, are told apart in `checks`.
     pub fn ok(&self) -> bool {
         self.failures.is_empty()
     }

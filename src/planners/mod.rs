@@ -1,5 +1,5 @@
-//! Planners: each a room of its own that turns a problem into a plan. What they find goes before the
-//! same judge as everything else, and none of them is believed.
+//! Planners: each a room of its own that turns a problem into a plan. Their motions go before the same judge as
+//! everything else, and none of them is believed.
 //!
 //! Each planner has one entry of the same shape,
 //! `plan(&Problem, &Settings, &mut dyn Progress) -> Result<Solution<Report>, Refusal>`: a problem in

@@ -1,10 +1,10 @@
 //! Inverse kinematics by damped least squares (Buss 2005, *Introduction to inverse kinematics with Jacobian transpose,
 //! pseudoinverse and damped least squares methods*), with joint limits, a secondary task and inequality rows.
 //!
-//! [`solve`] is the descent that all share. What is to be reached is told by an [`IkProblem`]: residual, rows of the
-//! Jacobian, and, if there is more than one wish, a preferred change and linear inequalities. [`reach`] poses the usual
-//! problem: a frame of an assembly that is to be at a pose. The planner `tosnake` poses another: two docks that are to
-//! meet while balls keep apart.
+//! [`solve`] is the descent that all share. The goal is told by an [`IkProblem`]: residual, rows of the Jacobian, and,
+//! if there is more than one wish, a preferred change and linear inequalities. [`reach`] poses the usual problem: a
+//! frame of an assembly that is to be at a pose. The planner `tosnake` poses another: two docks that are to meet while
+//! balls keep apart.
 //!
 //! One step solves
 //!

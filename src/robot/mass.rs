@@ -14,8 +14,8 @@ pub struct Mass {
     pub inertia: [f64; 6],
 }
 
-/// Returns the mass properties of shapes that fill space with `density` (kg/m³). Where shapes overlap, the overlap counts
-/// as often as shapes share it.
+/// Returns the mass properties of shapes that fill space with `density` (kg/m³). If shapes overlap, the overlap counts as
+/// often as shapes share it.
 ///
 /// # Errors
 /// The fault of a shape that encloses no volume, or that there is none.

@@ -167,7 +167,7 @@ struct Side<'a> {
     robot: &'a Assembly,
     state: &'a State,
     kinematics: Kinematics,
-    /// By module and port.
+    /// The port that each port of each module is docked to.
     docked: Vec<Vec<Option<Docked>>>,
 }
 
@@ -193,7 +193,7 @@ impl<'a> Side<'a> {
 struct Search<'a> {
     a: Side<'a>,
     b: Side<'a>,
-    /// By type of B: how a module may lie.
+    /// For each module type of B: the ways in which a module may lie.
     turns: Vec<Vec<Symmetry>>,
     tol_joint: f64,
 }

@@ -49,7 +49,7 @@ pub fn symmetries(kind: &ModuleType) -> Vec<Symmetry> {
 
 struct Search<'a> {
     kind: &'a ModuleType,
-    /// By link: where it goes, and the map of its frame into the frame of that link.
+    /// For each link: the link onto which it goes, and the map of its frame into the frame of that link.
     links: Vec<Option<(usize, Pose)>>,
     joints: Vec<Option<usize>>,
 }

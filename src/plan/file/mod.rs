@@ -59,8 +59,8 @@ pub fn write(plan: &Plan) -> Result<String, FileError> {
     Ok(laid_out(&serde_json::to_string(&json)?))
 }
 
-/// Returns the plan that a text holds, its indices, orders and names checked. What it says of its own
-/// verdict is not believed: that is for the judge.
+/// Returns the plan that a text holds, its indices, orders and names checked. Its own verdict is read and not
+/// believed: that is for the judge.
 ///
 /// Files of version 2 and of later versions are read, as versions only add fields; a later version's
 /// file is refused where it uses what was added.

@@ -126,7 +126,7 @@ impl ContactForest {
                 at = next;
             }
         }
-        // What was not passed on is left at the roots.
+        // Force that was not passed on is left at the roots.
         match nodes.iter().find(|node| node.behind != 0) {
             Some(node) => Err(node.behind),
             None => Ok(worst),

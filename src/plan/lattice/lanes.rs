@@ -26,7 +26,7 @@ struct Place {
 }
 
 struct Lanes {
-    /// By lane; in order along the axis before the stage.
+    /// The places of each lane, in order along the axis before the stage.
     places: Vec<Place>,
     /// The beginning of each lane in `places`, and the end.
     starts: Vec<usize>,

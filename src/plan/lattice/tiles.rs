@@ -1,7 +1,7 @@
 //! A spatial index of the cross-sections of lanes.
 //!
-//! The plane across the moving axis is tiled by squares of a cell's size. Where there are about as many tiles
-//! as cells, a dense table holds them; otherwise an ordered map does.
+//! The plane across the moving axis is tiled by squares of a cell's size. If there are about as many tiles as
+//! cells, a dense table holds them; otherwise an ordered map does.
 
 use super::grid::Cube;
 use std::collections::BTreeMap;

@@ -22,7 +22,7 @@ impl NodePaths {
                 other => other,
             };
             before = time;
-            // Where it is cut the margins are others.
+            // The margins at the cut are others.
             let margins = if keyframe.time == time { keyframe.margins } else { Margins::default() };
             Keyframe {
                 time: time - from,

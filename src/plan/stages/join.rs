@@ -50,7 +50,7 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
         };
         new.stages.push(Stage { end, cause: CauseId(stage.cause.0 + causes), ..stage.clone() });
     }
-    // What each part may ask of the cells, the whole may.
+    // The whole may ask of the cells all that each part may.
     let looser = |first: Ratio, second: Ratio, larger: bool| {
         if first.order(second).is_gt() == larger { first } else { second }
     };

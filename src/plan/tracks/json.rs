@@ -27,9 +27,9 @@ pub(in crate::plan) struct TracksJson<'a> {
     tracks: Vec<TrackJson<'a>>,
     /// Changes of which bonds hold, in order of time.
     events: Vec<EventJson>,
-    /// Who set which joint of the start pose.
+    /// The cause of each joint position of the start pose.
     start_causes: Cow<'a, [(JointId, CauseId)]>,
-    /// Who connected which bond.
+    /// The cause of each connection.
     bond_causes: Cow<'a, [(usize, CauseId)]>,
 }
 

@@ -20,9 +20,9 @@ pub struct Tracks {
     pub docks: Vec<Dock>,
     /// Seconds.
     pub duration: f64,
-    /// Who set the start pose: (joint, cause), and the bond at an index: (bond, cause).
+    /// The cause of each joint position of the start pose: (joint, cause).
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// Who connected which bond: (index of the bond, cause).
+    /// The cause of each connection: (index of the bond, cause).
     pub bond_causes: Vec<(usize, CauseId)>,
 }
 

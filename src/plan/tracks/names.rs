@@ -4,8 +4,8 @@ use super::validation;
 use crate::plan::validation::library::references;
 use crate::robot::{Assembly, JointId, PortRef};
 
-/// The names of the modules, joints, ports and bonds of an assembly. What an index stands for that
-/// points nowhere has the empty name; so has everything where the assembly itself is not well formed.
+/// The names of the modules, joints, ports and bonds of an assembly. An index that points nowhere has the empty
+/// name; so has every index where the assembly itself is not well formed.
 pub(in crate::plan) struct RobotNames<'a> {
     robot: Option<&'a Assembly>,
     joints: Vec<String>,

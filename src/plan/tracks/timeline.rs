@@ -21,7 +21,7 @@ pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, OperationError> {
     if !tracks.docks.is_empty() {
         branches.push(docking(tracks));
     }
-    // What nothing moves takes its time, too.
+    // A motion without tracks takes its time, too.
     branches.push(wait(tracks.duration));
     Ok(Arc::new(Node::Parallel(branches)))
 }

@@ -2,8 +2,8 @@
 //!
 //! [`validate`] asks what a reader must know: every index points at something, times are in order,
 //! joints do not jump. [`check`] asks in addition that all numbers mean something: then a plan can be
-//! judged. Whether the motion is good is for the judge. What belongs to one family of bodies is asked
-//! in that family's folder, through [`Body`](super::Body).
+//! judged. The quality of the motion is for the judge. Rules of one family of bodies stand in that family's
+//! folder, through [`Body`](super::Body).
 
 pub(super) mod library;
 mod program;

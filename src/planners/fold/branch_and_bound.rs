@@ -1,12 +1,12 @@
 //! Branch and bound for the layout (rooted spanning tree of the faces) of least energy.
 //!
 //! The bound of a node is the sum of shortest paths ([`shortest_paths`]) over the arcs
-//! that the node allows. Where the paths form a tree, it is the node's best layout. Else the bound is raised
-//! by Lagrangian relaxation ([`lagrangian`]), and the node is branched on the face into
-//! which the paths disagree the most: it is entered across one side in each child, so the children are
-//! disjoint and complete. Where patterns may not overlap, a tree whose pattern overlaps is branched along the
-//! path between two overlapping faces: any layout with all arcs of the path overlaps, so child k keeps the
-//! first k arcs and leaves out the next.
+//! that the node allows. If the paths form a tree, it is the node's best layout. Else the bound is raised by
+//! Lagrangian relaxation ([`lagrangian`]), and the node is branched on the face into which the paths disagree
+//! the most: it is entered across one side in each child, so the children are disjoint and complete. If
+//! patterns may not overlap, a tree whose pattern overlaps is branched along the path between two overlapping
+//! faces: any layout with all arcs of the path overlaps, so child k keeps the first k arcs and leaves out the
+//! next.
 //!
 //! All roots share one queue, in which the node of least bound comes first (best-first search), so that the
 //! gap at the end of a budget is as small as it can be. Roots that are equal by symmetry are searched once.
@@ -94,7 +94,7 @@ pub struct Optimum {
     pub nodes: u64,
 }
 
-/// Why there is no optimum.
+/// The reason why there is no optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLayout {
     /// Every layout overlaps in the plane, is too high, or was refused by the caller.
@@ -123,8 +123,8 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
 }
 
 /// Returns the layout of least energy among those that `accepts` accepts; it decides about layouts in order of
-/// their energy. Where the budget ends before one is accepted, it decides about a last one, which need not be
-/// the next.
+/// their energy. If the budget ends before one is accepted, it decides about a last one, which need not be the
+/// next.
 ///
 /// # Errors
 /// [`NoLayout`] where every layout was refused, or none was accepted within the budget.
@@ -159,7 +159,7 @@ pub(crate) fn search<'a>(
     };
     // Perturbed costs tell ties apart.
     let least = asked.iter().map(|root| plain.bound(*root)).fold(f64::INFINITY, f64::min);
-    // Where nothing costs anything, any perturbation will do.
+    // If nothing costs anything, any perturbation will do.
     let slack = if least > 0.0 { TOLERANCES.perturbation * least } else { TOLERANCES.perturbation };
     let perturbed = perturbed(target, weights, slack, settings.seed);
     let mut search = Search {
@@ -191,7 +191,7 @@ pub(crate) fn search<'a>(
     routes.longest = search.height;
     let mut bounds = Bounds { routes, relaxation: None };
     search.run(&mut bounds);
-    // What holds for a root holds for its orbit.
+    // A bound for a root holds for its orbit.
     let equals: Vec<Option<usize>> = match settings.root {
         Some(root) => (0..n).map(|face| (face == root).then_some(root)).collect(),
         None => equals.into_iter().map(Some).collect(),
@@ -224,9 +224,9 @@ struct Search<'s, 'a, 'o> {
     /// The greatest sum of perturbations in one layout, N·m.
     slack: f64,
     best: Option<Found>,
-    /// By root: the least perturbed energy found there.
+    /// For each root: the least perturbed energy found there.
     reached: Vec<f64>,
-    /// By root: an estimate of the energy of its best layout, flat or not, for Polyak's step.
+    /// For each root: an estimate of the energy of its best layout, flat or not, for Polyak's step.
     aims: Vec<f64>,
     open_nodes: BinaryHeap<Node>,
     /// The size of the open nodes, bytes.

@@ -15,11 +15,11 @@ const SUMS: usize = 64;
 /// Returns a greedy tree grown from the root: always the face is added whose path costs it the least.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let n = target.faces.len();
-    // By face: the hinges between it and the root, once it belongs to the tree.
+    // For each face: the hinges between it and the root, once it belongs to the tree.
     let mut paths: Vec<Option<Vec<usize>>> = vec![None; n];
     paths[root] = Some(Vec::new());
     let mut hinges = Vec::with_capacity(n - 1);
-    // By face: the cheapest way to add it so far.
+    // For each face: the cheapest way to add it so far.
     let mut best: Vec<(f64, usize, usize)> = vec![(f64::INFINITY, 0, 0); n];
     let mut newest = root;
     for _ in 1..n {
@@ -88,10 +88,10 @@ pub fn improved_by(
 struct Branches {
     hinges: usize,
     faces: usize,
-    /// By face, then by hinge: what the hinge would spend on carrying the face and all below it.
+    /// For each face, then for each hinge: what the hinge would spend on carrying the face and all below it.
     below: Vec<f64>,
-    /// By face c, then by face b: what the hinges between the root and b would spend on carrying c and
-    /// all below it.
+    /// For each face c, then for each face b: what the hinges between the root and b would spend on carrying c
+    /// and all below it.
     along: Vec<f64>,
 }
 

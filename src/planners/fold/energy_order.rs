@@ -75,8 +75,8 @@ pub fn means(
 /// The costs of the hinges of a face's path for that face.
 #[derive(Clone)]
 struct Costs {
-    /// By place in the path, from the root's child on; then by which of the later hinges of the path
-    /// have folded, bit by bit.
+    /// The cost at each place in the path, from the root's child on, for each set of later hinges of the path
+    /// that have folded, bit by bit.
     tables: Vec<Vec<f64>>,
 }
 
@@ -152,7 +152,7 @@ impl Search<'_> {
                 slots.iter_mut().zip(below).for_each(|(slot, faces)| slot.extend(faces));
             }
             if best.as_ref().is_none_or(|(_, least)| energy < *least) {
-                // What folds just before and just after the face is between the same two ancestors.
+                // Faces that fold just before and just after this one are between the same two ancestors.
                 let after = slots.remove(place + 1);
                 slots[place].push(face);
                 slots[place].extend(after);

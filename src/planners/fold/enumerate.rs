@@ -35,7 +35,7 @@ pub struct Census {
     pub greatest: f64,
     /// The number of pairs of layout and root with the least energy, up to ties.
     pub ties: u64,
-    /// By root: the least energy.
+    /// For each root: the least energy.
     pub by_root: Vec<f64>,
     /// The energies that occur, if they were asked for.
     pub spectrum: Option<Spectrum>,
@@ -147,13 +147,13 @@ pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result
     let mut walk =
         Walk { target, suffix, kept: Vec::with_capacity(n), visit, left: budget.max(1), layouts: 0 };
     walk.from(0, groups);
-    // Whether something was left shows only at the next layout.
+    // A layout that was left shows only when it is the next.
     Ok(Traversal { layouts: walk.layouts, complete: walk.left > 0 })
 }
 
 struct Walk<'t, V> {
     target: &'t Target,
-    /// By hinge: the neighbours of every face across this hinge and later ones.
+    /// For each hinge: the neighbours of every face across this hinge and later ones.
     suffix: Vec<[u64; FACES_MAX]>,
     kept: Vec<usize>,
     visit: V,
@@ -240,7 +240,7 @@ impl<V: FnMut(&[usize])> Walk<'_, V> {
 /// Sums of a hinge's weights over sets of faces, by table.
 struct Sums {
     chunks: usize,
-    /// By hinge, chunk, bits of the chunk.
+    /// For each hinge, chunk and value of the chunk's bits.
     table: Vec<f64>,
 }
 
@@ -307,9 +307,9 @@ struct Tree<'t> {
     target: &'t Target,
     /// Faces, parents before children; with the parent and the hinge to it.
     order: Vec<(usize, usize, usize)>,
-    /// By face: itself and all below it.
+    /// For each face: itself and all below it.
     below: [u64; FACES_MAX],
-    /// By face: its kept hinges and the faces across them.
+    /// For each face: its kept hinges and the faces across them.
     around: [[(u32, u32); 3]; FACES_MAX],
     degree: [usize; FACES_MAX],
 }
@@ -354,7 +354,7 @@ impl<'t> Tree<'t> {
         }
     }
 
-    /// By root.
+    /// Computes the energy for each root.
     fn energies(&self, sums: &Sums, energies: &mut [f64]) {
         let all = self.below[0];
         let mut at_first = 0.0;

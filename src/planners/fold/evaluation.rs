@@ -34,7 +34,7 @@ const STRIP_STATES_MAX: usize = 1_500_000_000;
 pub(super) struct Candidates {
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
-    /// Why the first was refused.
+    /// The reason why the first was refused.
     pub first: Option<Rejection>,
     /// The number of layouts sampled for collisions.
     sampled: usize,

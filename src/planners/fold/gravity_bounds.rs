@@ -42,7 +42,7 @@ struct Arc {
     below: usize,
     /// The sign of its angle: in this direction a folding hinge turns.
     sense: f64,
-    /// By face: the mean over the step, and the values at its beginning and its end.
+    /// For each face: the mean over the step, and the values at its beginning and its end.
     mean: Vec<f64>,
     ends: [Vec<f64>; 2],
 }
@@ -87,7 +87,7 @@ impl GravityBounds {
         let mut sums = vec![0.0; self.faces];
         for face in 0..self.faces {
             crate::interrupt::checkpoint();
-            // By face: the cheapest walk from there.
+            // The cost of the cheapest walk from each face.
             let mut cost = vec![f64::INFINITY; self.faces];
             cost[face] = 0.0;
             for _ in 1..self.faces {

@@ -29,7 +29,7 @@ pub(crate) struct Judged {
     pub verdict: Verdict,
 }
 
-/// Why a motion is none.
+/// The reason why a motion is none.
 pub(crate) enum Fault {
     /// It can't be scheduled.
     Schedule(behavior::Refusal),

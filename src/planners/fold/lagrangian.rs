@@ -45,7 +45,7 @@ pub struct Ascent {
     pub bound: f64,
     /// The multipliers of that bound.
     pub multipliers: Vec<(u32, f64)>,
-    /// By face and side: the number of paths that entered there in the last round.
+    /// For each face and side: the number of paths that entered there in the last round.
     pub uses: Vec<[u32; 3]>,
     /// The length of the last step, as a part of the gap.
     pub length: f64,
@@ -69,20 +69,20 @@ pub struct Lagrangian<'t> {
     target: &'t Target,
     faces: usize,
     arcs: usize,
-    /// By face: the faces around it and the arcs that lead there.
+    /// For each face: the faces around it and the arcs that lead there.
     out: Vec<Vec<(usize, usize)>>,
-    /// By arc: the face from which it comes.
+    /// For each arc: the face from which it comes.
     tail: Vec<usize>,
-    /// By face, then by arc: the cost, and the multiplier.
+    /// For each face, then for each arc: the cost, and the multiplier.
     costs: Vec<f64>,
     multipliers: Vec<f64>,
-    /// By face: cost of its cheapest path across each of its sides, multipliers included.
+    /// For each face: cost of its cheapest path across each of its sides, multipliers included.
     reached: Vec<[f64; 3]>,
-    /// By goal, then by face: the arc by which the goal's path enters.
+    /// For each goal, then for each face: the arc by which the goal's path enters.
     entered: Vec<Arc>,
     distance: Vec<f64>,
     queue: BinaryHeap<QueueEntry>,
-    /// By face: the arc that was chosen.
+    /// For each face: the arc that was chosen.
     chosen: Vec<usize>,
 }
 
@@ -230,7 +230,7 @@ impl<'t> Lagrangian<'t> {
         self.reached[goal] = found;
     }
 
-    /// By arc: the sum of its users' multipliers.
+    /// Returns for each arc the sum of its users' multipliers.
     fn paid(&self) -> Vec<f64> {
         let mut paid = vec![0.0; self.arcs];
         for row in self.multipliers.chunks_exact(self.arcs) {
@@ -327,7 +327,7 @@ impl<'t> Lagrangian<'t> {
         count > 0 && by > 0.0
     }
 
-    /// By face and side: the number of paths that enter there.
+    /// Returns for each face and side the number of paths that enter there.
     fn uses(&self, root: usize) -> Vec<[u32; 3]> {
         let mut uses = vec![[0; 3]; self.faces];
         if self.chosen.iter().enumerate().any(|(face, arc)| face != root && *arc == usize::MAX) {
@@ -345,8 +345,8 @@ impl<'t> Lagrangian<'t> {
 /// Rounds between two calls of the Lagrangian heuristic.
 const LAYOUTS_EVERY: usize = 20;
 
-/// Lagrangian heuristic: returns the hinges of a layout made of one arc into each face. What is connected to
-/// the root stays as it is; cycles are joined to it across the first hinge that leads there.
+/// Lagrangian heuristic: returns the hinges of a layout made of one arc into each face. Faces connected to the
+/// root stay as they are; cycles are joined to it across the first hinge that leads there.
 pub fn repaired(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
     let n = target.faces.len();
     let hinge_of = |arc: usize| target.sides[arc / 3][arc % 3].expect("arcs lead across hinges");

@@ -8,9 +8,9 @@ use super::weights::Weights;
 pub struct Layout {
     /// The face that stays where it is.
     pub root: usize,
-    /// By face: the hinge to its parent; `None` for the root.
+    /// For each face: the hinge to its parent; `None` for the root.
     pub hinge: Vec<Option<usize>>,
-    /// By face: its parent; the root's is itself.
+    /// For each face: its parent; the root's is itself.
     pub parent: Vec<usize>,
     /// All faces, parents before children.
     pub order: Vec<usize>,

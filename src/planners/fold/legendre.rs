@@ -16,7 +16,7 @@ const SECTIONS: usize = 50;
 pub(super) struct Rule {
     /// The points in -1..1.
     pub points: [f64; TERMS],
-    /// By term, then by point: what a value contributes to the term.
+    /// For each term, then for each point: what a value contributes to the term.
     terms: [[f64; TERMS]; TERMS],
 }
 

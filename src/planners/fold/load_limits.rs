@@ -15,7 +15,7 @@ const SAMPLES: usize = 12;
 /// The loads of the faces and the limits of ground and hinges. The root lies on the ground with its outside down.
 #[derive(Clone, Debug)]
 pub struct LoadLimits {
-    /// By face: its weight, N.
+    /// For each face: its weight, N.
     pub weights: Vec<f64>,
     /// The torque that a hinge holds, N·m; infinite where no limit is stated.
     pub torque: f64,

@@ -74,7 +74,7 @@ pub fn survey(
     observer: &Observer,
 ) -> Measured {
     let n = target.faces.len();
-    // What holds for one root holds for those that are equal to it by symmetry.
+    // A result for one root holds for those that are equal to it by symmetry.
     let equals = if settings.roots.len() == 1 { (0..n).collect() } else { symmetry::orbits(target, weights) };
     let mut roots: Vec<usize> = settings.roots.iter().map(|root| equals[*root]).collect();
     roots.sort_unstable();
@@ -111,7 +111,7 @@ pub fn survey(
         improve(&mut kept, weights, &roots, value);
     }
     let Kept { best, ties, least, .. } = kept;
-    // What holds for a root holds for those equal to it by symmetry.
+    // A result for a root holds for those equal to it by symmetry.
     let asked = settings.roots.iter().copied();
     let roots = asked.clone().filter(|root| ties[equals[*root]] > 0).collect();
     let ties = asked.map(|root| ties[equals[root]]).sum();
@@ -180,7 +180,7 @@ struct Kept<'s> {
     target: &'s Target,
     settings: &'s Settings,
     best: Vec<(Layout, [f64; 2])>,
-    /// By root.
+    /// The number of layouts at each root that are as good as the best.
     ties: Vec<u64>,
     least: f64,
 }

@@ -75,7 +75,7 @@ pub struct Effort {
 /// The objective on the layouts and orders of a target.
 pub struct Objective<'t> {
     target: &'t Target,
-    /// By face, kg.
+    /// The mass of each face, kg.
     masses: Vec<f64>,
     /// The conventions of measuring.
     pub conventions: Conventions,

@@ -176,13 +176,13 @@ fn thickness(link: &Link, normal: Vec3) -> f64 {
 pub struct Panels {
     /// The module types and connectors that the panels are made of.
     pub library: Arc<Library>,
-    /// By face: the index of its module type in the library.
+    /// For each face: the index of its module type in the library.
     pub kinds: Vec<usize>,
-    /// By face: its mass, kg.
+    /// For each face: its mass, kg.
     pub masses: Vec<f64>,
-    /// By face: its thickness, m.
+    /// For each face: its thickness, m.
     pub thickness: Vec<f64>,
-    /// By face: its collision parts.
+    /// For each face: its collision parts.
     pub solids: Solids,
     /// The first face's panel with the weakest limits and the greatest thickness of all.
     pub weakest: Panel,

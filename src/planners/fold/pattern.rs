@@ -12,9 +12,9 @@ pub type Point = [f64; 2];
 /// side along x; counterclockwise as seen from outside.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// By face: its corners, m.
+    /// For each face: its corners, m.
     pub corners: Vec<[Point; 3]>,
-    /// By face: the cell of the triangular lattice, where all sides are equal, as the sum of its
+    /// For each face: the cell of the triangular lattice, where all sides are equal, as the sum of its
     /// corners.
     pub cells: Option<Vec<[i64; 2]>>,
 }
@@ -135,7 +135,7 @@ fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
     !parts(a, b) && !parts(b, a)
 }
 
-/// Returns whether the line through a side of `a` has all of `b` on its outer side. Where a corner lies is
+/// Returns whether the line through a side of `a` has all of `b` on its outer side. The position of a corner is
 /// computed without rounding; the tolerance is for the rounding of the corners themselves.
 fn parts(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let coordinate = |[x, y]: Point| Coord { x, y };

@@ -10,9 +10,9 @@
 //! Σ_r λ_r load_r + Σ over faces not yet dealt of min over r of λ_r K(r, j)
 //! ```
 //!
-//! and the shares are those that make this greatest at the beginning. Where every face is dealt, a tree is
-//! grown in each part. If none of its hinges carries more than the root's, its peak is that of the division;
-//! else the division is kept as what may be undercut.
+//! and the shares are those that make this greatest at the beginning. If every face is dealt, a tree is grown
+//! in each part. If none of its hinges carries more than the root's, its peak is that of the division; else the
+//! division is kept as what may be undercut.
 
 use super::layout::Layout;
 use super::pattern::Pattern;
@@ -59,7 +59,8 @@ pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64,
     deal.loads = vec![0.0; deal.around.len()];
     let relaxed = deal.rest[0];
     deal.next(steps);
-    // What was passed over is no better than the cutoff; an end before all was seen leaves the first bound.
+    // The divisions passed over are no better than the cutoff; an end before all was seen leaves the first
+    // bound.
     let bound = if deal.ended { relaxed.min(deal.cutoff) } else { deal.cutoff } * (1.0 - TOLERANCES.tie);
     Least { layout: deal.best, bound }
 }
@@ -141,7 +142,7 @@ struct PartitionSearch<'t> {
     share: Vec<f64>,
     faces: Vec<usize>,
     rest: Vec<f64>,
-    /// By face, in their order: the root's hinge to which it is assigned.
+    /// For each of `faces`: the root's hinge to which it is assigned.
     dealt: Vec<usize>,
     loads: Vec<f64>,
     best: Option<(Layout, f64)>,

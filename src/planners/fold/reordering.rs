@@ -124,7 +124,7 @@ impl<'t> Reordering<'t> {
             };
             if ended.is_some() || layouts == LAYOUTS_MAX { Decision::Stop } else { Decision::Refuse }
         };
-        // What is accepted is kept in `ended`, with its plan: the search's own result is empty.
+        // The accepted order is kept in `ended`, with its plan: the search's own result is empty.
         let weights = &task.objective.weights;
         let _ = branch_and_bound::search(task.target, weights, settings, Some(&mut decide), task.observer);
         ended.transpose()

@@ -41,7 +41,7 @@ pub struct Report {
     pub lifting_bound: f64,
     /// The faces whose hinges do not close (Eq. 1), where a hinge radius was given.
     pub too_thick: Vec<usize>,
-    /// By face: its mass, kg.
+    /// For each face: its mass, kg.
     pub masses: Vec<f64>,
     /// The conventions under which the folding was measured.
     pub conventions: Conventions,

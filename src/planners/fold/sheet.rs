@@ -13,7 +13,7 @@ use std::sync::Arc;
 pub struct Sheet {
     /// Panel k stands for face k; bond i joins face `layout.order[i + 1]` to its parent.
     pub assembly: Assembly,
-    /// By bond: the joint of its hinge.
+    /// For each bond: the joint of its hinge.
     pub joints: Vec<JointId>,
     /// All panels level, the root's panel at the origin.
     pub flat: State,

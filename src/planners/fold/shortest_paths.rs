@@ -73,7 +73,7 @@ pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
 pub struct ShortestPaths<'t> {
     target: &'t Target,
     weights: &'t Weights,
-    /// By face, then by face: cost of the cheapest path from the second to the first, for the first.
+    /// For each pair of faces: cost of the cheapest path from the second to the first, for the first.
     toward: Vec<Vec<f64>>,
     distance: Vec<f64>,
     entered: Vec<Arc>,
@@ -198,7 +198,7 @@ impl<'t> ShortestPaths<'t> {
     fn route_in_layers(&self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         let mut costs = vec![f64::INFINITY; self.toward.len()];
         costs[root] = 0.0;
-        // By round, then by face: how it is entered where that became cheaper.
+        // For each round, then for each face: the arc by which it is entered where that became cheaper.
         let mut entered: Vec<Vec<Arc>> = Vec::new();
         for _ in 0..self.longest {
             let mut next = costs.clone();

@@ -20,7 +20,7 @@ pub struct Circumstances {
 /// The torques of a folding.
 #[derive(Clone, Debug)]
 pub struct Torques {
-    /// By step, then by face: mean and peak of the absolute torque in it, N·m.
+    /// For each step, then for each face: mean and peak of the absolute torque in it, N·m.
     pub steps: Vec<Vec<Size>>,
 }
 

@@ -4,11 +4,11 @@
 //! Cheap layouts are stars of many arms: rings close between lumps that have folded already, and these
 //! meet. Nothing meets where a ring is cut into strips that curl up each in its own sector, on one strip
 //! that curls up last. Such layouts are found by what hinges are: trees of those that are longest, most
-//! convex, or fold the most or the least, and of nearly equal trees those that cost the least. Where little is
-//! in the way, the cheap layouts themselves are a beginning.
-//! What still overlaps in the plane or meets on the way is separated by exchanges of one hinge for another
-//! between the two, as in `tabu_unfolding`; and what is clear is made cheaper by exchanges that
-//! keep it so. Nothing is proved, and collisions are sampled: the judge decides.
+//! convex, or fold the most or the least, and of nearly equal trees those that cost the least. If little is in
+//! the way, the cheap layouts themselves are a beginning. Faces that still overlap in the plane or meet on the
+//! way are separated by exchanges of one hinge for another between the two, as in `tabu_unfolding`; and a
+//! layout that is clear is made cheaper by exchanges that keep it so. Nothing is proved, and collisions are
+//! sampled: the judge decides.
 
 use super::edge_exchange::{self, Rules};
 use super::layout::Layout;
@@ -289,7 +289,7 @@ impl StripSearch<'_> {
 
 /// Connected components of faces (union-find).
 pub struct Components(
-    /// By face: the least face that it is joined to.
+    /// For each face: the least face that it is joined to.
     Vec<usize>,
 );
 

@@ -1,5 +1,5 @@
 //! Sampled sweep collision check of panels in motion: it spares the judge plans that he would reject. Panels are
-//! triangles without thickness (separating axes), or solids. What passes is not proved.
+//! triangles without thickness (separating axes), or solids. A pass is no proof.
 
 use super::kinematics::poses_at;
 use super::layout::Layout;
@@ -46,7 +46,7 @@ pub fn first_collision(
 /// with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {
-    /// By face: its convex parts.
+    /// For each face: its convex parts.
     pub parts: Vec<Vec<Part>>,
     /// The depth to which two panels may enter each other, m.
     pub touch: f64,
@@ -73,7 +73,7 @@ fn placed(target: &Target, solids: &Solids) -> Vec<Vec<Part>> {
     solids.parts.iter().enumerate().map(of_face).collect()
 }
 
-/// By face: how far its parts are from its middle, m.
+/// Returns for each face the distance of its parts from its middle, m.
 fn reach(target: &Target, parts: &[Vec<Part>]) -> Vec<f64> {
     let of_face = |(face, parts): (usize, &Vec<Part>)| {
         let middle = target.centroid(face);
@@ -87,7 +87,7 @@ pub struct SweepCheck<'t> {
     target: &'t Target,
     layout: &'t Layout,
     form: Form,
-    /// By face: the radius of its bounding sphere about the centroid, m.
+    /// For each face: the radius of its bounding sphere about the centroid, m.
     reach: Vec<f64>,
 }
 
@@ -189,9 +189,9 @@ impl<'t> SweepCheck<'t> {
 
 /// A state on the way.
 struct State {
-    /// By face: its displacement from its place in the target.
+    /// For each face: its displacement from its place in the target.
     poses: Vec<Pose>,
-    /// By face: its centroid, m.
+    /// For each face: its centroid, m.
     middles: Vec<Vec3>,
 }
 
@@ -222,7 +222,7 @@ pub fn panel_pose(corners: &Triangle, z: &Vec3) -> Pose {
 fn moving_against(layout: &Layout, moving: &[usize]) -> Vec<[usize; 2]> {
     let faces = layout.parent.len();
     let mut carried = vec![0usize; faces];
-    // By face: a number for the set of moving hinges above it.
+    // For each face: a number for the set of moving hinges above it.
     for &face in &layout.order[1..] {
         let above = carried[layout.parent[face]];
         carried[face] = if moving.contains(&face) { face + 1 } else { above };

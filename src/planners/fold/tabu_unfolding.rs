@@ -3,7 +3,7 @@
 //!
 //! One of the hinges between two faces that overlap is given up, and the two parts of the sheet are joined
 //! elsewhere. Of some such exchanges that is made which leaves the fewest overlaps, then costs the least;
-//! also where that is more than before, or the search would stay in the first local minimum. What was given up a
+//! also where that is more than before, or the search would stay in the first local minimum. A hinge given up a
 //! short while ago does not come back (a tabu list, as "Tabu Unfolder" by Zawallich and Pajarola has it).
 
 use super::edge_exchange;
@@ -65,7 +65,7 @@ pub(super) fn without_overlaps(
 pub(super) struct TabuExchange<'t> {
     target: &'t Target,
     rng: SplitMix64,
-    /// By hinge: the round in which it may come back.
+    /// For each hinge: the round in which it may come back.
     out_until: Vec<usize>,
 }
 

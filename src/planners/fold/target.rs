@@ -15,7 +15,7 @@ pub const FACES_MAX: usize = 400;
 pub struct Target {
     /// The corners of all faces, m.
     pub vertices: Vec<Vec3>,
-    /// By face: its corners among the vertices, counterclockwise seen from outside.
+    /// For each face: its corners among the vertices, counterclockwise seen from outside.
     pub faces: Vec<[usize; 3]>,
     /// The edges of the dual graph, in order of the first face's number, then of its side.
     pub hinges: Vec<Hinge>,

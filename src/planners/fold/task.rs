@@ -67,7 +67,7 @@ impl<'p> Task<'p> {
         Ok(Task { problem, settings, observer, target, panels, conventions, roots, objective, required })
     }
 
-    /// By face: its weight under standard gravity, N.
+    /// Returns for each face its weight under standard gravity, N.
     pub(super) fn loads(&self) -> Vec<f64> {
         self.panels.masses.iter().map(|mass| mass * STANDARD_GRAVITY).collect()
     }

@@ -17,7 +17,7 @@ pub(super) const QUINTIC: f64 = 3.75;
 #[derive(Clone, Debug)]
 pub struct Weights {
     faces: usize,
-    /// By hinge, then by face.
+    /// For each hinge, then for each face.
     table: Vec<f64>,
 }
 

@@ -92,10 +92,10 @@ fn height(target: &Target, layout: &Layout, face: usize, pose: &Pose) -> f64 {
 struct Branch {
     /// Its faces; bit i of a state is face i of these.
     faces: Vec<usize>,
-    /// By face of the branch: the bits of its path from the root, the root's child first.
+    /// For each face of the branch: the bits of its path from the root, the root's child first.
     paths: Vec<Vec<usize>>,
-    /// By face of the branch, where all subsets are visited: its potential energy by which bits of
-    /// its path have folded.
+    /// For each face of the branch, if all subsets are visited: its potential energy, indexed by the bits of
+    /// its path that have folded.
     potentials: Vec<Vec<f64>>,
     /// The leaves-first and the root-first order, with their work.
     known: Vec<(Vec<usize>, f64)>,
@@ -185,7 +185,8 @@ impl Branch {
     }
 }
 
-/// By face of the branch: its potential energy by which hinges of its path have folded.
+/// Returns for each face of the branch its potential energy, indexed by the hinges of its path that have
+/// folded.
 fn potentials(
     target: &Target,
     layout: &Layout,

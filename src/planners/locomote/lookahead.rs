@@ -1,6 +1,6 @@
 //! Lookahead: every step policy is rolled out for some steps, and the one that makes the fastest progress is
-//! taken. Where all get stuck, the search backtracks to the second best of an earlier choice (a depth-first
-//! search with a bounded memory).
+//! taken. If all get stuck, the search backtracks to the second best of an earlier choice (a depth-first search
+//! with a bounded memory).
 
 use super::objective::Objective;
 use super::rollout::{End, Monitor, Rollout, StepPolicy};

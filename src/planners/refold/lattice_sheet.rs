@@ -69,7 +69,7 @@ pub fn bond(a: Side, b: Side) -> [Side; 2] {
 /// A sheet of panels in the plane.
 #[derive(Clone, Debug)]
 pub struct LatticeSheet {
-    /// By panel: its corners.
+    /// For each panel: its corners.
     pub corners: Vec<Corners>,
     /// The panel on each cell.
     pub cells: BTreeMap<Point, usize>,
@@ -181,7 +181,7 @@ impl LatticeSheet {
         let fold: Vec<[Side; 2]> =
             fan.windows(2).map(|two| bond((two[0].0, onward(two[0].1)), two[1])).collect();
         for (i, cut) in fold.iter().enumerate() {
-            // What is before the cut goes on around the point, or what is behind it goes back.
+            // The part before the cut goes on around the point, or the part behind it goes back.
             for (end, sixths) in [(fan[i].0, fan.len()), (fan[i + 1].0, 6 - fan.len())] {
                 let part = self.part(end, cut);
                 let moved: Vec<(usize, Corners)> =
@@ -236,7 +236,7 @@ impl LatticeSheet {
             (1..=SAMPLES).all(|i| {
                 crate::interrupt::checkpoint();
                 let angle = stroke.angle * i as f64 / SAMPLES as f64;
-                // Where the fan is closed, its ends touch along the sides that meet.
+                // If the fan is closed, its ends touch along the sides that meet.
                 let ends = [stroke.make, stroke.cut].map(|b| b.map(|side| side.0));
                 plane.is_apart(&plane.poses(bonds, angle, side), solids, side, &ends)
             })

@@ -62,7 +62,7 @@ pub struct Report {
     pub changes: usize,
     /// The lower bound on that number for all ways between the shapes.
     pub bound: usize,
-    /// By panel: the face of the second shape that it becomes.
+    /// For each panel: the face of the second shape that it becomes.
     pub becomes: Vec<usize>,
     /// The energy of unfolding and folding with the leaves first, N·m.
     pub energy: f64,

@@ -5,9 +5,9 @@
 //! then no panel moves while connections change. The sheet grows cell by cell. A new cell is joined to
 //! a neighbour across which both shapes go on, which is a connection that both layouts have; or, where
 //! there is none, to one neighbour in the first shape and to another in the second, which is one
-//! change. Where growth is stuck, the rest of either shape is laid around what they have in common, and
-//! panels walk from the one sheet to the other. Growth begins anew with other choices
-//! among equals as long as the budget lasts.
+//! change. If growth is stuck, the rest of either shape is laid around what they have in common, and panels
+//! walk from the one sheet to the other. Growth begins anew with other choices among equals as long as the
+//! budget lasts.
 
 use super::face_groups::groups;
 use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};
@@ -36,9 +36,9 @@ pub struct Refolding {
     pub from: Layout,
     /// The layout of the second shape.
     pub to: Layout,
-    /// By panel: the face of the second shape that it becomes.
+    /// For each panel: the face of the second shape that it becomes.
     pub becomes: Vec<usize>,
-    /// By panel: its side k becomes the second shape's side (k + turn) mod 3.
+    /// For each panel: its side k becomes the second shape's side (k + turn) mod 3.
     pub turns: Vec<usize>,
     /// The strokes in order; each makes a connection and undoes one.
     pub strokes: Vec<Stroke>,
@@ -165,7 +165,7 @@ struct Pair {
 /// A shape laid out.
 #[derive(Clone, Debug, PartialEq)]
 struct Laid {
-    /// By face.
+    /// The corners of each face.
     corners: Vec<Corners>,
     /// The hinges that fold, in order of number.
     hinges: Vec<usize>,
@@ -276,7 +276,7 @@ struct Placed {
 struct Sheet<'t> {
     from: &'t Target,
     to: &'t Target,
-    /// By face of the first shape.
+    /// The place of each face of the first shape.
     placed: Vec<Option<Placed>>,
     taken: Vec<bool>,
     cells: BTreeMap<Cell, usize>,
@@ -469,7 +469,7 @@ impl<'t> Sheet<'t> {
 
 /// Returns the lower bound on the number of connections that have to be made, at most `most`. Those that both shapes have join
 /// panels to pieces, each a part of a layout of either; the other connections of the second shape
-/// are made. Whether so few pieces do is searched exhaustively, as far as the steps reach.
+/// are made. An exhaustive search decides, as far as the steps reach, whether so few pieces do.
 fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
     let mut left = budget;
     (0..most).find(|more| can_do_with(from, to, more + 1, &mut left)).unwrap_or(most)

@@ -1,14 +1,14 @@
 //! Fold: the paper's sequence (Lemmas 2 to 5), mended, for any number of cells.
 //!
 //! Each fold halves all rows: they are squeezed, pairs of neighbours become boxes, in every box one
-//! cell goes down and one up, both widen, and the rows spread out. Which goes up alternates from box to
+//! cell goes down and one up, both widen, and the rows spread out. The cell that goes up alternates from box to
 //! box and from row to row, so that neighbouring boxes stay in contact over faces.
 //!
 //! In bits: before fold `k` cell `i` is at `i >> k` of its row; it goes up in the fold if bits 0 and
 //! `k + 1` of `i` differ. So its row, written in bits, is `(i0 ^ i1) (i0 ^ i2) .. (i0 ^ ik)`, and all
-//! places are affine in the bits of cells of one parity. Where an odd cell is last, its partner is
-//! missing, and nothing else changes: until the last fold no row is empty. In the last fold rows of one
-//! cell stay one row, and cells are counted.
+//! places are affine in the bits of cells of one parity. If an odd cell is last, its partner is missing, and
+//! nothing else changes: until the last fold no row is empty. In the last fold rows of one cell stay one row,
+//! and cells are counted.
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE, by_bits, free_bits};

@@ -71,11 +71,11 @@ impl ConcurrentMerges {
 
 /// Everything that pairs need for themselves.
 struct Reservations {
-    /// By index of the tree: true if the edge to the parent is in a loop.
+    /// For each index of the tree: true if the edge to the parent is in a loop.
     edges: Vec<bool>,
     /// The docks of pairs.
     docks: Vec<Dock>,
-    /// By module: a number of its chain; chains that become one have equal numbers.
+    /// For each module: a number of its chain; chains that become one have equal numbers.
     chains: Vec<usize>,
 }
 

@@ -13,9 +13,9 @@ pub struct GravityModel {
     pub root: usize,
     /// Unit vector of gravity in the frame of the shoe that is held.
     pub down: Vec3,
-    /// By shoe: the weight at its centre, N.
+    /// For each shoe: the weight at its centre, N.
     pub shoes: Vec<f64>,
-    /// By module: torque limits of alpha, beta and gamma in N times the pitch; infinite if none is stated.
+    /// For each module: torque limits of alpha, beta and gamma in N times the pitch; infinite if none is stated.
     pub limits: Vec<[f64; 3]>,
 }
 

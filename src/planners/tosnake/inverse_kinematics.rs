@@ -3,8 +3,8 @@
 //!
 //! The descent itself is [`crate::robot::inverse_kinematics`]. This file poses its problem: six linear constraints
 //! from the Jacobian of the second dock, softly, and, in the collision-free mode, inequality constraints that keep
-//! balls apart (active set). What the constraints leave open follows a secondary task, a repulsion of balls, by
-//! projection into their null space. All postures of the descent are kept.
+//! balls apart (active set). The freedom that the constraints leave follows a secondary task, a repulsion of
+//! balls, by projection into their null space. All postures of the descent are kept.
 
 use super::motion_check::{MIN_DISTANCE, Scene};
 use super::neighbour_list::{NeighbourList, Neighbours};
@@ -356,8 +356,9 @@ impl Descent<'_> {
         if missing > 0.0 { (0.5 * missing).min(0.05) } else { missing }
     }
 
-    /// By index: the displacement of each ball by a step of the joints, to first order, in pitches. Twists
-    /// are summed from the root outwards, which is the product with the whole Jacobian in linear time.
+    /// Returns the displacement of each ball, by its index, after a step of the joints, to first order, in
+    /// pitches. Twists are summed from the root outwards, which is the product with the whole Jacobian in
+    /// linear time.
     fn displacements(&self, step: &[f64]) -> Vec<Vec3> {
         let mut twist = vec![(Vec3::zeros(), Vec3::zeros()); self.poses.len()];
         let mut displacements = vec![Vec3::zeros(); self.poses.len()];

@@ -59,7 +59,7 @@ fn link_of(kind: &ModuleType, module: usize, dock: usize) -> Option<usize> {
     kind.ports.iter().find(|port| port.name == port_name(module, dock)).map(|port| port.link)
 }
 
-/// By link: true if it is beyond the joint gamma, seen from the body.
+/// Returns for each link true if it is beyond the joint gamma, seen from the body.
 fn beyond_gamma(kind: &ModuleType) -> Option<Vec<bool>> {
     let gamma = kind.joints.iter().position(|joint| joint.name == JOINTS[2])?;
     let mut beyond = vec![false; kind.links.len()];

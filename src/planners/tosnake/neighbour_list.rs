@@ -28,7 +28,8 @@ pub struct NeighbourList<'a> {
     scene: &'a Scene<'a>,
     /// Two indices whose balls come as near as their docks ask, and are left out.
     meeting: (usize, usize),
-    /// By index: balls of one number do not move against each other, and are left out.
+    /// A number for each ball, by its index: balls of one number do not move against each other, and are left
+    /// out.
     parts: Vec<usize>,
     list: Vec<(u32, u32)>,
     /// The distance within which the list held all pairs when it was made.

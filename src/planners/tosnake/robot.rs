@@ -47,7 +47,7 @@ pub struct Robot {
     pub joints: Vec<[f64; 3]>,
     /// All bonds, those included that were let go.
     pub bonds: Vec<Bond>,
-    /// By bond: whether it is closed.
+    /// True for each bond that is closed.
     pub holds: Vec<bool>,
 }
 

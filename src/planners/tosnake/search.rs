@@ -168,7 +168,7 @@ struct Search<'s, 'p> {
     status: SearchStatus,
     /// The smallest overload so far, and what the robot was to do.
     overload: Option<(JointLoad, Operation)>,
-    /// By pair: the number of modules that bent between the ends at the last failed attempt, and how many
+    /// For each pair: the number of modules that bent between the ends at the last failed attempt, and how many
     /// attempts failed with that number.
     failed_attempts: BTreeMap<[Dock; 2], (usize, u32)>,
 }

@@ -233,7 +233,8 @@ pub struct Path {
     pub top: usize,
 }
 
-/// By bond: true if a breadth-first search from a module takes it; `None` if it does not reach all.
+/// Returns for each bond true if a breadth-first search from a module takes it; `None` if it does not reach
+/// all.
 fn spanning(robot: &Robot, at: &[[Option<usize>; DOCKS]], root: usize) -> Option<Vec<bool>> {
     let mut taken = vec![false; robot.bonds.len()];
     let mut reached = vec![false; robot.modules()];

@@ -1,5 +1,5 @@
-//! The least singular values of the rigidity matrix and their gradients over the nodes. Where one is zero
-//! the lengths of the struts no longer determine the positions of the nodes.
+//! The least singular values of the rigidity matrix and their gradients over the nodes. If one is zero the
+//! lengths of the struts no longer determine the positions of the nodes.
 //!
 //! The rigidity matrix R has a row for each strut with the unit vector along it at one node and minus that
 //! at the other: R times the velocities of the nodes is the rates of length. It is the Jacobian of the
@@ -53,9 +53,9 @@ pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> 
 }
 
 /// Returns mode i for i = j, else the normalised sum (i < j) or difference (i > j) of two modes, as in
-/// [`Constraint::Rigidity`](super::constraint::Constraint). Where two singular values nearly coincide, their
-/// vectors are any two of the plane that they span, and a step that keeps both values may still lower one
-/// in between.
+/// [`Constraint::Rigidity`](super::constraint::Constraint). If two singular values nearly coincide, their
+/// vectors are any two of the plane that they span, and a step that keeps both values may still lower one in
+/// between.
 pub(super) fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
     if i == j {
         return modes[i].clone();

@@ -29,7 +29,7 @@ pub(super) struct Advancement<'a> {
     samples_max: usize,
     samples: usize,
     clearance: Option<Clearance>,
-    /// By pair of modules, and whether excused.
+    /// The worst collision of each pair of modules; excused ones apart.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
     used: BTreeSet<usize>,
     state: IntervalState,

@@ -93,7 +93,7 @@ impl ContactQuery<'_> {
         let columns = self.columns(&contacts);
         let mut sizes = Vec::with_capacity(columns.len());
         for contact_point in &contacts {
-            // What touches anew pushes nothing yet; what left is missed, and the others take it over.
+            // A new contact pushes nothing yet; the load of a lost one is missed, and the others take it over.
             let place = warm_start.contacts.binary_search(&(contact_point.feature, contact_point.k));
             sizes.extend(place.map_or([0.0; EDGES], |at| warm_start.wrenches[at]));
         }

@@ -59,7 +59,7 @@ impl ContactLp {
         problem.costs[last] = 1.0;
         problem.equal = balances(query, columns, &nodes, &node_of);
         if query.fixed_base {
-            // What holds the root gives whatever it needs.
+            // The holder of the root gives whatever force and moment it needs.
             problem.equal.drain(..6);
         }
         for row in &rows {
@@ -85,7 +85,7 @@ impl ContactLp {
         if total <= 0.0 {
             return f64::NEG_INFINITY;
         }
-        // What a unit force and moment on each link add to the weighted rows.
+        // The contribution of a unit force and moment on each link to the weighted rows.
         let model = query.model;
         let mut field = vec![Vector6::zeros(); model.bodies.len()];
         let mut constant = 0.0;
@@ -112,7 +112,7 @@ impl ContactLp {
                 return f64::NEG_INFINITY;
             }
         }
-        // Where no contact pushes there is no sum of sizes to bound.
+        // If no contact pushes there is no sum of sizes to bound.
         if query.fixed_base { constant } else { constant - y[2] + least }
     }
 }

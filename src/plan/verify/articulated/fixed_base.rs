@@ -77,7 +77,7 @@ struct GravityLoads<'a> {
     structure: Structure,
     /// Downwards in the frame of the base's body, of length 1.
     down: Vec3,
-    /// By link: the step of the kinematics that leads to it.
+    /// For each link: the step of the kinematics that leads to it.
     step_of: Vec<Option<usize>>,
     /// The steps that move, in the order of the structure's cuts.
     moving: Vec<usize>,

@@ -1,8 +1,8 @@
 //! The robot in the middle of an interval of time, with bounds on how it moves until the ends.
 //!
-//! Positions and velocities in the middle are exact. What follows from them to the ends is bounded, for each
-//! link as seen from an origin link (see [`levels`](super::reference_links)), by how far velocities can
-//! deviate from those in the middle:
+//! Positions and velocities in the middle are exact. Positions at the ends are bounded, for each link as seen
+//! from an origin link (see [`levels`](super::reference_links)), by how far velocities can deviate from those
+//! in the middle:
 //!
 //! - turning: `ω' = ω + q̇ z`, where the axis z turns with the link before, deviates by the joint's own
 //!   deviation plus `|q̇|` times the angle that z can turn by;

@@ -67,7 +67,7 @@ impl<'a> Monitor<'a> {
         self.tell(sample, ledger);
         let support = self.support(sample);
         if !sample.stance.held {
-            // What spans no area leaves no room at all.
+            // A polygon without area leaves no room at all.
             let distance = support.as_ref().map_or(0.0, |s| s.0.distance);
             let edge = || support.as_ref().map_or_else(Vec::new, |s| edge_names(sample, &s.1));
             keep_least(&mut ledger.verdict.margin, distance, sample.time, edge);

@@ -464,7 +464,7 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
     let held = structure.held(sample.model, sections, &wrenches);
     let ratios = structure.loads.iter().map(|load| structure.size(load, &held) / load.limit).collect();
     let all: Vec<usize> = (0..structure.loads.len()).collect();
-    // What is bolted down is balanced by what holds it, whatever loops carry.
+    // A base that is bolted down is balanced by its holder, whatever loops carry.
     let balanced = match sample.world.ground {
         Ground::Held => true,
         _ => libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held,

@@ -173,7 +173,7 @@ impl Judgement<'_> {
     fn step(&self, step: &Step, dynamics: &mut Dynamics, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let (stage, change) = (step.stage, &step.change);
         if change.is_none() {
-            // What does not move later is judged with the stage before.
+            // A later stage without motion is judged with the stage before.
             if step.from == 0.0 && change.smallest.0 > 0 {
                 self.still(step.before, ledger);
             }

@@ -39,7 +39,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         obstacles: Vec::new(),
         steepest,
     };
-    // What does not depend on time: obstacles, corners, node positions at the keyframes.
+    // Checks that do not depend on time: obstacles, corners, node positions at the keyframes.
     match surroundings::obstacles(paths) {
         Ok(obstacles) => judged.obstacles = obstacles,
         Err(why) => ledger.fail(judged.failure(CheckKind::Form, 0.0, vec![], format!("an obstacle: {why}"))),

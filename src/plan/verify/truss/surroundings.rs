@@ -177,7 +177,8 @@ impl Judgement<'_> {
     }
 
     /// Returns the depth of a node, or of a strut, below the ground where it is more than `sink`, m, and the part of
-    /// the step at which it is found. By conservative advancement; `None` where it is proved to be less.
+    /// the step at which it is found. The method is conservative advancement; `None` where the depth is proved to be
+    /// less.
     fn below(&self, step: &Step, terrain: &HeightField, ends: &[usize], sink: f64) -> Option<(f64, f64)> {
         // Going straight, a node is lowest above flat triangles where it crosses their sides.
         if let (&[node], Interpolation::Linear) = (ends, step.interpolation) {
