@@ -1,8 +1,9 @@
 //! modl: a language for robots that change shape.
 //!
-//! The journey of the data, and the rooms in reading order; each knows only those above it:
-//! text ([`source`], [`units`], [`interrupt`]) → tree ([`syntax`], and back to text: [`format`](mod@format)) → types ([`check`]) → values ([`interpret`]) →
-//! plan ([`behavior`], [`planners`]) → verdict ([`plan`]) → file or picture ([`view`]). See `docs/architecture.md`.
+//! The flow of data, and the rooms in reading order; each knows only those above it: text ([`source`],
+//! [`units`], [`interrupt`]) → tree ([`syntax`], and back to text: [`format`](mod@format)) → types
+//! ([`check`]) → values ([`interpret`]) → plan ([`behavior`], [`planners`]) → verdict ([`plan`]) → file or
+//! picture ([`view`]). See `docs/architecture.md`.
 
 #![warn(unreachable_pub)]
 

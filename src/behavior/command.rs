@@ -26,7 +26,7 @@ impl Run<'_> {
         match &action.command {
             Command::Move { joint, target, duration, profile } => {
                 let end = self.begin_move(action, *joint, *target, *duration, *profile)?;
-                // A condition takes the place of "has arrived".
+                // A condition replaces "has arrived".
                 Ok((Some(end).filter(|_| action.until.is_none()), None))
             }
             Command::Spin { joint, speed, duration: Some(duration) } => {
@@ -70,7 +70,7 @@ impl Run<'_> {
         let same = matches!(target, Target::To(_))
             && motion.command.as_ref().is_some_and(|(command, _)| *command == action.command);
         if let Some(end) = motion.ends().filter(|end| same && *end > self.now) {
-            // The joint is on its way already.
+            // The joint is moving there already.
             return Ok(end);
         }
         // The joint is taken over where it is, and brakes first if it moves.
@@ -101,7 +101,7 @@ impl Run<'_> {
         self.give(action, joint, pieces)
     }
 
-    /// The time that is left of a stated duration after braking; too little time for the joint's
+    /// Returns the time that is left of a stated duration after braking; too little time for the joint's
     /// limits is noted, not refused: the judge of plans sees it, too.
     fn given_duration(
         &mut self,
@@ -194,7 +194,7 @@ impl Run<'_> {
         Ok(motion.append(self.now, pieces, action.cause))
     }
 
-    /// Ends what the joint was doing. Position and speed that it has.
+    /// Ends the motion of a joint. Returns its position and speed at that time.
     fn take_over(&mut self, joint: JointId) -> (f64, f64) {
         self.motions[joint.0 as usize].cut(self.now)
     }

@@ -15,7 +15,7 @@ pub(super) const DEPTH_MAX: usize = 64;
 pub(super) struct View<'a> {
     pub(super) robot: &'a Assembly,
     pub(super) motions: &'a [Motion],
-    /// A flag for every bond: whether it holds.
+    /// True, by bond, if it holds.
     pub(super) holds: &'a [bool],
     /// The time at which the action began, s.
     pub(super) began: f64,
@@ -56,7 +56,7 @@ pub(super) fn depth(condition: &Condition) -> usize {
     deepest
 }
 
-/// The conditions that a condition is made of.
+/// Returns the conditions that a condition is made of.
 fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
     let (a, b) = match condition {
         Condition::And(a, b) | Condition::Or(a, b) => (Some(&**a), Some(&**b)),
@@ -95,7 +95,7 @@ fn holds(condition: &Condition, view: &View, t: f64) -> bool {
     }
 }
 
-/// The ports docked to a port.
+/// Returns the ports docked to a port.
 fn bonds_of<'a>(view: &'a View, port: PortRef) -> impl Iterator<Item = PortRef> + 'a {
     let holding = view.robot.bonds.iter().zip(view.holds).filter(|(_, holds)| **holds);
     holding.filter_map(move |(bond, _)| match port {

@@ -81,7 +81,7 @@ struct Commanded<'a> {
 
 struct Search {
     found: Conflicts,
-    /// Pairs found already, told apart by whether their setpoints are equal.
+    /// The pairs found already, with true where their setpoints are equal.
     seen: BTreeSet<(bool, CauseId, CauseId)>,
 }
 
@@ -133,7 +133,7 @@ impl Search {
         large
     }
 
-    /// Two branches command one joint: a contradiction, or the same twice.
+    /// Merges the commands of two branches to one joint: a contradiction, or the same command twice.
     fn beside(&mut self, joint: JointId, a: Commanded, b: Commanded) {
         if let Some(unlike) = b.unlike(a.one) {
             self.report(joint, a.one, unlike, false);
@@ -160,13 +160,13 @@ impl Search {
 }
 
 impl<'a> Commanded<'a> {
-    /// One of the commands whose setpoint is not that of the action given.
+    /// Returns one of the commands whose setpoint differs from that of the action given.
     fn unlike(&self, action: &Action) -> Option<&'a Action> {
         [Some(self.one), self.other].into_iter().flatten().find(|a| !same(&a.command, &action.command))
     }
 }
 
-/// The joint that a command sets a setpoint for.
+/// Returns the joint that a command sets a setpoint for.
 fn commanded(command: &Command) -> Option<JointId> {
     match command {
         Command::Move { joint, .. } | Command::Spin { joint, .. } | Command::Follow { joint, .. } => {
@@ -177,7 +177,7 @@ fn commanded(command: &Command) -> Option<JointId> {
 }
 
 /// Returns `true` where two commands to one joint set the same setpoint. A setpoint relative to the joint's
-/// position when the command comes is never the same twice.
+/// position at that time never equals another.
 fn same(a: &Command, b: &Command) -> bool {
     match (a, b) {
         (Command::Move { target: Target::To(a), .. }, Command::Move { target: Target::To(b), .. }) => a == b,

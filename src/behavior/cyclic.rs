@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Run<'_> {
-    /// Begins a phase, an approach or a stretch; returns when it ends.
+    /// Begins a phase, an approach or a stretch; returns the time at which it ends.
     pub(super) fn begin_cycle(&mut self, node: &Node) -> Result<f64, Refusal> {
         match node {
             Node::Stretch { body, duration, cause } => self.begin_stretch(body, *duration, *cause),
@@ -53,7 +53,7 @@ impl Run<'_> {
         Ok(self.now + duration)
     }
 
-    /// Brings the joints to where the phase begins. Returns the round and when they are there.
+    /// Moves the joints to the beginning of the phase. Returns the round and the time at which they arrive.
     fn approach(&mut self, body: &Arc<Node>, shift: f64, cause: CauseId) -> Result<(Round, f64), Refusal> {
         let round = self.round(body, shift, cause)?;
         let mut lead: f64 = 0.0;
@@ -73,7 +73,7 @@ impl Run<'_> {
         Ok((round, self.now + lead))
     }
 
-    /// Least time for a joint to come to where the round begins; 0 if it is there.
+    /// Returns the least time for a joint to move to the beginning of the round; 0 if it is there.
     fn lead(&self, moved: &Moved, cause: CauseId) -> Result<f64, Refusal> {
         let at = self.motions[moved.joint.0 as usize].position(self.now);
         if (at - moved.begins).abs() <= self.settings.tol_begin {
@@ -103,7 +103,7 @@ impl Run<'_> {
         Ok(end)
     }
 
-    /// One round of the body's cycle, begun at `shift`.
+    /// Returns one round of the body's cycle, begun at `shift`.
     fn round(&mut self, body: &Arc<Node>, shift: f64, cause: CauseId) -> Result<Round, Refusal> {
         if !(0.0..=1.0).contains(&shift) {
             return Err(Refusal::at(cause, Reason::BadNumber { what: "a phase", value: shift }));
@@ -196,8 +196,8 @@ struct Moved {
     absolute: bool,
 }
 
-/// A track over one round, begun at `cut` and wrapped round the end of the round. The part after the end goes
-/// on from where the joint is then.
+/// Returns a track over one round, begun at `cut` and wrapped round the end of the round. The part after the
+/// end continues from the joint's position then.
 fn wrapped(track: &Track, start: f64, cut: f64, duration: f64) -> Moved {
     let gain = track.position(start, duration) - start;
     let mut segments = Vec::new();
@@ -217,7 +217,7 @@ fn wrapped(track: &Track, start: f64, cut: f64, duration: f64) -> Moved {
     Moved { joint: track.joint, begins: track.position(start, cut), segments, absolute: false }
 }
 
-/// Joints that a body sends to places, and not only some way further.
+/// Returns the joints that a body moves to positions, and not only by displacements.
 fn absolute_joints(body: &Arc<Node>) -> BTreeSet<JointId> {
     let places = Graph::of(body);
     let absolute = places.actions().filter_map(|action| match action.command {

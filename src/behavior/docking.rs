@@ -43,7 +43,7 @@ pub(super) fn mate(robot: &Assembly, a: PortRef, b: PortRef) -> bool {
     a.module != b.module && robot.library.connectors[connector(a)].mates.contains(&connector(b))
 }
 
-/// The pose of port `b` in the frame of port `a`, `X_PQ`; `None` where no bonds connect them.
+/// Returns the pose of port `b` in the frame of port `a`, `X_PQ`; `None` where no bonds connect them.
 fn between(robot: &Assembly, holds: &[bool], joints: &[f64], a: PortRef, b: PortRef) -> Option<Pose> {
     let kinematics = Kinematics::new(robot, holds, a.module);
     if kinematics.tree.loose.contains(&b.module) {
@@ -55,7 +55,8 @@ fn between(robot: &Assembly, holds: &[bool], joints: &[f64], a: PortRef, b: Port
     Some(X_RP.inverse() * kinematics.port_pose(robot, b, &poses))
 }
 
-/// The bond with the allowed turn that is nearest to the pose of the ports, and its hinge, rad.
+/// Returns the bond with the allowed turn that is nearest to the pose of the ports, and its hinge's position,
+/// rad.
 fn nearest(robot: &Assembly, a: PortRef, b: PortRef, X_PQ: &Pose) -> (Bond, Option<f64>) {
     let connector = robot.module_type(a.module).ports[a.port].connector;
     let connector = &robot.library.connectors[connector];
@@ -81,7 +82,7 @@ fn nearest(robot: &Assembly, a: PortRef, b: PortRef, X_PQ: &Pose) -> (Bond, Opti
 /// The difference of fits, rad, below which two turns are equally near: rounding must not choose.
 const TURN_TIE: f64 = 1e-9;
 
-/// The angle of the turn about an axis that comes nearest to a rotation, rad.
+/// Returns the angle of the turn about an axis that comes nearest to a rotation, rad.
 fn twist(pose: &Pose, axis: &crate::geometry::Vec3) -> f64 {
     let along = pose.rotation.imag().dot(axis) / axis.norm();
     let angle = 2.0 * libm::atan2(along, pose.rotation.w);

@@ -69,7 +69,7 @@ fn made(
     JointFacts { name, owner, uncommandable, prismatic, range, speed, acceleration }
 }
 
-/// A joint's own limits, tightened by every motor that drives it.
+/// Returns a joint's own limits, tightened by every motor that drives it.
 fn with_motors(kind: &ModuleType, joint: usize) -> Limits {
     let mut limits = kind.joints[joint].limits;
     for motor in &kind.motors {

@@ -7,7 +7,7 @@ use crate::plan::time::{tick_after, tick_near};
 /// A piece of motion that lasts `duration` seconds; control points are positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// Seconds.
+    /// The duration, s.
     pub duration: f64,
     /// Control points in Bernstein form, rad or m.
     pub control: Vec<f64>,
@@ -16,9 +16,9 @@ pub struct Piece {
 /// The greatest speed and acceleration of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotionLimits {
-    /// rad/s or m/s; `None`: no limit.
+    /// The greatest speed, rad/s or m/s; `None`: no limit.
     pub speed: Option<f64>,
-    /// rad/s² or m/s²; `None`: no limit.
+    /// The greatest acceleration, rad/s² or m/s²; `None`: no limit.
     pub acceleration: Option<f64>,
 }
 
@@ -83,11 +83,12 @@ fn trapezoid(from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece
     pieces
 }
 
-/// The duration `r` of each ramp of a trapezoid, s: `a·r·(T-r) = distance`, or a fixed part of the time.
+/// Returns the duration `r` of each ramp of a trapezoid, s: `a·r·(T-r) = distance`, or a fixed part of the
+/// time.
 fn ramp(distance: f64, duration: f64, able: MotionLimits) -> f64 {
     let Some(a) = able.acceleration else { return duration * RAMP };
     let square = duration * duration - 4.0 * distance / a;
-    // Below zero the duration is too short for the acceleration: ramps all the way come nearest.
+    // Below zero the duration is too short for the acceleration: ramps over the whole duration come nearest.
     (duration - libm::sqrt(square.max(0.0))) / 2.0
 }
 

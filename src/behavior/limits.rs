@@ -90,7 +90,7 @@ pub enum IssueKind {
         /// The path name of the second port.
         b: String,
     },
-    /// Not finite, negative, or out of order.
+    /// The number is not finite, is negative, or is out of order.
     BadNumber {
         /// The number.
         value: f64,
@@ -204,7 +204,8 @@ impl<'a> Judge<'a> {
         self.report(Part::Duration, IssueKind::TooShort { joint, given, needed });
     }
 
-    /// The keyframes of a followed function, and the cubics between them: at most one issue of each kind.
+    /// Checks the keyframes of a followed function, and the cubics between them: at most one issue of each
+    /// kind.
     fn keyframes(&mut self, joint: JointId, keyframes: &[[f64; 3]]) {
         let before = self.found.len();
         if let Some(value) = keyframes.iter().flatten().copied().find(|v| !v.is_finite()) {

@@ -80,7 +80,7 @@ pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(Joi
     marks.iter().map(|mark| mark.as_ref().and_then(|m| mirror.image(m, &marks))).collect()
 }
 
-/// The features that tell a joint from others, in the frame of the base, all joints at zero.
+/// The features by which a joint differs from others, in the frame of the base, all joints at zero.
 struct Mark {
     kind: usize,
     prismatic: bool,
@@ -133,7 +133,8 @@ impl Mirror {
         v - self.normal * (2.0 * v.dot(&self.normal))
     }
 
-    /// The nearest joint of the same type that is where the mirror puts this one.
+    /// Returns the nearest joint of the same type at the mirrored position of this one, with the sign of its
+    /// motion.
     fn image(&self, mark: &Mark, marks: &[Option<Mark>]) -> Option<(JointId, f64)> {
         let (centre, foot) = (self.point(mark.centre), self.point(mark.foot));
         // A right-handed turn about an axis is a left-handed turn about the axis in the mirror.

@@ -1,5 +1,5 @@
-//! The motion of one joint while a behaviour is scheduled: its past, and its future as far as no other
-//! command supersedes it.
+//! The trajectory of one joint while a behaviour is scheduled (trajectory generation): its past, and its
+//! future as far as no other command supersedes it.
 
 use super::law::Piece;
 use crate::plan::{CauseId, Command, Segment, polynomial};
@@ -34,14 +34,14 @@ impl Motion {
         Motion { past: vec![], ahead: VecDeque::new(), turning: None, rest: position, command: None }
     }
 
-    /// Makes what has ended by `now` past.
+    /// Moves the segments that have ended by `now` to the past.
     pub(super) fn pass(&mut self, now: f64) {
         while self.ahead.front().is_some_and(|s| s.end <= now) {
             self.past.extend(self.ahead.pop_front());
         }
     }
 
-    /// Position at a time that is not before the last [`pass`](Motion::pass).
+    /// Returns the position at a time that is not before the last [`pass`](Motion::pass), rad or m.
     pub(super) fn position(&self, t: f64) -> f64 {
         let begun = self.ahead.iter().take_while(|s| s.start <= t).last();
         match (begun, self.turning) {
@@ -70,7 +70,7 @@ impl Motion {
         (position, speed)
     }
 
-    /// Speed just before `now`, if the motion goes on then; 0 if it has ended or not begun.
+    /// Returns the speed just before `now`, if the motion continues then; 0 if it has ended or not begun.
     fn speed_before(&self, now: f64) -> f64 {
         if let Some(turning) = self.turning.filter(|t| now >= t.since) {
             return turning.speed;
@@ -96,7 +96,7 @@ impl Motion {
         for Piece { duration, mut control } in pieces.into_iter().filter(|p| p.duration > 0.0) {
             let (begin, end) = (now, now + duration);
             now = end;
-            // Rounding must not tear the motion: it begins where the last piece ended.
+            // Rounding must not make the motion discontinuous: it begins where the last piece ended.
             control[0] = self.rest;
             let last = control[control.len() - 1];
             if control.iter().any(|&c| c != last) {
@@ -121,7 +121,7 @@ impl Motion {
         self.ahead.back().map(|s| s.end)
     }
 
-    /// The signal's pieces over `t0..t1` (which may be endless): each with its time and, in Bernstein
+    /// Returns the signal's pieces over `t0..t1` (which may be endless): each with its time and, in Bernstein
     /// form, the position over it. The last may be endless, and is then linear over its first second.
     pub(super) fn pieces(&self, t0: f64, t1: f64) -> Vec<SignalPiece> {
         let mut pieces = Vec::new();
@@ -151,7 +151,7 @@ impl Motion {
         pieces
     }
 
-    /// All segments, past and coming.
+    /// Returns all segments, past and coming.
     pub(super) fn into_segments(mut self) -> Vec<Segment> {
         self.past.extend(self.ahead);
         self.past
@@ -167,12 +167,12 @@ pub(super) struct SignalPiece {
 }
 
 impl SignalPiece {
-    /// Time over which the control points are spread.
+    /// Returns the duration over which the control points are spread, s.
     pub(super) fn span(&self) -> f64 {
         if self.end.is_finite() { self.end - self.start } else { 1.0 }
     }
 
-    /// The rate of the signal, over the same time.
+    /// Returns the rate of the signal, over the same time.
     pub(super) fn rate(&self) -> SignalPiece {
         let span = self.span();
         let control = polynomial::derivative(&self.control).into_iter().map(|c| c / span).collect();

@@ -30,7 +30,7 @@ pub enum Reason {
     },
     /// A duration, speed, target or keyframe that is not finite, is negative, or is out of order.
     BadNumber {
-        /// The number that is meant, in words.
+        /// The meaning of the number.
         what: &'static str,
         /// The number.
         value: f64,
@@ -57,7 +57,7 @@ pub enum Reason {
     StillTurning {
         /// The path name of the joint.
         joint: String,
-        /// rad/s or m/s.
+        /// The speed, rad/s or m/s.
         speed: f64,
     },
     /// The condition never holds in the undisturbed run.
@@ -66,7 +66,7 @@ pub enum Reason {
     Aborted {
         /// The message of `abort`.
         message: String,
-        /// Seconds.
+        /// The time, s.
         time: f64,
     },
     /// The port is taken.
@@ -95,7 +95,7 @@ pub enum Reason {
         /// The path name of the second port.
         b: String,
     },
-    /// A phase or stretch holds something that can't be shifted or scaled.
+    /// A phase or stretch contains an action that can't be shifted or scaled.
     NotCyclic {
         /// The part that cannot be shifted or scaled.
         what: &'static str,

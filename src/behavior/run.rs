@@ -20,7 +20,7 @@ pub(super) struct Run<'a> {
     pub(super) motions: Vec<Motion>,
     /// Positions at the start, joints of new bonds included.
     pub(super) start: Vec<f64>,
-    /// True for each bond that holds.
+    /// True, by bond, if it holds.
     pub(super) holds: Vec<bool>,
     pub(super) docks: Vec<Dock>,
     pub(super) exemptions: Vec<Exemption>,
@@ -30,7 +30,7 @@ pub(super) struct Run<'a> {
     pub(super) actions: u64,
     pub(super) steps: u64,
     pub(super) segments: u64,
-    /// The number of phases and stretches that this run is inside of.
+    /// The nesting depth of phases and stretches of this run.
     pub(super) cycles: u64,
     tasks: Vec<Task<'a>>,
     frames: Vec<Frame<'a>>,
@@ -83,7 +83,7 @@ struct Active<'a> {
     parent: Option<usize>,
     action: Option<&'a Action>,
     began: f64,
-    /// The number of the slot's tenant, counted on: events of earlier ones are void.
+    /// The generation of the slot: events of earlier ones are dropped.
     generation: u64,
     /// The joint to hold if the action ends before its motion.
     holds: Option<(JointId, CauseId)>,
@@ -224,7 +224,7 @@ impl<'a> Run<'a> {
         self.frames.len() - 1
     }
 
-    /// A child of the frame has completed: the next begins, or the frame completes, too.
+    /// Completes a child of the frame: the next begins, or the frame completes, too.
     fn complete(&mut self, frame: Option<usize>) {
         let Some(index) = frame else {
             self.done = true;
@@ -336,7 +336,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The action whose condition holds first, not after `horizon`; of equals the one begun first.
+    /// Returns the action whose condition holds first, not after `horizon`; of equals the one begun first.
     fn first_condition(&mut self, horizon: f64) -> Option<(usize, f64)> {
         if self.waiting.is_empty() {
             return None;
@@ -362,13 +362,13 @@ impl<'a> Run<'a> {
         limit(self.now as u64, DURATION_MAX as u64 - 1, "seconds")
     }
 
-    /// The action's motion is over.
+    /// Ends an action whose motion is over.
     fn end(&mut self, slot: usize) {
         let active = self.leave(slot);
         self.tasks.push(Task::Complete(active.parent));
     }
 
-    /// The action's condition holds.
+    /// Ends an action whose condition holds.
     fn end_early(&mut self, slot: usize) {
         let active = self.leave(slot);
         self.hold(&active);

@@ -1,4 +1,4 @@
-//! From a program to a plan's tracks: the undisturbed run of a series-parallel graph of actions.
+//! Trajectory generation: the tracks of a program's undisturbed run, a series-parallel graph of actions.
 //!
 //! The run goes from event to event. An action begins when all actions before it have completed; it
 //! completes when its motion has, or, if it has one, when its condition holds, or when its time runs
@@ -26,7 +26,7 @@ pub struct Problem {
     pub program: Arc<Node>,
     /// Handed on to the tracks: who set the start pose.
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// The cause of each connection: (bond, cause).
+    /// The cause of each bond: (bond, cause).
     pub bond_causes: Vec<(usize, CauseId)>,
     /// Limits and tolerances.
     pub settings: Settings,
@@ -46,7 +46,7 @@ pub struct Settings {
     /// The deepest nesting of phases and stretches in each other.
     pub cycles_max: u64,
     /// The greatest distance from the joint at which a followed function, or a cycle, may begin, rad or m:
-    /// what rounding explains and no eye sees.
+    /// what rounding explains and cannot be seen.
     pub tol_begin: f64,
     /// The part of the least time by which a stated duration may be shorter: rounding.
     pub tol_duration: f64,
@@ -83,8 +83,8 @@ pub struct Scheduled {
     pub issues: Vec<Issue>,
 }
 
-/// Schedules a behaviour: runs it undisturbed from event to event. Commands in conflict are not looked
-/// for here: see [`conflicts`](super::conflicts).
+/// Schedules a behaviour: runs it undisturbed from event to event. Commands in conflict are not searched
+/// here: see [`conflicts`](super::conflicts).
 ///
 /// # Errors
 /// A [`Refusal`] with the action to blame, where a command cannot be carried out, a condition never

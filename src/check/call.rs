@@ -487,7 +487,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::List(Arc::new(ty)), ExprKind::List(items))
     }
 
-    /// Binds the type parameters in `pattern` so that `got` fits it; returns whether it does.
+    /// Binds the type parameters in `pattern` so that `got` fits it; returns true if it does.
     fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
         match (pattern, got) {
             (_, Type::Error) => true,

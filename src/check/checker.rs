@@ -119,7 +119,7 @@ pub(super) struct ParamInfo {
 }
 
 impl ParamInfo {
-    /// Returns whether an argument may be left out: the parameter has a default, is variadic or optional.
+    /// Returns true if an argument may be left out: the parameter has a default, is variadic or optional.
     pub(super) fn may_be_left_out(&self) -> bool {
         self.has_default || self.variadic || matches!(self.ty, Type::Optional(_))
     }
@@ -162,7 +162,7 @@ pub(super) enum MemberInfoKind<'a> {
     Param(usize),
     Let(&'a ast::Let),
     Part(&'a ast::Part, usize),
-    /// A port clause, and whether it is an array.
+    /// A port clause, with true if it is an array.
     Port(&'a ast::ConfigClauseKind, bool),
     Behavior(usize),
     Node {
@@ -346,7 +346,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether a piece of text that could not be read would have declared this name.
+    /// Returns true if a piece of text that could not be read would have declared this name.
     pub(super) fn is_unread(&self, name: Symbol) -> bool {
         self.loaded.files.iter().any(|file| file.ast.unread.contains(&name))
     }

@@ -348,7 +348,7 @@ fn fn_of(want: &Type) -> &Type {
     alternatives(want).into_iter().find(|t| matches!(t, Type::Fn(_))).unwrap_or(want)
 }
 
-/// Returns whether a type mentions unbound type parameters.
+/// Returns true if a type mentions unbound type parameters.
 pub(super) fn has_params(ty: &Type) -> bool {
     match ty {
         Type::Param(_) | Type::QuantityParam { .. } => true,

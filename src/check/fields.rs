@@ -264,7 +264,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns whether an expected type, or one of its alternatives or elements, is of a kind.
+/// Returns true if an expected type, or one of its alternatives or elements, is of a kind.
 fn wants(want: &Type, kind: fn(&Type) -> bool) -> bool {
     match want {
         Type::Optional(t) | Type::List(t) => wants(t, kind),

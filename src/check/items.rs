@@ -122,7 +122,7 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Returns the type of a top-level `let`; `at` is the place that needs it.
+    /// Returns the type of a top-level `let`; `at` is the span that needs it.
     pub(super) fn inferred_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         if let DefItem::Let(ast::Let { ty: Some(ty), .. }) = self.def(id).item {
             let scope = Scope::new(self.def(id).file, None);
@@ -135,7 +135,7 @@ impl<'a> Checker<'a> {
         self.inferred_by_body(id, at)
     }
 
-    /// Returns the result type of a function; `at` is the place that needs it.
+    /// Returns the result type of a function; `at` is the span that needs it.
     pub(super) fn result_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         match self.signature(id).result.clone() {
             Some(ty) => ty,

@@ -36,7 +36,7 @@ impl Checker<'_> {
     }
 }
 
-/// Returns whether a name is in CamelCase.
+/// Returns true if a name is in CamelCase.
 fn is_camel(name: &str) -> bool {
     let name = name.trim_start_matches('_');
     name.starts_with(|c: char| c.is_ascii_uppercase()) && !name.contains('_')

@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether a name could stand for a number: a local, a parameter or `let` of the body, or a
+    /// Returns true if a name could stand for a number: a local, a parameter or `let` of the body, or a
     /// `let` of the file.
     pub(super) fn is_variable(&mut self, scope: &Scope, name: Symbol) -> bool {
         if let Some(ty) = scope.local_type(name) {

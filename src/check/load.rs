@@ -88,7 +88,7 @@ struct OpenFile {
     via: Option<Span>,
 }
 
-/// The place of a file: a path in the project or in the standard library.
+/// The location of a file: a path in the project or in the standard library.
 #[derive(Clone)]
 enum FilePlace {
     Project(String),

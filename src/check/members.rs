@@ -250,7 +250,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the type of a member as seen from outside; `at` is the place that needs it.
+    /// Returns the type of a member as seen from outside; `at` is the span that needs it.
     pub(super) fn member_type(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Type {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
@@ -280,7 +280,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether a declaration is a module or a configuration.
+    /// Returns true if a declaration is a module or a configuration.
     pub(super) fn is_part_type(&self, id: DefId) -> bool {
         matches!(self.family(id), Some(Family::Module | Family::Config))
     }

@@ -59,7 +59,7 @@ pub struct Checked {
 }
 
 impl Checked {
-    /// Returns whether any diagnostic is an error.
+    /// Returns true if any diagnostic is an error.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(|d| d.is_error())
     }

@@ -214,7 +214,7 @@ pub(super) fn choice_of(want: &Type) -> Option<&super::types::Choice> {
     }
 }
 
-/// Returns whether a name is a word of the expected choice.
+/// Returns true if a name is a word of the expected choice.
 pub(super) fn is_word(want: &Type, name: Symbol) -> bool {
     choice_of(want).is_some_and(|c| c.words.contains(&name))
 }

@@ -235,7 +235,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns whether values of a type can be compared for equality.
+/// Returns true if values of a type can be compared for equality.
 fn comparable(ty: &Type) -> bool {
     !matches!(ty, Type::Fn(_) | Type::Behavior | Type::Condition | Type::Signal(_) | Type::Nothing)
 }
@@ -272,7 +272,7 @@ fn literal(e: &Expr) -> Option<i32> {
     }
 }
 
-/// Returns whether an expression is a negative literal.
+/// Returns true if an expression is a negative literal.
 fn is_negative(e: &Expr) -> bool {
     literal(e).is_some_and(|n| n < 0)
 }

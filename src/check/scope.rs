@@ -84,7 +84,7 @@ impl Scope {
         self.frame.size as usize
     }
 
-    /// Returns whether a local of this name was added since the mark.
+    /// Returns true if a local of this name was added since the mark.
     pub(super) fn bound_since(&self, mark: (usize, u32), name: Symbol) -> bool {
         self.frame.locals[mark.0..].iter().any(|b| b.name == name)
     }
@@ -130,7 +130,7 @@ impl Scope {
         frames.filter_map(|f| f.find(name)).map(|b| &b.ty).next()
     }
 
-    /// Returns whether there is a local of this name.
+    /// Returns true if there is a local of this name.
     pub(super) fn has_local(&self, name: Symbol) -> bool {
         self.local_type(name).is_some()
     }

@@ -79,7 +79,7 @@ impl<'a> Checker<'a> {
         (args.is_empty() && !known).then_some(name.text)
     }
 
-    /// Returns whether a declaration is a type.
+    /// Returns true if a declaration is a type.
     fn is_type(&self, id: DefId) -> bool {
         self.family(id).is_some() || matches!(self.def(id).item, DefItem::Record(_))
     }
@@ -238,7 +238,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether a value of type `got` may be used where `want` is expected, radians dropped.
+    /// Returns true if a value of type `got` may be used where `want` is expected, radians dropped.
     pub(super) fn fits(&self, got: &Type, want: &Type) -> bool {
         match (got, want) {
             (Type::Error, _) | (_, Type::Error) => true,
@@ -323,7 +323,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns whether instances of a family belong to another: a module is the smallest configuration.
+/// Returns true if instances of a family belong to another: a module is the smallest configuration.
 fn is_a(family: Family, wanted: Family) -> bool {
     family == wanted || (family == Family::Module && wanted == Family::Config)
 }

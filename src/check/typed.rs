@@ -64,27 +64,27 @@ pub struct Def {
 /// The typed body of a declaration, by its keyword.
 #[derive(Clone, Debug)]
 pub enum DefKind {
-    /// `let`
+    /// A constant: `let`.
     Let(LetDef),
-    /// `fn`
+    /// A function: `fn`.
     Fn(FnDef),
-    /// `extern fn`
+    /// A built-in function: `extern fn`.
     Native(NativeDef),
-    /// `extern type`
+    /// A record type: `extern type`.
     Record(RecordDef),
-    /// `connector`
+    /// A connector: `connector`.
     Connector(ConnectorDef),
-    /// `module`
+    /// A module: `module`.
     Module(ModuleDef),
-    /// `cell`
+    /// A cell of a lattice: `cell`.
     Cell(FactsDef),
-    /// `strut`
+    /// A strut of a truss: `strut`.
     Strut(FactsDef),
-    /// `config`
+    /// A configuration: `config`.
     Config(ConfigDef),
-    /// `lattice`
+    /// A lattice: `lattice`.
     Lattice(LatticeDef),
-    /// `truss`
+    /// A truss: `truss`.
     Truss(TrussDef),
     /// A declaration that could not be understood, or a vacant one.
     Error,
@@ -173,7 +173,7 @@ pub struct ConnectorDef {
     pub mates: Vec<(DefId, Span)>,
     /// The number of turns at which it mates, evenly over a full turn; `None` if the clause is missing.
     pub turns: Option<Expr>,
-    /// The greatest forces and torques that it holds; the type of an expression tells which.
+    /// The greatest forces and torques that it holds; the type of an expression tells a force from a torque.
     pub holds: Vec<Expr>,
     /// The tolerances of docking: distance and angle.
     pub capture: Option<(Expr, Option<Expr>)>,
@@ -356,7 +356,7 @@ pub enum ModuleClause {
     Touching(usize, usize, Span),
     /// A local `let`.
     Let { local: Local, value: Expr },
-    /// `require`
+    /// A requirement: `require condition`.
     Require(Require),
     /// `if`; only the clauses of one branch are elaborated.
     If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
@@ -454,9 +454,9 @@ pub struct PartDef {
 /// The length of a list of parts.
 #[derive(Clone, Debug)]
 pub enum PartCount {
-    /// `part m[n]: ...`
+    /// A number of equal parts: `part m[n]: ...`.
     Number(Expr),
-    /// `part m[i in range]: ...`
+    /// One part for each element of a range, which its arguments can refer to: `part m[i in range]: ...`.
     Each { binder: Local, range: Expr },
 }
 
@@ -510,7 +510,7 @@ pub enum ConfigClause {
     Set { joint: Expr, value: Expr, span: Span },
     /// A local `let`.
     Let { local: Local, value: Expr },
-    /// `require`
+    /// A requirement: `require condition`.
     Require(Require),
     /// `if`; only the clauses of one branch are elaborated.
     If { condition: Expr, then: Vec<ConfigClause>, otherwise: Vec<ConfigClause> },
@@ -560,13 +560,13 @@ pub enum TrussBody {
 /// A clause of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussClause {
-    /// `name` is the member's; `index` its place in an array of nodes.
+    /// A node; its name is the member's, `index` its index in an array of nodes.
     Node { member: MemberId, index: Option<Expr>, value: Expr, span: Span },
     /// Nodes by member and index.
     Strut { a: NodeRef, b: NodeRef, span: Span },
     /// A local `let`.
     Let { local: Local, value: Expr },
-    /// `require`
+    /// A requirement: `require condition`.
     Require(Require),
     /// `if`; only the clauses of one branch are elaborated.
     If { condition: Expr, then: Vec<TrussClause>, otherwise: Vec<TrussClause> },

@@ -43,11 +43,11 @@ pub enum StmtKind {
     Let { local: Local, value: Expr },
     /// An expression; its value may be printed.
     Expr(Expr),
-    /// `expect condition, message`
+    /// A test of a condition: `expect condition, message`.
     Expect { condition: Expr, message: Option<Expr> },
-    /// `if`
+    /// A branch: `if`.
     If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
-    /// `for`
+    /// A loop: `for`.
     For { binder: Local, iterable: Expr, body: Vec<Stmt> },
 }
 
@@ -67,7 +67,7 @@ pub struct Expr {
 pub enum ExprKind {
     /// A mistake that has been reported.
     Error,
-    /// In SI; the dimension is in `ty`.
+    /// A number in SI units; its dimension is in `ty`.
     Number(f64),
     /// A whole number that fits.
     Int(i64),
@@ -104,13 +104,13 @@ pub enum ExprKind {
     Hinge(Box<Expr>),
     /// A field of a record.
     Field { object: Box<Expr>, field: Symbol },
-    /// `[a, b]`
+    /// A list: `[a, b]`.
     List(Vec<Expr>),
-    /// `[body for x in xs if c]`
+    /// A list comprehension: `[body for x in xs if c]`.
     Comprehension { body: Box<Expr>, clauses: Vec<Clause> },
-    /// `[x, y, z]` where a vector is expected.
+    /// A vector: `[x, y, z]` where one is expected.
     Vec3(Box<[Expr; 3]>),
-    /// `from..to`
+    /// A range: `from..to`.
     Range { from: Box<Expr>, to: Box<Expr> },
     /// A prefix operator with its operand.
     Unary { op: UnaryOp, operand: Box<Expr> },
@@ -122,9 +122,9 @@ pub enum ExprKind {
     TimeoutElse { action: Box<Expr>, otherwise: Box<Expr> },
     /// Drops radians, so that the dimension is that of `ty`.
     DropRadians(Box<Expr>),
-    /// `object[index]`
+    /// An element of a list: `object[index]`.
     Index { object: Box<Expr>, index: Box<Expr> },
-    /// `if condition { then } else { otherwise }`
+    /// A conditional expression: `if condition { then } else { otherwise }`.
     If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
     /// `{ statements value }`: a block; without `value` it has none.
     Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
@@ -145,8 +145,8 @@ pub enum ExprKind {
 /// A clause of a comprehension.
 #[derive(Clone, Debug)]
 pub enum Clause {
-    /// `for x in iterable`
+    /// A loop of a comprehension: `for x in iterable`.
     For { binder: Local, iterable: Expr },
-    /// `if condition`
+    /// A filter of a comprehension: `if condition`.
     If(Expr),
 }

@@ -5,8 +5,8 @@ use crate::source::Symbol;
 use crate::units::Dimension;
 use std::sync::Arc;
 
-/// The type of an expression. Types are erased at run time: only choices and optional values are told apart
-/// there.
+/// The type of an expression. Types are erased at run time: only choices and optional values are
+/// distinguished there.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Type {
     /// Something that was wrong and has been reported; it fits everywhere.
@@ -19,35 +19,35 @@ pub enum Type {
     Quantity(Dimension),
     /// A whole number; it is a `Number`.
     Int,
-    /// `Bool`
+    /// A truth value: `Bool`.
     Bool,
-    /// `Text`
+    /// A text: `Text`.
     Text,
-    /// `List<T>`
+    /// A list: `List<T>`.
     List(Arc<Type>),
     /// Three quantities; a direction is three numbers.
     Vec3(Arc<Type>),
-    /// `Pose`
+    /// A pose: `Pose`.
     Pose,
-    /// `Range<T>`
+    /// A range: `Range<T>`.
     Range(Arc<Type>),
-    /// `T?`
+    /// A value that may be missing: `T?`.
     Optional(Arc<Type>),
-    /// `fn(A, B) -> C`
+    /// A function: `fn(A, B) -> C`.
     Fn(Arc<FnType>),
     /// A choice of words and types.
     Choice(Arc<Choice>),
     /// `Joint<Angle>`, `Joint<Length>`
     Joint(Arc<Type>),
-    /// `Port`
+    /// A port of a module: `Port`.
     Port,
-    /// `Behavior`
+    /// A behaviour: `Behavior`.
     Behavior,
     /// `Signal<T>`: a value that changes during a behaviour.
     Signal(Arc<Type>),
     /// `Condition`: a truth that changes during a behaviour.
     Condition,
-    /// `Shape`
+    /// A shape: `Shape`.
     Shape,
     /// `revolute(...)`, `prismatic(...)`, `fixed()`: only a `joint` clause takes it.
     JointKind,
@@ -142,7 +142,7 @@ impl Type {
         }
     }
 
-    /// Returns whether the type stands for a reported mistake.
+    /// Returns true if the type stands for a reported mistake.
     pub fn is_error(&self) -> bool {
         *self == Type::Error
     }

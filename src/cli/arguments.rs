@@ -11,11 +11,13 @@ use std::path::PathBuf;
 #[command(name = "modl", version, arg_required_else_help = true, after_help = EXAMPLES)]
 #[command(args_conflicts_with_subcommands = true)]
 pub(super) struct Arguments {
+    /// The command; none: the help is shown.
     #[command(subcommand)]
     pub command: Option<Command>,
     /// Evaluate and print; several are entered one after the other
     #[arg(short = 'e', value_name = "EXPR")]
     pub expressions: Vec<String>,
+    /// The options of every command.
     #[command(flatten)]
     pub globals: Globals,
 }

@@ -87,7 +87,7 @@ impl Project {
         })?;
         let name = relative_name(inside)
             .ok_or_else(|| CallError(format!("the path of `{}` is not UTF-8", file.display())))?;
-        // If a link leads elsewhere, only the real folder tells the user where the file is.
+        // If a link leads elsewhere, only the real folder shows the user where the file is.
         let there = fs::canonicalize(if shown == Path::new("") { Path::new(".") } else { shown });
         let folder = if there.is_ok_and(|there| there == root) { shown } else { &root };
         Ok(Project { folder: shown_folder(folder), root, stdlib, name, bytes, watched: None })

@@ -79,7 +79,7 @@ impl Lines {
         }
     }
 
-    /// Adds an entry to the history. It is saved at once, since a session may end in many ways.
+    /// Adds an entry to the history. It is saved at once, since a session may end at any time.
     fn remember(&mut self, entry: &str) {
         if entry.trim().is_empty() {
             return;

@@ -63,7 +63,7 @@ fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(),
     Ok(())
 }
 
-/// Returns whether a path in a folder is searched: programs, and folders that are neither hidden nor links.
+/// Returns true if a path in a folder is searched: programs, and folders that are neither hidden nor links.
 fn belongs(path: &Path) -> bool {
     let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
     let kind = fs::symlink_metadata(path).map(|found| found.file_type());
@@ -72,7 +72,7 @@ fn belongs(path: &Path) -> bool {
     !hidden && (is_folder || is_program)
 }
 
-/// Formats a program, or checks its style. Returns whether it is readable and (with `check`) in style.
+/// Formats a program, or checks its style. Returns true if it is readable and (with `check`) in style.
 fn one(program: &Program, check: bool, report: &mut Report, globals: &Globals) -> Result<bool, CallError> {
     let Program { file, name, bytes } = program;
     let mut sources = Sources::default();

@@ -41,7 +41,7 @@ pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallEr
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
-/// Parses a plan file. Fails with a diagnostic at the place of the mistake.
+/// Parses a plan file. Fails with a diagnostic at the span of the mistake.
 pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
     let mut sources = Sources::default();
     let Ok(text) = String::from_utf8(bytes) else {
@@ -90,7 +90,7 @@ pub(super) fn judged(plan: &Plan) -> Verdict {
     verdict
 }
 
-/// Verifies a plan and prints the verdict; returns whether it is good.
+/// Verifies a plan and prints the verdict; returns true if it is good.
 fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> bool {
     let verdict = judged(plan);
     if !globals.json {
@@ -109,7 +109,7 @@ pub(super) fn read(file: &Path) -> Result<Vec<u8>, CallError> {
 /// The tolerance within which values of two verdicts are equal.
 const TOL_VERDICT: f64 = 1e-6;
 
-/// Returns whether the stated verdict differs from the one found.
+/// Returns true if the stated verdict differs from the one found.
 fn differs(stated: &Verdict, found: &Verdict) -> bool {
     let worst = |v: &Verdict| WORST_VALUES.map(|kind| (kind.of)(v).as_ref().map(|w| w.value));
     let near = |a: f64, b: f64| (a - b).abs() <= TOL_VERDICT;

@@ -61,8 +61,8 @@ fn parent_below(root: &Path, relative: &Path) -> Result<PathBuf, WriteError> {
     Ok(parent)
 }
 
-/// Fails if there is a link at the file's own place that leads out of `root`. It would be replaced and not
-/// followed, but someone has put it there on purpose.
+/// Fails if the file's own path is a link that leads out of `root`. It would be replaced and not followed,
+/// but someone has put it there on purpose.
 fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
     match fs::symlink_metadata(target) {
         Ok(found) if found.is_dir() => Err(WriteError::Failed("a folder has this name".to_owned())),
@@ -74,7 +74,7 @@ fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// Writes a file under a temporary name and moves it to its place.
+/// Writes a file under a temporary name and renames it.
 fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX);
@@ -83,7 +83,7 @@ fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
     filled(builder.tempfile_in(parent)?, target, bytes)
 }
 
-/// Writes the bytes and moves the file to its place.
+/// Writes the bytes and renames the file.
 fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.persist(target).map(drop).map_err(|e| e.error)

@@ -203,7 +203,7 @@ impl<'g> Repl<'g> {
         self.print_reply(&reply);
     }
 
-    /// Prints an outcome; returns whether the entry was accepted.
+    /// Prints an outcome; returns true if the entry was accepted.
     fn print_reply(&mut self, reply: &Reply) -> bool {
         self.terminal.clear_progress();
         self.show(&reply.checked, &reply.diagnostics);

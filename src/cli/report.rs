@@ -149,7 +149,7 @@ pub(super) fn width() -> usize {
     }
 }
 
-/// Returns whether text on standard error is coloured.
+/// Returns true if text on standard error is coloured.
 pub(super) fn color(choice: Color) -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     match choice {

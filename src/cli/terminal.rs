@@ -97,7 +97,7 @@ pub(super) fn begin_work() {
     }
 }
 
-/// Waits a grace period for cancelled work to end by `settle`, and returns whether it did. If it did not,
+/// Waits a grace period for cancelled work to end by `settle`, and returns true if it did. If it did not,
 /// work started from here on has a new cancellation token.
 pub(super) fn settled(settle: impl FnOnce() -> bool) -> bool {
     let old = cancel_state();
@@ -128,7 +128,7 @@ fn poll_progress() {
     });
 }
 
-/// Returns whether Ctrl-C has cancelled the command.
+/// Returns true if Ctrl-C has cancelled the command.
 pub(super) fn cancelled() -> bool {
     CANCELLED.load(Ordering::Relaxed)
 }

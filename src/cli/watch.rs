@@ -35,12 +35,12 @@ impl Watched {
         stamps.entry(file.to_owned()).or_insert_with(|| stamp(file));
     }
 
-    /// Returns whether a file has changed, so that the run is outdated.
+    /// Returns true if a file has changed, so that the run is outdated.
     pub(super) fn stale(&self) -> bool {
         self.stale.load(Ordering::Relaxed)
     }
 
-    /// Polls the files; returns whether one has changed.
+    /// Polls the files; returns true if one has changed.
     fn poll(&self) -> bool {
         let stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
         let changed = stamps.iter().any(|(file, before)| stamp(file) != *before);

@@ -30,7 +30,7 @@ const FAILURES_SHOWN: usize = 3;
 const TOL_INSTANT: f64 = 1e-9;
 
 impl Interpreter<'_> {
-    /// The tree of a behaviour with its times, as far as it can be planned from the start pose.
+    /// Returns the tree of a behaviour with its times, as far as it can be planned from the start pose.
     pub(super) fn display_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
         let Some(design) = behavior.robot.clone() else {
             return Ok("a behaviour that moves no robot".to_owned());
@@ -66,7 +66,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A sketch of a plan's time with its verdict.
+    /// Returns a sketch of a plan's time with its verdict.
     pub(super) fn display_plan(&mut self, planned: &Rc<PlanValue>) -> Eval<String> {
         let duration = planned.plan.body.duration();
         let settings = self.judge_settings();
@@ -96,7 +96,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// The times at which each thing moves: a joint, or the whole of what has no joints.
+/// Returns the times at which each thing moves: a joint, or the whole of what has no joints.
 fn rows(planned: &PlanValue, duration: f64) -> Vec<(String, String)> {
     match (planned.plan.body.tracks(), &planned.body) {
         (Some(tracks), Some(robot)) => {
@@ -159,7 +159,7 @@ impl Names {
         self.joints.get(joint.0 as usize).map_or_else(String::new, |(name, _)| name.clone())
     }
 
-    /// A position of a joint.
+    /// Returns a position of a joint.
     fn amount(&self, joint: JointId, x: f64) -> String {
         let slides = self.joints.get(joint.0 as usize).is_some_and(|(_, slides)| *slides);
         quantity(x, if slides { Dimension::LENGTH } else { Dimension::ANGLE })
@@ -197,7 +197,7 @@ struct Drawer<'a> {
 }
 
 impl Drawer<'_> {
-    /// A node that begins at a time, if that is known.
+    /// Returns a node that begins at a time, if that is known.
     fn branch(&mut self, node: &Node, from: Option<f64>, depth: usize) -> Branch {
         self.drawn += 1;
         if self.drawn > NODES_DRAWN || depth > DEPTH_DRAWN {
@@ -239,7 +239,7 @@ impl Drawer<'_> {
         Branch { text: format!("{words}{}", times.unwrap_or_default()), below }
     }
 
-    /// When a node ends that begins at a time, as the tracks have it.
+    /// Returns the time at which a node ends that begins at a time, s, as the tracks have it.
     fn end(&mut self, node: &Node, from: f64) -> Option<f64> {
         self.timed += 1;
         if self.timed > NODES_TIMED {

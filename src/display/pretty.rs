@@ -13,7 +13,7 @@ use std::any::Any;
 pub(super) const LINES_MAX: usize = 40;
 
 impl Interpreter<'_> {
-    /// A value over as many lines as it needs, the first of which can stand alone.
+    /// Returns a value over as many lines as it needs, the first of which can stand alone.
     pub(super) fn display_value(&mut self, value: &Value) -> Eval<String> {
         Ok(match value {
             Value::Text(text) => quoted(text),
@@ -43,7 +43,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// A text as it could be written.
+/// Returns a text as it could be written.
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
@@ -76,7 +76,7 @@ impl Branch {
         Branch { text: text.into(), below: Vec::new() }
     }
 
-    /// Two columns for each level; what does not fit is counted.
+    /// Returns the tree as text: two columns for each level; lines that do not fit are counted.
     pub(super) fn drawn(&self) -> String {
         let mut lines = vec![self.text.clone()];
         self.draw_below("", &mut lines);
@@ -97,12 +97,12 @@ impl Branch {
     }
 }
 
-/// `1 module`, `3 modules`
+/// Returns a number of things in words: `1 module`, `3 modules`.
 pub(super) fn counted(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-/// Names with the ends of equal beginnings joined, no more of them than fit a line.
+/// Returns names in words, with the ends of equal beginnings joined, no more of them than fit a line.
 pub(super) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 6;
     let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");

@@ -94,7 +94,7 @@ impl Interpreter<'_> {
         Branch { text, below }
     }
 
-    /// The parts, each with its own, elements of a list that are alike together.
+    /// Returns the parts, each with its own, elements of a list that are alike together.
     fn parts(&self, design: &Rc<Design>) -> Vec<Branch> {
         let Some(groups) = design.config().and_then(|config| config.parts.get()) else { return Vec::new() };
         let mut found = Vec::new();
@@ -182,12 +182,12 @@ impl Interpreter<'_> {
     }
 }
 
-/// `port` or `ports`, by how many there are.
+/// Returns `port` or `ports`, by how many there are.
 fn plural(n: usize, what: &str) -> String {
     if n == 1 { what.to_owned() } else { format!("{what}s") }
 }
 
-/// `turns about [0, 1, 0], -90deg..90deg, at most 60deg/s`
+/// Returns a joint in words: `turns about [0, 1, 0], -90deg..90deg, at most 60deg/s`.
 fn joint_words(joint: &Joint, dimension: Dimension) -> String {
     let kind = match joint.kind {
         JointKind::Revolute => "revolute",
@@ -212,7 +212,7 @@ fn mass_words(design: &Rc<Design>) -> String {
     quantity(mass, Dimension::MASS)
 }
 
-/// Free ports, by module: `m[0].left`, as in the robot that the instance belongs to.
+/// Returns the free ports, by module: `m[0].left`, as in the robot that the instance belongs to.
 fn free_of(instance: &Instance) -> Vec<String> {
     let robot = &instance.robot;
     let lone = ConfigDesign::default();

@@ -9,7 +9,7 @@ use crate::planners::fold::pattern::Pattern;
 const COLUMNS_MAX: i64 = 120;
 const ROWS_MAX: i64 = 60;
 
-/// Layer by layer from the highest, each as `cells` reads it: y up, x to the right.
+/// Returns the cells layer by layer from the highest, each as `cells` reads it: y up, x to the right.
 pub(super) fn cells(cells: &Cells) -> String {
     let count = counted(cells.places.len(), "cell");
     let ends = |axis: usize| {
@@ -39,7 +39,7 @@ pub(super) fn cells(cells: &Cells) -> String {
 /// Columns between the middles of two triangles side by side.
 const PITCH: usize = 4;
 
-/// A pattern of equal triangles: each with its number between its sides, rows as they lie.
+/// Returns a pattern of equal triangles: each with its number between its sides, rows as they lie.
 pub(super) fn pattern(pattern: &Report) -> String {
     let count = counted(pattern.target.faces.len(), "panel");
     let flat = Pattern::of(&pattern.target, &pattern.layout);
@@ -74,14 +74,14 @@ pub(super) fn pattern(pattern: &Report) -> String {
 struct Triangle {
     face: usize,
     row: i64,
-    /// Of its left end, in half sides.
+    /// The column of its left end, in half sides.
     column: i64,
     /// True if its tip is up.
     up: bool,
 }
 
-/// From the sum of its corners in the two steps of the lattice, of which the second leans to the
-/// right by half a side.
+/// Returns the triangle of a face by the sum of its corners in the two steps of the lattice, of which the
+/// second leans to the right by half a side.
 fn triangle(face: usize, [a, b]: [i64; 2]) -> Triangle {
     let up = a.rem_euclid(3) == 1;
     let (u, v) = (a.div_euclid(3), b.div_euclid(3));

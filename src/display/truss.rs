@@ -18,13 +18,13 @@ const APART: usize = 4;
 /// More struts are only counted.
 const STRUTS_DRAWN: usize = 2_000;
 
-/// From which side nodes are seen: their coordinates to the right and up.
+/// The side from which nodes are seen: a function to their coordinates to the right and up.
 type Side = fn(&Vec3) -> [f64; 2];
 
 const FRONT: Side = |p| [p.x, p.z];
 const ABOVE: Side = |p| [p.x, p.y];
 
-/// A truss with its facts and two pictures.
+/// Returns a truss with its facts and two pictures.
 pub(super) fn truss(design: &Design, truss: &TrussDesign) -> String {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     let nodes: Vec<Vec3> = truss.nodes.iter().map(|node| node.place).collect();
@@ -133,7 +133,7 @@ fn beside(pieces: &[String]) -> String {
     format!("  {}", padded.collect::<String>()).trim_end().to_owned()
 }
 
-/// The least and the greatest coordinates.
+/// Returns the least and the greatest coordinates.
 fn bounds(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
     let of = |pick: fn(f64, f64) -> f64, begin: f64| {
         [0, 1].map(|axis| points.iter().map(|p| p[axis]).fold(begin, pick))
@@ -163,7 +163,7 @@ fn dots(points: &[[f64; 2]], low: [f64; 2], scale: f64, struts: &[(usize, usize)
     cells.iter().map(|row| row.iter().map(shown).collect::<String>().trim_end().to_owned()).collect()
 }
 
-/// The bit of a dot, by column and by row from the top.
+/// Returns the bit of a dot, by column and by row from the top.
 fn dot(column: usize, row: usize) -> u8 {
     match (column, row) {
         (0, 3) => 0x40,

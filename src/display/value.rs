@@ -107,14 +107,14 @@ fn without_radians(dimension: Dimension) -> Dimension {
     if named && dimension.fits(dropped) { dropped } else { dimension }
 }
 
-/// Each coordinate with a unit of its own.
+/// Returns a vector, each coordinate with a unit of its own.
 fn show_vector(v: &Vec3, dimension: Dimension) -> String {
     let coordinate = |x: f64| if x.abs() < COORDINATE_ROUNDING { 0.0 } else { x };
     let parts: Vec<String> = v.iter().map(|&x| quantity(coordinate(x), dimension)).collect();
     format!("[{}]", parts.join(", "))
 }
 
-/// The position, and the turn about its axis.
+/// Returns a pose: the position, and the turn about its axis.
 fn show_pose(pose: &crate::geometry::Pose) -> String {
     let at = show_vector(&pose.translation.vector, Dimension::LENGTH);
     let (axis, angle) = axis_angle(pose);

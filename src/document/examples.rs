@@ -55,7 +55,7 @@ pub(crate) fn examples(text: &str) -> Vec<Example> {
 /// The length of `///` and `//!` in bytes.
 const MARK: usize = 3;
 
-/// Returns whether a comment is documentation.
+/// Returns true if a comment is documentation.
 fn is_doc(kind: ast::CommentKind) -> bool {
     matches!(kind, ast::CommentKind::ItemDoc | ast::CommentKind::FileDoc)
 }

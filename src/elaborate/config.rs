@@ -14,7 +14,7 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// A requirement with the variables it was met with: it is asked when the body is complete.
+/// A requirement with the variables of its scope: it is checked when the body is complete.
 pub struct Deferred<'d> {
     /// The clause.
     pub require: &'d Require,
@@ -49,7 +49,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Elaborates the parts and lists their modules; gives whether all are known.
+    /// Elaborates the parts and lists their modules; returns true if all are known.
     fn elaborate_parts(
         &mut self,
         def: &ConfigDef,
@@ -330,7 +330,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// `leg[2] (i = 3)` from the path of a part and what was said about its inside.
+/// Returns `leg[2] (i = 3)` from the path of a part and the label of its inside.
 fn inherited(part: &str, inside: &str) -> Rc<str> {
     match inside {
         "" => part.into(),
@@ -340,7 +340,7 @@ fn inherited(part: &str, inside: &str) -> Rc<str> {
     }
 }
 
-/// That a joint can't be at a position.
+/// Returns the message that a joint can't be at a position (rad or m), with its range.
 pub fn outside(joint: &str, position: f64, (low, high): (f64, f64), dimension: Dimension) -> String {
     let [position, low, high] = [position, low, high].map(|x| quantity(x, dimension));
     format!("{joint} can't be at {position}: its range is {low} to {high}")

@@ -20,7 +20,7 @@ const CLOSURE_DISTANCE_MAX: f64 = 1e-6;
 const CLOSURE_ANGLE_MAX: f64 = 1e-6;
 
 impl Interpreter<'_> {
-    /// `connect a -- b turn t`
+    /// Adds the connection `connect a -- b turn t`.
     pub(super) fn connect(
         &mut self,
         config: &ConfigDesign,
@@ -125,7 +125,7 @@ impl Interpreter<'_> {
         diagnostic.into()
     }
 
-    /// Free ports of the module of `port` whose connectors mate with `wanted`.
+    /// Returns the free ports of the module of `port` whose connectors mate with `wanted`.
     fn mating_ports(
         &mut self,
         config: &ConfigDesign,
@@ -152,7 +152,7 @@ impl Interpreter<'_> {
             .into()
     }
 
-    /// Every module must hang together with the first.
+    /// Checks that every module is connected with the first.
     pub(super) fn check_connected(
         &mut self,
         def: &ConfigDef,
@@ -189,7 +189,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Loops that are declared must meet.
+    /// Checks that the loops that are declared close.
     pub(super) fn check_closure(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let Some(closed) = def.closed else { return Ok(()) };
         if design.broken.get() {
@@ -217,7 +217,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// The number of steps of the connector's turns that an angle is.
+/// Returns the number of steps of the connector's turns that an angle is.
 fn allowed_turn(connector: &ConnectorDesign, angle: f64, span: Span) -> Eval<u32> {
     let turns = f64::from(connector.connector.turns);
     let steps = angle / std::f64::consts::TAU * turns;
@@ -246,7 +246,7 @@ fn neighbours(config: &ConfigDesign, count: usize) -> Vec<Vec<usize>> {
     lists
 }
 
-/// The modules on the way from `from` to `to`, both included, in order of index; `None` where no
+/// Returns the modules on the path from `from` to `to`, both included, in order of index; `None` where no
 /// connection leads there.
 fn path_between(config: &ConfigDesign, from: usize, to: usize) -> Option<Vec<usize>> {
     let count = config.modules.get().map_or(0, Vec::len);
@@ -270,7 +270,7 @@ fn path_between(config: &ConfigDesign, from: usize, to: usize) -> Option<Vec<usi
     Some(path)
 }
 
-/// Names of the free ports of a module.
+/// Returns the names of the free ports of a module.
 pub fn free_ports<'c>(
     config: &'c ConfigDesign,
     robot: &Rc<Design>,

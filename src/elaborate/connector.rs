@@ -17,7 +17,7 @@ const TURNS_MAX: i64 = 3600;
 const CAPTURE_ANGLE_DEFAULT: f64 = std::f64::consts::PI;
 
 impl Interpreter<'_> {
-    /// The connector of a declaration, elaborated once; `None` where it is not sound.
+    /// Returns the connector of a declaration, elaborated once; `None` where it is broken.
     pub(super) fn connector(&mut self, def: DefId) -> Eval<Option<Rc<ConnectorDesign>>> {
         let index = def.0 as usize;
         if let Some(known) = &self.memory.connectors[index] {
@@ -102,7 +102,7 @@ impl Interpreter<'_> {
         Ok(Some(Hinge { axis: axis.normalize(), limits }))
     }
 
-    /// The built-in of this name.
+    /// Returns the built-in of this name.
     pub(super) fn native_named(&self, key: &str) -> Option<DefId> {
         let is_it = |kind: &DefKind| matches!(kind, DefKind::Native(native) if native.key == key);
         let index = self.shared.program.defs.iter().position(|def| is_it(&def.kind))?;
@@ -135,7 +135,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// The value of an expression that must be a positive number.
+    /// Returns the value of an expression that must be a positive number.
     pub(super) fn positive(&mut self, expr: &Expr, what: &str, frame: &mut Frame) -> Eval<f64> {
         match self.eval(expr, frame)?.as_number() {
             Some(x) if x > 0.0 => Ok(x),

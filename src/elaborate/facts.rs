@@ -74,7 +74,7 @@ impl Interpreter<'_> {
         Ok((!self.failed_since(mark)).then_some(DesignKind::Strut(strut)))
     }
 
-    /// The facts that are positive quantities, in order, passing over ranges; fewer where one is
+    /// Returns the facts that are positive quantities, in order, passing over ranges; fewer where one is
     /// missing, which is reported. Only `clearance` may be left out.
     fn positive_facts(
         &mut self,

@@ -11,7 +11,7 @@ use crate::units::Dimension;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// The joint of the connection at a port, from whichever of its two sides it is named.
+    /// Returns the joint of the connection at a port, from whichever of its two sides it is named.
     pub(super) fn find_hinge(&mut self, port: &PortValue, span: Span) -> Eval<Value> {
         let at = (port.module, port.port);
         let bond = port.robot.config().and_then(|config| config.taken.borrow().get(&at).copied());
@@ -40,7 +40,7 @@ impl Interpreter<'_> {
         Ok(hinge.unwrap_or_default())
     }
 
-    /// The connector whose hinge a connection has: that of its first port, as in an assembly.
+    /// Returns the connector whose hinge a connection has: that of its first port, as in an assembly.
     fn connector_of(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Option<Rc<ConnectorDesign>>> {
         let (module, port) = robot.bond(bond).a;
         self.connector_at(&PortValue { robot: robot.clone(), module, port })

@@ -12,7 +12,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// `Walker(bend: 35deg)`
+    /// Returns the instance `Walker(bend: 35deg)`.
     pub(super) fn make_instance(&mut self, def: DefId, args: Args, span: Span) -> Eval<Value> {
         Ok(match self.design_of(def, args, span)? {
             Some(design) if !design.broken.get() => Value::Instance(self.whole(&design)),
@@ -20,8 +20,11 @@ impl Interpreter<'_> {
         })
     }
 
-    /// The design of a declaration with these arguments; `None` where an argument is unknown or the
-    /// declaration was not understood.
+    /// Returns the design of a declaration with these arguments, elaborated once; `None` where an argument is
+    /// unknown or the declaration was not understood.
+    ///
+    /// # Errors
+    /// A fault at `span` where the declaration needs itself.
     pub fn design_of(&mut self, def: DefId, args: Args, span: Span) -> Eval<Option<Rc<Design>>> {
         if self.shared.faulty[def.0 as usize] {
             return Ok(None);
@@ -35,7 +38,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A configuration that is met again before it is complete is a part of itself.
+    /// Refuses a configuration that is met again before it is complete, since it is a part of itself.
     fn check_complete(&mut self, design: &Rc<Design>, span: Span) -> Eval<()> {
         let running = design.config().is_some_and(|config| !config.complete.get());
         if running {
@@ -49,7 +52,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// All arguments with the defaults filled in, and those that differ from the defaults as text.
+    /// Returns all arguments with the defaults filled in, and those that differ from the defaults as text.
     fn fill_params(
         &mut self,
         def: DefId,
@@ -81,7 +84,7 @@ impl Interpreter<'_> {
         Ok(Some((filled, shown.join(", "))))
     }
 
-    /// A default may depend on the parameters before it.
+    /// Returns the value of a default, which may depend on the parameters before it.
     fn default_argument(&mut self, def: DefId, default: &Expr, before: &[Value]) -> Eval<Value> {
         let shell = self.shell(def, before.to_vec());
         let mut frame = Frame::new(0, Some(shell));
@@ -91,8 +94,8 @@ impl Interpreter<'_> {
         self.eval(default, &mut frame)
     }
 
-    /// An instance that has arguments and nothing else: what the expressions of a body see before
-    /// there is a body.
+    /// Returns an instance that has arguments and nothing else: the expressions of a body are evaluated in it
+    /// before there is a body.
     pub(super) fn shell(&self, def: DefId, args: Vec<Value>) -> Rc<Instance> {
         let design = Design {
             def,
@@ -138,7 +141,7 @@ impl Interpreter<'_> {
         Ok(design)
     }
 
-    /// Everything but configurations; `None` where it is not sound, which has been reported.
+    /// Elaborates any declaration but a configuration; `None` where it is broken, which has been reported.
     fn elaborate_leaf(
         &mut self,
         kind: &DefKind,
@@ -162,7 +165,7 @@ impl Interpreter<'_> {
         design
     }
 
-    /// Elaborates a declaration with its defaults; `None` where a parameter has none.
+    /// Returns the design of a declaration with its defaults; `None` where a parameter has none.
     pub fn default_design(&mut self, def: DefId) -> Eval<Option<Rc<Design>>> {
         let declared = self.shared.program.def(def);
         let Some(params) = params_of(&declared.kind) else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! Lattices: cells of one kind in an arrangement that hangs together.
+//! Lattices: cells of one kind in a connected arrangement.
 
 use crate::check::typed::{DefId, LatticeDef};
 use crate::interpret::design::{DesignKind, Instance, LatticeDesign};
@@ -41,7 +41,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// `a piece of 4 cells and one of 5`
+/// Returns the pieces in words: `a piece of 4 cells and one of 5`.
 fn pieces_in_words(pieces: &[usize]) -> String {
     let cells = |n: usize| if n == 1 { "1 cell".to_string() } else { format!("{n} cells") };
     match pieces {

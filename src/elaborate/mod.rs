@@ -2,7 +2,8 @@
 //!
 //! A declaration with its arguments is elaborated once to a design ([`instance`]): modules with their links,
 //! joints and ports ([`module`]), configurations of modules ([`config`], [`connect`]), lattices of cells
-//! ([`lattice`], [`facts`]), trusses ([`truss`]). The right wing gets them as robots ([`robot_of`](mod@robot_of)).
+//! ([`lattice`], [`facts`]), trusses ([`truss`]). The back end (robotics) gets them as robots
+//! ([`robot_of`](mod@robot_of)).
 
 mod check;
 pub mod config;

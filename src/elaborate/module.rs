@@ -37,7 +37,7 @@ struct Draft<'d> {
 }
 
 impl Interpreter<'_> {
-    /// `None` where the module is not sound, which has been reported.
+    /// Returns the design of a module; `None` where it is broken, which has been reported.
     pub(super) fn elaborate_module(
         &mut self,
         def: &ModuleDef,
@@ -128,7 +128,7 @@ impl Interpreter<'_> {
         Ok((solid, built))
     }
 
-    /// `at [x, y, z] turned(Z, 90deg)`
+    /// Returns the pose of `at [x, y, z] turned(Z, 90deg)`.
     pub(super) fn placement(&mut self, at: Option<&Placement>, frame: &mut Frame) -> Eval<Pose> {
         let Some(at) = at else { return Ok(Pose::identity()) };
         let mut pose = match self.eval(&at.position, frame)? {
@@ -149,7 +149,7 @@ impl Interpreter<'_> {
         Ok(pose)
     }
 
-    /// A unit vector; `None` where it is unknown.
+    /// Returns a unit vector; `None` where it is unknown.
     fn direction(&mut self, expr: &crate::check::typed::Expr, frame: &mut Frame) -> Eval<Option<Vec3>> {
         match self.eval(expr, frame)? {
             Value::Vec3(v, _) if v.norm() > 0.0 => Ok(Some(v.normalize())),
@@ -189,7 +189,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// The joints that one follows, with factors.
+    /// Returns the joints that one follows, with factors.
     fn followed(
         &mut self,
         index: usize,
@@ -341,7 +341,7 @@ impl Interpreter<'_> {
         Ok(Motor { name: motor.name.to_string(), joints, limits })
     }
 
-    /// Links and joints form a tree whose root is the first link; shapes are solids.
+    /// Checks that links and joints form a tree whose root is the first link, and that shapes are solids.
     fn check_module(&mut self, draft: &Draft, name: Span) -> Eval<()> {
         let (def, module) = (draft.def, &draft.module);
         if def.links.is_empty() {
@@ -389,7 +389,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Masses, centres and inertias of the links: as stated, else from the module's mass by volume.
+    /// Computes masses, centres and inertias of the links: as stated, else from the module's mass by volume.
     fn weigh(&mut self, draft: &mut Draft, name: Span, frame: &mut Frame) -> Eval<()> {
         let stated: Vec<_> = draft.solids.iter().map(|s| (s.parts.as_slice(), s.mass)).collect();
         let (whole, span) = match &draft.def.mass {
@@ -440,8 +440,8 @@ fn fixed_joint(joint: &JointDef, parent: usize, child: usize, pose: Pose) -> Joi
     declared_joint(joint, parent, child, &spec, pose)
 }
 
-/// The frame of a port: x along `facing`, z along what of `up` is square to it. `None` where they
-/// lie on one line.
+/// Returns the frame of a port: x along `facing`, z along what of `up` is square to it. `None` where they lie
+/// on one line.
 fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>> {
     let y = up.cross(&facing);
     if y.norm() < PARALLEL {

@@ -1,5 +1,5 @@
-//! From a design to a robot of the right wing: one assembly with its library, its start state and
-//! its kinematics.
+//! The robot of a design, for the back end (robotics): one assembly with its library, its start state and
+//! kinematics.
 
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
@@ -11,14 +11,14 @@ use crate::robot::{Assembly, Bond, Kinematics, Library, ModuleInstance, PortRef,
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Centres nearer to each other than this are equally near: symmetry is exact only in thought.
+/// Centres nearer to each other than this are equally near, since rounding breaks an exact symmetry.
 const TIE_DISTANCE: f64 = 1e-9;
 
 /// Parts whose masses differ by less than this part are equally heavy.
 const TIE_MASS: f64 = 1e-9;
 
 impl Interpreter<'_> {
-    /// The robot of a design that is complete; `None` where it is broken or no robot.
+    /// Returns the robot of a design that is complete; `None` where it is broken or no robot.
     pub(super) fn assemble_robot(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
         let cell = match &design.kind {
             DesignKind::Module(module) => &module.robot,
@@ -71,9 +71,9 @@ impl Interpreter<'_> {
         Ok(Some(Robot { assembly: Arc::new(assembly), start, kinematics, poses }))
     }
 
-    /// The modules that may be the base where none is named: that of each part than which no other
-    /// is heavier. A car with a long arm stands on the car, whichever module is nearest to the centre
-    /// of mass. If all parts are single modules, every module is a candidate.
+    /// Returns the modules that may be the base where none is named: that of each part than which no other is
+    /// heavier. A car with a long arm stands on the car, whichever module is nearest to the centre of mass.
+    /// Where all parts are single modules, every module is a candidate.
     fn base_candidates(&mut self, design: &Rc<Design>, assembly: &Assembly) -> Eval<Vec<usize>> {
         let Some(parts) = design.config().and_then(|config| config.parts.get()) else { return Ok(vec![0]) };
         let mass_of = |part: &PartElement| -> f64 {
@@ -95,7 +95,7 @@ impl Interpreter<'_> {
         Ok(candidates)
     }
 
-    /// The module types and connectors of a robot, and the type of each module.
+    /// Returns the module types and connectors of a robot, and the type of each module.
     pub(crate) fn library_of(&mut self, design: &Rc<Design>) -> Eval<Option<(Library, Vec<usize>)>> {
         let mut types: Vec<Rc<Design>> = Vec::new();
         let mut kinds = Vec::new();
@@ -128,7 +128,7 @@ impl Interpreter<'_> {
         Ok(Some((library, kinds)))
     }
 
-    /// Connectors and, over and over, what they mate with, each once.
+    /// Returns the connectors and, transitively, those that they mate with, each once.
     fn with_mates(&mut self, first: Vec<DefId>) -> Eval<Option<Vec<DefId>>> {
         let mut all: Vec<DefId> = Vec::new();
         let mut waiting: std::collections::VecDeque<DefId> = first.into();
@@ -152,7 +152,7 @@ fn start_joints(design: &Rc<Design>, assembly: &Assembly, kinematics: &Kinematic
     joints
 }
 
-/// The candidate whose centre of mass is nearest to that of the whole; of several the first by name.
+/// Returns the candidate whose centre of mass is nearest to that of the whole; of several the first by name.
 fn central_module(
     assembly: &Assembly,
     kinematics: &Kinematics,

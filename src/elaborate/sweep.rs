@@ -11,7 +11,7 @@ use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// Positions at which a joint is looked at: every 5 degrees of a full turn.
+/// The number of positions at which a joint is sampled: every 5 degrees of a full turn.
 const POSITIONS: usize = 72;
 
 /// The deepest overlap of the two links of a joint.

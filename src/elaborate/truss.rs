@@ -16,17 +16,18 @@ use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// Nodes nearer to each other than this are one place, m.
+/// The distance, m, below which two nodes have the same position.
 const NODE_DISTANCE_MIN: f64 = 1e-9;
 /// Struts may be this much outside of their range, m: a rounding of what was meant.
 const LENGTH_TOLERANCE: f64 = 1e-9;
 /// More nodes make the rigidity matrix too large to decompose in a few seconds.
 const NODES_MAX: usize = 1000;
-/// Faults of one truss that are told.
+/// The greatest number of faults of one truss that are reported.
 const FAULTS_TOLD: usize = 8;
-/// Of more nodes it takes a while to find out whether they hold each other.
+/// The greatest number of nodes whose rigidity is examined without a notice: of more nodes this takes a
+/// while.
 const NODES_AT_ONCE: usize = 100;
-/// Free motions of a truss that is not rigid that are told.
+/// The greatest number of free motions of a truss that are reported.
 const MOTIONS_TOLD: usize = 6;
 
 /// A truss while its body is read; struts with where they stand.
@@ -193,12 +194,12 @@ impl Interpreter<'_> {
                 let message = format!("there is no node `{name}`: `{group}` has {count}");
                 Err(fault(code::INDEX, node.span, message, "no such node"))
             }
-            // Declared in a branch that did not run, or with a place that was not known.
+            // Declared in a branch that did not run, or with a position that was not known.
             None => Ok(None),
         }
     }
 
-    /// Tells some of all faults, one of a place in the text.
+    /// Reports the faults of a truss, up to a number of them, and one for each span in the text.
     fn check_truss(&mut self, draft: &Draft, of: &Rc<Design>, name: Span) -> Eval<()> {
         let DesignKind::Strut(kind) = &of.kind else { return Ok(()) };
         let mut faults: Vec<(Span, Stop)> = Vec::new();
@@ -212,7 +213,7 @@ impl Interpreter<'_> {
             let diagnostic = Diagnostic::error(code::BAD_TRUSS, message);
             faults.push((a.span, diagnostic.label(a.span, "here").label(b.span, "and here").into()));
         }
-        // Faults of struts between two nodes at one place would only follow from that.
+        // Faults of struts between two nodes at one position follow from that.
         let sound = |(a, b, _): &(usize, usize, Span)| !twins.iter().any(|(twin, _)| twin == a || twin == b);
         for (index, strut) in draft.struts.iter().enumerate().filter(|(_, strut)| sound(strut)) {
             if let Err(stop) = self.check_strut(draft, strut, &draft.struts[..index], kind) {
@@ -293,7 +294,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Nodes at the place of an earlier one, with that.
+/// Returns the nodes at the position of an earlier one, with that.
 fn twins(nodes: &[Node]) -> Vec<(usize, usize)> {
     let near = |a: usize, b: usize| (nodes[a].place - nodes[b].place).norm() < NODE_DISTANCE_MIN;
     (0..nodes.len()).filter_map(|a| Some((a, (0..a).find(|&b| near(a, b))?))).collect()

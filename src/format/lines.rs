@@ -120,7 +120,7 @@ impl<'t> Layout<'t> {
         }
     }
 
-    /// Returns whether a line with this first token continues the one before.
+    /// Returns true if a line with this first token continues the one before.
     fn goes_on(&self, first: &Piece) -> bool {
         let Some(before) = self.before else { return false };
         let anew = first.closes() || first.begins || first.role == Some(Role::Each);

@@ -18,7 +18,7 @@ pub(super) struct Piece<'t> {
 }
 
 impl Piece<'_> {
-    /// Returns whether it is a comment.
+    /// Returns true if it is a comment.
     pub(super) fn is_comment(&self) -> bool {
         matches!(
             self.token.kind,
@@ -26,17 +26,17 @@ impl Piece<'_> {
         )
     }
 
-    /// Returns whether it is an opening bracket.
+    /// Returns true if it is an opening bracket.
     pub(super) fn opens(&self) -> bool {
         self.token.kind == TokenKind::Open
     }
 
-    /// Returns whether it is a closing bracket.
+    /// Returns true if it is a closing bracket.
     pub(super) fn closes(&self) -> bool {
         self.token.kind == TokenKind::Close
     }
 
-    /// Returns whether it is a number with a unit, which a `^` next to it would raise.
+    /// Returns true if it is a number with a unit, which a `^` next to it would raise.
     fn has_unit(&self) -> bool {
         let digits = |c: char| c.is_ascii_digit() || matches!(c, '.' | '_');
         self.token.kind == TokenKind::Number && !self.text.chars().all(digits)
@@ -99,7 +99,7 @@ fn in_brackets(before: &Piece, after: &Piece) -> Option<usize> {
     }
 }
 
-/// Returns whether two operators would become another one without a space: `- -x` is not `--x`.
+/// Returns true if two operators would become another one without a space: `- -x` is not `--x`.
 fn runs_together(before: &Piece, after: &Piece) -> bool {
     match before.text {
         "-" => after.text.starts_with(['-', '>']),

@@ -5,7 +5,7 @@
 pub struct Content {
     /// The corners; of a cloud, its points.
     pub vertices: Vec<[f64; 3]>,
-    /// The corners of each face, as places in `vertices`; none in a cloud.
+    /// The corners of each face, as indices into `vertices`; none in a cloud.
     pub faces: Vec<Vec<usize>>,
 }
 

@@ -47,7 +47,7 @@ pub const CLOUD_FORMATS: &[Format] = &[
 pub struct ExportFormat<T> {
     /// The end of the names of its files, after the dot.
     pub ending: &'static str,
-    /// Returns the text of the file.
+    /// The function that returns the text of the file.
     pub write: fn(&T) -> String,
 }
 

@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     Ok(read)
 }
 
-/// The lines with vertices and faces; every other line is left empty, and corners keep only the
+/// Returns the lines with vertices and faces; every other line is left empty, and corners keep only the
 /// number of their vertex.
 fn plain(bytes: &[u8]) -> Vec<u8> {
     let mut plain = Vec::with_capacity(bytes.len());

@@ -55,7 +55,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     Ok(read)
 }
 
-/// The number of corners, then the corners.
+/// Returns the number of corners, then the corners.
 fn face(line: &str) -> Option<Vec<usize>> {
     let mut words = line.split_whitespace();
     let size: usize = words.next()?.parse().ok()?;
@@ -67,7 +67,7 @@ fn missing(what: &str, found: usize, wanted: usize) -> Fault {
     format!("it ends after {found} of {wanted} {what}")
 }
 
-/// A word short enough for a message.
+/// Returns a word short enough for a message.
 fn shown(word: &str) -> String {
     word.chars().take(20).collect()
 }

@@ -58,7 +58,7 @@ fn shown(text: &str) -> String {
     text.chars().take(SHOWN).collect()
 }
 
-/// The values kept of a row: a vertex's place, a face's corners.
+/// The values kept of a row: a vertex's position, a face's corners.
 struct Row {
     place: [Option<f64>; 3],
     corners: Option<Vec<usize>>,

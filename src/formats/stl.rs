@@ -10,8 +10,7 @@ use std::collections::HashMap;
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
-/// Corners at one place are one vertex.
-/// Reads a file.
+/// Corners at one position are one vertex. Reads a file.
 ///
 /// # Errors
 /// The fault in words.
@@ -55,7 +54,7 @@ fn shared(corners: &[[[f32; 3]; 3]]) -> Content {
     let mut vertices = Vec::new();
     let mut known: HashMap<[u32; 3], usize> = HashMap::new();
     let mut vertex = |corner: &[f32; 3]| {
-        // Adding zero makes one of the two zeros, which are one place.
+        // Adding zero makes one of the two zeros, which are one position.
         let key = corner.map(|x| (x + 0.0).to_bits());
         *known.entry(key).or_insert_with(|| {
             vertices.push(corner.map(f64::from));

@@ -29,7 +29,8 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
-/// Returns sine and cosine by the series of Taylor, which within an eighth of a turn are exact to 1e-17 after eight terms.
+/// Returns sine and cosine by the series of Taylor, which within an eighth of a turn are exact to 1e-17 after
+/// eight terms.
 #[inline]
 fn near_zero(x: f64) -> (f64, f64) {
     const fn inverse_factorial(n: u64) -> f64 {

@@ -1,9 +1,9 @@
 //! The broad phase of collision detection: which of many things may be near each other, by a uniform grid.
 //!
-//! One structure for balls of one size ([`near_points`]) and for boxes of many sizes ([`near_boxes`]). A grid, because
-//! modules and struts of a robot are of about the same size, so that a cell holds few of them and the work is in
-//! proportion to their number; it is made anew for every posture, which takes less than keeping a tree balanced.
-//! Pairs are told in an order that depends on nothing but the positions.
+//! One structure for balls of one size ([`near_points`]) and for boxes of many sizes ([`near_boxes`]). A
+//! grid, because modules and struts of a robot are of about the same size, so that a cell holds few of them
+//! and the work is in proportion to their number; it is made anew for every posture, which takes less than
+//! keeping a tree balanced. Pairs are reported in an order that depends on nothing but the positions.
 
 use super::pose::Vec3;
 
@@ -27,13 +27,14 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// Returns the box around some points; of none, the box that no union with another changes.
+    /// Returns the box around some points, m; for no points, the box that no union with another changes.
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
         let none = Aabb { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
         points.into_iter().fold(none, |all, p| Aabb { low: all.low.inf(&p), high: all.high.sup(&p) })
     }
 
-    /// Returns the gap to another box along each axis, 0 where they overlap: its length is the distance of the boxes.
+    /// Returns the gap to another box along each axis, m, 0 where they overlap: its length is the distance of
+    /// the boxes.
     #[inline]
     pub fn gap(&self, other: &Aabb) -> Vec3 {
         (self.low - other.high).sup(&(other.low - self.high)).sup(&Vec3::zeros())
@@ -44,9 +45,9 @@ impl Aabb {
 /// square of that distance, both in the unit of the points. Coordinates must lie within 2²⁰ times `reach`. A pair at
 /// just this distance may be missed by rounding.
 ///
-/// Points are sorted into cubes of that size, cubes into columns, and columns by their coordinates: so the three cubes
-/// of a column that may hold a point's neighbours are one stretch of the list, and for each of the columns around,
-/// the stretch goes on as the points do. There is no hash table and no memory for empty cubes.
+/// Points are sorted into cubes of that size, cubes into columns, and columns by their coordinates: so the
+/// three cubes of a column that may hold a point's neighbours are contiguous in the list, and for each of the
+/// columns around, this range advances with the points. There is no hash table and no memory for empty cubes.
 pub fn near_points(
     count: usize,
     point: impl Fn(usize) -> Vec3,
@@ -93,7 +94,8 @@ pub fn near_points(
 
 /// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0) of each other along every
 /// axis, up to rounding: a superset of those that are nearer than `reach`. Ordered by j, then by cell and i. `cell` (> 0)
-/// is the size of a cell at least, best about that of a box; grids of more than eight cells for each box are made coarser.
+/// is the size of a cell at least, best about that of a box; grids of more than eight cells for each box are
+/// made coarser.
 pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, mut found: impl FnMut(usize, usize)) {
     let margin = Vec3::repeat(reach / 2.0);
     let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, b| low.inf(&b.low)) - margin;

@@ -106,8 +106,8 @@ pub fn point_segment_distance(point: Vec3, segment: Segment) -> f64 {
     (point - a - (b - a) * point_segment(point, segment)).norm()
 }
 
-/// Returns the point of a triangle that is closest to `point`, by the region of Voronoi that the point lies in (Ericson
-/// 5.1.5). A triangle whose corners lie on one line is treated as its edges.
+/// Returns the point of a triangle that is closest to `point`, m, by the region of Voronoi that the point
+/// lies in (Ericson 5.1.5). A triangle whose corners lie on one line is treated as its edges.
 pub fn point_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
     let normal = (b - a).cross(&(c - a));
     let area = normal.norm_squared();

@@ -143,8 +143,8 @@ pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64
     if encloses_part(a, b, &X_AB) || encloses_part(b, a, &X_AB.inverse()) { -least.abs() } else { least }
 }
 
-/// Returns true if some part of b is inside a closed mesh of a, of which only the surface is made of parts. The centre of
-/// a part tells for all of it, unless it crosses the surface, which shows as an overlap.
+/// Returns true if some part of b is inside a closed mesh of a, of which only the surface is made of parts.
+/// The centre of a part decides for all of it, unless it crosses the surface, which shows as an overlap.
 fn encloses_part(a: &Solid, b: &Solid, X_AB: &Pose) -> bool {
     b.parts.iter().any(|q| a.encloses(&X_AB.transform_point(&q.centre.into()).coords))
 }

@@ -65,7 +65,7 @@ pub(super) fn closest_cores(
     Some(SignedDistance { distance, normal: gap.normal })
 }
 
-/// Up to four points of the Minkowski difference.
+/// A simplex of up to four points of the Minkowski difference.
 struct Simplex {
     corners: [Vec3; 4],
     count: usize,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeightField {
-    /// The place (x, y) of the first height in the world, m.
+    /// The position (x, y) of the first height in the world, m.
     pub corner: [f64; 2],
     /// The distance of neighbours along x and y, m; positive.
     pub spacing: f64,
@@ -37,14 +37,14 @@ impl HeightField {
         self.heights.len() / self.columns
     }
 
-    /// Returns the height of the ground at a place, m.
+    /// Returns the height of the ground at a point (x, y), m.
     pub fn height(&self, x: f64, y: f64) -> f64 {
         let (triangle, [u, v]) = self.triangle(x, y);
         triangle.height + triangle.slope[0] * u + triangle.slope[1] * v
     }
 
-    /// Returns the derivatives of the height by x and by y at a place; on a crease those of one of its sides, and 0 across
-    /// the rim.
+    /// Returns the derivatives of the height by x and by y at a point, without unit; on a crease those of one
+    /// of its sides, and 0 across the rim.
     pub fn slope(&self, x: f64, y: f64) -> [f64; 2] {
         let (triangle, _) = self.triangle(x, y);
         let inside = [self.along(0, x), self.along(1, y)].map(|(_, clamped)| !clamped);
@@ -65,8 +65,9 @@ impl HeightField {
         p.z - self.height(p.x, p.y)
     }
 
-    /// Calls `tell` with parts of a segment's length (0 to 1) and the heights above the ground there (m): at its ends and
-    /// wherever it crosses, seen from above, a side of a triangle. In between the height is linear. In no order.
+    /// Calls `tell` with fractions of a segment's length (0 to 1) and the heights above the ground there (m):
+    /// at its ends and wherever it crosses, seen from above, a side of a triangle. In between the height is
+    /// linear. The calls are in no order.
     pub fn profile(&self, p: Vec3, q: Vec3, mut tell: impl FnMut(f64, f64)) {
         let mut sample = |part: f64| tell(part, self.above(p + (q - p) * part));
         sample(0.0);
@@ -109,7 +110,7 @@ impl HeightField {
         (kept, kept != free)
     }
 
-    /// Returns the triangle at a place, and the place in it from its square's corner.
+    /// Returns the triangle at a point, and the point's coordinates in it from its square's corner.
     fn triangle(&self, x: f64, y: f64) -> (Half, [f64; 2]) {
         let [u, v] = [self.along(0, x).0, self.along(1, y).0];
         let column = (u as usize).min(self.columns - 2);

@@ -15,7 +15,7 @@ pub struct Faces {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Returns the surface of the convex hull of points; `None` where they do not span a volume.
+/// Returns the surface of the convex hull of points (m); `None` where they do not span a volume.
 pub fn faces(points: &[Vec3]) -> Option<Faces> {
     // An affine map leaves the corners the same: coordinates are whitened, so that a thin hull is as thick as wide
     // and not taken for flat.

@@ -63,7 +63,8 @@ impl Part {
         Part { form: Form::Points(points), centre, radius }
     }
 
-    /// Returns the support function from the centre, `max n · (p - centre)`, m for a unit vector; `n` may have any length.
+    /// Returns the support function from the centre, `max n · (p - centre)`, m for a unit vector; `n` may
+    /// have any length.
     #[inline]
     pub fn reach(&self, n: &Vec3) -> f64 {
         match &self.form {
@@ -83,8 +84,8 @@ impl Part {
         self.core_support(n) + unit_or_zero(n) * self.rounding()
     }
 
-    /// Returns the radius by which the core of the part is rounded, m: a sphere is a point and a capsule a segment, rounded
-    /// by their radii; other parts are their own core, rounded by 0.
+    /// Returns the radius by which the core of the part is rounded, m: a sphere is a point and a capsule a
+    /// segment, rounded by their radii; other parts are their own core, rounded by 0.
     pub fn rounding(&self) -> f64 {
         match self.form {
             Form::Sphere(radius) | Form::Capsule(_, radius) => radius,
@@ -135,8 +136,8 @@ impl Part {
         Part { form, centre: self.centre, radius: self.radius * factor }
     }
 
-    /// Returns true if a turn by any angle about the line through `point` along the unit vector `axis` leaves the part where
-    /// it is, to `tol` metres.
+    /// Returns true if a turn by any angle about the line through `point` along the unit vector `axis` leaves
+    /// the part where it is, to `tol` metres.
     pub fn is_round_about(&self, point: &Vec3, axis: &Vec3, tol: f64) -> bool {
         let off_line = |p: &Vec3| (p - axis * axis.dot(p)).norm();
         let centred = off_line(&(self.centre - point)) <= tol;

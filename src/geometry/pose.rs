@@ -1,4 +1,5 @@
-//! Vectors, and rigid displacements with a quaternion. A pose `X_AB` is the pose of frame B in frame A: `p_A = X_AB * p_B`.
+//! Vectors, and rigid displacements with a quaternion. A pose `X_AB` is the pose of frame B in frame A:
+//! `p_A = X_AB * p_B`.
 
 /// A rigid displacement of SE(3), by a unit quaternion: rotation, then translation in metres. For inner loops see
 /// [`RigidTransform`](super::RigidTransform).
@@ -7,8 +8,8 @@ pub type Pose = nalgebra::Isometry3<f64>;
 /// A vector of three numbers: a position in metres, a direction, a moment.
 pub type Vec3 = nalgebra::Vector3<f64>;
 
-/// Returns the rotation about an axis through the origin by an angle in radians, by the right-hand rule. The axis need not
-/// be of unit length; a zero axis gives no rotation.
+/// Returns the rotation about an axis through the origin by an angle in radians, by the right-hand rule. The
+/// axis need not be of unit length; a zero axis gives no rotation.
 pub fn turned(axis: Vec3, angle: f64) -> Pose {
     let n = axis.norm();
     if n == 0.0 {

@@ -17,26 +17,26 @@ pub enum Shape {
     },
     /// `axis` is a unit vector; `length` along it.
     Cylinder {
-        /// Metres.
+        /// The radius, m.
         radius: f64,
-        /// Metres.
+        /// The length, m.
         length: f64,
-        /// Unit vector.
+        /// The unit vector along the axis.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
     /// A ball about the origin of its frame.
     Sphere {
-        /// Metres.
+        /// The radius, m.
         radius: f64,
     },
     /// `length` between the centres of the two caps.
     Capsule {
-        /// Metres.
+        /// The radius, m.
         radius: f64,
-        /// Metres.
+        /// The length, m.
         length: f64,
-        /// Unit vector.
+        /// The unit vector along the axis.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },

@@ -82,7 +82,7 @@ impl Solid {
         Ok(())
     }
 
-    /// A convex mesh is the hull of its vertices; any other is its triangles.
+    /// Adds a mesh: a convex one is the hull of its vertices; any other is its triangles.
     fn add_mesh(&mut self, vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Unsound> {
         let shell: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(|i| vertices[i as usize])).collect();
         if is_convex(&shell, vertices) {
@@ -116,7 +116,8 @@ fn is_convex(shell: &[[Vec3; 3]], vertices: &[Vec3]) -> bool {
     })
 }
 
-/// Returns the solid angle of a triangle seen from the origin, signed: positive from behind (van Oosterom and Strackee 1983).
+/// Returns the solid angle of a triangle seen from the origin, signed: positive from behind (van Oosterom and
+/// Strackee 1983).
 fn solid_angle([a, b, c]: &[Vec3; 3]) -> f64 {
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(c));

@@ -6,8 +6,8 @@ use super::shape::Shape;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The least extent of a solid, m. Thinner ones have no inside that distances in double precision
-/// could tell.
+/// The least extent of a solid, m. Thinner ones have no inside that distances in double precision could
+/// resolve.
 pub const THICKNESS_MIN: f64 = 1e-6;
 
 /// The greatest coordinate or size of a shape, m: beyond it, differences of a micrometre are lost.
@@ -22,7 +22,7 @@ pub enum Unsound {
     TooThin {
         /// The name of the size: `radius`.
         what: &'static str,
-        /// Metres.
+        /// The extent, m.
         value: f64,
     },
     /// The axis has no direction.
@@ -116,13 +116,13 @@ fn direction(axis: &Vec3) -> Result<(), Unsound> {
     if axis.norm() < THICKNESS_MIN { Err(Unsound::NoAxis) } else { Ok(()) }
 }
 
-/// The points' extent across their flattest direction must show.
+/// Checks that the points' extent across their flattest direction is more than rounding.
 fn hull(points: &[Vec3]) -> Result<(), Unsound> {
     points.iter().flat_map(|p| p.iter()).try_for_each(|v| finite(*v))?;
     extents(points, THICKNESS_MIN).map(|_| ()).ok_or(Unsound::Flat)
 }
 
-/// Closed and oriented: every directed edge has its opposite, as often.
+/// Checks that a mesh is closed and oriented: every directed edge has its opposite, as often.
 fn mesh(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Unsound> {
     vertices.iter().flat_map(|p| p.iter()).try_for_each(|v| finite(*v))?;
     let mut edges: BTreeMap<(u32, u32), i64> = BTreeMap::new();

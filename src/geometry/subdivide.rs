@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// Vertices (m), and faces as indices among them.
 type Surface = (Vec<Vec3>, Vec<[usize; 3]>);
 
-/// The place of a new vertex: a corner, a place along an edge from its lower corner, or a place within a
+/// The position of a new vertex: a corner, a point along an edge from its lower corner, or a point within a
 /// face. Faces that share an edge so share the vertices on it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
@@ -15,8 +15,8 @@ enum Place {
     Face(usize, [usize; 2]),
 }
 
-/// Cuts every triangle of a mesh into `parts`² triangles of the same shape; the triangles of a face follow each other, and
-/// keep its sense. `parts` is at least 1.
+/// Cuts every triangle of a mesh into `parts`² triangles of the same shape; the triangles of a face follow
+/// each other, and keep its sense. `parts` is at least 1.
 pub fn subdivide(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surface {
     let mut found: BTreeMap<Place, usize> = BTreeMap::new();
     let mut points: Vec<Vec3> = Vec::new();

@@ -1,8 +1,8 @@
 //! Elaborated declarations and the instances that are views of them.
 //!
-//! A design is a declaration with its arguments, elaborated once and shared by all its instances.
-//! An instance is a design at a place of a robot, the outermost design: joints and ports of a part
-//! are joints and ports of the whole.
+//! A design is a declaration with its arguments, elaborated once and shared by all its instances. An instance
+//! is a design as a part of a robot, the outermost design: joints and ports of a part are joints and ports of
+//! the whole.
 
 use super::cells::Cells;
 use super::robot::Robot;
@@ -177,7 +177,7 @@ pub struct Node {
     pub name: String,
     /// The name of the array, `ring`; `None` for a single node.
     pub group: Option<Symbol>,
-    /// The place in the start pose, m.
+    /// The position in the start pose, m.
     pub place: Vec3,
     /// The clause that declares it.
     pub span: Span,

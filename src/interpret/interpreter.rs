@@ -299,7 +299,7 @@ impl<'a> Interpreter<'a> {
     /// Runs a step whose fault is reported and does not hinder the next; `None` after a fault.
     ///
     /// # Errors
-    /// Only [`Stop::Halt`].
+    /// No faults, only [`Stop::Halt`].
     pub fn attempt<T>(&mut self, step: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<Option<T>> {
         match step(self) {
             Ok(value) => Ok(Some(value)),
@@ -314,7 +314,7 @@ impl<'a> Interpreter<'a> {
     /// Turns a fault into a report and an unknown value.
     ///
     /// # Errors
-    /// Only [`Stop::Halt`].
+    /// No faults, only [`Stop::Halt`].
     pub fn recover(&mut self, result: Eval<Value>) -> Eval<Value> {
         match result {
             Err(Stop::Fault(diagnostic)) => {

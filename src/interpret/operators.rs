@@ -324,7 +324,7 @@ fn by_zero(span: Span) -> super::stop::Stop {
     fault(code::DIVISION_BY_ZERO, span, "division by zero", "this is zero")
 }
 
-/// `check` lets through only operands that fit; this is the net under it.
+/// Returns the fault of operands that do not fit: `check` lets none through, this is the net under it.
 fn unfit(span: Span) -> super::stop::Stop {
     Diagnostic::error(code::OPERANDS, "the operator does not apply to these values")
         .label(span, "here")

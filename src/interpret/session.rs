@@ -214,8 +214,8 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Members of instances that live on, which failed or were not done when the entry ended: they
-    /// are computed anew when they are needed again.
+    /// Forgets members of instances that stay, which failed or were not done when the entry ended: they are
+    /// computed again when they are needed.
     fn forget_failed(&mut self) {
         for (instance, key) in self.computed.drain(..) {
             let mut lazy = instance.lazy.borrow_mut();

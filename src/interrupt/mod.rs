@@ -52,7 +52,7 @@ impl CancelState {
         self.0.abandoned.store(false, Ordering::Relaxed);
     }
 
-    /// Returns whether this token or its parent is cancelled.
+    /// Returns true if this token or its parent is cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.0.cancelled.load(Ordering::Relaxed)
             || self.0.parent.as_ref().is_some_and(CancelState::is_cancelled)
@@ -72,7 +72,7 @@ impl CancelState {
         }
     }
 
-    /// Returns whether the work is cancelled and abandoned.
+    /// Returns true if the work is cancelled and abandoned.
     pub fn is_abandoned(&self) -> bool {
         self.is_cancelled() && self.0.abandoned.load(Ordering::Relaxed)
     }
@@ -87,12 +87,12 @@ impl CancelState {
         self.0.progress_requested.store(true, Ordering::Relaxed);
     }
 
-    /// Returns whether a progress request waits to be answered.
+    /// Returns true if a progress request waits to be answered.
     pub fn is_progress_requested(&self) -> bool {
         self.0.progress_requested.load(Ordering::Relaxed)
     }
 
-    /// Returns whether a progress request waits, and takes it.
+    /// Returns true if a progress request waits, and takes it.
     fn take_progress_request(&self) -> bool {
         self.is_progress_requested() && self.0.progress_requested.swap(false, Ordering::Relaxed)
     }
@@ -158,8 +158,8 @@ pub fn unwind() -> ! {
     resume_unwind(Box::new(Cancelled));
 }
 
-/// Names the task that progress reports are about from here on (`folding 20 panels`), and reports the name
-/// alone unless it is empty.
+/// Starts a task by name (`folding 20 panels`), which progress reports are about from here on, and reports
+/// the name alone unless it is empty.
 pub fn start_task(task: String) {
     let work = WORK.with_borrow_mut(|work| {
         let work = work.as_mut()?;

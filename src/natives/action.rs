@@ -119,7 +119,7 @@ impl Extras {
     }
 }
 
-/// An action on a joint with its cause.
+/// Returns an action on a joint with its cause.
 fn joint_action(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -206,7 +206,7 @@ fn follow(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     })
 }
 
-/// Positions and speeds of a function of time at even steps; `None` where a value is unknown.
+/// Returns the positions and speeds of a function of time at even steps; `None` where a value is unknown.
 fn sample(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -241,7 +241,7 @@ fn sample(
     Ok(Some(keyframes))
 }
 
-/// Second-order difference to one side.
+/// Returns the second-order difference to one side.
 fn one_sided(
     at: &mut impl FnMut(f64) -> Eval<Option<f64>>,
     time: f64,
@@ -286,7 +286,7 @@ fn undock(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(behavior(Some(port.robot.clone()), Node::Action(action)))
 }
 
-/// An action that has no time to wait and aborts at once: `else` takes its message.
+/// Returns an action that has no time to wait and aborts at once: `else` takes its message.
 fn abort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let otherwise = Otherwise::Abort(call.get::<&str>("message")?.to_string());
     let cause = interpreter.cause(call.span, Vec::new(), "");
@@ -419,7 +419,7 @@ fn table(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(behavior(robot, Node::Series(rows)))
 }
 
-/// A row takes its time even where it leaves every joint alone.
+/// Returns the wait of a row, which takes its time even where it leaves every joint alone.
 fn hold(interpreter: &mut Interpreter, call: &Call, duration: f64) -> Node {
     let cause = interpreter.cause(call.span, Vec::new(), "");
     let command = Command::Wait { duration };

@@ -114,7 +114,8 @@ fn character_span(interpreter: &Interpreter, span: Span, text: &str, bad: BadCel
     span
 }
 
-/// The first character in `"..."`, or in several with commas between them, that is neither cell nor gap.
+/// Returns the first character in `"..."`, or in several with commas between them, that is neither cell nor
+/// gap.
 fn quoted_span(source: &str, span: Span, bad: BadCell) -> Span {
     let mut characters = source.char_indices();
     while let Some((at, character)) = characters.next() {
@@ -177,7 +178,7 @@ fn octet(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(frame(nodes, struts))
 }
 
-/// Of a place (k, j, i): a regular tetrahedron that rests on a face, edge 1.
+/// Returns the position of grid point (k, j, i): those of a regular tetrahedron that rests on a face, edge 1.
 fn octet_point([k, j, i]: [i64; 3]) -> Vec3 {
     let (k, j, i) = (k as f64, j as f64, i as f64);
     let root3 = libm::sqrt(3.0);
@@ -190,7 +191,7 @@ fn neighbours([k, j, i]: [i64; 3]) -> Vec<[i64; 3]> {
     both.map(|s| [k + s[0], j + s[1], i + s[2]]).collect()
 }
 
-/// The helix of Boerdijk and Coxeter: each point and the next three are a regular tetrahedron.
+/// Returns the helix of Boerdijk and Coxeter: each point and the next three are a regular tetrahedron.
 fn tetrahelix(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let count = call.count("n", "the number of tetrahedra")?;
     if !(1..=HELIX_MAX).contains(&count) {

@@ -187,7 +187,7 @@ fn panel_of(
 
 /// The panels of all faces, as designs and as numbers.
 pub(super) struct Sheet {
-    /// The design of each face's panel.
+    /// The design of each panel, by face.
     pub designs: Vec<Rc<Design>>,
     /// The panels as numbers, for the planner.
     pub panels: Panels,

@@ -63,7 +63,7 @@ fn to_number(call: &Call, function: fn(f64) -> f64) -> Eval<Value> {
     finite(call, function(call.get("x")?))
 }
 
-/// Of a number in -1..1, an angle.
+/// Returns the angle of a number in -1..1.
 fn from_ratio(call: &Call, function: fn(f64) -> f64) -> Eval<Value> {
     let x: f64 = call.get("x")?;
     if (-1.0..=1.0).contains(&x) { Ok(angle(function(x))) } else { Err(call.refuse("x", "outside -1..1")) }
@@ -105,7 +105,7 @@ fn extreme(call: &Call, wanted: Ordering) -> Eval<Value> {
     best.cloned().ok_or_else(|| call.refuse("values", "an empty list has neither least nor greatest"))
 }
 
-/// Exact among whole numbers.
+/// Returns the order of two values, exactly among whole numbers; `None` where they have none.
 pub(super) fn order(a: &Value, b: &Value) -> Option<Ordering> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Some(x.cmp(y)),

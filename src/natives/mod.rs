@@ -1,8 +1,9 @@
-//! The bodies of the built-ins: the only bridge between the wings.
+//! The bodies of the built-ins: the only bridge between the front end (the language) and the back end
+//! (robotics).
 //!
 //! A built-in is declared in `stdlib/prelude.mod`; the file of its subject here lists it with its parameters
-//! and supplies the body. A native reads its arguments by name, calls the right wing, and turns a refusal
-//! into a diagnostic. Nothing counts parameters, and their order here means nothing.
+//! and supplies the body. A native reads its arguments by name, calls the back end, and turns a refusal into
+//! a diagnostic. Nothing counts parameters, and their order here means nothing.
 //!
 //! - Few arguments: `Native::pure("join", parameters![list: &[Value], with: &str], join)`, and in the body
 //!   `call.get::<&str>("with")?`. The type that is read is the one in the list.
@@ -91,7 +92,7 @@ const SUBJECTS: &[Subject] = &[
     Subject { natives: truss::TABLE, records: truss::records },
 ];
 
-/// All built-ins.
+/// Returns all built-ins.
 pub fn all() -> impl Iterator<Item = &'static Native> {
     SUBJECTS.iter().flat_map(|subject| subject.natives)
 }

@@ -110,8 +110,8 @@ fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned_value(Some(reversed)))
 }
 
-/// A plan from a file, of a robot that starts as the plan's own does, with the names of this one's modules:
-/// it goes on where a plan of this robot ends that does nothing.
+/// Returns a plan from a file, of a robot that starts as the plan's own does, with the names of this one's
+/// modules: it goes on where a plan of this robot ends that does nothing.
 fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, bytes) = interpreter.project_file(call, "file")?;
     let design = call.get::<&Rc<Instance>>("robot")?.design.clone();
@@ -122,7 +122,7 @@ fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let text = String::from_utf8(bytes).map_err(|_| unsound("it is not UTF-8 text"))?;
     let stored = plan::file::read(&text).map_err(|error| unsound(&error.to_string()))?;
-    // The judge looks at the motion; what robots execute is the program.
+    // The judge checks the motion; what robots execute is the program.
     if let Some(failure) = behavior::unfaithful(&stored) {
         return Err(unsound(&failure_line(&failure)));
     }
@@ -227,7 +227,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// The file named by an argument, below the output folder, and its name as written.
+/// Returns the file named by an argument, below the output folder, and its name as written.
 pub(super) fn output_path(call: &Call, argument: &str) -> Eval<(String, String)> {
     let name = call.get::<&str>(argument)?.to_string();
     match files::join("", &name).filter(|path| !path.is_empty()) {
@@ -236,7 +236,7 @@ pub(super) fn output_path(call: &Call, argument: &str) -> Eval<(String, String)>
     }
 }
 
-/// Writes a file into the output folder, on behalf of what stands at `at`. Returns the path to show.
+/// Writes a file into the output folder, for the call at `at`. Returns the path to show.
 pub(super) fn write_output(
     interpreter: &mut Interpreter,
     at: Span,
@@ -258,7 +258,7 @@ pub(super) fn write_output(
     }
 }
 
-/// A robot that does not start as it is drawn is worth a note.
+/// Notes that a robot does not start as it is drawn.
 fn note_settling(interpreter: &mut Interpreter, call: &Call, notes: &[String]) {
     for note in notes.iter().filter(|note| note.contains("settles")) {
         interpreter

@@ -78,7 +78,7 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         .map_err(|refusal| diagnostic(interpreter, call, &causes.ids, &refusal))?;
     let joined =
         Joined { target: &problem.from, layout: &report.layout, designs: &sheet.designs, span: call.span };
-    // Connections come and go on the way: the configuration is that of the beginning.
+    // Connections come and go during the motion: the configuration is that of the beginning.
     let (design, robot) = joined.design(&problem.panels);
     let bare = interpreter.bare_plan("refold", body, problem.panels.library, World::FREE, &causes);
     let mut plan = Plan { program, ..bare };

@@ -38,7 +38,7 @@ pub(super) const TABLE: &[Native] = &[
     Native::on_run("State.pose", parameters![self: &StateValue, module: &Rc<Instance>], state_pose),
 ];
 
-/// The argument `of` where several types are declared, all of them instances.
+/// Returns the argument `of` where several types are declared, all of them instances.
 fn instance<'c>(call: &Call<'c>) -> Eval<&'c Rc<Instance>> {
     match call.get::<&Value>("of")? {
         Value::Instance(instance) => Ok(instance),
@@ -71,7 +71,7 @@ fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Quantity(mass, Dimension::MASS))
 }
 
-/// The part as a robot of its own: questions about a part are not about the whole.
+/// Returns the part as a robot of its own: questions about a part are not about the whole.
 fn own_robot(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<Rc<Robot>>> {
     let design = call.get::<&Rc<Instance>>("of")?.design.clone();
     interpreter.robot_at(&design, call.at("of"))
@@ -107,7 +107,7 @@ fn is_taken(robot: &Rc<Design>, module: usize, port: usize) -> bool {
     robot.config().is_some_and(|config| config.taken.borrow().contains_key(&(module, port)))
 }
 
-/// Modules of the kind of the second argument, whatever its arguments.
+/// Returns the modules of the kind of the second argument, whatever its arguments.
 fn modules(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (whole, kind) = (call.get::<&Rc<Instance>>("of")?, call.get::<&Rc<Instance>>("kind")?);
     let mut found = Vec::new();

@@ -50,7 +50,7 @@ fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     made(interpreter, call, (kind, loaded), &file, &path, world)
 }
 
-/// A tangle to unwind; see the planner's own words.
+/// Makes a random configuration to unwind; see the planner's documents.
 fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let kinds = library(interpreter, call)?;
     let modules = call.count("n", "a number of modules")?;
@@ -73,7 +73,7 @@ fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Actions of one tangle.
 const ACTIONS_MAX: usize = 1_000_000;
 
-/// The library's module, and the configuration that holds what is made from data.
+/// Returns the library's module, and the configuration that holds what is made from data.
 fn library(interpreter: &Interpreter, call: &Call) -> Eval<(DefId, DefId)> {
     match (declared(interpreter, "Rofi"), declared(interpreter, "_Loaded")) {
         (Some(kind), Some(loaded)) => Ok((kind, loaded)),
@@ -84,7 +84,7 @@ fn library(interpreter: &Interpreter, call: &Call) -> Eval<(DefId, DefId)> {
     }
 }
 
-/// The first argument, which says where the robot comes from: a file, or a number of modules.
+/// Returns the first argument, which says where the robot comes from: a file, or a number of modules.
 fn origin(call: &Call) -> Span {
     call.at(call.native.parameters[0].name)
 }
@@ -98,7 +98,7 @@ fn check_count(interpreter: &Interpreter, call: &Call, modules: usize) -> Eval<(
     Ok(())
 }
 
-/// A robot from data. `key` tells it from others, `path` is its name for people.
+/// Returns a robot from data. `key` distinguishes it from others, `path` is its name for people.
 fn made(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -128,8 +128,8 @@ fn made(
     Ok(instance(interpreter, &design))
 }
 
-/// Of connections that contradict each other the first counts: those that would put modules into each
-/// other are therefore moved behind the others.
+/// Moves connections that would put modules into each other behind the others: of connections that contradict
+/// each other the first counts.
 fn contradictions_last(world: &mut World) {
     let Ok(open) = repair(&mut from_world(world)) else { return };
     let edges = std::mem::take(&mut world.edges).into_iter().enumerate();
@@ -141,7 +141,7 @@ fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
     Value::Instance(interpreter.whole(design))
 }
 
-/// A declaration of the library's file.
+/// Returns a declaration of the library's file.
 fn declared(interpreter: &Interpreter, name: &str) -> Option<DefId> {
     let here = |index: &usize| {
         let def = interpreter.shared.program.def(DefId(*index as u32));
@@ -155,7 +155,8 @@ fn faulty(call: &Call, path: &str, line: usize, column: usize, what: &str) -> St
     fault(code::CANNOT_READ, origin(call), message, format!("line {line}: {what}"))
 }
 
-/// Modules, positions and connections, as the clauses of a configuration would have made them.
+/// Returns the design of modules, positions and connections, as the clauses of a configuration would have
+/// made them.
 fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) -> Eval<ConfigDesign> {
     let name = |m: &Module| -> Rc<str> { format!("m[{}]", m.id).into() };
     let modules = world.modules.iter().map(|m| FlatModule { name: name(m), design: module.clone() });
@@ -200,7 +201,7 @@ fn configuration(world: &World, module: &Rc<Design>, call: &Call, path: &str) ->
     Ok(config)
 }
 
-/// The connections that close loops and do not meet, with what is missing. Refuses a robot of several
+/// Returns the connections that close loops and do not meet, with what is missing. Refuses a robot of several
 /// pieces.
 fn open_loops(
     interpreter: &mut Interpreter,
@@ -220,7 +221,8 @@ fn open_loops(
     Ok(robot.residuals().into_iter().filter(open).collect())
 }
 
-/// Two docks that are apart hold nothing, whatever the file says: RoFI's own tangler writes such lines.
+/// Leaves out bonds of two docks that are apart, which hold nothing, whatever the file says: RoFI's own
+/// tangler writes such lines.
 fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual], call: &Call, path: &str) {
     let lines: Vec<String> = open.iter().map(|r| world.edges[r.bond].line.to_string()).collect();
     let worst = open.iter().map(|r| r.distance).fold(0.0, f64::max);
@@ -276,7 +278,7 @@ pub(super) fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Optio
     Ok(Some(world))
 }
 
-/// Without the rounding of radians.
+/// Returns an angle in degrees, without the rounding of radians.
 fn degrees(angle: f64) -> f64 {
     const PARTS: f64 = 1e9;
     (angle.to_degrees() * PARTS).round() / PARTS

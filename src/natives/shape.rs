@@ -77,7 +77,7 @@ fn prism(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     solid(call, Shape::Hull { points: end(-height / 2.0).chain(end(height / 2.0)).collect() })
 }
 
-/// Returns true if a closed outline turns one way round, and once.
+/// Returns true if a closed outline turns in one direction, and once.
 fn convex(outline: &[Vec3]) -> bool {
     let n = outline.len();
     let side = |i: usize| outline[(i + 1) % n].xy() - outline[i % n].xy();
@@ -125,7 +125,7 @@ fn placed(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Shape(Rc::new(Solid { parts: parts.collect(), ..Solid::default() })))
 }
 
-/// A unit vector.
+/// Returns a unit vector.
 fn axis(call: &Call, name: &str) -> Eval<Vec3> {
     let axis: Vec3 = call.get(name)?;
     axis.try_normalize(0.0).ok_or_else(|| call.refuse(name, "the axis must not be zero"))

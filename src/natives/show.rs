@@ -64,11 +64,14 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// A way of drawing, chosen by the end of the file's name.
+/// A form of drawing, chosen by the end of the file's name.
 #[derive(Clone, Copy)]
 pub(super) enum Form {
+    /// A page in HTML.
     Page,
+    /// A drawing in SVG.
     Svg,
+    /// A picture in PNG, at a time (s), from a side.
     Png { time: f64, side: Side },
 }
 
@@ -93,7 +96,7 @@ impl Choice for Side {
 }
 
 impl Interpreter<'_> {
-    /// Writes the page of a plan with its verdict under these settings; gives the path to show.
+    /// Writes the page of a plan with its verdict under these settings; returns the path to show.
     pub(super) fn draw(
         &mut self,
         planned: &Rc<PlanValue>,
@@ -148,7 +151,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The user's own files that a plan's causes stand in, in order of loading.
+    /// Returns the user's own files that a plan's causes are written in, in order of loading.
     fn texts_of(&self, plan: &Plan) -> Vec<(String, String)> {
         let named = |name: &str| {
             let places = plan.causes.iter().flat_map(|c| std::iter::once(c).chain(c.caller.as_deref()));
@@ -158,7 +161,7 @@ impl Interpreter<'_> {
         own.map(|(_, file)| (file.name.to_string(), file.text.to_string())).collect()
     }
 
-    /// A lattice or truss as it is declared: a plan in which nothing moves, and that nobody judged.
+    /// Returns a lattice or truss as it is declared: a plan in which nothing moves, and that is not judged.
     fn still(&self, design: &Design) -> Option<Plan> {
         let mut library = Library::default();
         let body = match &design.kind {

@@ -143,7 +143,7 @@ impl Options {
     }
 }
 
-/// The world that `gravity` asks for: with gravity the base is held.
+/// Returns the world that `gravity` asks for: with gravity the base is held.
 fn world(call: &Call, gravity: WordOr<Gravity, f64>) -> Eval<World> {
     let gravity = match gravity {
         WordOr::Word(Gravity::Off) => return Ok(World::FREE),
@@ -203,7 +203,7 @@ struct Subject {
 }
 
 impl Subject {
-    /// `None` where the robot is not sound.
+    /// Returns the subject of an argument; `None` where the robot is broken.
     fn of(
         interpreter: &mut Interpreter,
         call: &Call,
@@ -287,7 +287,7 @@ fn module_counts_differ(call: &Call, from: usize, to: usize) -> Stop {
         .into()
 }
 
-/// A refusal of a reconfiguration both halves of which can be planned.
+/// Returns a refusal of a reconfiguration both halves of which can be planned.
 fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
     let message = refusal.to_string();
     match refusal {
@@ -305,7 +305,7 @@ fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
     }
 }
 
-/// The plan, if the judge lets it through; of the paper's method whatever he would say of it.
+/// Returns the plan, if the judge lets it through; with the paper's method, whatever its verdict.
 fn judged(interpreter: &mut Interpreter, call: &Call, planned: PlanValue, options: &Options) -> Eval<Value> {
     if options.collisions != Collisions::Motion {
         return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
@@ -342,7 +342,7 @@ fn not_rofi(at: Span, robot: &Robot, no: &NotRofi) -> Stop {
     fault(code::NOT_COVERED, at, message, label)
 }
 
-/// A refusal of the planner at the robot that it refuses.
+/// Returns a refusal of the planner at the robot that it refuses.
 fn refused(
     interpreter: &Interpreter,
     call: &Call,
@@ -399,8 +399,7 @@ fn invalid_start(at: Span, robot: &Robot, invalid: &InvalidStart) -> Stop {
     }
 }
 
-/// Returns the diagnostic of a joint that would have to hold more than it can: its torque, its limit, and the
-/// operation.
+/// Returns the fault of an overload: the joint, its load, and the operation that loads it.
 fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
     let Overload { load, operation, status } = overload;
     let assembly = &robot.assembly;

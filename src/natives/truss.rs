@@ -192,7 +192,8 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned(interpreter, call, design, "locomote", World::default(), solution))
 }
 
-/// The truss with its limits, among obstacles and on terrain; `None` after an error that was told.
+/// Returns the truss with its limits, among obstacles and on terrain; `None` after an error that was
+/// reported.
 fn problem(
     call: &Call,
     design: &Design,
@@ -228,7 +229,8 @@ fn target(call: &Call, target: &Value) -> Eval<TargetShape> {
     }
 }
 
-/// Faces of more than three corners as fans; corners that turn inwards give triangles that overlap.
+/// Returns the triangles of a mesh, faces of more than three corners as fans; corners that turn inwards give
+/// triangles that overlap.
 fn triangles(mesh: &Mesh) -> Vec<[Vec3; 3]> {
     let fan = |face: &Vec<usize>| {
         let corner = |i: usize| mesh.vertices[face[i]];

@@ -47,7 +47,7 @@ pub(super) fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>>
     around.iter().map(shape).collect()
 }
 
-/// Struts by their names, `a -- b` or the other way round.
+/// Returns the struts by their names, `a -- b` or `b -- a`.
 fn struts(call: &Call, parameter: &'static str, names: &[Value], truss: &TrussDesign) -> Eval<Vec<usize>> {
     let known: Vec<String> = (0..truss.struts.len()).map(|strut| truss.strut_name(strut)).collect();
     let mut found = Vec::new();

@@ -166,8 +166,8 @@ impl ActiveSet {
         worst.filter(|(_, over)| *over > self.tolerance).map(|(i, _)| i)
     }
 
-    /// Makes a row active, and drops those that block the way there (step 2 of the dual algorithm): partial steps up to
-    /// the first multiplier that vanishes, then the full step.
+    /// Makes a row active, and drops those that block the step to it (step 2 of the dual algorithm): partial
+    /// steps up to the first multiplier that vanishes, then the full step.
     fn enter(&mut self, line: usize) -> Result<(), Unsolved> {
         self.make_image(line);
         let mut own = 0.0;
@@ -190,7 +190,7 @@ impl ActiveSet {
             self.work.fill(0.0);
             let over = image.dot(&self.nearest()) - own * square - self.lines[line].right;
             let equal = self.lines[line].equal;
-            // Downwards an equality pushes the other way.
+            // Downwards an equality pushes in the opposite direction.
             let sign = if equal && over < 0.0 { -1.0 } else { 1.0 };
             let may_block = falls.iter().zip(&self.multipliers).zip(&self.active).enumerate();
             let blocks =
@@ -244,7 +244,8 @@ impl ActiveSet {
         line.image = Some((image, square, along));
     }
 
-    /// Drops the row at a place of the active set: Givens rotations make the factor's later rows triangular again.
+    /// Drops the row at an index of the active set: Givens rotations make the factor's later rows triangular
+    /// again.
     fn leave(&mut self, place: usize) {
         self.lines[self.active.remove(place)].active = false;
         self.multipliers.remove(place);
@@ -262,7 +263,7 @@ impl ActiveSet {
         }
     }
 
-    /// Forward substitution with the factor of the Gram matrix.
+    /// Solves by forward substitution with the factor of the Gram matrix.
     fn gram_forward(&self, mut right: Vec<f64>) -> Vec<f64> {
         for (i, row) in self.gram.iter().enumerate() {
             let known: f64 = row[..i].iter().zip(&right).map(|(c, y)| c * y).sum();
@@ -271,7 +272,7 @@ impl ActiveSet {
         right
     }
 
-    /// Backward substitution with its transpose.
+    /// Solves by backward substitution with its transpose.
     fn gram_back(&self, mut right: Vec<f64>) -> Vec<f64> {
         for (i, row) in self.gram.iter().enumerate().rev() {
             right[i] /= row[i];

@@ -20,7 +20,7 @@ pub struct SymmetricMatrix {
 /// The order in which products are summed; it decides the last digits, and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Summation {
-    /// From the first to the last: small dense matrices, which have no long rows.
+    /// The sum from the first to the last: for small dense matrices, which have no long rows.
     InOrder,
     /// Four sums side by side, which a processor adds at once: rows of an envelope may be long.
     FourLanes,
@@ -47,7 +47,8 @@ impl SymmetricMatrix {
         SymmetricMatrix { summation: Summation::InOrder, ..SymmetricMatrix::with_envelope(vec![0; size]) }
     }
 
-    /// Returns the zero matrix whose row `i` has room for the columns from `first[i]`, which is at most `i`.
+    /// Returns the zero matrix whose row `i` has room for the columns from `first[i]`. Panics if `first[i]`
+    /// is greater than `i`.
     pub fn with_envelope(first: Vec<usize>) -> SymmetricMatrix {
         let mut start = Vec::with_capacity(first.len() + 1);
         start.push(0);
@@ -156,7 +157,7 @@ impl Cholesky {
         }
     }
 
-    /// Backward substitution by the columns of a dense L.
+    /// Solves by backward substitution with the columns of a dense L.
     fn solve_upper_by_columns(&self, y: &mut [f64]) {
         let n = y.len();
         for i in (0..n).rev() {
@@ -165,7 +166,7 @@ impl Cholesky {
         }
     }
 
-    /// Backward substitution by the rows of L, each within its envelope.
+    /// Solves by backward substitution with the rows of L, each within its envelope.
     fn solve_upper_by_rows(&self, y: &mut [f64]) {
         for i in (0..y.len()).rev() {
             let Some((pivot, row)) = self.lower.row(i).split_last() else { continue };

@@ -1,9 +1,10 @@
 //! The order of Cuthill and McKee (1969): rows of a sparse symmetric matrix numbered so that entries keep near the
 //! diagonal, in a narrow band or a small envelope.
 
-/// Numbers the rows that hang together with `start`, breadth first; of the neighbours of a row those with fewer
-/// neighbours come first, and of these those of smaller index. Appends them to `order` and marks them in `known`,
-/// where `start` must not be marked yet. `neighbours` lists for each row the others with which it shares an entry.
+/// Numbers the rows that are connected with `start`, breadth first; of the neighbours of a row those with
+/// fewer neighbours come first, and of these those of smaller index. Appends them to `order` and marks them
+/// in `known`, where `start` must not be marked yet. `neighbours` lists for each row the others with which it
+/// shares an entry.
 pub fn number_from(start: usize, neighbours: &[Vec<usize>], known: &mut [bool], order: &mut Vec<usize>) {
     known[start] = true;
     let mut at = order.len();
@@ -32,8 +33,9 @@ pub fn neighbours(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Ve
     neighbours
 }
 
-/// Returns the reverse order of Cuthill and McKee of a matrix with entries at these places (George 1971): it has the
-/// same band and an envelope that is never larger. Every part that hangs together begins at a row of fewest neighbours.
+/// Returns the reverse order of Cuthill and McKee of a matrix with entries at these indices (row, column)
+/// (George 1971): it has the same band and an envelope that is never larger. Every connected component begins
+/// at a row of fewest neighbours.
 pub fn reverse_order(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
     let neighbours = neighbours(n, entries);
     let mut order = Vec::with_capacity(n);

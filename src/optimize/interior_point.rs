@@ -44,7 +44,7 @@ pub(super) fn solve(
     }
 }
 
-/// Returns a sparse matrix from entries (row, column, value); those at one place are summed.
+/// Returns a sparse matrix from entries (row, column, value); those with equal indices are summed.
 pub(super) fn matrix(
     (rows, columns): (usize, usize),
     entries: impl Iterator<Item = (usize, usize, f64)>,

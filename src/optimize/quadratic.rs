@@ -13,20 +13,21 @@ const WORK_MAX: usize = 400_000_000;
 
 /// The quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows come one by one.
 pub struct QuadraticProgram {
-    /// Of the positive semidefinite H what is on and above the diagonal; entries at one place are summed.
+    /// The entries of the positive semidefinite H on and above the diagonal; those with equal indices are
+    /// summed.
     hessian: Vec<(usize, usize, f64)>,
     /// c.
     linear: Vec<f64>,
-    /// Each row with whether it is an equality.
+    /// Each row, with true if it is an equality.
     rows: Vec<(Row, bool)>,
     /// The same rows, by the same numbers; `None` where H is singular or too dense.
     active: Option<ActiveSet>,
 }
 
 impl QuadraticProgram {
-    /// Returns the program without constraints. `hessian`: entries (row, column, value) of the positive semidefinite H on
-    /// and above the diagonal, of which those at one place are summed; `linear`: c, one entry for every variable;
-    /// `tolerance`: how far rows may be off, in the units of their right sides.
+    /// Returns the program without constraints. `hessian`: entries (row, column, value) of the positive
+    /// semidefinite H on and above the diagonal, of which those with equal indices are summed; `linear`: c,
+    /// one entry for every variable; `tolerance`: how far rows may be off, in the units of their right sides.
     pub fn new(hessian: Vec<(usize, usize, f64)>, linear: Vec<f64>, tolerance: f64) -> QuadraticProgram {
         let factor = SparseCholesky::new(linear.len(), &hessian, WORK_MAX);
         let active = factor.map(|factor| ActiveSet::new(factor, &linear, tolerance));
@@ -62,10 +63,11 @@ impl QuadraticProgram {
     /// Returns the optimal x for the rows as they are now.
     ///
     /// # Errors
-    /// Why there is none. `Numerical` also where a strictly convex program has a solution that rounding hides.
+    /// The reason that there is none. `Numerical` also where a strictly convex program has a solution that
+    /// rounding hides.
     pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
-        // If the active-set method fails the other decides, for rounding may hide a way there; if that can't,
-        // either, the first finding holds.
+        // Where the active-set method fails the other decides, for rounding may hide the solution; if that
+        // can't, either, what was found first holds.
         let mut doubt = Unsolved::Numerical;
         if let Some(active) = &mut self.active {
             match active.solve() {

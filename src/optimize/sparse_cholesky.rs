@@ -15,8 +15,9 @@ pub(crate) struct SparseCholesky {
 }
 
 impl SparseCholesky {
-    /// Decomposes an n × n matrix given by its entries on and above the diagonal, or below; entries at one place are
-    /// summed. Returns `None` if it is not positive definite, or would take more multiplications than `work_max`.
+    /// Decomposes an n × n matrix given by its entries on and above the diagonal, or below; entries with
+    /// equal indices are summed. Returns `None` if it is not positive definite, or would take more
+    /// multiplications than `work_max`.
     pub(crate) fn new(n: usize, entries: &[(usize, usize, f64)], work_max: usize) -> Option<SparseCholesky> {
         let order = cuthill_mckee::reverse_order(n, entries.iter().map(|&(i, j, _)| (i, j)));
         let mut position = vec![0; n];

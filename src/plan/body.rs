@@ -1,5 +1,5 @@
-//! The bodies of plans, one of three families behind one interface. This is the only file of the room
-//! that tells the families apart; what each of them does is in its folder.
+//! The bodies of plans, one of three families behind one interface. This is the only file of the room that
+//! distinguishes the families; the code of each is in its folder.
 
 use super::fault::PlanFault;
 use super::node_paths::{self, NodePaths};

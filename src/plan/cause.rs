@@ -8,19 +8,19 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct CauseId(pub u32);
 
-/// A place in the source that commands a piece of motion, or sets a piece of the start pose.
+/// A position in the source that commands a piece of motion, or sets a piece of the start pose.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cause {
-    /// Relative to the project root; `std/smores.mod` in the standard library.
+    /// The path of the file, relative to the project root; `std/smores.mod` in the standard library.
     pub file: String,
-    /// From 1.
+    /// The line, from 1.
     pub line: usize,
-    /// From 1, in characters.
+    /// The column, from 1, in characters.
     pub column: usize,
     /// The text of the line, without the blanks around it.
     pub text: String,
-    /// The instance that it concerns, such as `i = 3` or `leg[2].m[0].tilt`; empty where there is only one.
+    /// The instance, such as `i = 3` or `leg[2].m[0].tilt`; empty where there is only one.
     pub instance: String,
     /// The call in the user's own file that led here, where `file` is the library's.
     pub caller: Option<Box<Cause>>,

@@ -25,12 +25,12 @@ pub enum PlanFault {
     },
     /// A duration that is negative, not finite, or longer than [`DURATION_MAX`].
     Duration {
-        /// Seconds.
+        /// The duration, s.
         duration: f64,
     },
     /// Times that must ascend and do not.
     TimeOrder {
-        /// The things that have these times.
+        /// The list that has these times.
         what: &'static str,
     },
     /// A number that no file can hold, in a part of the plan.
@@ -52,7 +52,7 @@ pub enum PlanFault {
     NoBaseToHold,
     /// A sampling interval of the judge that is not positive.
     SampleInterval {
-        /// Seconds.
+        /// The sampling interval, s.
         interval: f64,
     },
     /// A negative time for which support may be missing.
@@ -94,7 +94,7 @@ pub enum PlanFault {
     },
     /// A fault in the bonds that hold after a docking or an undocking.
     After {
-        /// Seconds.
+        /// The time, s.
         time: f64,
         /// The fault.
         fault: Box<PlanFault>,
@@ -229,31 +229,31 @@ pub enum TracksFault {
     TrackOrder,
     /// A segment whose degree is too low or too high.
     ControlPoints {
-        /// Seconds.
+        /// The time, s.
         time: f64,
         /// The number of control points.
         count: usize,
     },
     /// A segment that begins before the one before ends, ends before it begins, or ends after the plan.
     SegmentOrder {
-        /// Seconds.
+        /// The start, s.
         start: f64,
-        /// Seconds.
+        /// The end, s.
         end: f64,
     },
     /// A segment that begins elsewhere than where the joint is.
     Jump {
-        /// Seconds.
+        /// The time, s.
         time: f64,
     },
     /// A docking or undocking out of order, or after the end.
     EventOrder {
-        /// Seconds.
+        /// The time, s.
         time: f64,
     },
     /// A bond that is docked while it holds, or undocked while it does not.
     BondUnchanged {
-        /// Seconds.
+        /// The time, s.
         time: f64,
         /// The index of the bond.
         bond: usize,
@@ -336,19 +336,19 @@ pub enum NodePathsFault {
     FirstKeyframe,
     /// A keyframe without one position for each node.
     KeyframeNodes {
-        /// Seconds.
+        /// The time, s.
         time: f64,
         /// The number of nodes.
         nodes: usize,
     },
     /// A roll about two nodes that are one.
     RollEdge {
-        /// Seconds.
+        /// The time, s.
         time: f64,
     },
-    /// A roll about two nodes that are at one place.
+    /// A roll about two nodes that are at one position.
     RollLength {
-        /// Seconds.
+        /// The time, s.
         time: f64,
     },
     /// A strut between a node and itself.

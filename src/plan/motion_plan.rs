@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub struct Plan {
     /// The origin of the plan, and the changes since.
     pub provenance: Provenance,
-    /// In order of time; each part of a concatenation keeps the world it was planned for.
+    /// The worlds, in order of time; each part of a concatenation keeps the world it was planned for.
     pub worlds: Vec<WorldFrom>,
     /// The settings of the judge.
     pub settings: Settings,
@@ -30,7 +30,7 @@ pub struct Plan {
     pub causes: Vec<Cause>,
     /// The parts of the plan that are excused from a check.
     pub exemptions: Vec<Exemption>,
-    /// Of the last verification; recomputed whenever it matters.
+    /// The verdict of the last verification; it is recomputed whenever it matters.
     pub verdict: Option<Verdict>,
 }
 

@@ -7,14 +7,14 @@ use crate::robot::Mismatch;
 pub enum OperationError {
     /// A slice that ends before it begins.
     Times {
-        /// Seconds.
+        /// The beginning, s.
         from: f64,
-        /// Seconds.
+        /// The end, s.
         to: f64,
     },
     /// A lattice plan is cut only between stages.
     InsideStage {
-        /// Seconds.
+        /// The time, s.
         time: f64,
     },
     /// Plans of different families.
@@ -43,17 +43,17 @@ pub enum OperationError {
     Inexact,
     /// Together they are longer than a plan may be, s.
     TooLong {
-        /// Seconds.
+        /// The duration, s.
         duration: f64,
     },
     /// Between two times, s, a joint moves by a law that no command of a program states.
     NoCommand {
-        /// Seconds.
+        /// The beginning, s.
         from: f64,
-        /// Seconds.
+        /// The end, s.
         to: f64,
     },
-    /// Only a robot with joints has a program.
+    /// The plan's robot has no joints, and only a robot with joints has a program.
     NoJoints,
 }
 

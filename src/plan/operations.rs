@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Returns the plan from its end to its start, exactly: of a plan on whole ticks of time, reversed
 /// twice, it is the same again.
 ///
-/// The program is told anew from the tracks, or dropped with the reason in the history; the verdict is
+/// The program is derived again from the tracks, or dropped with the reason in the history; the verdict is
 /// dropped, as gravity does not run backwards.
 pub fn reversed(plan: &Plan) -> Plan {
     let duration = plan.body.duration();
@@ -35,7 +35,7 @@ pub fn reversed(plan: &Plan) -> Plan {
 
 /// Returns the plan between two times in seconds, each rounded to the nearest tick, clipped to the plan.
 ///
-/// The program is told anew from the tracks, or dropped with the reason in the history; the verdict is
+/// The program is derived again from the tracks, or dropped with the reason in the history; the verdict is
 /// dropped.
 ///
 /// # Errors
@@ -125,7 +125,7 @@ fn tell_program(plan: &mut Plan) {
     }
 }
 
-/// The worlds in reverse: each holds up to where the next began.
+/// Returns the worlds in reverse: each holds up to where the next began.
 fn reversed_worlds(worlds: &[WorldFrom], duration: f64) -> Vec<WorldFrom> {
     let ends = worlds.iter().skip(1).map(|w| w.from).chain([duration]);
     let mut new: Vec<WorldFrom> =
@@ -134,11 +134,11 @@ fn reversed_worlds(worlds: &[WorldFrom], duration: f64) -> Vec<WorldFrom> {
     new
 }
 
-/// The first plan with all of the second that does not name its robot, appended at a time.
+/// Returns the first plan with all of the second that does not name its robot, appended at a time.
 fn concatenated(p: &Plan, q: &Plan, at: f64, renamed: Vec<(String, String)>) -> Plan {
     let mut new = p.clone();
     new.worlds.extend(q.worlds.iter().map(|w| WorldFrom { from: w.from + at, world: w.world }));
-    // A world that no time is left for, after an empty plan, gives way to the next.
+    // A world that no time is left for, after an empty plan, is replaced by the next.
     let empty =
         |i: usize, worlds: &[WorldFrom]| worlds.get(i + 1).is_some_and(|next| next.from <= worlds[i].from);
     let kept: Vec<WorldFrom> =
@@ -159,7 +159,7 @@ fn concatenated(p: &Plan, q: &Plan, at: f64, renamed: Vec<(String, String)>) -> 
     new
 }
 
-/// The settings of a judge who is as strict as both.
+/// Returns settings that are as strict as both.
 fn stricter(a: &Settings, b: &Settings) -> Settings {
     let stability = if a.stability == b.stability { a.stability } else { Stability::Footprint };
     Settings {

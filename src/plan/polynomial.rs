@@ -1,5 +1,5 @@
-//! Polynomials over 0..1 in Bernstein form: the control points bound the values, the first and the
-//! last are the values at the ends, and reversing them reverses the argument.
+//! Polynomials over 0..1 in Bernstein form, the pieces of trajectories: the control points bound the values,
+//! the first and the last are the values at the ends, and reversing them reverses the argument.
 
 /// Highest degree of a segment in a plan.
 pub const DEGREE_MAX: usize = 15;
@@ -110,7 +110,7 @@ fn passes(points: &[f64]) -> bool {
     first != 0.0 && last != 0.0 && (first < 0.0) != (last < 0.0)
 }
 
-/// The root between two ends of different sign.
+/// Returns the root between two ends of different sign.
 fn bisect(points: &[f64]) -> f64 {
     let rising = points[0] < 0.0;
     let (mut low, mut high) = (0.0, 1.0);

@@ -54,7 +54,7 @@ pub enum Node {
     Stretch {
         /// The behaviour.
         body: Arc<Node>,
-        /// Seconds.
+        /// The duration, s.
         duration: f64,
         /// The command of the source that this comes from.
         cause: CauseId,
@@ -104,7 +104,7 @@ pub enum Command {
     Spin {
         /// The joint.
         joint: JointId,
-        /// rad/s or m/s.
+        /// The speed, rad/s or m/s.
         speed: f64,
         /// Seconds, or `None`.
         duration: Option<f64>,
@@ -119,7 +119,7 @@ pub enum Command {
     },
     /// Nothing moves for a time.
     Wait {
-        /// Seconds.
+        /// The duration, s.
         duration: f64,
     },
     /// Port `b` docks to port `a`; the turn is the allowed one nearest to where they are.
@@ -185,13 +185,13 @@ pub enum Signal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Compare {
-    /// `<`
+    /// Less than: `<`.
     Less,
-    /// `<=`
+    /// At most: `<=`.
     LessEqual,
-    /// `>`
+    /// Greater than: `>`.
     Greater,
-    /// `>=`
+    /// At least: `>=`.
     GreaterEqual,
 }
 
@@ -212,7 +212,7 @@ pub enum Condition {
     Docked(PortRef),
     /// Two ports are docked to each other.
     Mated(PortRef, PortRef),
-    /// Both hold.
+    /// Both conditions hold.
     And(Box<Condition>, Box<Condition>),
     /// One of them holds, or both.
     Or(Box<Condition>, Box<Condition>),
@@ -221,7 +221,7 @@ pub enum Condition {
 }
 
 impl Compare {
-    /// The comparison of the two sides with their signs changed.
+    /// Returns the comparison that holds when both sides change their signs.
     pub fn turned(self) -> Compare {
         match self {
             Compare::Less => Compare::Greater,

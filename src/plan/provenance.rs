@@ -28,7 +28,7 @@ pub struct Provenance {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Bound {
-    /// Of the hinges that fold, J.
+    /// The energy of the hinges that fold, J.
     FoldingEnergy(f64),
 }
 
@@ -36,24 +36,24 @@ pub enum Bound {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Change {
-    /// It runs from its end to its start.
+    /// The plan runs from its end to its start.
     Reversed,
-    /// Only what lay between these times (s) was kept.
+    /// The plan was cut to the interval between these times (s).
     Sliced {
-        /// Seconds.
+        /// The beginning, s.
         from: f64,
-        /// Seconds.
+        /// The end, s.
         to: f64,
     },
     /// Another plan was appended at a time (s).
     Joined {
-        /// Seconds.
+        /// The time, s.
         at: f64,
         /// The modules of the other plan with another name here: (name there, name here).
         renamed: Vec<(String, String)>,
         /// The changes of the other plan before.
         appended: Vec<Change>,
     },
-    /// The program was given up, and why.
+    /// The program was dropped, for this reason.
     ProgramDropped(String),
 }

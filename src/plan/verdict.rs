@@ -40,7 +40,7 @@ pub enum CheckKind {
     Slip,
     /// The robot is at rest at the start and at the end.
     Rest,
-    /// Of lattices: no external force or moment is needed.
+    /// A lattice needs no external force or moment.
     Momentum,
 }
 
@@ -71,11 +71,11 @@ impl CheckKind {
 /// The unit of a worst value, which decides how it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Metres.
+    /// A length, m.
     Length,
     /// A fraction of a limit.
     Fraction,
-    /// Radians.
+    /// An angle, rad.
     Angle,
     /// A number without a unit.
     Number,
@@ -92,7 +92,7 @@ pub struct WorstKind {
     pub measure: Measure,
     /// Reads the value from a verdict.
     pub of: fn(&Verdict) -> &Option<Worst>,
-    /// Returns the value in a verdict for writing.
+    /// The function that returns the value in a verdict for writing.
     pub of_mut: fn(&mut Verdict) -> &mut Option<Worst>,
 }
 
@@ -130,7 +130,7 @@ pub enum Status {
     Proved,
     /// Holds at this many samples; between them nothing is proved.
     Sampled(usize),
-    /// Not judged, for this reason.
+    /// It was not judged, for this reason.
     NotChecked(String),
     /// The library states no limit to check against.
     NoLimit,
@@ -169,7 +169,7 @@ pub struct Check {
 pub struct Worst {
     /// SI; a margin is a fraction of the limit.
     pub value: f64,
-    /// Seconds.
+    /// The time, s.
     pub time: f64,
     /// Path names.
     pub at: Vec<String>,
@@ -181,7 +181,7 @@ pub struct Worst {
 pub struct Failure {
     /// The check that failed.
     pub kind: CheckKind,
-    /// Seconds.
+    /// The time, s.
     pub time: f64,
     /// The time at which it ends (s), where that was followed.
     pub until: Option<f64>,
@@ -272,10 +272,10 @@ pub struct Verdict {
     pub bond_margin: Option<Worst>,
     /// 1 - speed / limit.
     pub speed_margin: Option<Worst>,
-    /// Of a truss: the least angle between struts that share a node, rad.
+    /// The least angle between struts of a truss that share a node, rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<Worst>,
-    /// Of a truss: the least singular value of its rigidity matrix (rows of unit vectors).
+    /// The least singular value of the rigidity matrix of a truss (rows of unit vectors).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<Worst>,
     /// Displacement of the base over the plan, m.
@@ -284,7 +284,7 @@ pub struct Verdict {
     pub heading: f64,
     /// Greatest slip of a loaded link, summed over the plan, m.
     pub slip: Option<Worst>,
-    /// Seconds.
+    /// The duration, s.
     pub duration: f64,
     /// Least mechanical work of the motors, quasi-static, J.
     pub energy: f64,
@@ -297,7 +297,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Returns true if nothing failed. Checks that were not made, or have no limit, are told apart in `checks`.
+    /// Returns true if nothing failed. Checks that were not made, or have no limit, are listed in `checks`.
     pub fn ok(&self) -> bool {
         self.failures.is_empty()
     }

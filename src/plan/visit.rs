@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// The distinct nodes under a root, children before parents, found by address.
 pub struct Graph<'a> {
-    /// In order of first completion; the root is last.
+    /// The nodes, in order of first completion; the root is last.
     pub nodes: Vec<&'a Arc<Node>>,
     index: HashMap<*const Node, usize>,
     /// The length of the longest path from the root down, in nodes, the root included.

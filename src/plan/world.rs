@@ -12,8 +12,8 @@ pub enum Ground {
     Settle,
     /// The base keeps its pose.
     Fixed,
-    /// The base module's body is held fast, as if bolted down: whatever holds it takes any force and
-    /// moment, and nothing else touches the robot.
+    /// The base module's body is held fast, fixed in the world: its fixture takes any force and moment, and
+    /// nothing else touches the robot.
     Held,
     /// The robot floats.
     Off,
@@ -23,7 +23,7 @@ pub enum Ground {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct World {
-    /// m/s², downwards; 0 is weightless.
+    /// The gravity, m/s², downwards; 0 is weightless.
     pub gravity: f64,
     /// The ground under the robot.
     pub ground: Ground,
@@ -71,17 +71,18 @@ impl Default for World {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldFrom {
-    /// Seconds.
+    /// The beginning, s.
     pub from: f64,
     /// The world from then on.
     pub world: World,
 }
 
-/// The polygon that the centre of mass must be over: Definition IV.7 of the compositional-design paper.
+/// The support polygon that the centre of mass must be over, for static stability: Definition IV.7 of the
+/// compositional-design paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
-    /// The hull of the ground contacts.
+    /// The hull of the ground contacts (McGhee and Frank 1968).
     Footprint,
     /// The paper's rule: the hull of the centres of the lowest modules.
     Centres,
@@ -93,7 +94,7 @@ pub enum Stability {
 pub struct Settings {
     /// The longest time between two samples, s.
     pub sample: f64,
-    /// The longest time without support at a stretch (t_max of Definition V.3), s.
+    /// The longest continuous time without support (t_max of Definition V.3), s.
     pub unstable_for: f64,
     /// The polygon of the check of stability.
     pub stability: Stability,
@@ -107,7 +108,7 @@ impl Default for Settings {
     }
 }
 
-/// The check that a stretch of a plan is excused from.
+/// The check that an interval of a plan is excused from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ExemptionKind {
@@ -115,21 +116,21 @@ pub enum ExemptionKind {
     Unstable,
     /// Links in contact that slide.
     Slip,
-    /// Between two modules; `None`: between any.
+    /// Collisions between two modules; `None`: between any.
     Collision(Option<(usize, usize)>),
-    /// Of one joint ([`JointId`](crate::robot::JointId)); `None`: of any.
+    /// The overload of one joint ([`JointId`](crate::robot::JointId)); `None`: of any.
     Overload(Option<u32>),
 }
 
-/// A stretch of a plan that is excused from a check. The end of the whole plan never is.
+/// An interval of a plan that is excused from a check. The end of the whole plan never is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Exemption {
     /// The check that is excused.
     pub kind: ExemptionKind,
-    /// Seconds.
+    /// The beginning, s.
     pub from: f64,
-    /// Seconds.
+    /// The end, s.
     pub to: f64,
     /// The command of the source that this comes from.
     pub cause: CauseId,

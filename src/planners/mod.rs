@@ -35,17 +35,17 @@ pub struct Solution<R> {
 /// An observer of a search: it receives reports of progress and may end the search early, for instance
 /// at a time limit.
 ///
-/// An observer never changes what is computed but by ending it: a planner that is told to stop returns
-/// the best solution so far, or its refusal for an exhausted limit if there is none. To unwind without
-/// any result is another matter, [`interrupt::checkpoint`].
+/// An observer never changes what is computed but by ending it: a planner that is asked to stop returns the
+/// best solution so far, or its refusal for an exhausted limit if there is none. To unwind without any
+/// result, see [`interrupt::checkpoint`].
 pub trait Progress {
     /// Receives the start of a part of the work, such as `unwinding Chair`, before its reports. An observer
     /// with a time limit counts from here. By default it is ignored.
     fn task_started(&mut self, _task: &dyn Fn() -> String) {}
 
     /// Receives how far the search is. `how_far` builds one short line of text, such as
-    /// `12 of 40 places reached`; an observer that shows nothing does not call it. Called at least
-    /// every few milliseconds, so it must be cheap.
+    /// `12 of 40 points reached`; an observer that shows nothing does not call it. Called at least every few
+    /// milliseconds, so it must be cheap.
     fn report(&mut self, how_far: &dyn Fn() -> String);
 
     /// Receives an event that happens seldom, such as one goal of many that is reached: an observer that

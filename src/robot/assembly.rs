@@ -65,7 +65,7 @@ pub struct Bond {
 #[serde(transparent)]
 pub struct JointId(pub u32);
 
-/// The place of a joint in the assembly.
+/// The owner of a joint in the assembly: a module or a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum JointOwner {
     /// Module and index in its `joints`. Fixed joints are listed too, so that numbering is plain;
@@ -80,7 +80,7 @@ pub enum JointOwner {
     Bond(usize),
 }
 
-/// Positions of all joints, which bonds hold, and where the base is.
+/// The positions of all joints, the bonds that hold, and the pose of the base.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct State {

@@ -1,10 +1,10 @@
 //! Inverse kinematics by damped least squares (Buss 2005, *Introduction to inverse kinematics with Jacobian transpose,
 //! pseudoinverse and damped least squares methods*), with joint limits, a secondary task and inequality rows.
 //!
-//! [`solve`] is the descent that all share. The goal is told by an [`IkProblem`]: residual, rows of the Jacobian, and,
-//! if there is more than one wish, a preferred change and linear inequalities. [`reach`] poses the usual problem: a
-//! frame of an assembly that is to be at a pose. The planner `tosnake` poses another: two docks that are to meet while
-//! balls keep apart.
+//! [`solve`] is the descent that all share. The task is given by an [`IkProblem`]: residual, rows of the
+//! Jacobian, and, if there is a secondary task, a preferred change and linear inequalities. [`reach`] poses
+//! the usual problem: a frame of an assembly that is to be at a pose. The planner `tosnake` poses another:
+//! two docks that are to meet while balls keep apart.
 //!
 //! One step solves
 //!
@@ -46,7 +46,7 @@ pub struct Evaluation {
     pub converged: bool,
 }
 
-/// The problem that [`solve`] solves. Joint positions are numbered as the problem likes; every method after
+/// The problem that [`solve`] solves. Joint positions are numbered as the problem chooses; every method after
 /// [`evaluate`](IkProblem::evaluate) is about the positions given there last.
 pub trait IkProblem {
     /// Works out what the other methods need at these joint positions; `iteration` counts from 0.
@@ -77,7 +77,7 @@ pub trait IkProblem {
 /// Limits and weights of the descent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Iterations at most.
+    /// The greatest number of iterations.
     pub iterations_max: usize,
     /// Iterations without [`progress`](Settings::progress) after which the descent counts as stalled.
     pub patience: usize,
@@ -92,9 +92,9 @@ pub struct Settings {
     pub damping_of_trace: f64,
     /// The damping of inequality rows, in the unit of `A Aᵀ`.
     pub damping_inequality: f64,
-    /// Rounds of the active-set method in one step.
+    /// The greatest number of rounds of the active-set method in one step.
     pub rounds_max: usize,
-    /// Inequalities that are active at most.
+    /// The greatest number of active inequalities.
     pub active_max: usize,
 }
 
@@ -132,9 +132,10 @@ pub enum StopReason {
 /// A pivot of `J Jᵀ + λ` that rounding has made smaller than this is raised to it.
 const PIVOT_MIN: f64 = 1e-12;
 
-/// Changes `q` by damped least squares until the problem is solved, or not. `limits` are the least and greatest
-/// position of every joint, which the result keeps (infinite ones are allowed). Returns why it ended, and the number of
-/// steps taken; `q` holds the last positions in any case.
+/// Changes `q` by damped least squares until the problem is solved, or not. `limits` are the least and
+/// greatest position of every joint, which the result keeps (infinite ones are allowed). Returns the reason
+/// that it ended, and the number of steps taken; `q` holds the last positions in any case. Panics if `q` and
+/// `limits` differ in length.
 pub fn solve(
     problem: &mut dyn IkProblem,
     q: &mut [f64],
@@ -304,11 +305,11 @@ pub struct Reach<'a> {
 /// The result of [`reach`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
-    /// Positions of all joints by [`super::JointId`], radians or metres; within the joints' limits.
+    /// The positions of all joints by [`super::JointId`], rad or m; within the joints' limits.
     pub joints: Vec<f64>,
     /// The reason that the descent ended; only [`StopReason::Converged`] means that the goal is reached.
     pub stop: StopReason,
-    /// Steps taken.
+    /// The number of steps taken.
     pub iterations: usize,
     /// The distance of the frame's origin from the goal, m.
     pub distance: f64,
@@ -319,14 +320,15 @@ pub struct Reached {
 /// No joint moves farther in one iteration: rad, or parts of the length of the chain.
 const CHANGE_MAX: f64 = 0.2;
 
-/// The share of the way to the rest positions that is preferred in one step.
+/// The fraction of the displacement to the rest positions that is preferred in one step.
 const REST_GAIN: f64 = 0.1;
 
 /// The angle that one step corrects at most, rad.
 const ANGLE_STEP_MAX: f64 = 0.4;
 
-/// Finds joint positions that bring a frame to a pose, from those of `start`. Fixed, passive and mimicking joints are
-/// not commanded; the limits of mimicking joints are not regarded, nor collisions, nor bonds that close loops.
+/// Finds joint positions (rad or m) that bring a frame to a pose, from those of `start`. Fixed, passive and
+/// mimicking joints are not commanded; the limits of mimicking joints are not regarded, nor collisions, nor
+/// bonds that close loops.
 pub fn reach(task: &Reach, start: &[f64], settings: &Settings) -> Reached {
     let mut joints = start.to_vec();
     let held = task.kinematics.link(task.base.0, 0);

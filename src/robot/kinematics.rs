@@ -44,8 +44,8 @@ pub struct Residual {
 }
 
 impl Kinematics {
-    /// Compiles `robot` with the bonds for which `holds` says true, seen from module `root`. Panics unless `holds` has one
-    /// flag for every bond.
+    /// Compiles `robot` with the bonds for which `holds` says true, seen from module `root`. Panics unless
+    /// `holds` has one flag for every bond.
     pub fn new(robot: &Assembly, holds: &[bool], root: usize) -> Kinematics {
         assert_eq!(holds.len(), robot.bonds.len(), "one flag for every bond");
         let first_link = sums(robot, |module| robot.module_type(module).links.len());
@@ -110,7 +110,7 @@ impl Kinematics {
         self.hinge_joint[bond]
     }
 
-    /// Returns the step that places a link against its parent; `None` for the root's body and for loose links.
+    /// Returns the step from a link's parent to the link; `None` for the root's body and for loose links.
     pub fn step(&self, link: usize) -> Option<&Step> {
         self.step_of[link].map(|index| &self.steps[index])
     }
@@ -133,8 +133,8 @@ impl Kinematics {
         }
     }
 
-    /// Writes what [`link_poses`](Self::link_poses) writes, with the body of module `base` at `X_WB` whatever the root is.
-    /// The base must be connected with the root.
+    /// Writes the world poses of all links, as [`link_poses`](Self::link_poses) does, with the body of module
+    /// `base` at `X_WB` whatever the root is. `joints`: rad or m. The base must be connected with the root.
     pub fn link_poses_from(&self, base: usize, joints: &[f64], X_WB: &Pose, out: &mut [Pose]) {
         self.link_poses(joints, &Pose::identity(), out);
         let X_WR = X_WB * out[self.link(base, 0)].inverse();
@@ -175,8 +175,8 @@ impl Kinematics {
         Some(up)
     }
 
-    /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their mass (kg). Of
-    /// no mass, the world's origin.
+    /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their
+    /// mass (kg). Of no mass, the world's origin.
     pub fn centre_of_mass(&self, robot: &Assembly, poses: &[Pose]) -> (Vec3, f64) {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
         for &(module, _) in &self.tree.order {
@@ -188,12 +188,13 @@ impl Kinematics {
         (if mass > 0.0 { moment / mass } else { moment }, mass)
     }
 
-    /// Returns the closure errors of the bonds that close loops, in order of bond.
+    /// Returns the closure errors of the bonds that close loops (m, rad), in order of bond.
     pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
         self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
     }
 
-    /// Returns the error of two ports from the mate that a bond makes, whether it holds or not.
+    /// Returns the closure error of a bond, which need not hold: the distance (m) and the angle (rad) of its
+    /// two ports from a perfect mate.
     pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
         let Pair { p, q } = self.mated(robot, bond, joints, poses);
         let error = p.inverse() * q;
@@ -255,7 +256,8 @@ impl Kinematics {
         if bond.b.module == child { (bond.a, bond.b) } else { (bond.b, bond.a) }
     }
 
-    /// The hinge turns the frame of port `a` of the bond, whichever side the parent is on.
+    /// Adds the step over a bond. The hinge turns the frame of port `a` of the bond, whichever side the
+    /// parent is on.
     fn add_bond(&mut self, robot: &Assembly, bond: usize, parent: PortRef, child: PortRef) {
         let declared = robot.bonds[bond];
         let port = |at: PortRef| &robot.module_type(at.module).ports[at.port];

@@ -35,7 +35,7 @@ pub struct Connector {
     pub holds_moment: Option<f64>,
     /// The error that docking tolerates; `None`: not stated.
     pub capture: Option<Capture>,
-    /// The joint that lives in the bond, if bonds of this connector turn.
+    /// The joint of the bond, if bonds of this connector turn.
     pub hinge: Option<Hinge>,
 }
 
@@ -43,9 +43,9 @@ pub struct Connector {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Capture {
-    /// Between the port origins, m.
+    /// The distance between the port origins, m.
     pub distance: f64,
-    /// Between the orientations, rad.
+    /// The angle between the orientations, rad.
     pub angle: f64,
 }
 
@@ -64,13 +64,13 @@ pub struct Hinge {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModuleType {
-    /// With its arguments where they differ from the defaults: `Hinge(length: 50mm)`.
+    /// The name, with the arguments where they differ from the defaults: `Hinge(length: 50mm)`.
     pub name: String,
     /// The first link is the body: its frame is the module's frame.
     pub links: Vec<Link>,
     /// The joints, which make a tree of the links.
     pub joints: Vec<Joint>,
-    /// The places at which it docks.
+    /// The ports at which it docks.
     pub ports: Vec<Port>,
     /// Motors that drive several joints together.
     pub motors: Vec<Motor>,
@@ -92,18 +92,18 @@ pub struct Link {
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
-    /// To draw, in the link's frame.
+    /// The shapes to draw, in the link's frame.
     pub shape: Vec<Placed>,
-    /// To judge, in the link's frame; the same as `shape` unless declared otherwise.
+    /// The shapes to judge, in the link's frame; the same as `shape` unless declared otherwise.
     pub collides: Vec<Placed>,
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass in the link's frame, m.
     #[schemars(with = "[f64; 3]")]
     pub com: Vec3,
-    /// About the centre of mass in the link's frame, symmetric, kg·m²: xx, yy, zz, xy, xz, yz.
+    /// The inertia about the centre of mass in the link's frame, symmetric, kg·m²: xx, yy, zz, xy, xz, yz.
     pub inertia: [f64; 6],
-    /// Coulomb coefficient against the ground.
+    /// The Coulomb coefficient of friction against the ground.
     pub friction: f64,
 }
 
@@ -174,7 +174,7 @@ pub struct Motor {
     pub limits: Limits,
 }
 
-/// A place of a module at which it docks.
+/// A port of a module: a face at which it docks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Port {

@@ -9,8 +9,8 @@ pub struct Mass {
     pub mass: f64,
     /// Centre of mass in the frame that the shapes are placed in, m.
     pub com: Vec3,
-    /// Inertia about the centre of mass, kg·m²: the entries xx, yy, zz, xy, xz, yz of the symmetric matrix, along the axes
-    /// of that frame.
+    /// Inertia about the centre of mass, kg·m²: the entries xx, yy, zz, xy, xz, yz of the symmetric matrix,
+    /// along the axes of that frame.
     pub inertia: [f64; 6],
 }
 

@@ -15,14 +15,14 @@ use std::f64::consts::TAU;
 /// An isomorphism from robot B to robot A: the images of its modules, bonds and joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matching {
-    /// For every module of B, the module of A.
+    /// The module of A for each module of B.
     pub modules: Vec<usize>,
-    /// For every module of B, the symmetry by which it lies there.
+    /// The symmetry by which each module of B lies in its image.
     pub turned: Vec<Symmetry>,
-    /// For every bond of B that holds, the bond of A.
+    /// The bond of A for each bond of B that holds; `None` for the others.
     pub bonds: Vec<Option<usize>>,
-    /// For every joint of B, what to add to its position to have that in A: whole turns, and 0 for
-    /// joints that do not turn without end.
+    /// The offset from each joint's position in B to that in A, rad or m: whole turns, and 0 for joints with
+    /// limits.
     pub offsets: Vec<f64>,
 }
 
@@ -39,7 +39,7 @@ impl Matching {
     }
 }
 
-/// The reason that two robots do not match; modules are told by path name.
+/// The reason that two robots do not match; modules are given by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mismatch {
     /// Different numbers of modules.
@@ -49,7 +49,7 @@ pub enum Mismatch {
         /// Modules of B.
         b: usize,
     },
-    /// B is not in one piece, so that its modules can't be told by their bonds.
+    /// B is not connected, so that its bonds do not identify its modules.
     Pieces,
     /// B has a module whose type A lacks.
     Kind {
@@ -58,7 +58,7 @@ pub enum Mismatch {
         /// Name of its type.
         kind: String,
     },
-    /// In the best attempt, these modules differ in what is docked at this port.
+    /// The bond of two modules at this port differs in the best attempt.
     Bond {
         /// Path of the module in A.
         a: String,
@@ -67,7 +67,7 @@ pub enum Mismatch {
         /// Name of the port.
         port: String,
     },
-    /// In the best attempt, these joints have different positions, rad or m.
+    /// The positions of two joints differ in the best attempt, rad or m.
     Joint {
         /// Joint of A, with the path of its module.
         a: String,
@@ -167,7 +167,7 @@ struct Side<'a> {
     robot: &'a Assembly,
     state: &'a State,
     kinematics: Kinematics,
-    /// The port that each port of each module is docked to.
+    /// The port docked to each port, by module and port.
     docked: Vec<Vec<Option<Docked>>>,
 }
 
@@ -193,13 +193,14 @@ impl<'a> Side<'a> {
 struct Search<'a> {
     a: Side<'a>,
     b: Side<'a>,
-    /// For each module type of B: the ways in which a module may lie.
+    /// The symmetries of each module type of B.
     turns: Vec<Vec<Symmetry>>,
     tol_joint: f64,
 }
 
 impl<'a> Search<'a> {
-    /// Tries one image of the first module of B, lying in one way; otherwise how many modules agreed, and what did not.
+    /// Tries one image of the first module of B with one symmetry; otherwise returns the number of modules
+    /// that agreed, and the first difference.
     fn from(&self, image: usize, turn: &Symmetry) -> Result<Matching, (usize, Mismatch)> {
         let n = self.b.robot.modules.len();
         let mut images: Vec<Option<(usize, &Symmetry)>> = vec![None; n];

@@ -1,8 +1,9 @@
 //! Modules, what they are made of, robots composed of them, and the kinematics and mass of robots.
 //!
-//! In reading order: declarations ([`Library`]), robots and their states ([`Assembly`], [`State`]), mass ([`mass`]), forward
-//! kinematics ([`Kinematics`]), the geometric Jacobian ([`jacobian`]) and inverse kinematics ([`inverse_kinematics`]), when
-//! two robots are the same ([`matching()`]), rigidity of trusses ([`truss`]), and files of RoFI modules ([`rofi`]).
+//! In reading order: declarations ([`Library`]), robots and their states ([`Assembly`], [`State`]), mass
+//! ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian ([`jacobian`]) and inverse
+//! kinematics ([`inverse_kinematics`]), when two robots are the same ([`matching()`]), rigidity of trusses
+//! ([`truss`]), and files of RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
 mod assembly;

@@ -290,14 +290,14 @@ impl<'t> Words<'t> {
         word.parse().map_err(|_| self.fault(index, format!("`{word}` is no id of a module")))
     }
 
-    /// An angle in degrees.
+    /// Parses an angle in degrees.
     fn number(&self, index: usize) -> Result<f64, FileError> {
         let word = self.word(index, "a joint's position")?;
         let number = word.parse().ok().filter(|x: &f64| x.is_finite());
         number.ok_or_else(|| self.fault(index, format!("`{word}` is no number of degrees")))
     }
 
-    /// The index of a word among some names, stated as a name or as the index itself.
+    /// Parses the index of a word among some names, stated as a name or as the index itself.
     fn one_of(&self, index: usize, names: &[&str], what: &str) -> Result<usize, FileError> {
         let word = self.word(index, what)?;
         let by_number = word.parse().ok().filter(|n: &usize| *n < names.len());

@@ -32,7 +32,8 @@ const CONTACT: f64 = 1e-3;
 
 /// Returns the universal module with the distance `pitch` (m) between the centres of its two bodies.
 ///
-/// From shoe A to shoe B, in units of the pitch: `Rx(alpha) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-beta)`.
+/// The pose of shoe B in shoe A, in units of the pitch:
+/// `Rx(alpha) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-beta)`.
 pub fn module_type(pitch: f64) -> ModuleType {
     let tilt = Some((-FRAC_PI_2, FRAC_PI_2));
     let far = shifted(Vec3::new(0.0, 0.0, pitch));
@@ -96,7 +97,7 @@ pub fn assembly(world: &World, pitch: f64) -> (Assembly, State) {
     (assembly, state)
 }
 
-/// A homogeneous ball of radius `radius` (m).
+/// Returns a homogeneous ball of radius `radius` (m).
 fn link(name: &str, pose: Pose, radius: f64) -> Link {
     let shape = vec![Placed { pose: Pose::identity(), shape: Shape::Sphere { radius } }];
     let inertia = 0.4 * LINK_MASS * radius * radius;
@@ -125,7 +126,7 @@ fn joint(
     Joint { name, parent, child, kind: JointKind::Revolute, pose, axis, limits, passive: false, mimic: None }
 }
 
-/// The docks +X, -X and -Z of a shoe. A port's x axis points outward.
+/// Returns the docks +X, -X and -Z of a shoe. A port's x axis points outward.
 fn ports(side: &str, link: usize, pitch: f64) -> [Port; 3] {
     let half = pitch / 2.0;
     let port = |face: &str, origin: Vec3, quaternion: [f64; 4]| {

@@ -205,7 +205,7 @@ impl<'t> Locator<'t> {
         FileError { line, column, what: what.into() }
     }
 
-    /// The line and column, from 1, of the beginning of a piece of the text.
+    /// Returns the line and column, from 1, of the beginning of a piece of the text.
     fn position(&self, piece: &str) -> (usize, usize) {
         let before = &self.text[..piece.as_ptr() as usize - self.text.as_ptr() as usize];
         let line = before.matches('\n').count() + 1;

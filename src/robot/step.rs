@@ -33,8 +33,8 @@ pub struct Step {
     offset_from_axis: bool,
 }
 
-/// The joints and factors that give a step its position. In place for the one that nearly all have,
-/// so that walking over the steps reads one stretch of memory.
+/// The joints and factors that give a step its position. Stored inline for the single one that nearly all
+/// have, so that the steps are contiguous in memory.
 #[derive(Clone, Debug, PartialEq)]
 enum Drive {
     One((usize, f64)),

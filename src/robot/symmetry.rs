@@ -1,7 +1,7 @@
 //! The symmetries of a module: the turns after which it is the same again, with the permutations of links, joints and
 //! ports that they make.
 //!
-//! A RoFI module has no front: turned end for end, alpha and beta change places and nothing else does.
+//! A RoFI module has no front: turned end for end, alpha and beta are exchanged and nothing else is.
 
 use super::library::{Joint, JointKind, ModuleType, Port};
 use crate::geometry::{Pose, Shape, Vec3};
@@ -12,11 +12,11 @@ const TOL_SAME: f64 = 1e-9;
 /// A symmetry of a module, by the images of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symmetry {
-    /// For each link the link that it takes the place of.
+    /// The image of each link: the link whose pose it takes.
     pub links: Vec<usize>,
-    /// For each joint the joint that it takes the place of.
+    /// The image of each joint: the joint whose axis it takes.
     pub joints: Vec<usize>,
-    /// For each port the port that it takes the place of.
+    /// The image of each port: the port whose frame it takes.
     pub ports: Vec<usize>,
 }
 
@@ -49,7 +49,7 @@ pub fn symmetries(kind: &ModuleType) -> Vec<Symmetry> {
 
 struct Search<'a> {
     kind: &'a ModuleType,
-    /// For each link: the link onto which it goes, and the map of its frame into the frame of that link.
+    /// The image of each link, and the map of its frame into the frame of that link.
     links: Vec<Option<(usize, Pose)>>,
     joints: Vec<Option<usize>>,
 }
@@ -59,7 +59,7 @@ impl<'a> Search<'a> {
         Search { kind, links: vec![None; kind.links.len()], joints: vec![None; kind.joints.len()] }
     }
 
-    /// The symmetry that takes a link to another in this way, if there is one.
+    /// Returns the symmetry that takes a link to another with this motion, if there is one.
     fn from(mut self, link: usize, to: usize, map: Pose) -> Option<Symmetry> {
         self.links[link] = Some((to, map));
         let mut open = vec![link];

@@ -59,7 +59,7 @@ pub struct Rigidity {
 /// An infinitesimal mechanism, scaled so that the largest displacement is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
-    /// The nodes that move, with their displacements.
+    /// The nodes that move, with their displacements, relative to the largest.
     pub nodes: Vec<(usize, Vec3)>,
 }
 
@@ -70,7 +70,8 @@ impl Rigidity {
     }
 }
 
-/// Examines a truss with nodes at these places (m) and struts between them, which must have length.
+/// Returns the infinitesimal rigidity of a truss with nodes at these positions (m) and struts between them,
+/// which must have length.
 pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     if nodes.len() > NODES_DENSE
         && let Some(report) = truss_band::examine(nodes, struts)
@@ -140,8 +141,8 @@ pub(super) fn rigid_motions(nodes: &[Vec3]) -> Vec<DVector<f64>> {
     orthonormal(motions)
 }
 
-/// Returns an orthonormal basis by the method of Gram and Schmidt, twice for accuracy; vectors that depend on those before
-/// are left out.
+/// Returns an orthonormal basis by the method of Gram and Schmidt, twice for accuracy; vectors that depend on
+/// those before are left out.
 pub(super) fn orthonormal(vectors: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     let mut basis: Vec<DVector<f64>> = Vec::new();
     for vector in vectors {
@@ -172,8 +173,8 @@ fn project_out(vectors: Vec<DVector<f64>>, basis: &[DVector<f64>]) -> Vec<DVecto
     vectors.into_iter().map(project).collect()
 }
 
-/// Returns a basis of the span of vectors, of `count` vectors with as many zeros as Gaussian elimination gives: it depends
-/// on the span alone, so on nothing but the truss.
+/// Returns a basis of the span of vectors, of `count` vectors with as many zeros as Gaussian elimination
+/// gives: it depends on the span alone, so on nothing but the truss.
 fn reduced(mut rows: Vec<DVector<f64>>, count: usize) -> Vec<DVector<f64>> {
     let mut done: Vec<DVector<f64>> = Vec::new();
     let columns = rows.first().map_or(0, |r| r.len());

@@ -26,7 +26,7 @@ pub(super) struct RigidityReport {
     pub(super) redundant: Vec<usize>,
 }
 
-/// Examines a truss with nodes at these places (m); `None` where it is not rigid, or not clearly.
+/// Examines a truss with nodes at these positions (m); `None` where it is not rigid, or not clearly.
 pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<RigidityReport> {
     let order = cuthill_mckee_order(nodes.len(), struts);
     let mut place = vec![0; nodes.len()];
@@ -53,7 +53,7 @@ pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<Rigid
     if weakest <= TOLERANCES.clearly_rigid * largest_singular_value(&rows, 3 * nodes.len()) {
         return None;
     }
-    // With as many struts as there are ways to move, each is needed.
+    // With as many struts as there are degrees of freedom, each is needed.
     let spare = struts.len() + whole.len() > 3 * nodes.len();
     let needed = |row: &Row| {
         interrupt::checkpoint();
@@ -171,7 +171,8 @@ impl Band {
         (0..self.columns).all(|at| self.taken[at] && self.row(at)[0] != 0.0)
     }
 
-    /// Adds a row to the decomposed matrix, by Givens rotations with the rows that are there, until a place is free.
+    /// Adds a row to the decomposed matrix, by Givens rotations with the rows that are there, until a row is
+    /// free.
     fn insert(&mut self, row: &Row) {
         let mut entries = vec![0.0; self.width];
         entries[..row.entries.len()].copy_from_slice(&row.entries);
@@ -217,8 +218,8 @@ impl Band {
         }
     }
 
-    /// Returns the leverage of a row, the part of it that lies in no span of the others: 1 for a strut that is needed. The
-    /// pinning rows span nothing that struts do, so they do not change it.
+    /// Returns the leverage of a row, the part of it that lies in no span of the others: 1 for a strut that
+    /// is needed. The pinning rows span nothing that struts do, so they do not change it.
     fn leverage(&self, row: &Row) -> f64 {
         let mut b = DVector::zeros(self.columns);
         row.add_to(1.0, &mut b);

@@ -57,7 +57,8 @@ impl Session {
         native.then(|| format!("{}\n`:doc {name}` tells more\n", summary::signature(&self.checked, id)))
     }
 
-    /// Returns the declaration of a name with its place. Fails with a message for an unknown name.
+    /// Returns the declaration of a name with its position in the source. Fails with a message for an unknown
+    /// name.
     pub fn source(&self, name: &str) -> Result<String, String> {
         let Some((id, _)) = self.find(name) else { return Err(self.unknown(name)) };
         let def = self.checked.program.def(id);
@@ -140,7 +141,7 @@ pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) 
     (checked, ty)
 }
 
-/// Returns whether an item declares a name.
+/// Returns true if an item declares a name.
 fn is_named(item: &ast::Item, name: &str) -> bool {
     use ast::ItemKind as K;
     let declared = match &item.kind {

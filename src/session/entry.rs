@@ -1,8 +1,8 @@
-//! The extent of an entry: whether a text is complete, and whether the next line belongs to it.
+//! The extent of an entry: the completeness of a text, and the lines that belong to it.
 
 use crate::syntax::{Outline, TokenKind, breaks_off};
 
-/// Returns whether a text is incomplete: a bracket, a raw text or a comment is open, or it ends where more
+/// Returns true if a text is incomplete: a bracket, a raw text or a comment is open, or it ends where more
 /// is expected. A text with a mistake elsewhere is complete: it can be checked.
 pub fn is_incomplete(text: &str) -> bool {
     match Outline::of(text).map(|outline| openness(&outline)) {
@@ -13,14 +13,14 @@ pub fn is_incomplete(text: &str) -> bool {
     }
 }
 
-/// Returns whether a user submits an incomplete text: by an empty line; inside brackets, where empty lines
+/// Returns true if a user submits an incomplete text: by an empty line; inside brackets, where empty lines
 /// may occur, by two.
 pub fn is_given_up(text: &str) -> bool {
     let open = Outline::of(text).is_some_and(|outline| matches!(openness(&outline), Openness::Open));
     text.ends_with(if open { "\n\n" } else { "\n" })
 }
 
-/// Returns whether a line can only continue the one before.
+/// Returns true if a line can only continue the one before.
 pub fn goes_on(line: &str) -> bool {
     let line = line.trim_start();
     let word = line.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
@@ -59,7 +59,7 @@ fn openness(outline: &Outline) -> Openness {
     if depth > 0 { Openness::Open } else { Openness::Closed }
 }
 
-/// Returns whether a text ends with documentation, which needs an item.
+/// Returns true if a text ends with documentation, which needs an item.
 fn ends_with_documentation(text: &str) -> bool {
     text.lines().last().is_some_and(|line| line.trim_start().starts_with("///"))
 }

@@ -43,7 +43,7 @@ pub(crate) fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
     tokens.collect()
 }
 
-/// Returns whether an offset is at the beginning of a line, where clauses of an incomplete body begin.
+/// Returns true if an offset is at the beginning of a line, where clauses of an incomplete body begin.
 fn begins_a_line(text: &str, at: usize) -> bool {
     text[..at].rsplit('\n').next().is_none_or(|before| before.trim().is_empty())
 }

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 /// Returns the declarations whose values must be computed again. `None` if no identity is preserved, so
 /// that no value can be kept.
 ///
-/// A declaration that moved within its file is computed again, too, unless it is plain data: values of
-/// robots and plans record their places in the source.
+/// A declaration that moved within its file is computed again, too, unless it is plain data: values of robots
+/// and plans record their positions in the source.
 pub(super) fn stale(before: &Checked, after: &Checked) -> Option<Vec<DefId>> {
     let names = |checked: &Checked| -> Vec<_> {
         checked.sources.files().map(|(_, file)| file.name.to_string()).collect()
@@ -35,7 +35,7 @@ pub(super) fn stale(before: &Checked, after: &Checked) -> Option<Vec<DefId>> {
     Some(stale.into_iter().collect())
 }
 
-/// Returns whether the value of a declaration is plain data, without places in the source.
+/// Returns true if the value of a declaration is plain data, without positions in the source.
 fn is_plain(def: &Def) -> bool {
     fn plain(ty: &Type) -> bool {
         match ty {

@@ -90,12 +90,12 @@ impl<'c> Saved<'c> {
         named.collect()
     }
 
-    /// Returns whether a name is used.
+    /// Returns true if a name is used.
     fn is_used(&self, name: Symbol) -> bool {
         self.meant.get(&name).is_some_and(|id| self.used.contains(id))
     }
 
-    /// Returns whether a later entry replaces the declaration at a range.
+    /// Returns true if a later entry replaces the declaration at a range.
     fn is_replaced(&self, file: FileId, range: &Range<usize>) -> bool {
         let program = &self.checked.program;
         let own = program.own.iter().map(|id| (*id, program.def(*id)));
@@ -132,7 +132,7 @@ impl<'c> Saved<'c> {
         }
     }
 
-    /// Returns whether a name of an import is still needed.
+    /// Returns true if a name of an import is still needed.
     fn is_imported(&self, name: &ast::UseName, loaded: bool) -> bool {
         let shown = name.rename.unwrap_or(name.name).text;
         let Some(id) = self.meant.get(&shown) else { return false };

@@ -128,12 +128,12 @@ impl Session {
         &self.checked
     }
 
-    /// Returns whether abandoned work is still running.
+    /// Returns true if abandoned work is still running.
     pub fn is_left(&self) -> bool {
         self.evaluator.is_left()
     }
 
-    /// Waits for abandoned work to end, and returns whether it has. Returns false if the wait is abandoned,
+    /// Waits for abandoned work to end, and returns true if it has. Returns false if the wait is abandoned,
     /// too.
     pub fn settle(&mut self) -> bool {
         let Some(kept) = self.evaluator.settle() else { return false };
@@ -302,7 +302,7 @@ impl Session {
         (stale, notes)
     }
 
-    /// Loads a file: imports the names that it declares. The outcome is that of an entry.
+    /// Loads a file: imports the names that it declares. Returns an outcome like that of an entry.
     pub fn load(&mut self, path: &str, host: &mut dyn Host) -> Reply {
         if !self.loaded.iter().any(|known| known == path) {
             self.loaded.push(path.to_owned());
@@ -404,7 +404,7 @@ impl Session {
     }
 }
 
-/// Returns whether a name was given by the user; values of expressions are stored under other names.
+/// Returns true if a name was given by the user; values of expressions are stored under other names.
 pub(super) fn is_given(name: Symbol) -> bool {
     let digits = name.as_str().strip_prefix('_').unwrap_or("x");
     digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())

@@ -2,7 +2,7 @@
 
 use super::{Code, Span};
 
-/// The severity of a diagnostic, the gravest first.
+/// The severity of a diagnostic, the most severe first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -14,16 +14,16 @@ pub enum Severity {
     Note,
 }
 
-/// A labelled place in a text.
+/// A labelled span of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// The place.
+    /// The span.
     pub span: Span,
     /// A few words about it; may be empty.
     pub text: String,
 }
 
-/// A diagnostic: a stable code, a message, places, and hints for correction.
+/// A diagnostic: a stable code, a message, labels, and hints for correction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The code, which has a page in `docs/errors/`.
@@ -32,7 +32,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The message in the user's words and units: one sentence without a final full stop.
     pub message: String,
-    /// The places; the first one is the primary one. Empty only if no text is at fault.
+    /// The labels; the first one is the primary one. Empty only if no text is at fault.
     pub labels: Vec<Label>,
     /// Hints for correction, each a sentence without a final full stop.
     pub hints: Vec<String>,
@@ -70,7 +70,7 @@ impl Diagnostic {
         self
     }
 
-    /// Returns whether the severity is [`Severity::Error`].
+    /// Returns true if the severity is [`Severity::Error`].
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

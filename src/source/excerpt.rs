@@ -36,7 +36,7 @@ pub(super) struct Block {
     pub range: Range<usize>,
 }
 
-/// The place of a label in the excerpt.
+/// The position of a label in the excerpt.
 #[derive(Debug)]
 pub(super) struct Mark {
     /// The bytes of the label in [`Excerpt::text`]; never empty, never past the last visible character.
@@ -130,7 +130,7 @@ fn mark(sources: &Sources, text: &str, place: LabelPlace, shown: Range<usize>, c
     }
 }
 
-/// Returns the place of a label, moved to visible characters.
+/// Returns the position of a label, moved to visible characters.
 fn place(sources: &Sources, label: &Label) -> LabelPlace {
     let file = sources.file(label.span.file);
     let range = visible_range(&file.text, label.span.start as usize, label.span.end as usize);

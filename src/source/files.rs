@@ -1,5 +1,5 @@
-//! Access to files. The only way by which a program reads: the command line opens it onto a project folder,
-//! tests onto a map.
+//! Access to files. The only access by which a program reads: the command line opens it onto a project
+//! folder, tests onto a map.
 
 use std::borrow::Cow;
 

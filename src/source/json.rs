@@ -13,13 +13,13 @@ pub struct JsonDiagnostic {
     pub severity: Severity,
     /// The message.
     pub message: String,
-    /// The places; the first one is the primary one.
+    /// The labels; the first one is the primary one.
     pub labels: Vec<JsonLabel>,
     /// The hints.
     pub hints: Vec<String>,
 }
 
-/// A place in a file. Lines and columns count from 1; columns count characters.
+/// A span in a file. Lines and columns count from 1; columns count characters.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub struct JsonLabel {
     /// The name of the file.
@@ -34,9 +34,9 @@ pub struct JsonLabel {
     pub line: usize,
     /// The column of the first character.
     pub column: usize,
-    /// The line of the first character behind the place.
+    /// The line of the first character behind the span.
     pub end_line: usize,
-    /// The column of the first character behind the place.
+    /// The column of the first character behind the span.
     pub end_column: usize,
     /// The text of the label.
     pub text: String,

@@ -1,6 +1,6 @@
 //! Texts, positions in them, and diagnostics about them.
 //!
-//! The lowest room of the left wing: it knows no grammar and no robots.
+//! The lowest room of the front end (the language): it knows no grammar and no robots.
 
 pub mod code;
 mod diagnostic;

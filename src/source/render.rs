@@ -50,7 +50,7 @@ pub fn sorted(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
     sorted
 }
 
-/// Returns the sort key of a diagnostic. One without a place comes last; texts are part of the key so that
+/// Returns the sort key of a diagnostic. One without a label comes last; texts are part of the key so that
 /// equal diagnostics are adjacent.
 fn key(d: &Diagnostic) -> impl Ord + '_ {
     let texts = d.labels.iter().map(|label| (label.span, label.text.as_str())).collect::<Vec<_>>();
@@ -71,7 +71,7 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> S
     out
 }
 
-/// Returns one diagnostic as text: code, message, a snippet for each place, hints.
+/// Returns one diagnostic as text: code, message, a snippet for each label, hints.
 pub fn render_one(sources: &Sources, diagnostic: &Diagnostic, style: &Style) -> String {
     let width = style.width.max(WIDTH_MIN);
     let gutter = gutter_width(sources, diagnostic);

@@ -36,7 +36,7 @@ impl Span {
         self.start as usize..self.end as usize
     }
 
-    /// Returns whether `other` is inside this span.
+    /// Returns true if `other` is inside this span.
     pub fn contains(self, other: Span) -> bool {
         self.file == other.file && self.start <= other.start && other.end <= self.end
     }

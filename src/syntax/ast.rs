@@ -43,13 +43,13 @@ pub struct Comment {
 /// The kinds of comments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommentKind {
-    /// `//`
+    /// A line comment: `//`.
     Line,
-    /// `/* */`
+    /// A block comment: `/* */`.
     Block,
-    /// `///`
+    /// The documentation of an item: `///`.
     ItemDoc,
-    /// `//!`
+    /// The documentation of a file: `//!`.
     FileDoc,
 }
 
@@ -67,31 +67,31 @@ pub struct Item {
 /// The kinds of items.
 #[derive(Clone, Debug)]
 pub enum ItemKind {
-    /// `use`
+    /// An import: `use`.
     Use(Use),
-    /// `let`
+    /// A constant: `let`.
     Let(Let),
-    /// `fn`
+    /// A function: `fn`.
     Fn(Fn),
-    /// `extern fn`
+    /// A built-in function: `extern fn`.
     ExternFn(ExternFn),
-    /// `extern type`
+    /// A record type: `extern type`.
     ExternType(ExternType),
-    /// `connector`
+    /// A connector: `connector`.
     Connector(Connector),
-    /// `module`
+    /// A module: `module`.
     Module(Module),
-    /// `cell`
+    /// A cell of a lattice: `cell`.
     Cell(Facts),
-    /// `strut`
+    /// A strut of a truss: `strut`.
     Strut(Facts),
-    /// `config`
+    /// A configuration: `config`.
     Config(Config),
-    /// `lattice`
+    /// A lattice: `lattice`.
     Lattice(Lattice),
-    /// `truss`
+    /// A truss: `truss`.
     Truss(Truss),
-    /// `test`
+    /// A test: `test`.
     Test(Test),
     /// A statement at the top of the file.
     Statement(Stmt),
@@ -113,7 +113,7 @@ pub struct Use {
 /// The source of an import.
 #[derive(Clone, Debug)]
 pub enum UseSource {
-    /// `std.smores`
+    /// A module path: `std.smores`.
     Path(Vec<Name>),
     /// A path relative to the importing file; the span covers the quotes.
     File { path: String, span: Span },
@@ -228,9 +228,9 @@ pub enum TypeKind {
     Named { path: Vec<Name>, args: Vec<TypeExpr> },
     /// `Quantity<kg*m^2>`: the unit as written (a lone name may be a dimension parameter).
     Quantity(UnitExpr),
-    /// `T?`
+    /// A type whose value may be missing: `T?`.
     Optional(Box<TypeExpr>),
-    /// `fn(A, B) -> C`
+    /// A function type: `fn(A, B) -> C`.
     Fn { params: Vec<TypeExpr>, result: Box<TypeExpr> },
     /// `exact | enumerate | heuristic`, `auto | Int`, `Mesh | Cloud`; at least two.
     Choice(Vec<TypeExpr>),
@@ -267,9 +267,9 @@ pub enum ConnectorClause {
     Turns(Expr),
     /// `holds 88N`, `holds 1.9N*m`
     Holds(Expr),
-    /// `capture 4mm 5deg`
+    /// The error that docking tolerates: `capture 4mm 5deg`.
     Capture { keyword: Span, distance: Expr, angle: Option<Expr> },
-    /// `hinge(axis: Z, range: ...)`: the joint lives in the bond.
+    /// The joint of the bond: `hinge(axis: Z, range: ...)`.
     Hinge { keyword: Span, args: Vec<Arg> },
     /// A piece that could not be parsed.
     Error,
@@ -300,31 +300,31 @@ pub struct ModuleClause {
 /// The kinds of clauses of a module.
 #[derive(Clone, Debug)]
 pub enum ModuleClauseKind {
-    /// `mass 0.4kg`
+    /// The mass of the module: `mass 0.4kg`.
     Mass(Expr),
     /// `touch 0.2mm`: penetration deeper than this is a collision.
     Touch(Expr),
     /// `contact 4mm`: links within this of the ground touch it.
     Contact(Expr),
-    /// `link body = shape collides shape at [...]`
+    /// A link: `link body = shape collides shape at [...]`.
     Link { name: Name, shape: Expr, collides: Option<Expr>, at: Option<Placement> },
     /// `joint bend : base -> tip = revolute(...) at [...]`; `kind` is a call.
     Joint { name: Name, parent: Name, child: Name, kind: Expr, at: Option<Placement> },
-    /// `joint b = -a`
+    /// A joint that follows others: `joint b = -a`.
     Mimic { name: Name, value: Expr },
-    /// `port side[4] : Face on base at ... facing +X up +Z`
+    /// A port or an array of ports: `port side[4] : Face on base at ... facing +X up +Z`.
     Port(ModulePort),
-    /// `motor p = tilt + pan (max_speed: ..., max_torque: ...)`
+    /// A motor that drives several joints: `motor p = tilt + pan (max_speed: ..., max_torque: ...)`.
     Motor { name: Name, value: Expr, args: Vec<Arg> },
-    /// `touching a b`
+    /// Two links that meet by design: `touching a b`.
     Touching(Name, Name),
     /// `alias pan = front`: another name for a joint or a port.
     Alias { name: Name, target: Name },
-    /// `let name = value`
+    /// A definition: `let name = value`.
     Let(Let),
-    /// `require condition`
+    /// A requirement: `require condition`.
     Require(Require),
-    /// `if condition { ... } else { ... }`
+    /// A branch: `if condition { ... } else { ... }`.
     If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
     /// The ports of an array are declared in a loop: `for i in 0..4 { port side[i] : ... }`.
     For { binder: Name, iterable: Expr, body: Vec<ModuleClause> },
@@ -402,25 +402,25 @@ pub struct ConfigClause {
 /// The kinds of clauses of a configuration.
 #[derive(Clone, Debug)]
 pub enum ConfigClauseKind {
-    /// `part name: Type`
+    /// A part: `part name: Type`.
     Part(Part),
     /// `port head = body.head`, `port side[4] = [...]`
     Port { name: Name, count: Option<Expr>, value: Expr },
-    /// `base path`
+    /// The base module: `base path`.
     Base(Path),
-    /// `behavior name = body`
+    /// A behaviour: `behavior name = body`.
     Behavior(Behavior),
-    /// `connect a -- b turn angle`
+    /// A connection: `connect a -- b turn angle`.
     Connect { a: Path, b: Path, turn: Option<Expr> },
-    /// `set joint = value`
+    /// A start position: `set joint = value`.
     Set { joint: Path, value: Expr },
-    /// `let name = value`
+    /// A definition: `let name = value`.
     Let(Let),
-    /// `require condition`
+    /// A requirement: `require condition`.
     Require(Require),
-    /// `if condition { ... } else { ... }`
+    /// A branch: `if condition { ... } else { ... }`.
     If { condition: Expr, then: Vec<ConfigClause>, otherwise: Vec<ConfigClause> },
-    /// `for name in iterable { ... }`
+    /// A loop: `for name in iterable { ... }`.
     For { binder: Name, iterable: Expr, body: Vec<ConfigClause> },
     /// A piece that could not be parsed.
     Error,
@@ -444,9 +444,9 @@ pub struct Part {
 /// The length of a list of parts.
 #[derive(Clone, Debug)]
 pub enum PartCount {
-    /// `leg[4]`
+    /// A number of equal parts: `leg[4]`.
     Number(Expr),
-    /// `leg[i in 0..4]`
+    /// One part for each element of a range, which its arguments can refer to: `leg[i in 0..4]`.
     Each { binder: Name, range: Expr },
 }
 
@@ -499,9 +499,9 @@ pub struct Path {
 /// A step of a path.
 #[derive(Clone, Debug)]
 pub enum PathStep {
-    /// `.name`
+    /// A member: `.name`.
     Field(Name),
-    /// `[index]`
+    /// An element: `[index]`.
     Index { index: Expr, span: Span },
 }
 
@@ -538,7 +538,7 @@ pub struct Truss {
 pub enum TrussBody {
     /// `= value`, a value of the prelude's record `Frame`.
     Value(Expr),
-    /// `{ clauses }`
+    /// Clauses: `{ clauses }`.
     Clauses(Vec<TrussClause>),
 }
 
@@ -556,15 +556,15 @@ pub struct TrussClause {
 pub enum TrussClauseKind {
     /// `node a = [0m, 0m, 0m]`, in a loop `node ring[i] = ...`
     Node { name: Name, index: Option<Expr>, value: Expr },
-    /// `strut a -- b`
+    /// A strut between two nodes: `strut a -- b`.
     Strut { a: Path, b: Path },
-    /// `let name = value`
+    /// A definition: `let name = value`.
     Let(Let),
-    /// `require condition`
+    /// A requirement: `require condition`.
     Require(Require),
-    /// `if condition { ... } else { ... }`
+    /// A branch: `if condition { ... } else { ... }`.
     If { condition: Expr, then: Vec<TrussClause>, otherwise: Vec<TrussClause> },
-    /// `for name in iterable { ... }`
+    /// A loop: `for name in iterable { ... }`.
     For { binder: Name, iterable: Expr, body: Vec<TrussClause> },
     /// A piece that could not be parsed.
     Error,
@@ -595,17 +595,17 @@ pub struct Stmt {
 /// The kinds of statements.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
-    /// `let name = value`
+    /// A definition: `let name = value`.
     Let(Let),
     /// An expression.
     Expr(Expr),
-    /// `expect condition, message`
+    /// A test of a condition: `expect condition, message`.
     Expect { condition: Expr, message: Option<Expr> },
-    /// `require condition`
+    /// A requirement: `require condition`.
     Require(Require),
-    /// `if condition { ... } else { ... }`
+    /// A branch: `if condition { ... } else { ... }`.
     If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
-    /// `for name in iterable { ... }`
+    /// A loop: `for name in iterable { ... }`.
     For { binder: Name, iterable: Expr, body: Vec<Stmt> },
     /// A piece that could not be parsed.
     Error,
@@ -635,27 +635,27 @@ pub enum ExprKind {
     Axis(Axis),
     /// `_`: the missing value, as in the rows of a gait table.
     Hole,
-    /// `[a, b]`
+    /// A list: `[a, b]`.
     List(Vec<Expr>),
-    /// `[e for x in xs if c for y in ys]`
+    /// A list comprehension: `[e for x in xs if c for y in ys]`.
     Comprehension { body: Box<Expr>, clauses: Vec<ComprehensionClause> },
     /// A prefix operator with its operand.
     Unary { op: UnaryOp, op_span: Span, operand: Box<Expr> },
     /// An infix operator with its operands.
     Binary { op: BinaryOp, op_span: Span, left: Box<Expr>, right: Box<Expr> },
-    /// `a..b`
+    /// A range: `a..b`.
     Range { from: Box<Expr>, to: Box<Expr> },
     /// `x else y`: `y` if `x` is missing. It binds like `or`.
     Otherwise { value: Box<Expr>, otherwise: Box<Expr> },
-    /// `callee(args)`
+    /// A call: `callee(args)`.
     Call { callee: Box<Expr>, args: Vec<Arg> },
-    /// `object[index]`
+    /// An element of a list: `object[index]`.
     Index { object: Box<Expr>, index: Box<Expr> },
-    /// `object.field`
+    /// A member of a value: `object.field`.
     Field { object: Box<Expr>, field: Name },
     /// `if c { a } else { b }`; the branches are blocks.
     If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
-    /// `{ let a = ... newline expr }`
+    /// A block: `{ let a = ... newline expr }`; without `value` it has none.
     Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
     /// `x => e`, `(a, b) => e`
     Lambda { params: Vec<Name>, body: Box<Expr> },
@@ -668,16 +668,16 @@ pub enum ExprKind {
 pub enum TextPart {
     /// Escapes already resolved.
     Literal(String),
-    /// `{expr}`
+    /// An interpolated value: `{expr}`.
     Value(Expr),
 }
 
 /// A clause of a comprehension.
 #[derive(Clone, Debug)]
 pub enum ComprehensionClause {
-    /// `for name in iterable`
+    /// A loop: `for name in iterable`.
     For { binder: Name, iterable: Expr },
-    /// `if condition`
+    /// A filter: `if condition`.
     If(Expr),
 }
 
@@ -693,58 +693,58 @@ pub struct Arg {
 /// An axis of the frame: a unit vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// `X`
+    /// The x axis: `X`.
     X,
-    /// `Y`
+    /// The y axis: `Y`.
     Y,
-    /// `Z`
+    /// The z axis: `Z`.
     Z,
 }
 
 /// The unary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryOp {
-    /// `-a`
+    /// Negation: `-a`.
     Neg,
-    /// `+a`
+    /// The value itself: `+a`.
     Plus,
-    /// `not a`
+    /// Logical negation: `not a`.
     Not,
 }
 
 /// The binary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOp {
-    /// `or`
+    /// Disjunction: `or`.
     Or,
-    /// `and`
+    /// Conjunction: `and`.
     And,
-    /// `==`
+    /// Equal: `==`.
     Eq,
-    /// `!=`
+    /// Not equal: `!=`.
     Ne,
-    /// `<`
+    /// Less than: `<`.
     Lt,
-    /// `<=`
+    /// At most: `<=`.
     Le,
-    /// `>`
+    /// Greater than: `>`.
     Gt,
-    /// `>=`
+    /// At least: `>=`.
     Ge,
     /// `a <-> b`: the two ports are mated.
     Mated,
-    /// `++`
+    /// Concatenation of lists or texts, or plans one after another: `++`.
     Join,
-    /// `+`
+    /// Addition: `+`.
     Add,
-    /// `-`
+    /// Subtraction: `-`.
     Sub,
-    /// `*`
+    /// Multiplication: `*`.
     Mul,
-    /// `/`
+    /// Division: `/`.
     Div,
-    /// `%`
+    /// The remainder of a division: `%`.
     Rem,
-    /// `^`
+    /// Power: `^`.
     Pow,
 }

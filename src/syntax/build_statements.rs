@@ -187,7 +187,7 @@ impl Builder<'_> {
     }
 
     /// Reports an expression that begins with `+`, `-`, `(` or `[` right below another statement, which was
-    /// meant to continue it. Returns whether it is accepted.
+    /// meant to continue it. Returns true if it is accepted.
     fn check_line_start(&mut self, node: &Node, before: Option<Span>, place: LineStart) -> bool {
         let first = node.as_str().as_bytes()[0];
         let Some(before) = before.filter(|_| matches!(first, b'+' | b'-' | b'(' | b'[')) else { return true };

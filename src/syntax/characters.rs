@@ -65,7 +65,7 @@ pub(super) fn forbidden(c: char, span: Span) -> Diagnostic {
         .hint("in a text, write it as an escape: `\\u{...}`")
 }
 
-/// Returns whether a character is not even allowed in texts and comments: control characters, and those
+/// Returns true if a character is not even allowed in texts and comments: control characters, and those
 /// that change the order of reading.
 pub(super) fn is_forbidden_anywhere(c: char) -> bool {
     is_bidirectional(c) || c.is_control() && !matches!(c, '\n' | '\t' | '\r')
@@ -98,12 +98,12 @@ fn invisible_name(c: char) -> Option<&'static str> {
     })
 }
 
-/// Returns whether a character changes the direction of reading.
+/// Returns true if a character changes the direction of reading.
 fn is_bidirectional(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Returns whether a character is invisible.
+/// Returns true if a character is invisible.
 fn is_hidden(c: char) -> bool {
     matches!(c,
         '\u{ad}' | '\u{34f}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}'

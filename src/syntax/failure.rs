@@ -168,17 +168,17 @@ impl Mistake<'_> {
         Span::new(self.file, self.base + start, self.base + end)
     }
 
-    /// Returns whether the grammar would have accepted this text.
+    /// Returns true if the grammar would have accepted this text.
     fn wants(&self, text: &str) -> bool {
         self.failure.wanted.iter().any(|wanted| wanted == text)
     }
 
-    /// Returns whether the grammar would have accepted any expression.
+    /// Returns true if the grammar would have accepted any expression.
     fn wants_expression(&self) -> bool {
         self.wants("\"") && self.wants("[") && self.wants("not")
     }
 
-    /// Returns whether the faulty token begins a line.
+    /// Returns true if the faulty token begins a line.
     fn begins_line(&self) -> bool {
         let Some(before) = self.found.checked_sub(1).and_then(|before| self.tokens.get(before)) else {
             return false;
@@ -378,7 +378,7 @@ impl Mistake<'_> {
         })
     }
 
-    /// Explains one mark in place of another.
+    /// Explains one mark where another was meant.
     fn wrong_mark(&self) -> Option<Diagnostic> {
         let found = self.found();
         let hint = match found {
@@ -402,7 +402,7 @@ impl Mistake<'_> {
         self.error(format!("`{found}` cannot stand here")).map(|diagnostic| diagnostic.hint(hint))
     }
 
-    /// Returns whether the faulty token follows a complete operand.
+    /// Returns true if the faulty token follows a complete operand.
     fn wants_operator(&self) -> bool {
         self.wants("*") && self.wants("^") || self.failure.wanted.is_empty()
     }
@@ -485,7 +485,7 @@ impl Mistake<'_> {
             && !self.begins_line();
         let wanted = self.wanted();
         let before = self.found_words(whole);
-        // If a line or file ends too early, the place is behind its last token.
+        // If a line or file ends too early, the span is behind its last token.
         let ends = self.found >= self.tokens.len() || self.begins_line() && !wanted.is_empty();
         let span = match self.found.checked_sub(1).filter(|_| ends).and_then(|before| self.tokens.get(before))
         {

@@ -19,7 +19,7 @@ pub enum TokenKind {
     LineBreak,
     /// `// ...`, without the line end.
     LineComment,
-    /// `/* ... */`
+    /// A block comment: `/* ... */`.
     BlockComment {
         /// The depth of nested comments in it.
         depth: usize,
@@ -219,7 +219,7 @@ impl Lexer<'_> {
     }
 }
 
-/// Returns whether a byte may be part of a name.
+/// Returns true if a byte may be part of a name.
 pub(super) fn is_word_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }

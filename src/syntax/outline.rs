@@ -191,7 +191,7 @@ impl Found {
     }
 }
 
-/// Returns whether a node of this rule is an item, clause or statement below its parent.
+/// Returns true if a node of this rule is an item, clause or statement below its parent.
 fn begins(rule: Rule, parent: Rule) -> bool {
     use Rule as R;
     match parent {

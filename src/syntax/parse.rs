@@ -70,7 +70,7 @@ pub(super) fn nodes(rule: Rule, text: &str) -> Option<Node<'_>> {
     Grammar::parse(rule, text).ok()?.next()
 }
 
-/// Returns whether a text is incomplete: its last piece cannot be parsed, and would be by more text behind
+/// Returns true if a text is incomplete: its last piece cannot be parsed, and would be by more text behind
 /// it.
 pub fn breaks_off(text: &str) -> bool {
     if text.len() > TEXT_MAX {

@@ -42,7 +42,7 @@ fn hint(divisor: &str) -> String {
     format!("the whole quotient is `div(a, {})`; `/` divides", &divisor[..end])
 }
 
-/// Returns whether a text is an integer, perhaps followed by more of an expression.
+/// Returns true if a text is an integer, perhaps followed by more of an expression.
 fn is_divisor(text: &str) -> bool {
     let tokens = tokens(text, 0..text.len());
     let begins = tokens
@@ -52,7 +52,7 @@ fn is_divisor(text: &str) -> bool {
     begins && text.len() <= DIVISOR_MAX && nodes(Rule::chunk, text).is_some()
 }
 
-/// Returns whether a text is a name or number followed by the bracket that closes one open in `ahead`.
+/// Returns true if a text is a name or number followed by the bracket that closes one open in `ahead`.
 fn swallows_a_bracket(ahead: &str, text: &str) -> bool {
     let mut open = 0i32;
     for token in tokens(ahead, 0..ahead.len()) {
@@ -72,7 +72,7 @@ fn depth(kind: TokenKind) -> i32 {
     }
 }
 
-/// Returns whether a number has only digits.
+/// Returns true if a number has only digits.
 fn is_plain(number: &str) -> bool {
     number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_')
 }

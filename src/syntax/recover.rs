@@ -124,7 +124,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Returns whether a fault is deep nesting, so that nothing around it can be parsed.
+    /// Returns true if a fault is deep nesting, so that nothing around it can be parsed.
     fn nests_too_deep(&self, fault: Fault) -> bool {
         matches!(self.scan.text.as_bytes()[fault.at], b'(' | b'[' | b'{' | b'"')
     }
@@ -166,13 +166,13 @@ impl<'t> Parser<'t> {
             .unwrap_or_else(|| self.error_item(range))
     }
 
-    /// Returns whether a range begins with one of the words.
+    /// Returns true if a range begins with one of the words.
     fn begins_with(&self, range: &Range<usize>, words: &[&str]) -> bool {
         let first = tokens(&self.scan.text, range.clone()).first().copied();
         first.is_some_and(|token| words.contains(&&self.scan.text[token.start..token.end]))
     }
 
-    /// Returns whether a `{ }` is a block behind `=` and not the body of the item.
+    /// Returns true if a `{ }` is a block behind `=` and not the body of the item.
     fn has_value_body(&self, range: &Range<usize>, body: &Range<usize>) -> bool {
         let before = tokens(&self.scan.text, range.start..body.start - 1);
         before.last().is_some_and(|token| matches!(&self.scan.text[token.start..token.end], "=" | "=>"))

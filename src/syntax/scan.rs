@@ -39,7 +39,7 @@ pub(super) struct Scan<'t> {
 pub(super) struct Fault {
     /// Its offset.
     pub(super) at: usize,
-    /// True if the grammar must not read this place: recursion would be too deep, or the meaning is lost.
+    /// True if the grammar must not read this span: recursion would be too deep, or the meaning is lost.
     pub(super) fatal: bool,
 }
 
@@ -404,12 +404,12 @@ impl<'t> Scanner<'t> {
     }
 }
 
-/// Returns whether a text is a name.
+/// Returns true if a text is a name.
 fn is_word(text: &str) -> bool {
     text.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
-/// Returns whether the tokens behind a keyword show that it begins an item: a name or a text on its line.
+/// Returns true if the tokens behind a keyword show that it begins an item: a name or a text on its line.
 /// Two words side by side occur in no expression, so an item is never split here.
 fn begins_item(text: &str, token: Token, rest: &Lexer) -> bool {
     let next = rest.clone().find(|token| token.kind != TokenKind::LineBreak);

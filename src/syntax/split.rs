@@ -52,7 +52,7 @@ fn trimmed_end(text: &str, range: Range<usize>) -> usize {
     tokens(text, range.clone()).last().map_or(range.end, |token| token.end)
 }
 
-/// Returns whether a token begins a piece.
+/// Returns true if a token begins a piece.
 fn begins_piece(text: &str, tokens: &[Token], i: usize, keywords: &[&str], broken: bool) -> bool {
     let (token, before) = (tokens[i], tokens[i - 1]);
     let word = (token.kind == TokenKind::Word).then(|| &text[token.start..token.end]);
@@ -73,7 +73,7 @@ fn begins_piece(text: &str, tokens: &[Token], i: usize, keywords: &[&str], broke
     begins && !wants_more(text, before)
 }
 
-/// Returns whether a keyword may stand before this token.
+/// Returns true if a keyword may stand before this token.
 fn leads(text: &str, next: Option<&Token>) -> bool {
     next.is_some_and(|next| match next.kind {
         TokenKind::Word | TokenKind::Number | TokenKind::Text { .. } | TokenKind::Open => true,
@@ -81,7 +81,7 @@ fn leads(text: &str, next: Option<&Token>) -> bool {
     })
 }
 
-/// Returns whether a keyword in the middle of a line begins a clause: two words side by side, and the word
+/// Returns true if a keyword in the middle of a line begins a clause: two words side by side, and the word
 /// before does not take a name.
 fn stands_alone(text: &str, tokens: &[Token], i: usize) -> bool {
     let before = tokens[i - 1];
@@ -91,7 +91,7 @@ fn stands_alone(text: &str, tokens: &[Token], i: usize) -> bool {
         && !(before.kind == TokenKind::Word && words::GOING_ON.contains(&&text[before.start..before.end]))
 }
 
-/// Returns whether an expression cannot end with this token.
+/// Returns true if an expression cannot end with this token.
 fn wants_more(text: &str, token: Token) -> bool {
     let written = &text[token.start..token.end];
     match token.kind {

@@ -44,7 +44,7 @@ pub(super) const GOING_ON: &[&str] = &[
     "allows", "closed",
 ];
 
-/// Returns whether a word is reserved everywhere.
+/// Returns true if a word is reserved everywhere.
 pub(super) fn is_reserved(word: &str) -> bool {
     RESERVED.contains(&word)
 }

@@ -1,4 +1,4 @@
-//! Colours, the same as those of the page, that people with colour blindness can tell apart.
+//! Colours, the same as those of the page, that people with colour blindness can distinguish.
 
 use crate::robot::Assembly;
 
@@ -27,7 +27,7 @@ pub(super) const AROUND: Rgb = hex(0xb4b8b2);
 /// A colour scale from cold to warm (after cividis).
 const RAMP: [Rgb; 5] = [hex(0x1c4a86), hex(0x4f7196), hex(0x7f8c8d), hex(0xbca94f), hex(0xfddc3b)];
 
-/// The brightness offset of each link of a module, by which its links are told apart.
+/// The brightness offset of each link of a module, by which its links are distinguished.
 const SHADES: [f64; 8] = [0.0, 0.22, -0.42, -0.3, -0.3, 0.34, -0.2, 0.12];
 
 /// Returns the colour of `0xrrggbb`.

@@ -127,7 +127,7 @@ pub(super) fn summary(input: &RenderInput) -> String {
     parts.join(", ")
 }
 
-/// Returns the causes with their places in the source.
+/// Returns the causes with their positions in the source.
 pub(super) fn causes(causes: &[Cause]) -> Vec<Value> {
     let place = |c: &Cause| json!({ "file": c.file, "line": c.line, "text": c.text });
     let cause = |c: &Cause| {

@@ -1,4 +1,4 @@
-//! A configuration as a graph in SVG: modules at their places, in a view from a corner, and the bonds
+//! A configuration as a graph in SVG: modules at their positions, in a view from a corner, and the bonds
 //! between them.
 
 use super::bodies::link_poses;

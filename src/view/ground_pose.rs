@@ -53,7 +53,7 @@ fn kept(moments: &[Moment]) -> Vec<usize> {
     kept
 }
 
-/// Returns whether moment `i` is within tolerance of the line between two others.
+/// Returns true if moment `i` is within tolerance of the line between two others.
 fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
     let numbers = |at: usize| {
         let (p, q) = (moments[at].base.translation.vector, moments[at].base.rotation);
@@ -89,7 +89,7 @@ pub(super) fn supports(moments: &[Moment]) -> Vec<Value> {
 }
 
 /// Returns `[time, [x, y, ...]]` of the points that touch the ground, for each moment at which they differ
-/// from those before; and whether the judge's limit of contacts truncated them.
+/// from those before; and true if the judge's limit of contacts truncated them.
 pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
     let most = moments.iter().map(|m| m.contacts.len()).max().unwrap_or(0);
     let afforded = CONTACTS_MAX / most.max(1);
@@ -106,7 +106,7 @@ pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
     (told, most >= articulated::CONTACTS_MAX)
 }
 
-/// Returns whether two sets of points are equal within tolerance.
+/// Returns true if two sets of points are equal within tolerance.
 fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     let near = |(p, q): (&[f64; 2], &[f64; 2])| p.iter().zip(q).all(|(x, y)| (x - y).abs() <= TOL_BASE);
     a.len() == b.len() && a.iter().zip(b).all(near)

@@ -31,8 +31,8 @@ const SCRIPTS: [&str; 14] = [
 const STILL: StillOptions =
     StillOptions { time: 0.0, side: super::picture::Side::Corner, width: 480, height: 300 };
 
-/// Returns the HTML of the page. Nothing in the plan can break out of its place: the data is JSON in which
-/// `<`, `>` and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
+/// Returns the HTML of the page. No text of the plan can become markup: the data is JSON in which `<`, `>`
+/// and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
 pub fn page(input: &RenderInput) -> String {
     let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
     let plan = unmarked(&data::data(input).to_string());

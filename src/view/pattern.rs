@@ -247,7 +247,7 @@ struct FoldStyle {
     colour: &'static str,
     /// Lengths of dash and gap, in widths of the pen.
     dashes: [f64; 2],
-    /// Returns whether a hinge with this fold angle (rad) belongs to the layer.
+    /// The function that returns true if a hinge with this fold angle (rad) belongs to the layer.
     belongs: fn(f64) -> bool,
 }
 
@@ -257,7 +257,7 @@ const STYLES: [FoldStyle; 3] = [
     FoldStyle { name: "level", colour: SOFT, dashes: [2.0, 6.0], belongs: |angle| angle.abs() < ANGLE_MIN },
 ];
 
-/// The distance of a letter from its edge, as a part of the way to the panel's centre.
+/// The distance of a letter from its edge, as a fraction of the distance to the panel's centre.
 const INWARDS: f64 = 0.25;
 
 /// Returns a label: A, B, ..., Z, AA, AB, ...

@@ -29,17 +29,17 @@ const INK: Rgb = Rgb([0.125, 0.188, 0.235]);
 /// The viewpoint of a picture. +x of the world is the front.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// From the front right, above.
+    /// The view from the front right, above.
     Corner,
-    /// From +x.
+    /// The view from +x.
     Front,
-    /// From -x.
+    /// The view from -x.
     Back,
-    /// From +y.
+    /// The view from +y.
     Left,
-    /// From -y.
+    /// The view from -y.
     Right,
-    /// From +z, with +x up in the picture.
+    /// The view from +z, with +x up in the picture.
     Top,
 }
 

@@ -57,12 +57,12 @@ pub(super) fn program(input: &RenderInput, tracks: &Tracks) -> String {
 struct Drawer<'a> {
     robot: &'a Assembly,
     group: Vec<usize>,
-    /// Name, module and whether it is prismatic, of each joint.
+    /// The name, the module and true if it is prismatic, of each joint.
     names: Vec<(String, Option<usize>, bool)>,
     drawn: usize,
 }
 
-/// Returns name, module and whether it is prismatic, of each joint.
+/// Returns the name, the module and true if it is prismatic, of each joint.
 fn names(robot: &Assembly) -> Vec<(String, Option<usize>, bool)> {
     let name = |owner| match owner {
         JointOwner::Module { module, joint } => {

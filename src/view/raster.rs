@@ -53,7 +53,7 @@ pub(super) struct Projected {
 }
 
 impl Camera {
-    /// Returns a camera at `at` that looks at `target`, both in metres; see [`Camera::half`] for `half`.
+    /// Returns a camera at `at` that is directed at `target`, both in m; see [`Camera::half`] for `half`.
     pub(super) fn new(at: Vec3, target: Vec3, up: Vec3, half: f64, parallel: bool) -> Camera {
         let back = (at - target).normalize();
         let right = up.cross(&back).normalize();

@@ -9,7 +9,7 @@ const SQUARES_MAX: usize = 48;
 /// The margin of drawn terrain around the nodes, in widths of the truss at the start.
 const AROUND: f64 = 0.5;
 
-/// Returns whether a level floor is drawn: the world has a floor, and no terrain replaces it.
+/// Returns true if a level floor is drawn: the world has a floor, and no terrain replaces it.
 pub(super) fn floor(plan: &Plan) -> bool {
     let uneven = plan.body.node_paths().is_some_and(|paths| paths.surroundings.terrain.is_some());
     !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor())

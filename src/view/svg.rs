@@ -19,7 +19,7 @@ pub fn svg(input: &RenderInput) -> String {
     }
 }
 
-/// Returns whether a plan has a program with at least one action.
+/// Returns true if a plan has a program with at least one action.
 fn acts(plan: &Plan) -> bool {
     let root = plan.program.as_ref().map(|program| &*program.root);
     root.is_some_and(|root| !matches!(root, Node::Series(list) if list.is_empty()))

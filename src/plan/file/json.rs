@@ -1,12 +1,12 @@
 //! The JSON of a plan file: what stands in it, in order, and how it becomes a plan and back.
 //!
-//! It differs from [`Plan`] in three ways: the library stands once, beside the body; a program is a table
-//! of nodes whose children come before them, so that what is shared stays shared and nothing nests
+//! It differs from [`Plan`] in three respects: the library is written once, beside the body; a program is a
+//! table of nodes whose children come before them, so that what is shared stays shared and nothing nests
 //! deeply; and beside the indices stand the names of what they stand for, which say nothing new and are
 //! compared with the indices when a file is read.
 //!
-//! From version 2 on, versions only add fields. A field that a later version adds is optional here, so
-//! that files of every version since 2 are read.
+//! Versions from 2 on only add fields. A field that a later version adds is optional here, so that files of
+//! every version since 2 are read.
 
 use super::library::LibraryNamesJson;
 use super::program::{ProgramJson, of_exemption};
@@ -39,12 +39,12 @@ pub(super) const VERSION_MIN: u32 = 2;
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Plan", deny_unknown_fields)]
 pub(super) struct PlanJson<'a> {
-    /// Always `modl plan`.
+    /// The format, always `modl plan`.
     format: Cow<'a, str>,
     /// 2. Later versions only add fields.
     version: u32,
     provenance: Cow<'a, Provenance>,
-    /// In order of time.
+    /// The worlds, in order of time.
     worlds: Vec<WorldFromJson>,
     settings: Settings,
     /// `true` where times depend on what sensors would say: then they hold for the undisturbed run.
@@ -59,11 +59,11 @@ pub(super) struct PlanJson<'a> {
     verdict: Option<Cow<'a, Verdict>>,
 }
 
-/// From when on which world holds; the first begins at 0.
+/// A world and the time from which it holds; the first begins at 0.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "WorldFrom", deny_unknown_fields)]
 struct WorldFromJson {
-    /// Seconds.
+    /// The beginning, s.
     from: f64,
     /// The world from then on.
     world: WorldJson,
@@ -73,7 +73,7 @@ struct WorldFromJson {
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "World", deny_unknown_fields)]
 struct WorldJson {
-    /// m/s², downwards; 0 is weightless.
+    /// The gravity, m/s², downwards; 0 is weightless.
     gravity: f64,
     ground: Ground,
     /// Factor on the friction of every link.
@@ -82,7 +82,7 @@ struct WorldJson {
     dynamics: DynamicsModel,
 }
 
-/// A stretch of the plan that is excused from a check. The end of the whole plan never is.
+/// An interval of the plan that is excused from a check. The end of the whole plan never is.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Exemption", deny_unknown_fields)]
 struct ExemptionJson {
@@ -90,14 +90,14 @@ struct ExemptionJson {
     /// The names of the modules or of the joint that it is about.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     on: Vec<String>,
-    /// Seconds.
+    /// The beginning, s.
     from: f64,
-    /// Seconds.
+    /// The end, s.
     to: f64,
     cause: CauseId,
 }
 
-/// Only what tells the versions apart.
+/// The part of a file that states its version.
 #[derive(Deserialize)]
 pub(super) struct Header {
     pub(super) format: Option<String>,
@@ -105,7 +105,7 @@ pub(super) struct Header {
 }
 
 impl<'a> PlanJson<'a> {
-    /// The form of a plan; it borrows what is large.
+    /// Returns the form of a plan; it borrows what is large.
     pub(super) fn of(plan: &'a Plan) -> PlanJson<'a> {
         let names = plan.body.tracks().map(|tracks| RobotNames::of(&tracks.robot));
         let dynamics = plan.body.dynamics();
@@ -142,7 +142,7 @@ impl<'a> PlanJson<'a> {
         }
     }
 
-    /// The names that the file states beside indices, in its order.
+    /// Returns the names that the file states beside indices, in its order.
     fn names(&self) -> Stated {
         let mut stated = Stated::default();
         self.names.names(&mut stated);
@@ -154,8 +154,8 @@ impl<'a> PlanJson<'a> {
         stated
     }
 
-    /// The plan that stands in a file, its references and orders validated, its names compared with its
-    /// indices.
+    /// Returns the plan that stands in a file, its references and orders validated, its names compared with
+    /// its indices.
     pub(super) fn into_valid_plan(self) -> Result<Plan, PlanFault> {
         let names = self.names();
         let dynamics: Vec<DynamicsModel> = self.worlds.iter().map(|w| w.world.dynamics).collect();

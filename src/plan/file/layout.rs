@@ -3,7 +3,7 @@
 /// Containers deeper than this stay on one line: a segment of a track is one.
 const LINES_DEPTH: usize = 5;
 
-/// Compact JSON with a line for each item of the outer containers, so that a person finds their way
+/// Returns compact JSON with a line for each item of the outer containers, so that a person can find an item
 /// and two plans can be compared; inner containers stay on the line where they stand.
 pub(super) fn laid_out(compact: &str) -> String {
     let mut text = String::with_capacity(compact.len() + compact.len() / 4);

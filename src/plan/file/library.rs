@@ -34,7 +34,7 @@ struct ModuleNames {
 #[serde(rename = "JointNames", deny_unknown_fields)]
 struct JointNames {
     name: String,
-    /// The link that the joint hangs on.
+    /// The proximal link of the joint.
     parent: String,
     /// The link that the joint carries.
     child: String,

@@ -15,12 +15,12 @@ use sha2::{Digest, Sha256};
 /// Longest text that is read, bytes.
 pub const TEXT_MAX: usize = 1 << 31;
 
-/// The reason why a plan cannot be written or read, with its place in the text.
+/// The reason why a plan cannot be written or read, with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileError {
-    /// From 1; 0 where the fault has no place in the text.
+    /// The line, from 1; 0 where the fault has no position in the text.
     pub line: usize,
-    /// From 1, in bytes; 0 where the fault has no place in the text.
+    /// The column, from 1, in bytes; 0 where the fault has no position in the text.
     pub column: usize,
     /// The reason, in words.
     pub message: String,
@@ -89,7 +89,8 @@ pub fn read(text: &str) -> Result<Plan, FileError> {
     json.into_valid_plan().map_err(|fault| newer(version, FileError::whole(fault.to_string())))
 }
 
-/// An error in a file of a later version may come of what that version added: then it says so.
+/// Returns an error that mentions the version, where the file's is later than ours: the error may come from
+/// what that version added.
 fn newer(version: u32, error: FileError) -> FileError {
     if version <= VERSION {
         return error;
@@ -102,12 +103,12 @@ fn newer(version: u32, error: FileError) -> FileError {
     FileError { message, ..error }
 }
 
-/// SHA-256 of a text in hexadecimal, as plans and their pages name sources and plans.
+/// Returns the SHA-256 of a text in hexadecimal, by which plans and their pages name sources and plans.
 pub fn digest(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// The JSON Schema of plan files.
+/// Returns the JSON Schema of plan files.
 pub fn schema() -> serde_json::Value {
     let mut schema = schemars::schema_for!(PlanJson<'static>).to_value();
     if let Some(object) = schema.as_object_mut() {

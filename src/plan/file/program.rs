@@ -71,7 +71,7 @@ struct ActionJson<'a> {
     /// The names of the joints and ports in `until`, in its order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     until_on: Vec<String>,
-    /// Seconds.
+    /// The timeout, s.
     timeout: Option<f64>,
     otherwise: OtherwiseJson,
     cause: CauseId,
@@ -87,7 +87,7 @@ enum OtherwiseJson {
 }
 
 impl<'a> ProgramJson<'a> {
-    /// The JSON of a program; `names` are those of the robot that it is for.
+    /// Returns the JSON of a program; `names` are those of the robot that it is for.
     pub(super) fn of(program: &'a Program, names: Option<&RobotNames>) -> ProgramJson<'a> {
         let graph = Graph::of(&program.root);
         let nodes = graph.nodes.iter().map(|node| NodeJson::of(node, &graph, names)).collect::<Vec<_>>();
@@ -207,7 +207,7 @@ impl<'a> ActionJson<'a> {
     }
 }
 
-/// The names of the joint or the ports that a command is about.
+/// Returns the names of the joint or the ports that a command is about.
 fn of_command(command: &Command, names: &RobotNames) -> Vec<String> {
     match command {
         Command::Move { joint, .. } | Command::Spin { joint, .. } | Command::Follow { joint, .. } => {
@@ -236,7 +236,7 @@ fn add_of_condition(condition: &Condition, names: &RobotNames, found: &mut Vec<S
     }
 }
 
-/// The names of the modules or of the joint that an exemption is about.
+/// Returns the names of the modules or of the joint that an exemption is about.
 pub(super) fn of_exemption(kind: &ExemptionKind, names: &RobotNames) -> Vec<String> {
     match kind {
         ExemptionKind::Collision(Some((a, b))) => vec![names.module(*a), names.module(*b)],

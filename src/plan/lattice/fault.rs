@@ -13,7 +13,7 @@ pub enum LatticeFault {
     Entangled,
     /// The centre of mass moves, so contact forces alone do not explain the motion.
     CentreMoves,
-    /// A cell does not fill a place of the lattice.
+    /// A cell does not fill a lattice site.
     OffLattice,
 }
 

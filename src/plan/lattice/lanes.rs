@@ -26,12 +26,12 @@ struct Place {
 }
 
 struct Lanes {
-    /// The places of each lane, in order along the axis before the stage.
+    /// The cells by lane; in order along the axis before the stage.
     places: Vec<Place>,
-    /// The beginning of each lane in `places`, and the end.
+    /// The index in `places` of the first of each lane, and the end.
     starts: Vec<usize>,
     sections: Vec<Section>,
-    /// Of each lane, in order.
+    /// The tiles of each lane, in order.
     tiles: Vec<Tile>,
 }
 

@@ -216,7 +216,7 @@ pub fn velocities_continue(
         return Ok(());
     }
     let (first, second) = (TimeScaling::of(stage), TimeScaling::of(next));
-    // Velocities are displacement · speed / T; their squares and signs say whether they are equal.
+    // Velocities are displacement · speed / T; their squares and signs decide if they are equal.
     let factor = |scaling: &TimeScaling, moves: bool| {
         let t = scaling.time_squared;
         (

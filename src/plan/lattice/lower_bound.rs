@@ -32,7 +32,7 @@ pub fn lower_bound(
         let count = before.len() as i128;
         let sum = |places: &[i64]| places.iter().map(|&x| i128::from(x)).sum::<i128>();
         let (start, end) = (sum(&before), sum(&after));
-        // Times the number of cells, the place about the centre of mass is a whole number.
+        // Times the number of cells, the position about the centre of mass is a whole number.
         let scale = 2.0 * lines as f64 * count as f64;
         let apart =
             |(&a, &b): (&i64, &i64)| ((i128::from(a) - i128::from(b)) * count - (start - end)).unsigned_abs();

@@ -71,15 +71,14 @@ pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -
     lower_bound(before, after, grid.lines, stages.model.contact_force) * stages.time_unit
 }
 
-/// Integer coordinates of places of a lattice.
+/// The integer coordinates of lattice sites.
 pub type Places = Vec<[i64; 3]>;
 
-/// Returns the places of the lattice that the cells fill at the start and at the end of a plan, sorted and
-/// translated so that the lowest along each axis is 0.
+/// Returns the lattice sites that the cells fill at the start and at the end of a plan, sorted and translated
+/// so that the lowest along each axis is 0.
 ///
 /// # Errors
-///
-/// [`LatticeFault::OffLattice`] where a cell does not fill a place; [`LatticeFault::GridTooFine`] or
+/// [`LatticeFault::OffLattice`] where a cell does not fill a site; [`LatticeFault::GridTooFine`] or
 /// [`LatticeFault::CellsTooFar`].
 pub fn end_shapes(stages: &Stages) -> Result<(Places, Places), LatticeFault> {
     let grid = Grid::of(stages)?;

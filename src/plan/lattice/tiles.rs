@@ -28,7 +28,7 @@ pub(super) struct Tiles {
     map: BTreeMap<Tile, u32>,
     /// The cross-section of each lane.
     pub sections: Vec<Section>,
-    /// For each lane the next one of its tile.
+    /// The next lane of the tile of each lane.
     next: Vec<u32>,
 }
 

@@ -6,14 +6,14 @@ use crate::plan::cause::CauseId;
 use crate::plan::operation_error::OperationError;
 use crate::plan::time::tick_after;
 
-/// The most by which nodes may be apart where two plans meet, m, along each axis: what rounding explains
-/// and no eye sees.
+/// The most by which nodes may be apart where two plans meet, m, along each axis: what rounding explains and
+/// cannot be seen.
 pub const TOL_JOIN_NODE: f64 = 1e-6;
 
 /// Returns the first paths and then the second, whose causes come behind `causes` others.
 ///
 /// # Errors
-/// Refuses trusses that differ in their struts, in their surroundings, or in the places of their nodes.
+/// Refuses trusses that differ in their struts, in their surroundings, or in the positions of their nodes.
 pub(in crate::plan) fn joined(
     a: &NodePaths,
     b: &NodePaths,

@@ -21,7 +21,7 @@ pub(in crate::plan) struct NodePathsJson<'a> {
     struts: Cow<'a, [(usize, usize)]>,
     /// The names of the nodes at the ends of each strut.
     strut_ends: Vec<(String, String)>,
-    /// In order of time; the first at 0.
+    /// The keyframes, in order of time; the first at 0.
     keyframes: Cow<'a, [Keyframe]>,
     /// The limits beside those of its struts.
     #[serde(default, skip_serializing_if = "is_no_limit")]

@@ -68,25 +68,25 @@ impl TrussLimits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Margins {
-    /// To the nearer end of the range of a strut's lengths, m.
+    /// The distance to the nearer end of the range of a strut's lengths, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
-    /// Beyond the clearance between struts that share no node, m.
+    /// The distance, beyond the clearance, between struts that share no node, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// Beyond the clearance from obstacles, m.
+    /// The distance, beyond the clearance, from obstacles, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub obstacle: Option<f64>,
-    /// Of the centre of mass inside the hull of the nodes on the ground, m.
+    /// The distance of the centre of mass inside the hull of the nodes on the ground, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub support: Option<f64>,
-    /// Beyond the least angle between struts that share a node, rad.
+    /// The angle between struts that share a node, beyond the least, rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
-    /// Of the least singular value above its limit.
+    /// The least singular value of the rigidity matrix, above its limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
-    /// To the nearer end of the range of a sum of lengths, m.
+    /// The distance to the nearer end of the range of a sum of lengths, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sum: Option<f64>,
 }

@@ -1,4 +1,5 @@
-//! The family of trusses: positions of the nodes at keyframes; strut lengths follow.
+//! The family of trusses: the trajectories of the nodes, by their positions at keyframes; strut lengths
+//! follow.
 
 mod join;
 mod json;

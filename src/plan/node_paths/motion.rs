@@ -17,7 +17,7 @@ pub struct NodePaths {
     pub node_names: Vec<String>,
     /// Pairs of nodes.
     pub struts: Vec<(usize, usize)>,
-    /// In order of time; the first at 0.
+    /// The keyframes, in order of time; the first at 0.
     pub keyframes: Vec<Keyframe>,
     /// The limits beside those of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
@@ -31,7 +31,7 @@ pub struct NodePaths {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
-    /// Seconds.
+    /// The time, s.
     pub time: f64,
     /// The motion of the nodes from the keyframe before to this one; without meaning at the first.
     pub interpolation: Interpolation,
@@ -55,7 +55,7 @@ pub enum Interpolation {
     RigidRoll {
         /// The two nodes that stay.
         edge: (usize, usize),
-        /// Radians.
+        /// The angle, rad.
         angle: f64,
     },
 }
@@ -98,7 +98,7 @@ fn straight(from: &[[f64; 3]], to: &[[f64; 3]], part: f64) -> Vec<[f64; 3]> {
     from.iter().zip(to).map(along).collect()
 }
 
-/// Nodes turned about the line through two of them.
+/// Returns the nodes turned about the line through two of them.
 fn rolled(nodes: &[[f64; 3]], edge: (usize, usize), angle: f64) -> Vec<[f64; 3]> {
     let origin = Vec3::from(nodes[edge.0]);
     let turn = turned(Vec3::from(nodes[edge.1]) - origin, angle);

@@ -1,6 +1,6 @@
 //! Concatenated stages of two lattices: where the first ends in the shape in which the second starts,
-//! exactly, up to a translation. Cells are alike, so those of the second take the numbers of the cells
-//! in whose places they begin.
+//! exactly, up to a translation. Cells are alike, so those of the second take the numbers of the cells at
+//! whose positions they begin.
 
 use super::arithmetic_runs::{ArithmeticRun, arithmetic_runs};
 use super::motion::{Counter, Model, Run, Stage, Stages};
@@ -64,7 +64,7 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     Ok(new)
 }
 
-/// Returns for each of the second cubes the number of the first in its place, and the translation of the
+/// Returns for each of the second cubes the number of the first at its position, and the translation of the
 /// second to the first, in lines of the grid. `None` where the shapes differ.
 fn matched(first: &[Cube], second: &[Cube]) -> Option<(Vec<u32>, [i64; 3])> {
     let low = |cubes: &[Cube]| [0, 1, 2].map(|axis| cubes.iter().map(|c| c.lo[axis]).min().unwrap_or(0));

@@ -23,7 +23,7 @@ pub(in crate::plan) struct StagesJson<'a> {
     limits: CellLimits,
     /// The bounds on the cells' forces.
     model: Model,
-    /// The place of every cell at the start. Of two runs that name a cell the later holds.
+    /// The position of every cell at the start. Of two runs that name a cell the later holds.
     start: Cow<'a, [Run]>,
     stages: Cow<'a, [Stage]>,
 }

@@ -1,9 +1,9 @@
-//! The body of plans of lattices of expanding cubes: stages in closed form, exact.
+//! The body of plans of lattices of expanding cubes: stages, trajectories of all cells in closed form, exact.
 //!
-//! In a stage every cell moves on a straight line, and its size changes linearly, by one time law
-//! that all share; so the two end configurations say everything about it. Configurations are given
-//! by runs of cells whose places are affine in the run's indices, with rational numbers: a million
-//! cells take a few lines, and nothing is rounded.
+//! In a stage every cell moves on a straight line, and its size changes linearly, by one time law that all
+//! share; so the two end configurations say everything about it. Configurations are given by runs of cells
+//! whose positions are affine in the run's indices, with rational numbers: a million cells take a few lines,
+//! and nothing is rounded.
 
 use super::ratio::Ratio;
 use crate::plan::cause::CauseId;
@@ -18,16 +18,16 @@ pub struct Stages {
     pub cell: usize,
     /// The number of cells.
     pub count: u64,
-    /// Seconds of one unit of time: that in which the greatest force brings a cell from rest to one
-    /// cell size a unit of time.
+    /// The unit of time, s: that in which the greatest force brings a cell from rest to one cell size a unit
+    /// of time.
     pub time_unit: f64,
     /// The least size and the greatest speed of a cell.
     pub limits: CellLimits,
     /// The bounds on the cells' forces.
     pub model: Model,
-    /// The place of every cell at the start. Of two runs that name a cell the later holds.
+    /// The position of every cell at the start. Of two runs that name a cell the later holds.
     pub start: Vec<Run>,
-    /// In order of time.
+    /// The stages, in order of time.
     pub stages: Vec<Stage>,
 }
 
@@ -72,7 +72,7 @@ pub struct Stage {
     pub time_squared: Ratio,
     /// The time law that all cells share.
     pub law: Law,
-    /// The places of cells at the end of the stage.
+    /// The positions of cells at the end of the stage.
     pub end: Vec<Run>,
     /// The command of the source that this comes from.
     pub cause: CauseId,
@@ -85,13 +85,13 @@ pub enum Law {
     /// Speeding up at a constant rate for half the time, slowing down for the other: `σ = 2u²`, then
     /// `1 - 2(1-u)²`.
     BangBang,
-    /// The same with a stretch of constant speed between; each ramp takes this part (of 1) of the
-    /// duration, at most 1/2.
+    /// The same with an interval of constant speed between; each ramp takes this fraction of the duration, at
+    /// most 1/2.
     Trapezoid(Ratio),
-    /// From rest to full speed: a ramp takes this part (of 1) of the duration, at most all of it; then
-    /// the speed is kept, and the next stage goes on with it.
+    /// The motion from rest to full speed: a ramp takes this fraction of the duration, at most all of it;
+    /// then the speed is kept, and the next stage continues with it.
     SpeedUp(Ratio),
-    /// The reverse: from full speed to rest, with a ramp at the end.
+    /// The reverse: the motion from full speed to rest, with a ramp at the end.
     SlowDown(Ratio),
 }
 
@@ -196,7 +196,7 @@ impl Run {
         self.counters.iter().map(|c| c.count).product()
     }
 
-    /// Every cell of the run with its centre and size, in cell sizes.
+    /// Returns every cell of the run with its centre and size, in cell sizes.
     pub fn cells(&self) -> impl Iterator<Item = (usize, CellBox)> + '_ {
         (0..self.count()).map(|n| self.cell(n))
     }

@@ -48,7 +48,7 @@ impl Ratio {
         self.0 as f64 / self.1 as f64
     }
 
-    /// Compares two numbers, whether or not they are in lowest terms.
+    /// Compares two numbers, which need not be in lowest terms.
     pub fn order(self, other: Ratio) -> Ordering {
         let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
         product(self.0, other.1).cmp(&product(other.0, self.1))
@@ -60,7 +60,7 @@ impl Ratio {
     }
 }
 
-/// Greatest common divisor; of 0 and `b` it is `b`.
+/// Returns the greatest common divisor; of 0 and `b` it is `b`.
 fn gcd(mut a: u128, mut b: u128) -> u128 {
     while b != 0 {
         (a, b) = (b, a % b);

@@ -7,7 +7,7 @@ use crate::plan::operation_error::OperationError;
 const TOL_STAGE_BORDER: f64 = 1e-9;
 
 impl Stages {
-    /// Between two borders of stages: within a stage the cells move.
+    /// Returns the stages between two borders of stages: within a stage the cells move.
     pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> Result<Stages, OperationError> {
         let instants = self.instants();
         let border = |t: f64| {

@@ -58,7 +58,7 @@ fn law(law: Law) -> Result<(), PlanFault> {
     need(part.0 > 0 && part.order(most).is_le(), || StagesFault::RampPart)
 }
 
-/// The number of cells of a run; `None` where 64 bits do not hold it.
+/// Returns the number of cells of a run; `None` where 64 bits do not hold it.
 fn size_of(run: &Run) -> Option<u64> {
     run.counters.iter().try_fold(1_u64, |size, c| size.checked_mul(c.count))
 }

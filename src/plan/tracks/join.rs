@@ -5,8 +5,8 @@ use super::remap::Remap;
 use crate::plan::operation_error::OperationError;
 use crate::robot::matching;
 
-/// The most by which joints may be apart where two plans meet, rad or m: what rounding explains and no
-/// eye sees.
+/// The most by which joints may be apart where two plans meet, rad or m: what rounding explains and cannot be
+/// seen.
 pub const TOL_JOIN_JOINT: f64 = 1e-6;
 
 /// Finds the robot that the second tracks start with in the one that the first end with. The causes of

@@ -21,15 +21,16 @@ pub(in crate::plan) struct TracksJson<'a> {
     /// The pose before the first motion; positions are in the order of `robot.joints`, flags in the order
     /// of `robot.bonds`.
     start: Cow<'a, State>,
-    /// Seconds.
+    /// The duration, s.
     duration: f64,
-    /// At most one a joint, in order of joint. A joint without a track keeps its start position.
+    /// The joint trajectories, at most one a joint, in order of joint. A joint without a track keeps its
+    /// start position.
     tracks: Vec<TrackJson<'a>>,
     /// Changes of which bonds hold, in order of time.
     events: Vec<EventJson>,
-    /// The cause of each joint position of the start pose.
+    /// The causes of the start pose: (joint, cause).
     start_causes: Cow<'a, [(JointId, CauseId)]>,
-    /// The cause of each connection.
+    /// The cause of each bond: (index of the bond, cause).
     bond_causes: Cow<'a, [(usize, CauseId)]>,
 }
 
@@ -107,7 +108,7 @@ struct TrackJson<'a> {
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Event", deny_unknown_fields)]
 struct EventJson {
-    /// Seconds.
+    /// The time, s.
     time: f64,
     kind: DockKind,
     /// Index in the robot's bonds.

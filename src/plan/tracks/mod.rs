@@ -1,4 +1,5 @@
-//! The family of articulated robots: joint tracks in Bernstein form, docking and undocking.
+//! The family of articulated robots: joint trajectories (tracks), piecewise polynomials in Bernstein form,
+//! with docking and undocking.
 
 mod join;
 mod json;

@@ -7,33 +7,35 @@ use crate::robot::{Assembly, JointId, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Joint motions over time, and which bonds hold.
+/// The joint trajectories of an articulated robot over time, piecewise polynomials in Bernstein form, and the
+/// bonds that hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
     /// The robot, with every bond that exists at some time.
     pub robot: Assembly,
     /// The joint positions and bonds before the first motion.
     pub start: State,
-    /// At most one a joint, in order of joint. A joint without a track keeps its start position.
+    /// The joint trajectories, at most one a joint, in order of joint. A joint without a track keeps its
+    /// start position.
     pub tracks: Vec<Track>,
-    /// In order of time.
+    /// The changes of bonds, in order of time.
     pub docks: Vec<Dock>,
-    /// Seconds.
+    /// The duration, s.
     pub duration: f64,
-    /// The cause of each joint position of the start pose: (joint, cause).
+    /// The causes of the start pose: (joint, cause).
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// The cause of each connection: (index of the bond, cause).
+    /// The cause of each bond: (index of the bond, cause).
     pub bond_causes: Vec<(usize, CauseId)>,
 }
 
-/// The motion of one joint: segments in order of time that do not overlap. Between two segments and
-/// after the last, the joint holds where the segment before ended.
+/// The trajectory of one joint: segments in order of time that do not overlap. Between two segments and after
+/// the last, the joint holds the end position of the segment before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Track {
     /// The joint that moves.
     pub joint: JointId,
-    /// In order of time.
+    /// The segments, in order of time.
     pub segments: Vec<Segment>,
 }
 
@@ -42,11 +44,11 @@ pub struct Track {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Segment {
-    /// Seconds.
+    /// The start, s.
     pub start: f64,
-    /// Seconds, after `start`.
+    /// The end, s; after `start`.
     pub end: f64,
-    /// Positions (rad or m), degree = number - 1; 2 to 16 of them.
+    /// The control points, rad or m; degree = number - 1; 2 to 16 of them.
     pub control: Vec<f64>,
     /// The command of the source that this comes from.
     pub cause: CauseId,
@@ -66,7 +68,7 @@ pub enum DockKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Dock {
-    /// Seconds.
+    /// The time, s.
     pub time: f64,
     /// The change.
     pub kind: DockKind,
@@ -77,28 +79,29 @@ pub struct Dock {
 }
 
 impl Segment {
-    /// Returns the place of a time in the segment, 0 to 1; that of the nearer end outside.
+    /// Returns the argument of the polynomial at the time `t` (s), 0 to 1; that of the nearer end outside.
     pub fn argument(&self, t: f64) -> f64 {
         ((t - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
     }
 
-    /// Returns the position at a time, rad or m; the end positions outside the segment.
+    /// Returns the position at the time `t` (s), rad or m; the end positions outside the segment.
     pub fn position(&self, t: f64) -> f64 {
         if t >= self.end { self.last() } else { polynomial::value(&self.control, self.argument(t)) }
     }
 
-    /// Returns the rate of the position at a time within the segment, per second.
+    /// Returns the velocity at the time `t` (s) within the segment, rad/s or m/s.
     pub fn velocity(&self, t: f64) -> f64 {
         let rates = polynomial::derivative(&self.control);
         polynomial::value(&rates, self.argument(t)) / (self.end - self.start)
     }
 
-    /// Returns the position at the end.
+    /// Returns the position at the end, rad or m.
     pub fn last(&self) -> f64 {
         self.control[self.control.len() - 1]
     }
 
-    /// Returns the piece between two times, which are clipped to the segment; `None` where nothing is left.
+    /// Returns the piece between two times (s), which are clipped to the segment; `None` where nothing is
+    /// left.
     pub fn between(&self, t0: f64, t1: f64) -> Option<Segment> {
         let (start, end) = (t0.max(self.start), t1.min(self.end));
         if start >= end {
@@ -114,24 +117,25 @@ impl Segment {
 }
 
 impl Track {
-    /// Index of the last segment that has begun at `t`.
+    /// Returns the index of the last segment that has begun at the time `t` (s).
     fn begun(&self, t: f64) -> Option<usize> {
         self.segments.partition_point(|s| s.start <= t).checked_sub(1)
     }
 
-    /// Returns the position at a time; `start` is the joint's position at the start of the plan.
+    /// Returns the position at the time `t` (s), rad or m; `start` is the joint's position at the start of
+    /// the plan.
     pub fn position(&self, start: f64, t: f64) -> f64 {
         self.begun(t).map_or(start, |i| self.segments[i].position(t))
     }
 
-    /// Returns the rate just after a time, per second: 0 between segments.
+    /// Returns the velocity just after the time `t` (s), rad/s or m/s: 0 between segments.
     pub fn velocity(&self, t: f64) -> f64 {
         let segment = self.begun(t).map(|i| &self.segments[i]).filter(|s| t < s.end);
         segment.map_or(0.0, |s| s.velocity(t))
     }
 
-    /// Returns the lowest and the highest position over a stretch of time, or a little beyond: from the control
-    /// points of the pieces.
+    /// Returns the lowest and the highest position (rad or m) over the interval of time `t0..t1` (s), or a
+    /// little beyond: from the control points of the pieces.
     pub fn bounds(&self, start: f64, t0: f64, t1: f64) -> (f64, f64) {
         let at = self.position(start, t0);
         let first = self.begun(t0).unwrap_or(0);
@@ -163,8 +167,8 @@ impl Tracks {
         Some(&self.tracks[at])
     }
 
-    /// Returns joint positions and bonds at a time, docks at that very instant included. The base keeps its
-    /// pose: where it goes is for the judge to find.
+    /// Returns joint positions and bonds at the time `t` (s), docks at that very instant included. The base
+    /// keeps its pose: the judge computes its motion.
     pub fn state(&self, t: f64) -> State {
         let mut state = self.start.clone();
         for track in &self.tracks {
@@ -182,7 +186,8 @@ impl Tracks {
         self.state(self.duration)
     }
 
-    /// Returns the lowest and the highest position of a joint over a stretch of time; see [`Track::bounds`].
+    /// Returns the lowest and the highest position of a joint (rad or m) over the interval of time `t0..t1`
+    /// (s); see [`Track::bounds`].
     pub fn bounds(&self, joint: JointId, t0: f64, t1: f64) -> (f64, f64) {
         let start = self.start.joints[joint.0 as usize];
         self.track(joint).map_or((start, start), |track| track.bounds(start, t0, t1))

@@ -17,9 +17,9 @@ pub struct Remap {
     /// State at the start, those bonds open.
     start: State,
     found: Matching,
-    /// For every bond of B.
+    /// The bond of A for every bond of B.
     bonds: Vec<usize>,
-    /// For every joint of B.
+    /// The joint of A for every joint of B.
     joints: Vec<JointId>,
     /// The number to add to the index of a cause.
     causes: u32,
@@ -110,7 +110,7 @@ impl Remap {
         }
     }
 
-    /// The segments of a track, later by `seam`; the first begins exactly where the joint is.
+    /// Returns the segments of a track, delayed by `seam`; the first begins exactly at the joint's position.
     fn segments(&self, track: &Track, seam: f64, at: Option<f64>) -> Vec<Segment> {
         let offset = self.found.offsets[track.joint.0 as usize];
         let mut segments: Vec<Segment> = track
@@ -243,7 +243,7 @@ impl Remap {
     }
 }
 
-/// A bond of A, between the same ports, that may serve again: one without a hinge, which might have
+/// Returns a bond of A, between the same ports, that may serve again: one without a hinge, which might have
 /// turned since.
 fn free_bond(robot: &Assembly, image: &Bond, start: &State) -> Option<usize> {
     let swapped = Bond { a: image.b, b: image.a, turn: image.turn };

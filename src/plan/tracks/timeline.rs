@@ -1,5 +1,5 @@
-//! The program that does what tracks say, told by the clock: for plans that were reversed or cut, and
-//! for planned ones.
+//! The program that executes given tracks by the clock: for plans that were reversed or cut, and for planned
+//! ones.
 
 use super::motion::{DockKind, Segment, Track, Tracks};
 use crate::plan::cause::CauseId;
@@ -79,7 +79,7 @@ fn docking(tracks: &Tracks) -> Arc<Node> {
     Arc::new(Node::Series(series))
 }
 
-/// Waiting has no cause of its own: nothing moves by it.
+/// Returns an action that waits; it has no cause of its own, since nothing moves by it.
 fn wait(duration: f64) -> Arc<Node> {
     action(Command::Wait { duration }, CauseId(0))
 }

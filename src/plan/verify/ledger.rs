@@ -3,7 +3,7 @@
 use crate::plan::verdict::WORST_VALUES;
 use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, Verdict, Worst};
 
-/// Failures that are told one by one; further ones are counted.
+/// The greatest number of failures that are reported one by one; further ones are counted.
 const FAILURES_MAX: usize = 100;
 
 /// Threshold below which lengths (m), angles (rad) and fractions of a limit are reported as zero.

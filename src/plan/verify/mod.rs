@@ -37,7 +37,7 @@ pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &S
     verify(&Plan::bare(robot.library.clone(), Body::Tracks(tracks), *world, *settings))
 }
 
-/// A plan that means nothing is judged no further.
+/// Returns the verdict on a plan with a fault of form, which is judged no further.
 fn malformed(fault: &PlanFault) -> Verdict {
     Verdict {
         checks: vec![Check { kind: CheckKind::Form, status: Status::Failed }],

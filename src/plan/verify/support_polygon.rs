@@ -1,5 +1,5 @@
-//! Support polygons, the convex hulls of points on the ground, and the static stability margin: the distance of
-//! the centre of mass inside such a polygon.
+//! Support polygons, the convex hulls of points on the ground, and the static stability margin: the distance
+//! of the centre of mass inside such a polygon (McGhee and Frank 1968).
 
 /// A point on the ground, m.
 pub(super) type Point = [f64; 2];
@@ -18,8 +18,9 @@ pub struct Margin {
     pub width: f64,
 }
 
-/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise, as indices; collinear points are left out. Of
-/// coinciding points the first is taken. One or two corners where the points do not span an area.
+/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise, as indices; collinear
+/// points are left out. Of coinciding points the first is taken. One or two corners where the points do not
+/// span an area.
 pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {
@@ -37,7 +38,7 @@ pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     corners
 }
 
-/// One side of the hull: always turning left.
+/// Returns one side of the hull: always turning left.
 fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut side: Vec<usize> = Vec::new();
     for index in order {
@@ -77,7 +78,7 @@ pub(super) fn margin(points: &[Point], at: Point) -> Option<Margin> {
     Some(Margin { distance, width, ..nearest })
 }
 
-/// Twice the signed area of a triangle, positive if `c` is on the left of `a b`.
+/// Returns twice the signed area of a triangle, positive if `c` is on the left of `a b`.
 fn cross(a: Point, b: Point, c: Point) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }

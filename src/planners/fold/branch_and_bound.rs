@@ -94,7 +94,7 @@ pub struct Optimum {
     pub nodes: u64,
 }
 
-/// The reason why there is no optimum.
+/// The reason that there is no optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLayout {
     /// Every layout overlaps in the plane, is too high, or was refused by the caller.
@@ -157,7 +157,7 @@ pub(crate) fn search<'a>(
         Some(root) => vec![root],
         None => (0..n).filter(|face| equals[*face] == *face).collect(),
     };
-    // Perturbed costs tell ties apart.
+    // Perturbed costs separate ties.
     let least = asked.iter().map(|root| plain.bound(*root)).fold(f64::INFINITY, f64::min);
     // If nothing costs anything, any perturbation will do.
     let slack = if least > 0.0 { TOLERANCES.perturbation * least } else { TOLERANCES.perturbation };
@@ -224,9 +224,9 @@ struct Search<'s, 'a, 'o> {
     /// The greatest sum of perturbations in one layout, N·m.
     slack: f64,
     best: Option<Found>,
-    /// For each root: the least perturbed energy found there.
+    /// The least perturbed energy found, by root.
     reached: Vec<f64>,
-    /// For each root: an estimate of the energy of its best layout, flat or not, for Polyak's step.
+    /// An estimate of the energy of the best layout of each root, flat or not, for Polyak's step.
     aims: Vec<f64>,
     open_nodes: BinaryHeap<Node>,
     /// The size of the open nodes, bytes.
@@ -458,7 +458,7 @@ impl<'s> Search<'s, '_, '_> {
         tie.min(self.reached[root] * (1.0 - TOLERANCES.bound))
     }
 
-    /// Primal heuristic: a greedy tree, improved by exchanges, to begin with.
+    /// Adds a first layout: a greedy tree, improved by exchanges (primal heuristic).
     fn start(&mut self, root: usize) {
         let grown = edge_exchange::grown(self.target, self.weights, root);
         let mut first = edge_exchange::improved(self.target, self.weights, grown, &mut self.budget_left);
@@ -479,7 +479,8 @@ impl<'s> Search<'s, '_, '_> {
         }
     }
 
-    /// Primal heuristic for layouts that lie flat: from the best layout, or by tabu search as long as there is none.
+    /// Returns a layout that lies flat to begin with: from the best layout, or by tabu search as long as
+    /// there is none (primal heuristic).
     fn flat_start(&mut self, first: Layout) -> Layout {
         let (target, weights) = (self.target, self.weights);
         let is_flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
@@ -551,7 +552,7 @@ impl<'s> Search<'s, '_, '_> {
         Some(ways)
     }
 
-    /// Returns the result; `equals`: by face, the root that was searched in its place, if any.
+    /// Returns the result; `equals`: by face, the equivalent root that was searched instead, if any.
     fn finish(self, equals: &[Option<usize>]) -> Result<Optimum, NoLayout> {
         let closed = self.open_bound.is_infinite();
         let Some(best) = self.best else {

@@ -1,10 +1,10 @@
 //! Depth-first search for a collision-free order of folding, where the usual orders collide.
 //!
-//! The folding is undone, one hinge after the other, back to the flat pattern: a depth-first search over
-//! the sets of hinges that are still folded, with dead ends remembered. Most panels are
-//! in each other's way when they are folded, so it is there that choices matter. Of the hinges that can
-//! be opened that one goes first which a preferred order folds last. The order found is put into steps again: a
-//! hinge folds with the one before it where neither carries the other and nothing meets.
+//! The folding is undone, one hinge after the other, back to the flat pattern: a depth-first search over the
+//! sets of hinges that are still folded, with dead ends remembered. Most panels are obstacles to each other
+//! when they are folded, so it is there that choices matter. Of the hinges that can be opened that one goes
+//! first which a preferred order folds last. What was found is put into steps again: a hinge folds with the
+//! one before it where neither carries the other and nothing meets.
 
 use super::layout::Layout;
 use super::load_limits::{LoadLimits, Violation};
@@ -44,8 +44,8 @@ impl<'t> OrderSearch<'t> {
         OrderSearch { layout, target, check, limits, free, forbidden, samples_left: samples, overload: None }
     }
 
-    /// All faces but the root in an order in which each can fold. `preferred`: such an order, to which it
-    /// is to be like.
+    /// Returns all faces but the root in an order in which each can fold; `None` if none is found.
+    /// `preferred`: such an order, which the result follows where it can.
     pub fn order(&mut self, preferred: &[usize]) -> Option<Vec<usize>> {
         let mut folded = vec![true; self.layout.parent.len()];
         folded[self.layout.root] = false;
@@ -98,7 +98,7 @@ impl<'t> OrderSearch<'t> {
         steps
     }
 
-    /// Returns whether no sample of these steps shows a collision or a violated limit.
+    /// Returns true if no sample of these steps shows a collision or a violated limit.
     pub fn is_collision_free(&self, steps: &[Vec<usize>]) -> bool {
         let mut folded = vec![false; self.layout.parent.len()];
         steps.iter().all(|step| {
@@ -115,7 +115,7 @@ impl<'t> OrderSearch<'t> {
         self.forbidden.insert((folded, order[step]));
     }
 
-    /// Returns whether a hinge can be opened; `None` where no more may be sampled.
+    /// Returns true if a hinge can be opened; `None` where no more may be sampled.
     fn is_free(&mut self, folded: &[bool], face: usize) -> Option<bool> {
         let turn = (folded.to_vec(), face);
         if self.forbidden.contains(&turn) {

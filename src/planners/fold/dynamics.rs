@@ -14,11 +14,11 @@ use crate::geometry::{Pose, Vec3};
 /// Position, speed and acceleration of the hinge of a face. An angle of 0 is level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hinging {
-    /// rad
+    /// The angle, rad.
     pub angle: f64,
-    /// rad/s
+    /// The speed, rad/s.
     pub speed: f64,
-    /// rad/s²
+    /// The acceleration, rad/s².
     pub acceleration: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct Dynamics<'t> {
 /// A face while it moves, in the frame of the target.
 #[derive(Clone, Copy)]
 struct Moving {
-    /// Its displacement from its place in the target.
+    /// Its displacement from its pose in the target.
     pose: Pose,
     /// A point of its hinge, and the direction about which the motor turns it.
     origin: Vec3,
@@ -69,8 +69,8 @@ impl<'t> Dynamics<'t> {
         Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
     }
 
-    /// Inverse dynamics by the recursive Newton-Euler algorithm: writes the torques of all hinges, N·m, by face; the
-    /// root has none. Positive torques turn towards positive angles.
+    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm) and writes
+    /// them to `torques`, N·m, by face; the root has none. Positive torques turn towards positive angles.
     pub fn torques(&mut self, hinging: impl Fn(usize) -> Hinging, torques: &mut [f64]) {
         self.outwards(hinging);
         for &face in self.layout.order[1..].iter().rev() {
@@ -83,7 +83,8 @@ impl<'t> Dynamics<'t> {
         torques[self.layout.root] = 0.0;
     }
 
-    /// Outward recursion: poses, velocities, accelerations, and the net force and moment of each body.
+    /// Computes poses, velocities, accelerations, and the net force and moment of each body (outward
+    /// recursion).
     fn outwards(&mut self, hinging: impl Fn(usize) -> Hinging) {
         let layout = self.layout;
         // Pulled upwards, everything weighs.
@@ -114,7 +115,7 @@ impl<'t> Dynamics<'t> {
     }
 }
 
-/// The acceleration of a point of a body over that of another, `arm` away from it.
+/// Returns the acceleration of a point of a body over that of another, `arm` away from it.
 fn carried(turning: &Vec3, spinning_up: &Vec3, arm: &Vec3) -> Vec3 {
     spinning_up.cross(arm) + turning.cross(&turning.cross(arm))
 }

@@ -19,7 +19,7 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let mut paths: Vec<Option<Vec<usize>>> = vec![None; n];
     paths[root] = Some(Vec::new());
     let mut hinges = Vec::with_capacity(n - 1);
-    // For each face: the cheapest way to add it so far.
+    // By face: the cheapest hinge to add it by so far.
     let mut best: Vec<(f64, usize, usize)> = vec![(f64::INFINITY, 0, 0); n];
     let mut newest = root;
     for _ in 1..n {
@@ -62,9 +62,9 @@ pub fn improved_where(
 
 /// The conditions on exchanges beside that they help.
 pub struct Rules<'r> {
-    /// Asked of every exchange: of a layout, whether the first hinge may be exchanged for the second.
+    /// A filter of every exchange: true if, in a layout, the first hinge may be exchanged for the second.
     pub fits: &'r dyn Fn(&Layout, [usize; 2]) -> bool,
-    /// Asked of the exchanges that help the most: whether the layout that they lead to is allowed.
+    /// A filter of the layouts that the best exchanges lead to: true if the layout is allowed.
     pub allowed: &'r dyn Fn(&Layout) -> bool,
 }
 
@@ -88,10 +88,10 @@ pub fn improved_by(
 struct Branches {
     hinges: usize,
     faces: usize,
-    /// For each face, then for each hinge: what the hinge would spend on carrying the face and all below it.
+    /// The cost that a hinge would spend on carrying a face and all below it, by face, then by hinge.
     below: Vec<f64>,
-    /// For each face c, then for each face b: what the hinges between the root and b would spend on carrying c
-    /// and all below it.
+    /// The cost that the hinges between the root and b would spend on carrying c and all below it, by face c,
+    /// then by face b.
     along: Vec<f64>,
 }
 
@@ -127,9 +127,9 @@ impl Branches {
 
 /// Returns the layout of the best single exchange that is allowed; `None` if none gains more than `gain`.
 ///
-/// One more hinge between a and b closes a cycle; on a's side of it, some face c loses the hinge to
-/// its parent, and the branch below c hangs from b by its face a. Outside the branch nothing changes.
-/// Within it, the hinges between c and a carry what was on their other side.
+/// One more hinge between a and b closes a cycle; on a's side of it, some face c loses the hinge to its
+/// parent, and the branch below c is attached to b by its face a. Outside the branch nothing changes. Within
+/// it, the hinges between c and a carry what was on their other side.
 fn exchange(
     target: &Target,
     weights: &Weights,

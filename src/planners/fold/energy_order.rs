@@ -1,8 +1,9 @@
-//! Dynamic programme for the order of folding of least energy: mean torques of the moving joints, without gravity.
+//! Dynamic programming for the order of folding of least energy: mean torques of the moving joints, without
+//! gravity.
 //!
-//! The energy that hinge a spends on face m depends only on which hinges between them have folded before, so on
-//! the order of m's own path. Going down the tree, each face is put into every place of its
-//! ancestors' order; orders that agree on their common ancestors can always be merged.
+//! The energy that hinge a spends on face m depends only on which hinges between them have folded before, so
+//! on the order of m's own path. Going down the tree, each face is put at every index of its ancestors'
+//! order; orders that agree on their common ancestors can always be merged.
 
 use super::inertia::{Inertia, moment_about};
 use super::kinematics::about;
@@ -57,7 +58,7 @@ pub fn means(
     let mut means = vec![0.0; target.faces.len()];
     for &face in order {
         let hinge = &target.hinges[layout.hinge[face].expect("the root does not fold")];
-        // Before the step, seen from the place that the parent has.
+        // Before the step, seen from the pose of the parent.
         let poses = super::kinematics::poses(target, layout, |f| folded[f]);
         let parent = poses[layout.parent[face]];
         let point = parent.transform_point(&hinge.point.into()).coords;
@@ -75,8 +76,8 @@ pub fn means(
 /// The costs of the hinges of a face's path for that face.
 #[derive(Clone)]
 struct Costs {
-    /// The cost at each place in the path, from the root's child on, for each set of later hinges of the path
-    /// that have folded, bit by bit.
+    /// The costs by index in the path, from the root's child on; then by which of the later hinges of the
+    /// path have folded, bit by bit.
     tables: Vec<Vec<f64>>,
 }
 
@@ -88,7 +89,7 @@ impl Costs {
             path.push(at);
             at = layout.parent[at];
         }
-        // From the face up: the places of the face seen from each hinge of its path.
+        // From the face up: the positions of the face seen from each hinge of its path.
         let mut places = vec![Pose::identity()];
         let mut tables = Vec::new();
         for &above in &path {
@@ -109,7 +110,7 @@ impl Costs {
         Costs { tables }
     }
 
-    /// `order`: the places in the path, in order of folding.
+    /// Returns the cost of an order; `order`: the indices in the path, in order of folding.
     fn of(&self, order: &[usize]) -> f64 {
         let mut folded = 0usize;
         let mut sum = 0.0;
@@ -127,7 +128,7 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// The best order of a face and all below it, given the order of its ancestors, by their places
+    /// Returns the best order of a face and all below it, given the order of its ancestors, by their indices
     /// in the path. The result names faces below and, in their order, nothing of the ancestors.
     fn below(&self, face: usize, ancestors: &[usize]) -> (Vec<usize>, f64) {
         let (slots, energy) = self.slots(face, ancestors);

@@ -1,9 +1,8 @@
 //! Enumeration of every layout (spanning tree), one after the other; none is stored.
 //!
-//! Hinges are taken in order: one is kept, then left out where the faces still hang together without
-//! it. So every branch ends in a layout. Energies of a layout for all its roots come from one of
-//! them: when the root crosses a hinge, the faces before it are carried by the hinge and those behind
-//! it no longer are.
+//! Hinges are taken in order: one is kept, then left out where the faces are still connected without it. So
+//! every branch ends in a layout. Energies of a layout for all its roots come from one of them: when the root
+//! crosses a hinge, the faces before it are carried by the hinge and those behind it no longer are.
 
 use super::layout::Layout;
 use super::observer::Observer;
@@ -17,17 +16,17 @@ use super::weights::Weights;
 /// The greatest number of faces: sets of faces are bits of a word.
 pub const FACES_MAX: usize = 64;
 
-/// The number of faces whose sums are looked up at a time.
+/// The number of faces whose sums are read from a table at a time.
 const CHUNK: usize = 8;
 
-/// The result of an enumeration.
+/// The spanning trees of a target, counted by their energy.
 #[derive(Clone, Debug)]
 pub struct Census {
     /// The number of layouts visited.
     pub layouts: u64,
     /// True if these are all layouts; else the budget ended the enumeration.
     pub complete: bool,
-    /// A layout of least energy, hung up at its best root; the first found.
+    /// A layout of least energy, rooted at its best root; the first found.
     pub best: Layout,
     /// The least energy, N·m for steps of one second.
     pub least: f64,
@@ -35,7 +34,7 @@ pub struct Census {
     pub greatest: f64,
     /// The number of pairs of layout and root with the least energy, up to ties.
     pub ties: u64,
-    /// For each root: the least energy.
+    /// The least energy by root, N·m for steps of one second.
     pub by_root: Vec<f64>,
     /// The energies that occur, if they were asked for.
     pub spectrum: Option<Spectrum>,
@@ -153,7 +152,7 @@ pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result
 
 struct Walk<'t, V> {
     target: &'t Target,
-    /// For each hinge: the neighbours of every face across this hinge and later ones.
+    /// The neighbours of every face across each hinge and later ones.
     suffix: Vec<[u64; FACES_MAX]>,
     kept: Vec<usize>,
     visit: V,
@@ -163,8 +162,8 @@ struct Walk<'t, V> {
 }
 
 impl<V: FnMut(&[usize])> Walk<'_, V> {
-    /// Goes on with the hinges from `next`; `groups` holds for every face those that hang together
-    /// with it. As deep as there are hinges.
+    /// Goes on with the hinges from `next`; `groups` holds for every face those that are connected with it.
+    /// As deep as there are hinges.
     fn from(&mut self, next: usize, mut groups: [u64; FACES_MAX]) {
         crate::interrupt::checkpoint();
         let n = self.target.faces.len();
@@ -212,7 +211,7 @@ impl<V: FnMut(&[usize])> Walk<'_, V> {
         self.kept.truncate(mark);
     }
 
-    /// Returns whether hinges from `next` on join two groups.
+    /// Returns true if hinges from `next` on join two groups.
     fn reaches(&self, next: usize, a: usize, b: usize, groups: &[u64; FACES_MAX]) -> bool {
         let neighbours = &self.suffix[next];
         let (mut seen, mut fresh) = (groups[a], groups[a]);
@@ -240,7 +239,7 @@ impl<V: FnMut(&[usize])> Walk<'_, V> {
 /// Sums of a hinge's weights over sets of faces, by table.
 struct Sums {
     chunks: usize,
-    /// For each hinge, chunk and value of the chunk's bits.
+    /// The sums by hinge, chunk, bits of the chunk.
     table: Vec<f64>,
 }
 
@@ -302,14 +301,14 @@ impl<'t> Peaks<'t> {
     }
 }
 
-/// A layout hung up at face 0, for reuse.
+/// A layout rooted at face 0, for reuse.
 struct Tree<'t> {
     target: &'t Target,
     /// Faces, parents before children; with the parent and the hinge to it.
     order: Vec<(usize, usize, usize)>,
-    /// For each face: itself and all below it.
+    /// The faces at and below each face.
     below: [u64; FACES_MAX],
-    /// For each face: its kept hinges and the faces across them.
+    /// The kept hinges of each face and the faces across them.
     around: [[(u32, u32); 3]; FACES_MAX],
     degree: [usize; FACES_MAX],
 }
@@ -354,7 +353,7 @@ impl<'t> Tree<'t> {
         }
     }
 
-    /// Computes the energy for each root.
+    /// Computes the energies by root.
     fn energies(&self, sums: &Sums, energies: &mut [f64]) {
         let all = self.below[0];
         let mut at_first = 0.0;

@@ -34,7 +34,7 @@ const STRIP_STATES_MAX: usize = 1_500_000_000;
 pub(super) struct Candidates {
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
-    /// The reason why the first was refused.
+    /// The reason that the first was refused.
     pub first: Option<Rejection>,
     /// The number of layouts sampled for collisions.
     sampled: usize,
@@ -43,7 +43,7 @@ pub(super) struct Candidates {
 }
 
 impl Task<'_> {
-    /// Returns the best layout that the judge lets through in the order asked for, with whether it is proved
+    /// Returns the best layout that the judge lets through in the order asked for, with true if it is proved
     /// that no better one passes.
     ///
     /// # Errors
@@ -68,8 +68,8 @@ impl Task<'_> {
         Ok(next.map(|(outcome, proved)| (outcome, is_proved && proved)))
     }
 
-    /// Branch and bound over layouts in order of their energy until one is accepted, with whether it is proved
-    /// that none before it can be.
+    /// Returns the next layout in order of energy that is accepted by branch and bound, with true if it is
+    /// proved that none before it can be.
     fn next_best(
         &self,
         candidates: &mut Candidates,
@@ -100,7 +100,7 @@ impl Task<'_> {
     }
 
     /// Evaluates a layout in the order asked for: collision samples of thin panels spare the judge those that
-    /// he would refuse; what they let pass, he decides.
+    /// it would refuse; it decides on those that pass.
     fn evaluate(&self, candidates: &mut Candidates, layout: &Layout) -> Result<Decision, Refusal> {
         let steps = self.steps(layout)?;
         let faces = self.target.faces.len();
@@ -133,7 +133,7 @@ impl Task<'_> {
         })
     }
 
-    /// Returns a layout of strips that was made so that it folds with the leaves first and nothing in the way.
+    /// Returns a layout of strips that is made so that it folds with the leaves first without collisions.
     ///
     /// # Errors
     /// A reason that holds for every layout, as [`Task::judged`] says.

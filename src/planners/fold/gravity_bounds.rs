@@ -1,12 +1,12 @@
 //! Lower bounds on energy and peak torque under gravity, with the leaves folded first: what gravity asks of every
 //! hinge for every face that it carries.
 //!
-//! When a hinge folds, all above it is level, and what it carries has its final form: one rigid body that
+//! All above a hinge is level when it folds, and what it carries has its final form: one rigid body that
 //! turns about an axis at rest. Its torque is `J q̈ + G(q)`. Over the step the mean of `J q̈` is 0, for the
 //! hinge begins and ends at rest; so the mean of |torque| is no less than |mean of G|, and the peak is no
 //! less than |G| at either end, where q̈ is 0. G is a sum over the faces that are carried, and what a face
-//! adds depends on the hinge, on its upper side, and on the face alone: with the outside of the upper face
-//! p down, x the face's centroid in the target and o a point of the hinge,
+//! adds depends on the hinge, on its upper side, and on the face alone: with the outside of the upper face p
+//! down, x the face's centroid in the target and o a point of the hinge,
 //!
 //! ```text
 //! G_j(q) = -m_j g N_p · (ê × R(ê, q - φ) (x_j - o))
@@ -26,8 +26,8 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 
-/// The number of places of a step over which a cosine is averaged, by the midpoints; the sum is exact to far below
-/// the tolerance, for the law is smooth and flat at both ends.
+/// The number of points of a step over which a cosine is averaged, by the midpoints; the sum is exact to far
+/// below the tolerance, for the law is smooth and flat at both ends.
 const PLACES: usize = 256;
 
 /// The torque of gravity by arc and face, N·m.
@@ -42,7 +42,7 @@ struct Arc {
     below: usize,
     /// The sign of its angle: in this direction a folding hinge turns.
     sense: f64,
-    /// For each face: the mean over the step, and the values at its beginning and its end.
+    /// The mean over the step, and the values at its beginning and its end, by face.
     mean: Vec<f64>,
     ends: [Vec<f64>; 2],
 }
@@ -82,7 +82,8 @@ impl GravityBounds {
         (0..self.faces).map(|root| greater(root) * (1.0 - TOLERANCES.gravity_bound)).collect()
     }
 
-    /// Bellman-Ford: by root, the cheapest walks to all faces, with the torques' signs as given.
+    /// Returns the costs of the cheapest walks to all faces, by root, with the torques' signs as given
+    /// (Bellman-Ford algorithm).
     fn sums(&self, sign: impl Fn(&Arc) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; self.faces];
         for face in 0..self.faces {

@@ -1,5 +1,5 @@
 //! The paper's heuristic measure of a layout (MII, Theorem 1), cheaper than a simulation and kept for
-//! comparison: the closed form of `weights` is exact and no dearer.
+//! comparison: the closed form of `weights` is exact and no costlier.
 
 use super::enumerate::{self, TooManyFaces, Traversal};
 use super::kinematics::poses;
@@ -34,7 +34,7 @@ impl Measure {
         }
     }
 
-    /// χ of a layout (Eq. 6, 9, 10) with the leaves folded first.
+    /// Returns χ of a layout (Eq. 6, 9, 10) with the leaves folded first.
     ///
     /// Distances are from the root's centroid, at the beginning and at the end of the face's own step:
     /// everything below it has folded, nothing above it has.

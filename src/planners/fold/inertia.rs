@@ -15,7 +15,7 @@ pub enum Inertia {
     Point,
 }
 
-/// A panel as a rigid body, in its place in the target.
+/// A panel as a rigid body, in its pose in the target.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
     /// The mass, kg.

@@ -29,13 +29,13 @@ pub(crate) struct Judged {
     pub verdict: Verdict,
 }
 
-/// The reason why a motion is none.
+/// The reason that a motion is refused.
 pub(crate) enum Fault {
     /// It can't be scheduled.
     Schedule(behavior::Refusal),
     /// A stated duration is shorter than the limits of a joint allow.
     TooFast,
-    /// The judge refuses it; his first failure.
+    /// The judge refuses it; its first failure.
     Refused(Box<Failure>),
 }
 

@@ -5,11 +5,11 @@ use super::target::Target;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
 
-/// Returns the displacement of every face from its place in the target, with the root in its place, when
+/// Returns the displacement of every face from its pose in the target, with the root in its pose there, when
 /// the hinges of the faces for which `folded` holds have folded and the others are level.
 ///
-/// A child's displacement is its parent's, after a turn about the target's line of the hinge by the
-/// angle that is still missing.
+/// A child's displacement is its parent's, after a turn about the target's line of the hinge by the angle
+/// that is still missing.
 pub fn poses(target: &Target, layout: &Layout, folded: impl Fn(usize) -> bool) -> Vec<Pose> {
     poses_at(target, layout, |face| {
         let hinge = layout.hinge[face].expect("only the root has none");

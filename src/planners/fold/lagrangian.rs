@@ -1,10 +1,10 @@
 //! Lagrangian relaxation of the choice of one tree for all faces: a stronger lower bound than that of
 //! [`shortest_paths`], raised by subgradient ascent.
 //!
-//! Let y_a say whether a layout enters a face across arc a, and x_a^j whether the path to face j uses
-//! it. A layout is a choice of one arc into each face with x_a^j ≤ y_a. These inequalities are dualised with
-//! multipliers λ_a^j ≥ 0: a path that uses an arc pays its multiplier, and the face that chooses the arc is paid
-//! the multipliers of all its users. For all multipliers
+//! Let y_a be 1 if a layout enters a face across arc a, and x_a^j be 1 if the path to face j uses it. A
+//! layout is a choice of one arc into each face with x_a^j ≤ y_a. These inequalities are dualised with
+//! multipliers λ_a^j ≥ 0: a path that uses an arc pays its multiplier, and the face that chooses the arc is
+//! paid the multipliers of all its users. For all multipliers
 //!
 //! ```text
 //! L(λ) = Σ_v min over arcs a into v of ( cost of v's cheapest path that ends with a, multipliers included
@@ -12,8 +12,9 @@
 //! ```
 //!
 //! is a lower bound, since payments cancel at a layout. (Face v's own last arc needs no multiplier: it is its
-//! choice.) A subgradient of L is 1 where a path uses an arc that was not chosen and -1 where a chosen arc is not
-//! used; steps have Polyak's length. The greatest L is the bound of the linear programme of multicommodity flows.
+//! choice.) A subgradient of L is 1 where a path uses an arc that was not chosen and -1 where a chosen arc is
+//! not used; steps have Polyak's length. The greatest L is the bound of the linear program of multicommodity
+//! flows.
 
 use super::shortest_paths::{self, Allowed, Arc, QueueEntry};
 use super::target::Target;
@@ -36,7 +37,7 @@ const PROGRESS_MIN: f64 = 1e-4;
 /// Sums over the table of multipliers that take about as long as settling a face on a path.
 const SUMS: usize = 64;
 
-/// The multipliers that are not zero: place in the table and value, N·m for steps of one second.
+/// The multipliers that are not zero: index in the table and value, N·m for steps of one second.
 pub type Multipliers = [(u32, f64)];
 
 /// The result of an ascent.
@@ -45,7 +46,7 @@ pub struct Ascent {
     pub bound: f64,
     /// The multipliers of that bound.
     pub multipliers: Vec<(u32, f64)>,
-    /// For each face and side: the number of paths that entered there in the last round.
+    /// The number of paths that entered by each face and side in the last round.
     pub uses: Vec<[u32; 3]>,
     /// The length of the last step, as a part of the gap.
     pub length: f64,
@@ -54,7 +55,7 @@ pub struct Ascent {
 /// The limits of an ascent.
 #[derive(Clone, Copy, Debug)]
 pub struct AscentLimits {
-    /// The bound at which the ascent ends; arcs that only dearer layouts use are removed.
+    /// The bound at which the ascent ends; arcs that only costlier layouts use are removed.
     pub cutoff: f64,
     /// An estimate of the optimum, for Polyak's step.
     pub aim: f64,
@@ -69,20 +70,20 @@ pub struct Lagrangian<'t> {
     target: &'t Target,
     faces: usize,
     arcs: usize,
-    /// For each face: the faces around it and the arcs that lead there.
+    /// The faces around each face and the arcs that lead there.
     out: Vec<Vec<(usize, usize)>>,
-    /// For each arc: the face from which it comes.
+    /// The face from which each arc comes.
     tail: Vec<usize>,
-    /// For each face, then for each arc: the cost, and the multiplier.
+    /// The cost with the multiplier, by face, then by arc.
     costs: Vec<f64>,
     multipliers: Vec<f64>,
-    /// For each face: cost of its cheapest path across each of its sides, multipliers included.
+    /// The cost of the cheapest path to each face across each of its sides, multipliers included.
     reached: Vec<[f64; 3]>,
-    /// For each goal, then for each face: the arc by which the goal's path enters.
+    /// The arc by which a goal's path enters a face, by goal, then by face.
     entered: Vec<Arc>,
     distance: Vec<f64>,
     queue: BinaryHeap<QueueEntry>,
-    /// For each face: the arc that was chosen.
+    /// The arc into each face that was chosen.
     chosen: Vec<usize>,
 }
 
@@ -121,11 +122,11 @@ impl<'t> Lagrangian<'t> {
         }
     }
 
-    /// Subgradient ascent: raises the bound of the layouts with this root over the arcs allowed, from given
+    /// Raises the bound of the layouts with this root over the arcs allowed by subgradient ascent, from given
     /// multipliers. Arcs that no layout below the cutoff uses are removed from `allowed` (fixing by reduced
-    /// costs). `steps` counts down the faces settled on paths and the sums over multipliers; at zero the ascent
-    /// ends. `layouts` gets the arcs chosen into each face every few rounds, which are nearly a layout, and
-    /// returns the cutoff from then on.
+    /// costs). `steps` counts down the faces settled on paths and the sums over multipliers; at zero the
+    /// ascent ends. `layouts` gets the arcs chosen into each face every few rounds, which are nearly a
+    /// layout, and returns the cutoff from then on.
     pub fn ascend(
         &mut self,
         root: usize,
@@ -191,7 +192,7 @@ impl<'t> Lagrangian<'t> {
         paid.map(|(at, multiplier)| (u32::try_from(at).expect("targets have few faces"), *multiplier))
     }
 
-    /// Dijkstra's algorithm from the root to the sides of a face, multipliers included.
+    /// Computes the paths from the root to the sides of a face by Dijkstra's algorithm, multipliers included.
     fn reach(&mut self, root: usize, goal: usize, allowed: &[u8], steps: &mut u64) {
         let costs = &self.costs[goal * self.arcs..][..self.arcs];
         let multipliers = &self.multipliers[goal * self.arcs..][..self.arcs];
@@ -230,7 +231,7 @@ impl<'t> Lagrangian<'t> {
         self.reached[goal] = found;
     }
 
-    /// Returns for each arc the sum of its users' multipliers.
+    /// Returns the sum of its users' multipliers by arc.
     fn paid(&self) -> Vec<f64> {
         let mut paid = vec![0.0; self.arcs];
         for row in self.multipliers.chunks_exact(self.arcs) {
@@ -259,7 +260,7 @@ impl<'t> Lagrangian<'t> {
     }
 
     /// Removes arcs that only layouts at or above the cutoff use (fixing by reduced costs), and the arc back
-    /// across one that is the only one left into a face. Returns whether there were any.
+    /// across one that is the only one left into a face. Returns true if there were any.
     fn remove_arcs(&self, root: usize, allowed: &mut Allowed, paid: &[f64], bound: f64, cutoff: f64) -> bool {
         let limit = cutoff * (1.0 + TOLERANCES.fixing);
         let mut any = false;
@@ -327,7 +328,7 @@ impl<'t> Lagrangian<'t> {
         count > 0 && by > 0.0
     }
 
-    /// Returns for each face and side the number of paths that enter there.
+    /// Returns the number of paths that enter by each face and side.
     fn uses(&self, root: usize) -> Vec<[u32; 3]> {
         let mut uses = vec![[0; 3]; self.faces];
         if self.chosen.iter().enumerate().any(|(face, arc)| face != root && *arc == usize::MAX) {
@@ -345,8 +346,8 @@ impl<'t> Lagrangian<'t> {
 /// Rounds between two calls of the Lagrangian heuristic.
 const LAYOUTS_EVERY: usize = 20;
 
-/// Lagrangian heuristic: returns the hinges of a layout made of one arc into each face. Faces connected to the
-/// root stay as they are; cycles are joined to it across the first hinge that leads there.
+/// Returns the hinges of a layout made of one arc into each face (Lagrangian heuristic). What is connected to
+/// the root stays as it is; cycles are joined to it across the first hinge that leads there.
 pub fn repaired(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
     let n = target.faces.len();
     let hinge_of = |arc: usize| target.sides[arc / 3][arc % 3].expect("arcs lead across hinges");

@@ -3,14 +3,14 @@
 use super::target::Target;
 use super::weights::Weights;
 
-/// A layout: a spanning tree of the faces of a target, hung up at a root. Its edges are the hinges that fold.
+/// A layout: a spanning tree of the faces of a target, rooted at a face. Its edges are the hinges that fold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// The face that stays where it is.
     pub root: usize,
-    /// For each face: the hinge to its parent; `None` for the root.
+    /// The hinge from each face to its parent; `None` for the root.
     pub hinge: Vec<Option<usize>>,
-    /// For each face: its parent; the root's is itself.
+    /// The parent of each face; the root's is itself.
     pub parent: Vec<usize>,
     /// All faces, parents before children.
     pub order: Vec<usize>,
@@ -60,7 +60,7 @@ impl Layout {
         Layout::of_hinges(target, &hinges?, root)
     }
 
-    /// Returns the hinge of a face that is not the root, seen from both sides.
+    /// Returns the hinge of a face that is not the root, seen from both sides. Panics for the root.
     pub fn across(&self, target: &Target, face: usize) -> Across {
         let hinge = &target.hinges[self.hinge[face].expect("only the root has none")];
         let parent = self.parent[face];
@@ -79,14 +79,15 @@ impl Layout {
         hinges
     }
 
-    /// Returns the layout with `added` in place of `dropped`, which lies on the cycle that `added` closes.
+    /// Returns the layout with the hinge `added` instead of `dropped`, which must lie on the cycle that
+    /// `added` closes; panics otherwise.
     pub fn exchanged(&self, target: &Target, dropped: usize, added: usize) -> Layout {
         let hinges: Vec<usize> =
             self.hinges().into_iter().map(|hinge| if hinge == dropped { added } else { hinge }).collect();
         Layout::of_hinges(target, &hinges, self.root).expect("it joins the two parts")
     }
 
-    /// Returns the same tree hung up at another face.
+    /// Returns the same tree rooted at another face.
     pub fn rerooted(&self, target: &Target, root: usize) -> Layout {
         Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")
     }
@@ -123,12 +124,12 @@ impl Layout {
         heights
     }
 
-    /// Returns whether one of two faces is on the other's path from the root, or they are the same.
+    /// Returns true if one of two faces is on the other's path from the root, or they are the same.
     pub fn comparable(&self, a: usize, b: usize) -> bool {
         self.is_above(a, b) || self.is_above(b, a)
     }
 
-    /// Returns whether `a` is on the path from the root to `b`, ends included.
+    /// Returns true if `a` is on the path from the root to `b`, ends included.
     pub fn is_above(&self, a: usize, b: usize) -> bool {
         let mut at = b;
         loop {

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 /// The number of terms, and of points at which a function is sampled.
 pub(super) const TERMS: usize = 20;
 
-/// Places at which signs are compared: more changes between two of them are missed.
+/// The number of points at which signs are compared: more changes between two of them are missed.
 const SIGN_SAMPLES: usize = 48;
 
 /// Bisections and ternary sections of an interval: to the last digits.
@@ -16,7 +16,7 @@ const SECTIONS: usize = 50;
 pub(super) struct Rule {
     /// The points in -1..1.
     pub points: [f64; TERMS],
-    /// For each term, then for each point: what a value contributes to the term.
+    /// The contribution of a value at a point to a term, by term, then by point.
     terms: [[f64; TERMS]; TERMS],
 }
 
@@ -55,7 +55,7 @@ impl Rule {
 }
 
 impl Series {
-    /// Returns the value at a place in -1..1.
+    /// Returns the value at a point in -1..1.
     pub(super) fn at(&self, x: f64) -> f64 {
         let p = polynomials::<TERMS>(x);
         self.0.iter().zip(&p).map(|(c, p)| c * p).sum()
@@ -123,7 +123,7 @@ pub struct Size {
     pub peak: f64,
 }
 
-/// Returns the first N Legendre polynomials at a place.
+/// Returns the first N Legendre polynomials at a point.
 fn polynomials<const N: usize>(x: f64) -> [f64; N] {
     let mut p = [1.0; N];
     p[1] = x;

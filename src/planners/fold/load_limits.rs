@@ -15,7 +15,7 @@ const SAMPLES: usize = 12;
 /// The loads of the faces and the limits of ground and hinges. The root lies on the ground with its outside down.
 #[derive(Clone, Debug)]
 pub struct LoadLimits {
-    /// For each face: its weight, N.
+    /// The weight of each face, N.
     pub weights: Vec<f64>,
     /// The torque that a hinge holds, N·m; infinite where no limit is stated.
     pub torque: f64,
@@ -45,7 +45,8 @@ pub enum Violation {
 }
 
 impl LoadLimits {
-    /// Returns the first violation in a step; `folded`: by face, whether its hinge has folded before.
+    /// Returns the first violation of a load limit in a step; `folded`: true, by face, if its hinge has
+    /// folded before.
     pub fn violation(
         &self,
         target: &Target,

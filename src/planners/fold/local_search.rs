@@ -118,7 +118,8 @@ pub fn survey(
     Measured { best, ties, roots, least, complete }
 }
 
-/// Local search from greedy trees at the roots of least bound, the best tree first: exchanges as long as they help.
+/// Improves greedy trees at the roots of least bound, the best tree first, by exchanges as long as they help
+/// (local search).
 fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn FnMut(&Layout) -> [f64; 2]) {
     let (target, mut left) = (kept.target, kept.settings.budget);
     let bounds = ShortestPaths::new(target, weights);
@@ -180,13 +181,13 @@ struct Kept<'s> {
     target: &'s Target,
     settings: &'s Settings,
     best: Vec<(Layout, [f64; 2])>,
-    /// The number of layouts at each root that are as good as the best.
+    /// The number of equally good layouts, by root.
     ties: Vec<u64>,
     least: f64,
 }
 
 impl Kept<'_> {
-    /// Returns whether a layout with this first value changes nothing: enough better ones are kept.
+    /// Returns true if a layout with this first value changes nothing: enough better ones are kept.
     fn is_full_of_less_than(&self, value: f64) -> bool {
         let last = self.best.last().filter(|_| self.best.len() >= self.settings.keep.max(1));
         last.is_some_and(|(_, last)| compare(value, last[0]).is_gt())

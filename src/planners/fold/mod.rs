@@ -2,10 +2,10 @@
 //! proof, and the order of folding. After "A Reconfiguration Strategy for Modular Robots using
 //! Origami Folding" (Yao, Belke, Cui, Paik, IJRR); where it differs, the files say so.
 //!
-//! The entry is [`plan()`]. A *target* is a mesh that was checked, with its hinges. A *layout* is a spanning tree
-//! of the faces, hung up at a root face that stays where it is. Units: metres, kilograms, radians, newtons; an
-//! energy is the paper's sum of mean torques (N·m) for steps of one second, and goes with the inverse square of
-//! the step's time.
+//! The entry is [`plan()`]. A *target* is a mesh that was checked, with its hinges. A *layout* is a spanning
+//! tree of the faces, rooted at a face that keeps its pose. Units: metres, kilograms, radians, newtons; an
+//! energy is the paper's sum of mean torques (N·m) for steps of one second, and goes with the inverse square
+//! of the step's time.
 //!
 //! The stages of a plan: the task checks the problem; *proposals* are layouts from branch and bound
 //! ([`branch_and_bound`], [`lagrangian`]), enumeration ([`enumerate`]), local search ([`local_search`]) or the

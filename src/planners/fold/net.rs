@@ -14,9 +14,9 @@ use crate::geometry::{Pose, Vec3};
 pub struct Net {
     /// The vertices, m; the root's first corner is the origin, its first side goes along x.
     pub vertices: Vec<Point>,
-    /// For each vertex: a face with which it moves, and the face's corner that it is.
+    /// A face with which each vertex moves, and the face's corner that it is.
     owners: Vec<(usize, usize)>,
-    /// For each face: its corners among the vertices, in the target's order.
+    /// The corners of each face among the vertices, in the target's order.
     pub faces: Vec<[usize; 3]>,
     /// First the hinges that fold, in the order of the layout's faces, then the outline, face by face.
     pub edges: Vec<Edge>,

@@ -56,7 +56,7 @@ pub struct Conventions {
 }
 
 impl Conventions {
-    /// Returns whether only a hinge's torque in its own step counts, and depends on what it carries alone: then
+    /// Returns true if only a hinge's torque in its own step counts, and depends on what it carries alone: then
     /// energy and peak have a closed form.
     pub fn is_separable(&self) -> bool {
         self.gravity == 0.0 && self.count == Count::Moving
@@ -99,12 +99,12 @@ impl<'t> Objective<'t> {
         Objective { target, masses, conventions, minimise, bodies, weights }
     }
 
-    /// Returns whether the objective is a sum over faces of what their own paths cost, as branch and bound needs.
+    /// Returns true if the objective is a sum over faces of what their own paths cost, as branch and bound needs.
     pub fn is_sum_over_faces(&self) -> bool {
         self.conventions.is_separable() && self.minimise != Minimise::PeakTorque
     }
 
-    /// Returns whether the objective is the greatest of sums over sets of faces.
+    /// Returns true if the objective is the greatest of sums over sets of faces.
     pub fn is_greatest_sum(&self) -> bool {
         self.conventions.is_separable() && self.minimise == Minimise::PeakTorque
     }
@@ -135,7 +135,8 @@ impl<'t> Objective<'t> {
         self.effort(layout, &super::steps::leaves_first(layout))
     }
 
-    /// Returns the minimised quantity of a layout that folds with the leaves first, and the one that decides ties.
+    /// Returns the minimised quantity of a layout that folds with the leaves first, and the one that decides
+    /// ties: energy and peak torque, both N·m.
     pub fn value(&self, layout: &Layout) -> [f64; 2] {
         let steps = layout.heights()[layout.root] as f64;
         let Effort { energy, peak } = self.leaves_first(layout);

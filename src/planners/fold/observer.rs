@@ -10,12 +10,12 @@ pub struct Observer<'p> {
 }
 
 impl<'p> Observer<'p> {
-    /// An observer that hands everything on.
+    /// Returns an observer that forwards every report.
     pub fn new(progress: &'p mut dyn Progress) -> Observer<'p> {
         Observer { progress: RefCell::new(Some(progress)), ended: Cell::new(false) }
     }
 
-    /// An observer that ignores reports and never ends a search.
+    /// Returns an observer that ignores reports and never ends a search.
     pub fn none() -> Observer<'static> {
         Observer { progress: RefCell::new(None), ended: Cell::new(false) }
     }

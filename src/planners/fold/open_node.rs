@@ -27,7 +27,7 @@ pub(super) struct NodePaths {
     pub(super) length: f64,
     /// True while another ascent may raise the bound further.
     pub(super) rising: bool,
-    /// For each face and side: the number of paths that entered there at the end of the last ascent.
+    /// The number of paths that entered by each face and side at the end of the last ascent.
     pub(super) uses: Vec<[u32; 3]>,
 }
 

@@ -94,7 +94,7 @@ impl Panel {
         })
     }
 
-    /// Returns whether its three sides are equal up to rounding.
+    /// Returns true if its three sides are equal up to rounding.
     pub fn is_equilateral(&self) -> bool {
         equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
     }
@@ -126,7 +126,7 @@ impl Panel {
     }
 }
 
-/// Returns whether two triples of sides differ by at most `tol` times the longest side of the first.
+/// Returns true if two triples of sides differ by at most `tol` times the longest side of the first.
 pub fn equal_sides(a: [f64; 3], b: [f64; 3], tol: f64) -> bool {
     let longest = a.into_iter().fold(0.0, f64::max);
     a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tol * longest)
@@ -176,13 +176,13 @@ fn thickness(link: &Link, normal: Vec3) -> f64 {
 pub struct Panels {
     /// The module types and connectors that the panels are made of.
     pub library: Arc<Library>,
-    /// For each face: the index of its module type in the library.
+    /// The index of each face's module type in the library.
     pub kinds: Vec<usize>,
-    /// For each face: its mass, kg.
+    /// The mass of each face, kg.
     pub masses: Vec<f64>,
-    /// For each face: its thickness, m.
+    /// The thickness of each face, m.
     pub thickness: Vec<f64>,
-    /// For each face: its collision parts.
+    /// The collision parts of each face.
     pub solids: Solids,
     /// The first face's panel with the weakest limits and the greatest thickness of all.
     pub weakest: Panel,

@@ -12,14 +12,13 @@ pub type Point = [f64; 2];
 /// side along x; counterclockwise as seen from outside.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// For each face: its corners, m.
+    /// The corners of each face, m.
     pub corners: Vec<[Point; 3]>,
-    /// For each face: the cell of the triangular lattice, where all sides are equal, as the sum of its
-    /// corners.
+    /// The cell of each face on the triangular lattice, where all sides are equal, as the sum of its corners.
     pub cells: Option<Vec<[i64; 2]>>,
 }
 
-/// Returns whether all sides are of one length.
+/// Returns true if all sides are of one length.
 pub fn has_equal_sides(target: &Target) -> bool {
     let [a, b, _] = target.corners(0);
     let side = (b - a).norm();
@@ -60,7 +59,7 @@ impl Pattern {
     }
 }
 
-/// Around the centroid, with all corners in it.
+/// Returns the circle around the centroid with all corners in it.
 fn circle(corners: &[Point; 3]) -> (Point, f64) {
     let [x, y] = [0, 1].map(|k| corners.iter().map(|c| c[k]).sum::<f64>() / 3.0);
     let far = corners.iter().map(|[u, v]| (u - x) * (u - x) + (v - y) * (v - y)).fold(0.0, f64::max);
@@ -130,12 +129,12 @@ fn in_plane(target: &Target, layout: &Layout) -> Pattern {
     Pattern { corners, cells: None }
 }
 
-/// Returns whether the interiors of two counterclockwise triangles meet: no side of either separates them.
+/// Returns true if the interiors of two counterclockwise triangles meet: no side of either separates them.
 fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
     !parts(a, b) && !parts(b, a)
 }
 
-/// Returns whether the line through a side of `a` has all of `b` on its outer side. The position of a corner is
+/// Returns true if the line through a side of `a` has all of `b` on its outer side. Where a corner lies is
 /// computed without rounding; the tolerance is for the rounding of the corners themselves.
 fn parts(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let coordinate = |[x, y]: Point| Coord { x, y };

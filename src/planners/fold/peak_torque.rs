@@ -10,9 +10,9 @@
 //! Σ_r λ_r load_r + Σ over faces not yet dealt of min over r of λ_r K(r, j)
 //! ```
 //!
-//! and the shares are those that make this greatest at the beginning. If every face is dealt, a tree is grown
-//! in each part. If none of its hinges carries more than the root's, its peak is that of the division; else the
-//! division is kept as what may be undercut.
+//! and the shares are those that make this greatest at the beginning. Where every face is dealt, a tree is
+//! grown in each part. If none of its hinges carries more than the root's, its peak is that of the division;
+//! else the division is kept as a lower bound.
 
 use super::layout::Layout;
 use super::pattern::Pattern;
@@ -142,7 +142,7 @@ struct PartitionSearch<'t> {
     share: Vec<f64>,
     faces: Vec<usize>,
     rest: Vec<f64>,
-    /// For each of `faces`: the root's hinge to which it is assigned.
+    /// The root's hinge to which each face is assigned, in their order.
     dealt: Vec<usize>,
     loads: Vec<f64>,
     best: Option<(Layout, f64)>,
@@ -152,7 +152,7 @@ struct PartitionSearch<'t> {
 }
 
 impl PartitionSearch<'_> {
-    /// The next face to each of the root's hinges; as deep as there are faces.
+    /// Assigns the next face to each of the root's hinges; as deep as there are faces.
     fn next(&mut self, steps: &mut u64) {
         interrupt::checkpoint();
         let at = self.dealt.len();
@@ -184,7 +184,7 @@ impl PartitionSearch<'_> {
         }
     }
 
-    /// Returns whether a neighbour of a face goes to a hinge, or may still go.
+    /// Returns true if a neighbour of a face goes to a hinge, or may still go.
     fn is_reached(&self, at: usize, face: usize, r: usize) -> bool {
         self.target.around(face).any(|(_, other)| {
             other != self.root
@@ -192,7 +192,7 @@ impl PartitionSearch<'_> {
         })
     }
 
-    /// A tree in each part, if it is in one piece.
+    /// Builds a tree in each part, if it is connected.
     fn settle(&mut self) {
         let greatest = self.loads.iter().copied().fold(0.0, f64::max);
         let mut part = vec![usize::MAX; self.target.faces.len()];

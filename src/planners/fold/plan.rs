@@ -63,7 +63,7 @@ pub fn plan(
     if problem.hinges.is_some() {
         return Err(given(candidates.first));
     }
-    // Layouts made so that nothing is in the way, and other orders.
+    // Layouts made so that nothing collides, and other orders.
     let strips = task.of_strips(&found)?;
     let mut reordering = Reordering::new(&task);
     let reordered = reordering.first(&found)?;

@@ -36,8 +36,8 @@ pub struct Plate {
 }
 
 impl Default for Plate {
-    /// The plate of the origami paper: 6 mm thick, 18 g of motors, 8 g of plate for an equilateral triangle with
-    /// sides of 80 mm; hinges with 90°/s and 0.1 N·m.
+    /// Returns the plate of the origami paper: 6 mm thick, 18 g of motors, 8 g of plate for an equilateral
+    /// triangle with sides of 80 mm; hinges with 90°/s and 0.1 N·m.
     fn default() -> Plate {
         let limits =
             Limits { range: Some((-PI, PI)), speed: Some(PI / 2.0), acceleration: None, effort: Some(0.1) };

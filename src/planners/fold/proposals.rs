@@ -16,7 +16,7 @@ use super::tolerances::TOLERANCES;
 const KEPT: usize = 4096;
 
 /// The search for the next best layout gets the budget divided by this, so that something is left for other
-/// ways where none of the first layouts is let through.
+/// methods where none of the first layouts is let through.
 const NEXT_BEST: u64 = 4;
 
 /// Layouts that may be the answer, with what is known about them.
@@ -69,7 +69,8 @@ impl Task<'_> {
         energy / (self.conventions.step * self.conventions.step)
     }
 
-    /// Branch and bound: the layout of least energy; or of the fewest steps, and then the least energy.
+    /// Returns the layout of least energy by branch and bound; or that of the fewest steps, and then the
+    /// least energy.
     fn proved(&self) -> Result<Proposals, Refusal> {
         let (root, minimise) = (self.problem.root, self.settings.minimise);
         let plain = branch_and_bound::Settings {
@@ -116,7 +117,7 @@ impl Task<'_> {
         branch_and_bound::search(self.target, &self.objective.weights, settings, None, self.observer)
     }
 
-    /// Enumeration of every layout with every root.
+    /// Returns the best layouts by enumeration of every layout with every root.
     fn enumerated(&self) -> Result<Proposals, Refusal> {
         if !self.objective.is_sum_over_faces() || self.settings.minimise == Minimise::Steps {
             let (found, limit) = self.measured()?;
@@ -137,7 +138,7 @@ impl Task<'_> {
         Ok(Proposals { least, ties, tied: all.ties, ..flat })
     }
 
-    /// The layout that the problem gives as pairs of faces, with its best roots.
+    /// Returns the layout that the problem gives as pairs of faces, with its best roots.
     fn given(&self, pairs: &[[usize; 2]]) -> Result<Proposals, Refusal> {
         let faces = self.target.faces.len();
         let hinge = |pair: &[usize; 2]| {
@@ -161,8 +162,8 @@ impl Task<'_> {
         Ok(self.unproved(best, least, ties, tied))
     }
 
-    /// Every layout measured where they are few, else local search; with the number of pairs of a layout and a
-    /// root up to which all are measured.
+    /// Returns the best layouts: every layout measured where they are few, else by local search; with the
+    /// number of pairs of a layout and a root up to which all are measured.
     fn measured(&self) -> Result<(Proposals, u64), Refusal> {
         let budget = self.settings.budget.min(self.objective.measures_max());
         let prefilter = self.objective.prefilter(self.settings.budget);
@@ -208,7 +209,7 @@ impl Task<'_> {
         found
     }
 
-    /// The layout that the paper's measure prefers.
+    /// Returns the layout that the paper's measure prefers.
     fn preferred(&self) -> Result<Proposals, Refusal> {
         let panel = &self.panels.weakest;
         let measure = Measure::of_panels(panel.mass, panel.sides[0]);

@@ -131,7 +131,7 @@ pub struct BestPattern {
 /// The least torque limit under which an order was found, and the hinge that needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TorqueNeed {
-    /// N·m
+    /// The torque, N·m.
     pub torque: f64,
     /// The panels on the hinge.
     pub faces: [usize; 2],

@@ -211,8 +211,8 @@ impl<'t> Reordering<'t> {
         Ok(least)
     }
 
-    /// Puts a layout in steps before the judge; the inner error is his first failure, or `None` where no more is
-    /// put before him.
+    /// Puts a layout in steps before the judge; the inner error is its first failure, or `None` where no more
+    /// is put before it.
     fn evaluate(
         &mut self,
         layout: &Layout,
@@ -237,8 +237,8 @@ impl<'t> Reordering<'t> {
         cheap.into_iter().chain([steps::root_first(layout), steps::leaves_first(layout)]).collect()
     }
 
-    /// Returns the place in an order, one hinge at a time, of the hinge that folds at a time (s). Level hinges
-    /// take no time.
+    /// Returns the index, in an order of one hinge at a time, of the hinge that folds at a time (s). Level
+    /// hinges take no time.
     fn step_at(&self, layout: &Layout, order: &[usize], time: f64) -> usize {
         let bent = |face: usize| layout.angle(self.task.target, face) != 0.0;
         let number = (time / self.task.conventions.step) as usize;

@@ -14,7 +14,7 @@ use num_bigint::BigInt;
 pub struct Report {
     /// The target, as the problem states it.
     pub target: Target,
-    /// The layout that folds, hung up at its root.
+    /// The layout that folds, rooted at its root.
     pub layout: Layout,
     /// The number of layouts of the target (Kirchhoff's theorem).
     pub layouts: BigInt,
@@ -41,7 +41,7 @@ pub struct Report {
     pub lifting_bound: f64,
     /// The faces whose hinges do not close (Eq. 1), where a hinge radius was given.
     pub too_thick: Vec<usize>,
-    /// For each face: its mass, kg.
+    /// The mass of each face, kg.
     pub masses: Vec<f64>,
     /// The conventions under which the folding was measured.
     pub conventions: Conventions,
@@ -56,8 +56,9 @@ pub struct Report {
 }
 
 impl Report {
-    /// Returns the gap between what was found and the bound, as a part of what was found; 0 where the folding
-    /// is optimal. Another order than leaves first may undercut the bound, and then the gap is 0, too.
+    /// Returns the gap between the value found and the bound, as a fraction of the value found; 0 where the
+    /// folding is optimal. Another order than leaves first may go below the bound, and then the gap is 0,
+    /// too.
     pub fn gap(&self) -> f64 {
         let found = match self.minimise {
             Minimise::PeakTorque => self.effort.peak,

@@ -24,13 +24,13 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// A problem without gravity whose root and layout the planner chooses.
+    /// Returns a problem without gravity whose root and layout the planner chooses.
     pub fn new(target: Target, panels: Panels) -> Problem {
         Problem { target, panels, root: None, gravity: 0.0, hinges: None }
     }
 }
 
-/// The way in which layouts are searched.
+/// The method by which layouts are searched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Branch and bound where the objective is a sum over faces, else enumeration of few layouts or local
@@ -72,7 +72,7 @@ pub enum MassModel {
 /// The options of a search. The defaults are those of the function `fold` of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The way in which layouts are searched.
+    /// The method by which layouts are searched.
     pub method: Method,
     /// The quantity to minimise.
     pub minimise: Minimise,
@@ -113,7 +113,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The conventions under which foldings of a problem are measured.
+    /// Returns the conventions under which foldings of a problem are measured.
     pub(crate) fn conventions(&self, problem: &Problem) -> Conventions {
         let panel = &problem.panels.weakest;
         let widest = problem.target.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max);

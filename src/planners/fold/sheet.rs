@@ -13,7 +13,7 @@ use std::sync::Arc;
 pub struct Sheet {
     /// Panel k stands for face k; bond i joins face `layout.order[i + 1]` to its parent.
     pub assembly: Assembly,
-    /// For each bond: the joint of its hinge.
+    /// The joint of each bond's hinge.
     pub joints: Vec<JointId>,
     /// All panels level, the root's panel at the origin.
     pub flat: State,
@@ -63,7 +63,7 @@ impl Sheet {
         state
     }
 
-    /// Returns the joint of the hinge between a face and its parent; no root has one.
+    /// Returns the joint of the hinge between a face and its parent. Panics for the root, which has none.
     pub fn joint(&self, layout: &Layout, face: usize) -> JointId {
         let place = layout.order.iter().position(|f| *f == face).expect("the order names every face");
         self.joints[place - 1]

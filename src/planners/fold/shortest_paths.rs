@@ -73,7 +73,7 @@ pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
 pub struct ShortestPaths<'t> {
     target: &'t Target,
     weights: &'t Weights,
-    /// For each pair of faces: cost of the cheapest path from the second to the first, for the first.
+    /// The cost of the cheapest path from a face to another for the other, by the other, then by the face.
     toward: Vec<Vec<f64>>,
     distance: Vec<f64>,
     entered: Vec<Arc>,
@@ -136,7 +136,8 @@ impl<'t> ShortestPaths<'t> {
         self.toward.iter().map(|toward| toward[root]).sum()
     }
 
-    /// Dijkstra's algorithm: costs for `goal` from everywhere; paths cost the same in both directions.
+    /// Computes costs for `goal` from everywhere by Dijkstra's algorithm; paths cost the same in both
+    /// directions.
     fn dijkstra(&mut self, goal: usize) {
         crate::interrupt::checkpoint();
         self.distance.fill(f64::INFINITY);
@@ -157,8 +158,8 @@ impl<'t> ShortestPaths<'t> {
         }
     }
 
-    /// A*: returns the cheapest path from the root to `goal` over allowed arcs, with its cost; `None` where there
-    /// is none. The heuristic is the cost without restriction.
+    /// Returns the cheapest path from the root to `goal` over allowed arcs by A*, with its cost (N·m for
+    /// steps of one second); `None` where there is none. The heuristic is the cost without restriction.
     pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         if self.longest < self.toward.len() {
             return self.route_in_layers(root, goal, allowed);
@@ -194,7 +195,8 @@ impl<'t> ShortestPaths<'t> {
         None
     }
 
-    /// Bellman-Ford: the same with at most `longest` hinges, one more of them in each round.
+    /// Returns the cheapest path with at most `longest` hinges by the Bellman-Ford algorithm, one more hinge
+    /// in each round.
     fn route_in_layers(&self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         let mut costs = vec![f64::INFINITY; self.toward.len()];
         costs[root] = 0.0;
@@ -249,7 +251,7 @@ pub fn tail(target: &Target, arc: Arc) -> usize {
     target.hinges[hinge].other(face)
 }
 
-/// Returns the arc across the same hinge the other way.
+/// Returns the arc across the same hinge in the opposite direction.
 #[inline]
 pub fn reversed(target: &Target, an_arc: Arc) -> Arc {
     let (face, side) = head(an_arc);

@@ -1,5 +1,5 @@
-//! Simulation of a folding by inverse dynamics: the torque of every hinge in every step. This is the paper's Alg. 1; where the
-//! closed form of `weights` holds, both agree.
+//! Simulation of a folding by inverse dynamics: the torque of every hinge in every step. This is the paper's
+//! Alg. 1; where the closed form of `weights` holds, both agree.
 
 use super::dynamics::{Dynamics, Hinging};
 use super::inertia::Body;
@@ -20,7 +20,7 @@ pub struct Circumstances {
 /// The torques of a folding.
 #[derive(Clone, Debug)]
 pub struct Torques {
-    /// For each step, then for each face: mean and peak of the absolute torque in it, N·m.
+    /// The mean and peak of the absolute torque, N·m, by step, then by face.
     pub steps: Vec<Vec<Size>>,
 }
 

@@ -24,7 +24,7 @@ impl Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }
 
-    /// Counts an energy.
+    /// Counts an energy, in the unit of `unit`.
     pub fn add(&mut self, energy: f64) {
         let key = (energy / (self.unit * GRAIN)).round() as u64;
         if let Some(count) = self.counts.get_mut(&key) {
@@ -36,7 +36,7 @@ impl Spectrum {
         }
     }
 
-    /// Returns the energies with how often each occurs, in order; those nearer than a tie are one.
+    /// Returns the energies with their multiplicities, in order; those nearer than a tie are one.
     pub fn levels(&self) -> Vec<(f64, u64)> {
         let apart = (TOLERANCES.tie / GRAIN) as u64;
         let mut levels: Vec<(f64, u64)> = Vec::new();

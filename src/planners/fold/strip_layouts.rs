@@ -1,14 +1,14 @@
 //! Layouts made of strips that fold with the leaves first and without collision, where those of least energy
 //! collide.
 //!
-//! Cheap layouts are stars of many arms: rings close between lumps that have folded already, and these
-//! meet. Nothing meets where a ring is cut into strips that curl up each in its own sector, on one strip
-//! that curls up last. Such layouts are found by what hinges are: trees of those that are longest, most
-//! convex, or fold the most or the least, and of nearly equal trees those that cost the least. If little is in
-//! the way, the cheap layouts themselves are a beginning. Faces that still overlap in the plane or meet on the
-//! way are separated by exchanges of one hinge for another between the two, as in `tabu_unfolding`; and a
-//! layout that is clear is made cheaper by exchanges that keep it so. Nothing is proved, and collisions are
-//! sampled: the judge decides.
+//! Cheap layouts are trees of large degree at the root: rings close between groups of faces that have folded
+//! already, and these collide. Nothing collides where a ring is cut into strips that roll up each in its own
+//! sector, on one strip that rolls up last. Such layouts are found as maximum spanning trees by properties of
+//! the hinges: trees of those that are longest, most convex, or fold the most or the least, and of nearly
+//! equal trees those that cost the least. Where few collisions occur, the cheap layouts themselves are a
+//! beginning. Faces that still overlap in the plane or collide while they fold are separated by exchanges of
+//! one hinge for another between the two, as in `tabu_unfolding`; and collision-free layouts are made cheaper
+//! by exchanges that keep them so. Nothing is proved, and collisions are sampled: the judge decides.
 
 use super::edge_exchange::{self, Rules};
 use super::layout::Layout;
@@ -80,7 +80,7 @@ pub struct StripSearch<'t> {
     pub required: &'t [usize],
     /// The faces that may be the root.
     pub roots: &'t [usize],
-    /// Cheap layouts, in which little may be in the way.
+    /// Cheap layouts, which may fold without collisions.
     pub cheap: &'t [Layout],
     /// The seed of random exchanges.
     pub seed: u64,
@@ -177,7 +177,7 @@ impl StripSearch<'_> {
         trees
     }
 
-    /// Returns the cheapest layout that exchanges lead to, hung up at the best root.
+    /// Returns the cheapest layout that exchanges lead to, rooted at the best root.
     fn cheapened(&self, hinges: &[usize], fits: &dyn Fn(&Layout, [usize; 2]) -> bool) -> Layout {
         let of_root = |root: usize| Layout::of_hinges(self.target, hinges, root).expect("it is a tree");
         let mut layout = self.at_best_root(&of_root(self.roots[0]));
@@ -227,8 +227,8 @@ impl StripSearch<'_> {
         (conflicts, pairs)
     }
 
-    /// Tabu search: exchanges hinges between faces that overlap or collide until none do, as long as more than
-    /// `kept` of the budget is left.
+    /// Exchanges hinges between faces that overlap or collide by tabu search until none do, as long as more
+    /// than `kept` of the budget is left.
     fn separated(&mut self, layout: Layout, seed: u64, kept: usize) -> Option<Layout> {
         let target = self.target;
         let mut parting = TabuExchange::new(target, seed);
@@ -289,7 +289,7 @@ impl StripSearch<'_> {
 
 /// Connected components of faces (union-find).
 pub struct Components(
-    /// For each face: the least face that it is joined to.
+    /// The least face that each face is joined to.
     Vec<usize>,
 );
 
@@ -299,7 +299,7 @@ impl Components {
         Components((0..faces).collect())
     }
 
-    /// Joins the components of two faces; returns whether they were apart.
+    /// Joins the components of two faces; returns true if they were distinct.
     pub fn join(&mut self, faces: [usize; 2]) -> bool {
         let [a, b] = faces.map(|face| self.0[face]);
         self.0.iter_mut().filter(|piece| **piece == a.max(b)).for_each(|piece| *piece = a.min(b));
@@ -307,7 +307,7 @@ impl Components {
     }
 }
 
-/// Kruskal's algorithm: returns the hinges of the maximum spanning tree by worth; of equal ones the first.
+/// Returns the hinges of the maximum spanning tree by worth (Kruskal's algorithm); of equal ones the first.
 fn heaviest_tree(target: &Target, worths: &[f64]) -> Vec<usize> {
     let mut by_worth: Vec<usize> = (0..worths.len()).collect();
     by_worth.sort_by(|a, b| worths[*b].total_cmp(&worths[*a]));

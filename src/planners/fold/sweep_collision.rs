@@ -1,5 +1,5 @@
-//! Sampled sweep collision check of panels in motion: it spares the judge plans that he would reject. Panels are
-//! triangles without thickness (separating axes), or solids. A pass is no proof.
+//! Sampled sweep collision check of panels in motion: it spares the judge plans that it would reject. Panels
+//! are triangles without thickness (separating axes), or solids. What passes is not proved.
 
 use super::kinematics::poses_at;
 use super::layout::Layout;
@@ -46,7 +46,7 @@ pub fn first_collision(
 /// with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {
-    /// For each face: its convex parts.
+    /// The convex parts of each face.
     pub parts: Vec<Vec<Part>>,
     /// The depth to which two panels may enter each other, m.
     pub touch: f64,
@@ -64,7 +64,7 @@ pub fn target_collisions(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
     pairs.filter(|pair| solids.meet(*pair, &Pose::identity())).collect()
 }
 
-/// The parts of all panels in their places in the target.
+/// Returns the parts of all panels in their poses in the target.
 fn placed(target: &Target, solids: &Solids) -> Vec<Vec<Part>> {
     let of_face = |(face, parts): (usize, &Vec<Part>)| -> Vec<Part> {
         let place = place(target, face);
@@ -73,7 +73,7 @@ fn placed(target: &Target, solids: &Solids) -> Vec<Vec<Part>> {
     solids.parts.iter().enumerate().map(of_face).collect()
 }
 
-/// Returns for each face the distance of its parts from its middle, m.
+/// Returns the greatest distance of each face's parts from its middle, m.
 fn reach(target: &Target, parts: &[Vec<Part>]) -> Vec<f64> {
     let of_face = |(face, parts): (usize, &Vec<Part>)| {
         let middle = target.centroid(face);
@@ -87,7 +87,7 @@ pub struct SweepCheck<'t> {
     target: &'t Target,
     layout: &'t Layout,
     form: Form,
-    /// For each face: the radius of its bounding sphere about the centroid, m.
+    /// The radius of each face's bounding sphere about the centroid, m.
     reach: Vec<f64>,
 }
 
@@ -121,7 +121,7 @@ impl<'t> SweepCheck<'t> {
     }
 
     /// Returns two faces that collide while the hinges of `moving` fold at the same time, none above another;
-    /// `folded`: by face, whether its hinge has folded before.
+    /// `folded`: true, by face, if its hinge has folded before.
     pub fn pair_during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
         let against = moving_against(self.layout, moving);
         (1..=SAMPLES).find_map(|sample| {
@@ -187,16 +187,17 @@ impl<'t> SweepCheck<'t> {
     }
 }
 
-/// A state on the way.
+/// A state during a step.
 struct State {
-    /// For each face: its displacement from its place in the target.
+    /// The displacement of each face from its pose in the target.
     poses: Vec<Pose>,
-    /// For each face: its centroid, m.
+    /// The centroid of each face, m.
     middles: Vec<Vec3>,
 }
 
 impl Solids {
-    /// Returns whether two panels penetrate each other; `X_AB`: from the frame in which the second's parts are to the first's.
+    /// Returns true if two panels penetrate each other; `X_AB`: the pose of the second's frame in the
+    /// first's.
     pub fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
         let meet =
             |p: &Part, q: &Part| signed_distance_within(p, q, X_AB, None, -self.touch).distance < -self.touch;
@@ -204,7 +205,7 @@ impl Solids {
     }
 }
 
-/// The frame of a panel at a face of the target.
+/// Returns the frame of a panel at a face of the target.
 fn place(target: &Target, face: usize) -> Pose {
     panel_pose(&target.corners(face), &target.normal(face))
 }
@@ -227,12 +228,12 @@ fn moving_against(layout: &Layout, moving: &[usize]) -> Vec<[usize; 2]> {
         let above = carried[layout.parent[face]];
         carried[face] = if moving.contains(&face) { face + 1 } else { above };
     }
-    // No two hinges of one path move in the same step, so one hinge tells the set.
+    // No two hinges of one path move in the same step, so one hinge determines the set.
     let pairs = (0..faces).flat_map(|b| (0..b).map(move |a| [a, b]));
     pairs.filter(|&[a, b]| carried[a] != carried[b]).collect()
 }
 
-/// Separating axis test: returns whether a plane across some axis separates two triangles.
+/// Returns true if a plane across some axis separates two triangles (separating axis test).
 fn separated(a: &Triangle, b: &Triangle) -> bool {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (of_a, of_b) = (edges(a), edges(b));

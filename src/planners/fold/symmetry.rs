@@ -11,8 +11,8 @@ pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     let lengths: Vec<[f64; 3]> = (0..n).map(|face| lengths(target, face)).collect();
     let mut first: Vec<usize> = (0..n).collect();
     let scale = weights.greatest();
-    // The isometries that leave face 0 in its place, and one for each face to which another carries it,
-    // generate all.
+    // The isometries that map face 0 to itself, and one for each face to which another carries it, generate
+    // all.
     for face in 0..n {
         crate::interrupt::checkpoint();
         for (turn, mirrored) in (0..6).map(|i| (i % 3, i >= 3)) {
@@ -51,8 +51,8 @@ fn equal(a: f64, b: f64) -> bool {
     (a - b).abs() <= TOLERANCES.symmetry * (a.abs() + b.abs() + f64::MIN_POSITIVE)
 }
 
-/// A face with the number of its side that is the image of side 0, and whether sides are counted
-/// backwards from there.
+/// A face with the number of its side that is the image of side 0, and true if sides are counted backwards
+/// from there.
 type Image = (usize, usize, bool);
 
 fn side(image: Image, k: usize) -> usize {

@@ -65,7 +65,7 @@ pub(super) fn without_overlaps(
 pub(super) struct TabuExchange<'t> {
     target: &'t Target,
     rng: SplitMix64,
-    /// For each hinge: the round in which it may come back.
+    /// The round in which each hinge may come back.
     out_until: Vec<usize>,
 }
 

@@ -15,7 +15,7 @@ pub const FACES_MAX: usize = 400;
 pub struct Target {
     /// The corners of all faces, m.
     pub vertices: Vec<Vec3>,
-    /// For each face: its corners among the vertices, counterclockwise seen from outside.
+    /// The corners of each face among the vertices, counterclockwise seen from outside.
     pub faces: Vec<[usize; 3]>,
     /// The edges of the dual graph, in order of the first face's number, then of its side.
     pub hinges: Vec<Hinge>,
@@ -35,9 +35,9 @@ pub struct Hinge {
     pub angle: f64,
     /// A point of the edge in the target, m.
     pub point: Vec3,
-    /// Unit vector along the edge, in the direction in which the first face runs along it. Turning the
-    /// second face about it by the angle folds it from level to its place; for the first face, seen
-    /// from the second, the direction is the opposite.
+    /// The unit vector along the edge, in the direction in which the first face runs along it. Turning the
+    /// second face about it by the angle folds it from level to its pose in the target; for the first face,
+    /// seen from the second, the direction is the opposite.
     pub axis: Vec3,
 }
 
@@ -116,11 +116,11 @@ impl Target {
         [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
     }
 
-    /// Returns the target without the hinges between two faces of which neither has motors; `driven`: by face,
-    /// whether it has.
+    /// Returns the target without the hinges between two faces of which neither has motors; `driven`: true,
+    /// by face, if it has.
     ///
     /// # Errors
-    /// [`Unfoldable::Undriven`] where the rest is not in one piece.
+    /// [`Unfoldable::Undriven`] where the rest is not connected.
     pub fn driven(mut self, driven: &[bool]) -> Result<Target, Unfoldable> {
         self.hinges.retain(|hinge| hinge.faces.iter().any(|face| driven[*face]));
         self.sides = sides(&self.hinges, self.faces.len());
@@ -208,7 +208,7 @@ fn hinges(vertices: &[Vec3], faces: &[[usize; 3]]) -> Result<Hinges, Unfoldable>
     Ok((found, sides))
 }
 
-/// The hinge at each side of each face.
+/// Returns the hinge at each side of each face.
 fn sides(hinges: &[Hinge], faces: usize) -> Vec<[Option<usize>; 3]> {
     let mut sides = vec![[None; 3]; faces];
     for (index, hinge) in hinges.iter().enumerate() {

@@ -28,14 +28,21 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// A planning call at work.
 pub(super) struct Task<'p> {
+    /// The problem.
     pub problem: &'p Problem,
+    /// The settings of the planner.
     pub settings: &'p Settings,
+    /// The observer of the search.
     pub observer: &'p Observer<'p>,
+    /// The surface that is folded.
     pub target: &'p Target,
+    /// The panels of its faces.
     pub panels: &'p Panels,
+    /// The conventions of torques and energy.
     pub conventions: Conventions,
     /// The faces that may be the root.
     pub roots: Vec<usize>,
+    /// The quantity that is minimised.
     pub objective: Objective<'p>,
     /// The hinges without which panels penetrate each other in the target; no cycle.
     pub required: Vec<usize>,
@@ -43,8 +50,11 @@ pub(super) struct Task<'p> {
 
 /// A layout with an order that the judge lets through.
 pub(super) struct Outcome {
+    /// The plan and its verdict.
     pub solution: Solution<Judged>,
+    /// The layout.
     pub layout: Layout,
+    /// The faces that fold in each step.
     pub steps: Vec<Vec<usize>>,
 }
 
@@ -67,7 +77,7 @@ impl<'p> Task<'p> {
         Ok(Task { problem, settings, observer, target, panels, conventions, roots, objective, required })
     }
 
-    /// Returns for each face its weight under standard gravity, N.
+    /// Returns the weight of each face under standard gravity, N.
     pub(super) fn loads(&self) -> Vec<f64> {
         self.panels.masses.iter().map(|mass| mass * STANDARD_GRAVITY).collect()
     }
@@ -120,7 +130,7 @@ impl<'p> Task<'p> {
         shifted(Vec3::new(0.0, 0.0, thickness / 2.0)) * turned(Vec3::x(), std::f64::consts::PI)
     }
 
-    /// Puts a layout that folds in these steps before the judge; the inner error is his first failure.
+    /// Puts a layout that folds in these steps before the judge; the inner error is its first failure.
     ///
     /// # Errors
     /// A reason that holds for every layout: no hinges, steps that are too short, a program that can't be scheduled.

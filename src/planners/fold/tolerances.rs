@@ -1,4 +1,4 @@
-//! The tolerances of folding, all in one place.
+//! Tolerances and thresholds of folding.
 
 /// The tolerances that the planner computes with.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +46,7 @@ pub struct Tolerances {
     pub closing: f64,
     /// A hinge that folds less than this is level, rad.
     pub level: f64,
-    /// Worths of hinges that differ by less are equal, so that rounding does not choose among trees.
+    /// Weights of hinges that differ by less are equal, so that rounding does not choose among trees.
     pub worth: f64,
     /// Corners nearer to the line of a hinge than this part of a side rest on the hinge itself.
     pub hinge_line: f64,

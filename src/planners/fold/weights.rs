@@ -17,7 +17,7 @@ pub(super) const QUINTIC: f64 = 3.75;
 #[derive(Clone, Debug)]
 pub struct Weights {
     faces: usize,
-    /// For each hinge, then for each face.
+    /// The weights, by hinge, then by face.
     table: Vec<f64>,
 }
 
@@ -41,18 +41,18 @@ impl Weights {
         Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)
     }
 
-    /// Returns the cost of `hinge` for carrying `face`.
+    /// Returns the cost of `hinge` for carrying `face`, N·m for steps of one second.
     #[inline]
     pub fn at(&self, hinge: usize, face: usize) -> f64 {
         self.table[hinge * self.faces + face]
     }
 
-    /// Returns the costs of a hinge, by face.
+    /// Returns the costs of a hinge, by face, N·m for steps of one second.
     pub fn of_hinge(&self, hinge: usize) -> &[f64] {
         &self.table[hinge * self.faces..][..self.faces]
     }
 
-    /// Returns the greatest weight, the scale for tolerances.
+    /// Returns the greatest weight, the scale for tolerances, N·m for steps of one second.
     pub fn greatest(&self) -> f64 {
         self.table.iter().copied().fold(0.0, f64::max)
     }

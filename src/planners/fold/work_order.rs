@@ -1,10 +1,10 @@
-//! Dynamic programme for the order of folding that lifts and lowers the least (Eq. 15 to 17).
+//! Dynamic programming for the order of folding with the least work against gravity (Eq. 15 to 17).
 //!
-//! The root lies on the ground with its outside down. To fold hinge i when the set F has folded
-//! costs `|PE(F + i) - PE(F)|`. Branches of the root move independently; within a branch every subset
-//! of its hinges is a state of a dynamic programme: `b 2^b` steps instead of `b!` orders. The changes
-//! telescope, so no order undercuts `|PE(all) - PE(none)|` of its branch; where the leaves-first
-//! order (Alg. 2) reaches that, nothing more is computed.
+//! The root lies on the ground with its outside down. To fold hinge i when the set F has folded costs
+//! `|PE(F + i) - PE(F)|`. Branches of the root move independently; within a branch every subset of its hinges
+//! is a state of a dynamic program: `b 2^b` steps instead of `b!` orders. The changes telescope, so no order
+//! goes below `|PE(all) - PE(none)|` of its branch; where the leaves-first order (Alg. 2) reaches that,
+//! nothing more is computed.
 
 use super::kinematics::about;
 use super::layout::Layout;
@@ -92,10 +92,10 @@ fn height(target: &Target, layout: &Layout, face: usize, pose: &Pose) -> f64 {
 struct Branch {
     /// Its faces; bit i of a state is face i of these.
     faces: Vec<usize>,
-    /// For each face of the branch: the bits of its path from the root, the root's child first.
+    /// The bits of the path from the root to each face of the branch, the root's child first.
     paths: Vec<Vec<usize>>,
-    /// For each face of the branch, if all subsets are visited: its potential energy, indexed by the bits of
-    /// its path that have folded.
+    /// The potential energy of each face of the branch by which bits of its path have folded, where all
+    /// subsets are visited.
     potentials: Vec<Vec<f64>>,
     /// The leaves-first and the root-first order, with their work.
     known: Vec<(Vec<usize>, f64)>,
@@ -149,7 +149,7 @@ impl Branch {
         Lifting { order, work, bound: work, optimal: true }
     }
 
-    /// Dynamic programme over all subsets of the branch.
+    /// Returns the order of least work by dynamic programming over all subsets of the branch, with that work.
     fn programme(&self) -> (Vec<usize>, f64) {
         let bits = self.faces.len();
         let energies: Vec<f64> = (0..1usize << bits).map(|set| self.energy(set)).collect();
@@ -185,8 +185,7 @@ impl Branch {
     }
 }
 
-/// Returns for each face of the branch its potential energy, indexed by the hinges of its path that have
-/// folded.
+/// Returns the potential energy of each face of the branch by which hinges of its path have folded.
 fn potentials(
     target: &Target,
     layout: &Layout,
@@ -195,7 +194,7 @@ fn potentials(
     paths: &[Vec<usize>],
 ) -> Vec<Vec<f64>> {
     let places = paths.iter().zip(faces).map(|(path, &face)| {
-        // A face's place is that of its path, which is walked from the root on.
+        // A face's pose is that of its path, which is walked from the root on.
         let mut poses = vec![Pose::identity()];
         for &bit in path {
             let hinge = &target.hinges[layout.hinge[faces[bit]].expect("no face of a branch is the root")];

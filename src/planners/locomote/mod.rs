@@ -51,7 +51,7 @@ use std::fmt;
 pub struct Problem {
     /// The truss, in the world's frame; it is put down on the ground and falls to where it rests.
     pub truss: TrussProblem,
-    /// The places (x, y), m, that the centre of mass has to reach one after another.
+    /// The points (x, y), m, that the centre of mass has to reach one after another.
     pub path: Vec<[f64; 2]>,
 }
 
@@ -62,7 +62,7 @@ pub struct Report {
     pub end: End,
     /// `end` in words.
     pub ended: String,
-    /// Places of the path that were reached.
+    /// The number of points of the path that were reached.
     pub reached: usize,
     /// The length of the path of the centre of mass over the ground, m.
     pub distance: f64,
@@ -83,7 +83,7 @@ pub struct Report {
 pub enum Refusal {
     /// The truss can't be planned for.
     Truss(InvalidTruss),
-    /// The path has no place.
+    /// The path has no point.
     EmptyPath,
     /// The truss does not come to rest on the ground.
     NeverRests,

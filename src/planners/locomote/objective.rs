@@ -10,9 +10,9 @@ const DAMPING: f64 = 1.0;
 /// The damping of `FEWEST`: just enough that there is one best step.
 const DAMPING_FEWEST: f64 = 1e-3;
 
-/// The objective of locomotion. `damping` is the weight of the squared displacements of the nodes beside
-/// that of the rates of length: without it, motion that hardly changes lengths costs nothing, and the robot
-/// throws itself flat.
+/// The objective of locomotion. `damping` is the weight of the squared displacements of the nodes beside that
+/// of the rates of length: without it, motion that hardly changes lengths costs nothing, and the robot
+/// collapses to the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Objective {
     /// Equation (17): every node moves where its struts, as springs of their mean length at the start, pull
@@ -28,7 +28,7 @@ pub enum Objective {
         /// The weight of displacements.
         damping: f64,
     },
-    /// The sum of the absolute rates of length is least, so that few struts move (a linear programme but for
+    /// The sum of the absolute rates of length is least, so that few struts move (a linear program but for
     /// the damping).
     Fewest {
         /// The weight of displacements.

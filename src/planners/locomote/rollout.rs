@@ -94,13 +94,13 @@ impl Default for Settings {
 /// The end of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
-    /// The centre of mass reached the last place of the path.
+    /// The centre of mass reached the last point of the path.
     Arrived,
     /// No step was found, not even a relaxed one; the error is that of the ordinary step.
     Stuck(StepError),
     /// The truss stands on one node, or rolls without end.
     Falls,
-    /// The truss would topple over an edge, and violate this constraint on the way.
+    /// The truss would topple over an edge, and violate this constraint while it rolls.
     Blocked(Constraint),
     /// The steps allowed were not enough.
     Steps,
@@ -115,7 +115,7 @@ pub struct Travel {
     pub moves: Vec<Move>,
     /// The reason why there are no more.
     pub end: End,
-    /// Places of the path that were reached.
+    /// The number of points of the path that were reached.
     pub reached: usize,
     /// Steps made.
     pub steps: usize,
@@ -131,7 +131,7 @@ pub struct Travel {
     pub duration: f64,
 }
 
-/// A relaxation of a step: an easier one that is tried in its place.
+/// A relaxation of a step: an easier one that is tried instead.
 struct Relaxation {
     /// The fraction of the stride.
     speed: f64,
@@ -230,36 +230,44 @@ impl Travel {
 /// The choices that lookahead varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StepPolicy {
+    /// The objective of the steps.
     pub objective: Objective,
+    /// True if the truss may fall over an edge.
     pub impact: bool,
 }
 
-/// A truss on its way; lengths in m.
+/// A truss that moves along the path; lengths in m.
 #[derive(Clone)]
 pub(super) struct Rollout<'a> {
+    /// The truss with its limits.
     pub truss: &'a Structure,
+    /// The points (x, y) that the centre of mass has to reach, m.
     pub path: &'a [[f64; 2]],
+    /// The settings of the planner.
     pub settings: &'a Settings,
     /// The distance of the centre of mass in one step, m.
     pub stride: f64,
+    /// The policy of the present steps.
     pub policy: StepPolicy,
-    /// The positions of the nodes.
+    /// The positions of the nodes, m.
     pub x: Vec<Vec3>,
     warm_start: WarmStart,
     relaxed_in_a_row: usize,
     /// True if it continues with relaxed steps as long as it can.
     pub allow_fallbacks: bool,
-    /// True if something is in the way of the next roll, so that a node has to be placed first.
+    /// True if a constraint blocks the next roll, so that a node has to be placed first.
     place_node_first: bool,
     /// The node that is being placed, and the steps this has taken.
     placing: Option<(usize, usize)>,
     /// Nodes that could not be placed from where the truss stands.
     out_of_reach: Vec<usize>,
+    /// The motion so far.
     pub travel: Travel,
 }
 
 impl Rollout<'_> {
-    /// Continues for at most `steps` steps; `None` if it is still on its way then.
+    /// Continues for at most `steps` steps; returns the reason that it ended, `None` if the path is not
+    /// finished then.
     pub(super) fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
         let first = self.travel.steps;
         while let Some(place) = self.path.get(self.travel.reached) {
@@ -309,7 +317,7 @@ impl Rollout<'_> {
         settled
     }
 
-    /// Returns the distance left, along straight lines from place to place, m.
+    /// Returns the remaining distance, along straight lines from point to point, m.
     pub(super) fn distance_left(&self) -> f64 {
         let centre = self.truss.centre_of_mass(&self.x);
         let rest = &self.path[self.travel.reached.min(self.path.len())..];
@@ -448,7 +456,7 @@ impl Rollout<'_> {
     fn move_to(&mut self, y: Vec<Vec3>) {
         let towards =
             |fraction: f64| self.x.iter().zip(&y).map(|(p, q)| p + (q - p) * fraction).collect::<Vec<_>>();
-        // Nodes that lift off on the way, or touch down, carry nothing.
+        // Nodes that lift off during the step, or touch down, carry nothing.
         let before = support_polygon::contacts(self.truss, &self.x);
         let contacts = |x: &[Vec3]| {
             let now = support_polygon::contacts(self.truss, x);

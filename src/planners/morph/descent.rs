@@ -73,7 +73,7 @@ impl Default for Settings {
 /// The end of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
-    /// Both distances are within the tolerance.
+    /// The target is reached: both distances are within the tolerance.
     Done,
     /// The steps allowed were made.
     Steps,

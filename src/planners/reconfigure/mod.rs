@@ -1,8 +1,8 @@
-//! `reconfigure`: from one configuration of RoFI modules to another of as many, by way of the snake. Both
-//! are unwound by [`tosnake`], and the second plan is run backwards.
+//! `reconfigure`: from one configuration of RoFI modules to another of as many, through the snake. Both are
+//! unwound by [`tosnake`], and the second plan is run backwards.
 //!
 //! With gravity one module is held fast all the time. Then the second robot has to be held by a shoe that
-//! ends at the same place of the snake as the shoe by which the first is held.
+//! ends at the same position in the snake as the shoe by which the first is held.
 
 use crate::plan::{self, Cause, Change, OperationError, Plan, Verdict, World, joined, reversed};
 use crate::planners::tosnake::gravity::GravityModel;
@@ -33,8 +33,8 @@ impl<'a> Configuration<'a> {
 pub struct Problem<'a> {
     /// The start.
     pub from: Configuration<'a>,
-    /// The goal, of as many modules as the start. Its modules have no identity: any of the start's may
-    /// come to the place of any of the goal's.
+    /// The goal, of as many modules as the start. Its modules have no identity: any of the start's may take
+    /// the pose of any of the goal's.
     pub to: Configuration<'a>,
     /// The world; see [`tosnake::Problem::world`].
     pub world: World,
@@ -57,8 +57,8 @@ pub struct Report {
     /// Changes of the whole plan in order, for its provenance: names of modules of the goal that the start
     /// has otherwise, and a program that was dropped.
     pub history: Vec<Change>,
-    /// With gravity, the judge's verdict on the plan; `None` without gravity, where any goal will do and
-    /// the plan is not judged here.
+    /// The judge's verdict on the plan under gravity; `None` without gravity, where any pose of the goal will
+    /// do and the plan is not judged here.
     pub verdict: Option<Verdict>,
 }
 
@@ -76,9 +76,9 @@ pub enum Refusal {
     From(tosnake::Refusal),
     /// The goal can't be unwound.
     To(tosnake::Refusal),
-    /// Both unwind to a snake, but not to the same one.
+    /// The two configurations unwind to different snakes.
     DifferentSnakes(OperationError),
-    /// With gravity: of so many ways to unwind the goal, none is held at the place of the start's snake
+    /// No motion that unwinds the goal, of so many tried under gravity, is held where the start's snake is
     /// and passes the judge.
     NotHeldAlike {
         /// Ways to unwind the goal that were found.
@@ -111,7 +111,7 @@ impl Error for Refusal {}
 /// Plans the motion from one configuration of RoFI modules to another.
 ///
 /// In the solution, cause 0 is that of the first half and cause 1 that of the second. The goal is reached
-/// with the start's modules in its places.
+/// with the start's modules in the poses of its own.
 ///
 /// # Errors
 /// [`Refusal`]: either configuration can't be unwound, or the two halves do not fit.
@@ -199,7 +199,7 @@ impl Search<'_> {
         task.search(&self.settings.search, self.cache, self.progress)
     }
 
-    /// The plan of a step sequence, with one cause that stands for the call.
+    /// Returns the plan of a step sequence, with one cause that stands for the call.
     fn half(&self, task: &tosnake::Task, found: &StepSequence) -> Result<Half, tosnake::Refusal> {
         let Solution { body, program, report } = task.solution(found)?;
         let library = body.tracks().expect("RoFI modules move by joints").robot.library.clone();
@@ -208,9 +208,9 @@ impl Search<'_> {
         Ok(Half { plan, report })
     }
 
-    /// Both halves with gravity. The goal is unwound held by each of its shoes in turn, with loops opened
-    /// near each of its modules, until one is held where the first half's snake is: the place of a shoe in
-    /// the snake is known only once the goal is unwound.
+    /// Returns both halves with gravity. The goal is unwound held by each of its shoes in turn, with loops
+    /// opened near each of its modules, until one is held where the first half's snake is: the position of a
+    /// shoe in the snake is known only once the goal is unwound.
     fn held(
         &mut self,
         (there, first, gravity): (&Half, &StepSequence, &GravityModel),
@@ -253,7 +253,7 @@ impl Search<'_> {
     }
 }
 
-/// The first half, and then the second half backwards.
+/// Returns the plan of the first half, and then the second half backwards.
 fn whole(there: &Half, back: &Half) -> Result<Plan, Refusal> {
     joined(&there.plan, &reversed(&back.plan)).map_err(Refusal::DifferentSnakes)
 }

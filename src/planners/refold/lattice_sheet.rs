@@ -2,9 +2,9 @@
 //! one side and open on another.
 //!
 //! Three to five panels that follow each other about a point close to a regular corner when all hinges
-//! between them fold by the same angle: those of the tetrahedron, the octahedron, the icosahedron. Then
-//! the free sides of the first and the last meet. They are joined, some other two let go of each other,
-//! and the fan opens there: what hangs on the one has gone to the other end. Six panels close without
+//! between them fold by the same angle: those of the tetrahedron, the octahedron, the icosahedron. Then the
+//! free sides of the first and the last meet. They are joined, some other two let go of each other, and the
+//! fan opens there: the panels attached to the one have gone to the other end. Six panels close without
 //! folding: then only a connection changes. Either is a [`Stroke`]: one connection made, one undone.
 
 use crate::geometry::{Pose, Vec3};
@@ -21,7 +21,7 @@ pub type Corners = [Point; 3];
 /// A side of a panel: the panel and the number of the side.
 pub type Side = (usize, usize);
 
-/// States of a stroke that are sampled on either way.
+/// The number of states of a stroke that are sampled in each direction.
 const SAMPLES: usize = 12;
 
 /// The numbers of panels of a fan: fewer do not close, and more need not fold.
@@ -54,7 +54,7 @@ pub fn across(corners: &Corners, k: usize) -> Corners {
     [b, a, [a[0] + b[0] - c[0], a[1] + b[1] - c[1]]]
 }
 
-/// Turned about a point of the lattice by sixths of a turn, counterclockwise.
+/// Returns a point turned about a point of the lattice by sixths of a turn, counterclockwise.
 fn turned(point: Point, about: Point, sixths: usize) -> Point {
     let away = [point[0] - about[0], point[1] - about[1]];
     let [i, j] = (0..sixths % 6).fold(away, |[i, j], _| [-j, i + j]);
@@ -69,7 +69,7 @@ pub fn bond(a: Side, b: Side) -> [Side; 2] {
 /// A sheet of panels in the plane.
 #[derive(Clone, Debug)]
 pub struct LatticeSheet {
-    /// For each panel: its corners.
+    /// The corners of each panel.
     pub corners: Vec<Corners>,
     /// The panel on each cell.
     pub cells: BTreeMap<Point, usize>,
@@ -121,7 +121,7 @@ impl LatticeSheet {
         path
     }
 
-    /// The panels that are joined one to the next about a corner of a panel, counterclockwise, itself
+    /// Returns the panels that are joined one to the next about a corner of a panel, counterclockwise, itself
     /// first, each with the corner's number; five at most.
     fn fan(&self, panel: usize, corner: usize) -> Vec<(usize, usize)> {
         let mut fan = vec![(panel, corner)];
@@ -141,7 +141,7 @@ impl LatticeSheet {
         self.beside(side).is_some_and(|other| self.bonds.contains(&bond(side, other)))
     }
 
-    /// The panels on one side of a connection.
+    /// Returns the panels on one side of a connection.
     fn part(&self, from: usize, without: &[Side; 2]) -> BTreeSet<usize> {
         let (mut part, mut stack) = (BTreeSet::from([from]), vec![from]);
         while let Some(panel) = stack.pop() {
@@ -169,7 +169,7 @@ impl LatticeSheet {
         found
     }
 
-    /// The strokes that close a fan.
+    /// Adds the strokes that close a fan.
     fn closed(&self, fan: &[(usize, usize)], found: &mut Vec<Stroke>) {
         let (first, corner) = fan[0];
         let (last, last_corner) = fan[fan.len() - 1];
@@ -223,7 +223,7 @@ impl LatticeSheet {
         }
     }
 
-    /// Returns whether no sample of a stroke shows a collision; `side`: the side of the panels, m.
+    /// Returns true if no sample of a stroke shows a collision; `side`: the side of the panels, m.
     pub fn is_free(&self, stroke: &Stroke, solids: &Solids, side: f64) -> bool {
         if stroke.fold.is_empty() {
             return true;
@@ -243,7 +243,7 @@ impl LatticeSheet {
         })
     }
 
-    /// Places of the panels, from where they lie, with some hinges folded; the first panel stays.
+    /// Returns the displacements of the panels with some hinges folded; the first panel stays.
     fn poses(&self, bonds: &[[Side; 2]], angle: f64, side: f64) -> Vec<Pose> {
         let mut poses = vec![Pose::identity(); self.corners.len()];
         let mut seen = vec![false; self.corners.len()];
@@ -290,7 +290,7 @@ impl LatticeSheet {
     }
 }
 
-/// The side of a panel that follows about a corner, counterclockwise.
+/// Returns the side of a panel that follows about a corner, counterclockwise.
 fn onward(corner: usize) -> usize {
     (corner + 2) % 3
 }

@@ -60,13 +60,13 @@ impl Default for Settings {
 pub struct Report {
     /// The number of connections that are made, and as many undone.
     pub changes: usize,
-    /// The lower bound on that number for all ways between the shapes.
+    /// The lower bound on that number for all motions between the shapes.
     pub bound: usize,
-    /// For each panel: the face of the second shape that it becomes.
+    /// The face of the second shape that each panel becomes.
     pub becomes: Vec<usize>,
     /// The energy of unfolding and folding with the leaves first, N·m.
     pub energy: f64,
-    /// The layout of the first shape, hung up at its root.
+    /// The layout of the first shape, rooted at its root.
     pub layout: Layout,
     /// The number of actions of the program.
     pub actions: u64,
@@ -82,12 +82,12 @@ pub enum Refusal {
         /// The numbers of faces of the first and of the second shape.
         faces: [usize; 2],
     },
-    /// No way between sheets of the two shapes was found.
+    /// No motion between sheets of the two shapes was found.
     NoWay {
         /// The number of cells and connections in which the nearest two sheets differ; `None` where no two
         /// sheets were found.
         apart: Option<usize>,
-        /// The least number of changes of any way.
+        /// The least number of changes of any motion.
         bound: usize,
     },
     /// The judge refuses every sheet that was found.
@@ -124,12 +124,12 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Plans the way from one shape to another: it unfolds, changes connections in the plane, and folds again, with
-/// as few changes as are found. All actions of the program have cause 0.
+/// Plans the motion from one shape to another: it unfolds, changes connections in the plane, and folds again,
+/// with as few changes as are found. All actions of the program have cause 0.
 ///
 /// # Errors
-/// A [`Refusal`]: shapes of different numbers of panels, or a search that ended without a way that the judge
-/// lets through.
+/// A [`Refusal`]: shapes of different numbers of panels, or a search that ended without a motion that the
+/// judge lets through.
 ///
 /// # Example
 /// A tetrahedron becomes another one of the same size:
@@ -201,7 +201,7 @@ fn least_step(Problem { from, to, panels }: &Problem) -> f64 {
     from.max(to)
 }
 
-/// The faces that fold at the same time, step by step; they unfold the other way round.
+/// The faces that fold at the same time, step by step; they unfold in the opposite order.
 type Order = Vec<Vec<usize>>;
 
 /// A planning call at work.
@@ -239,7 +239,7 @@ impl Task<'_> {
         orders
     }
 
-    /// Returns a sheet hung up at the panel with which unfolding and folding cost the least together, and that
+    /// Returns a sheet rooted at the panel with which unfolding and folding cost the least together, and that
     /// energy, N·m for steps of one second.
     fn at_best_root(&self, sheet: &Refolding) -> (Refolding, f64) {
         let at = |panel: usize| {

@@ -83,7 +83,7 @@ pub fn rearranged(
     None
 }
 
-/// Returns whether the stroke into a state is collision-free, if need be folded to the other side.
+/// Returns true if the stroke into a state is collision-free, if need be folded to the other side.
 fn is_free(nodes: &mut [Node], at: usize, PanelSolids { solids, side }: PanelSolids) -> bool {
     let Some((before, stroke)) = nodes[at].from.clone() else { return true };
     let other = Stroke { angle: -stroke.angle, ..stroke.clone() };
@@ -121,8 +121,8 @@ fn lacking(plane: &LatticeSheet, goal: &Goal) -> usize {
     goal.bonds.len() - has
 }
 
-/// Returns the distance of panels on cells that are not wanted from wanted cells that are free, and the other way
-/// round: the greater sum, in steps from a cell to the next but one.
+/// Returns the distance of panels on cells that are not wanted from wanted cells that are free, and
+/// conversely: the greater sum, in steps from a cell to the next but one.
 fn distance(plane: &LatticeSheet, goal: &Goal) -> i64 {
     let stray: Vec<Point> = plane.cells.keys().filter(|cell| !goal.cells.contains(*cell)).copied().collect();
     let free: Vec<Point> =
@@ -133,7 +133,8 @@ fn distance(plane: &LatticeSheet, goal: &Goal) -> i64 {
     sum(&stray, &free).max(sum(&free, &stray))
 }
 
-/// Lattice steps between two cells, rounded up; cells are named by the sums of their corners.
+/// Returns the number of lattice steps between two cells, rounded up; cells are named by the sums of their
+/// corners.
 fn steps(a: Point, b: Point) -> i64 {
     let [i, j] = [b[0] - a[0], b[1] - a[1]];
     let thirds = i.abs().max(j.abs()).max((i + j).abs());

@@ -32,20 +32,21 @@ const STEPS_IN_ALL_MAX: usize = 100_000;
 /// Two layouts, and the strokes by which the sheet of the one becomes that of the other.
 #[derive(Clone, Debug)]
 pub struct Refolding {
-    /// Panels are numbered as the faces of the first shape. Both hang at the same panel.
+    /// The layout of the first shape. Panels are numbered as its faces, and both layouts are rooted at the
+    /// same panel.
     pub from: Layout,
     /// The layout of the second shape.
     pub to: Layout,
-    /// For each panel: the face of the second shape that it becomes.
+    /// The face of the second shape that each panel becomes.
     pub becomes: Vec<usize>,
-    /// For each panel: its side k becomes the second shape's side (k + turn) mod 3.
+    /// The turn of each panel: its side k becomes the second shape's side (k + turn) mod 3.
     pub turns: Vec<usize>,
     /// The strokes in order; each makes a connection and undoes one.
     pub strokes: Vec<Stroke>,
 }
 
 impl Refolding {
-    /// Returns the same sheets with both layouts hung up at another panel.
+    /// Returns the same sheets with both layouts rooted at another panel.
     pub fn rerooted(&self, from: &Target, to: &Target, panel: usize) -> Refolding {
         Refolding {
             from: self.from.rerooted(from, panel),
@@ -87,7 +88,8 @@ pub enum NoRefolding {
     Counts,
     /// No series of strokes between sheets of the two was found.
     Budget {
-        /// The number of cells and connections that only one of the two nearest sheets has; `None` where no two sheets were found.
+        /// The number of cells and connections that only one of the two nearest sheets has; `None` where no
+        /// two sheets were found.
         apart: Option<usize>,
         /// The lower bound on the number of changes.
         bound: usize,
@@ -186,7 +188,7 @@ impl Laid {
 }
 
 impl Pair {
-    /// Cells that only one covers, and connections that only one has: about what lies between them.
+    /// Returns the distance of the two sheets: cells that only one covers, and connections that only one has.
     fn apart(&self, from: &Target, to: &Target) -> usize {
         let cells = self.to.cells();
         let stray = self.from.corners.iter().filter(|corners| !cells.contains(&cell(corners))).count();
@@ -265,9 +267,9 @@ fn spread(
 struct Placed {
     becomes: usize,
     turn: usize,
-    /// In the order of the first shape's face.
+    /// The corners, in the order of the first shape's face.
     corners: Corners,
-    /// In the order of placing.
+    /// The number in the order of placing.
     number: usize,
 }
 
@@ -276,7 +278,7 @@ struct Placed {
 struct Sheet<'t> {
     from: &'t Target,
     to: &'t Target,
-    /// The place of each face of the first shape.
+    /// The placed panel of each face of the first shape.
     placed: Vec<Option<Placed>>,
     taken: Vec<bool>,
     cells: BTreeMap<Cell, usize>,
@@ -414,7 +416,7 @@ impl<'t> Sheet<'t> {
         found
     }
 
-    /// The panel across a side in the first shape, on the cell ahead, joined in the second shape to
+    /// Returns the panel across a side in the first shape, on the cell ahead, joined in the second shape to
     /// another neighbour of that cell.
     fn changed(&self, face: usize, next: [usize; 3], ahead: Corners) -> Vec<Choice> {
         let mut found = Vec::new();
@@ -429,7 +431,7 @@ impl<'t> Sheet<'t> {
         found
     }
 
-    /// The panel across a side of `face` in the first shape, on the cell ahead, which in the second
+    /// Returns the panel across a side of `face` in the first shape, on the cell ahead, which in the second
     /// shape is what lies across `side` of `other`; `shift` is the cell's side towards that.
     fn joined(
         &self,
@@ -450,7 +452,7 @@ impl<'t> Sheet<'t> {
         Some(Choice { face: new, becomes, turn, corners, hinges: [hinge, second], changes, after })
     }
 
-    /// The rest of either shape laid around what they have in common.
+    /// Returns the rest of either shape laid around what they have in common.
     fn pair(&self, random: &mut Random) -> Option<Pair> {
         let n = self.placed.len();
         let mut first = vec![None; n];
@@ -467,15 +469,15 @@ impl<'t> Sheet<'t> {
     }
 }
 
-/// Returns the lower bound on the number of connections that have to be made, at most `most`. Those that both shapes have join
-/// panels to pieces, each a part of a layout of either; the other connections of the second shape
-/// are made. An exhaustive search decides, as far as the steps reach, whether so few pieces do.
+/// Returns the lower bound on the number of connections that have to be made, at most `most`. Those that both
+/// shapes have join panels to pieces, each a part of a layout of either; the other connections of the second
+/// shape are made. Whether so few pieces do is searched exhaustively, as far as the steps reach.
 fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
     let mut left = budget;
     (0..most).find(|more| can_do_with(from, to, more + 1, &mut left)).unwrap_or(most)
 }
 
-/// Returns whether so many pieces suffice; also true where the budget does not.
+/// Returns true if so many pieces suffice; also true where the budget does not.
 fn can_do_with(from: &Target, to: &Target, pieces: usize, left: &mut u64) -> bool {
     let n = to.faces.len();
     let mut search = PieceSearch { sheet: Sheet::new(from, to), closed: vec![[false; 3]; n], left };
@@ -517,7 +519,7 @@ impl PieceSearch<'_, '_> {
         false
     }
 
-    /// The hinge across a side of a panel, if both shapes may go on there.
+    /// Returns the hinge across a side of a panel, if both shapes may go on there.
     fn choice(&self, face: usize, side: usize) -> Option<Choice> {
         let ahead = across(&self.sheet.panel(face).corners, side);
         if self.closed[face][side] || self.sheet.cells.contains_key(&cell(&ahead)) {
@@ -527,7 +529,7 @@ impl PieceSearch<'_, '_> {
         self.sheet.joined(face, next, ahead, face, side, 0)
     }
 
-    /// Returns whether the faces that no panel can be continued to are no more groups than pieces are left, in
+    /// Returns true if the faces that no panel can be continued to are no more groups than pieces are left, in
     /// either shape.
     fn can_reach(&self, pieces: usize) -> bool {
         let Sheet { from, to, placed, taken, .. } = &self.sheet;

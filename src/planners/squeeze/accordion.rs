@@ -38,7 +38,7 @@ fn of_height(limits: PlanLimits, count: u64, height: u64) -> Result<Motion, Refu
     Ok(builder.motion())
 }
 
-/// Returns the place in the column of each cell at the end of [`accordion`].
+/// Returns the index in the column of each cell at the end of [`accordion`].
 pub(super) fn places_in_column(count: u64) -> Vec<u64> {
     let array = Array::new(count, rounded_root(count).max(1));
     (0..count).map(|i| array.index(i) as u64).collect()
@@ -81,8 +81,8 @@ impl Array {
         (if column.is_multiple_of(2) { k } else { self.height - 1 - k }) as i64
     }
 
-    /// Returns the place of a cell in the boustrophedon order over all rows. It turns at the left where the row
-    /// lengths change, because all rows begin there.
+    /// Returns the index of a cell in the boustrophedon order over all rows. It turns at the left where the
+    /// row lengths change, because all rows begin there.
     fn index(self, i: u64) -> i64 {
         let (x, y) = (self.column(i) as u64, self.level(i) as u64);
         let (before, from) = (self.change * self.lengths[0], y.saturating_sub(self.change));

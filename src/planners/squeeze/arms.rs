@@ -2,8 +2,8 @@
 //! like the arms of a Λ, each other's mirror image, by the shear; then the two columns that they end as
 //! merge to one, as in a fold.
 //!
-//! The middle stays: two cells, or one if the number is odd. The arms begin half a cell above it and so
-//! hang together with it on both sides of the corner that they turn about.
+//! The middle stays: two cells, or one if the number is odd. The arms begin half a cell above it and so are
+//! connected with it on both sides of the corner that they turn about.
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
@@ -52,7 +52,7 @@ struct Arms {
 
 /// A cell by its level and its side.
 struct Part {
-    /// From the middle outwards; 0 is the middle.
+    /// The level from the middle outwards; 0 is the middle.
     level: i64,
     /// -1 to the left, 1 to the right; 0 for a lone cell in the middle.
     side: i64,
@@ -106,7 +106,7 @@ impl Arms {
         (level % 2 == 0) == (side > 0)
     }
 
-    /// Returns the place of a cell in the column.
+    /// Returns the index of a cell in the column.
     fn place(self, i: u64) -> i64 {
         let Part { level, side } = self.part(i);
         let lone = i64::from(self.is_odd());

@@ -22,7 +22,7 @@ pub(super) struct Candidate {
     pub motion: Motion,
 }
 
-/// Every way that the constructions give, of one method or of all.
+/// Returns every motion that the constructions give, of one method or of all.
 pub(super) fn candidates(
     limits: PlanLimits,
     from: &Shape,

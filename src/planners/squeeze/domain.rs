@@ -14,7 +14,7 @@ pub struct CellState {
 pub(super) const WHOLE: i64 = 4;
 
 impl CellState {
-    /// Returns the state of a cell of full size at a place of the lattice.
+    /// Returns the state of a cell of full size at a lattice site.
     pub fn whole(place: [i64; 3]) -> CellState {
         CellState { center: place.map(|x| WHOLE * x + WHOLE / 2), size: [WHOLE; 3] }
     }

@@ -4,11 +4,11 @@
 //! cell goes down and one up, both widen, and the rows spread out. The cell that goes up alternates from box to
 //! box and from row to row, so that neighbouring boxes stay in contact over faces.
 //!
-//! In bits: before fold `k` cell `i` is at `i >> k` of its row; it goes up in the fold if bits 0 and
-//! `k + 1` of `i` differ. So its row, written in bits, is `(i0 ^ i1) (i0 ^ i2) .. (i0 ^ ik)`, and all
-//! places are affine in the bits of cells of one parity. If an odd cell is last, its partner is missing, and
-//! nothing else changes: until the last fold no row is empty. In the last fold rows of one cell stay one row,
-//! and cells are counted.
+//! In bits: before fold `k` cell `i` is at `i >> k` of its row; it goes up in the fold if bits 0 and `k + 1`
+//! of `i` differ. So its row, written in bits, is `(i0 ^ i1) (i0 ^ i2) .. (i0 ^ ik)`, and all positions are
+//! affine in the bits of cells of one parity. Where an odd cell is last, its partner is missing, and nothing
+//! else changes: until the last fold no row is empty. In the last fold rows of one cell stay one row, and
+//! cells are counted.
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE, by_bits, free_bits};
@@ -93,7 +93,7 @@ fn parts(count: u64, k: u32) -> Vec<Domain> {
     domains
 }
 
-/// The same in the last fold, in which rows of one cell differ from those of two.
+/// Returns the same in the last fold, in which rows of one cell differ from those of two.
 fn lone_parts(count: u64, folds: u32, lone: u64) -> Vec<Domain> {
     let half = 1 << (folds - 1);
     [(0, lone), (lone, half), (half, count)].into_iter().flat_map(|(lo, hi)| by_bits(lo, hi)).collect()

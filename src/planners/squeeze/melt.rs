@@ -1,12 +1,12 @@
 //! Melt: any connected set of cells, in space too, to a row, through itself; reversed it grows a row to any
 //! other set. After the idea of Rus and Vona's planner for Crystalline robots, for single cells.
 //!
-//! The cells fill the boxes of a tree. Two cells of half a size fill a box as well as one: so a leaf can
-//! slip into the box of its parent, and the cell that is then too many can pass from box to box down to
-//! the root, and out to the row that grows from there, where nothing is in the way. On a straight line
-//! of boxes it passes all in one stage; around a corner the pair swaps first. All boxes stay full
-//! meanwhile, so nothing falls apart and nothing meets. The time is proportional to the number of cells
-//! (and no less: one box lets one cell pass at a time).
+//! The cells fill the boxes of a tree. Two cells of half a size fill a box as well as one: so a leaf can slip
+//! into the box of its parent, and the cell that is then too many can pass from box to box down to the root,
+//! and out to the row that grows from there, where the path is free. On a straight line of boxes it passes
+//! all in one stage; around a corner the pair swaps first. All boxes stay full meanwhile, so nothing falls
+//! apart and nothing meets. The time is proportional to the number of cells (and no less: one box lets one
+//! cell pass at a time).
 
 use super::Refusal;
 use super::domain::{CellState, WHOLE};
@@ -52,7 +52,7 @@ type Place = [i64; 3];
 /// One box of the tree, full of one cell, or of two halves.
 struct Node {
     place: Place,
-    /// The next box towards the root, and the way there; the root leads to the row.
+    /// The next box towards the root, and the direction to it; the root leads to the row.
     next: Place,
     axis: usize,
     step: i64,
@@ -79,14 +79,14 @@ fn moved(place: Place, axis: usize, step: i64) -> Place {
 }
 
 impl Tree {
-    /// Returns a spanning tree of all places, rooted at the one farthest along x, whose paths to the root have the
-    /// fewest corners (Dijkstra).
+    /// Returns a spanning tree of all positions, rooted at the one farthest along x, whose paths to the root
+    /// have the fewest corners (Dijkstra).
     fn of(places: &[Place]) -> Tree {
         let index: BTreeMap<Place, usize> = places.iter().enumerate().map(|(i, p)| (*p, i)).collect();
         let root = places.iter().copied().max_by_key(|p| p[X]).unwrap_or_default();
         let mut boxes: BTreeMap<Place, Node> = BTreeMap::new();
         let mut order = Vec::new();
-        // Corners and boxes on the way to the root, the place, and the step from there.
+        // Corners and boxes on the path to the root, the position, and the step from there.
         let mut frontier = BTreeSet::from([((0_u64, 0_u64), root, X, 1_i64)]);
         while let Some(((corners, length), place, axis, step)) = frontier.pop_first() {
             if boxes.contains_key(&place) {
@@ -206,7 +206,7 @@ impl Tree {
         (line.len() > 1 || place == self.root).then_some(line)
     }
 
-    /// Moves the cells of a line of boxes on by one place, out to the row if it leads there.
+    /// Moves the cells of a line of boxes on by one cell, out to the row if it leads there.
     fn advance(&mut self, line: &[Place], goals: &mut BTreeMap<usize, CellState>) {
         let (first, last) = (line[0], line[line.len() - 1]);
         let Some((axis, step, leaf)) = self.boxes.get(&first).map(|b| (b.axis, b.step, b.cells.len() == 1))

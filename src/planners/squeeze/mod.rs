@@ -106,9 +106,9 @@ pub enum Norm {
 pub struct Problem {
     /// The kind of all cells; number 0 of the plan's library.
     pub cell: Cell,
-    /// The places of the cells at the start, in cells.
+    /// The positions of the cells at the start, in cell sizes.
     pub start: Vec<[i64; 3]>,
-    /// The places of the cells at the end, as many, up to a translation.
+    /// The positions of the cells at the end, as many, up to a translation.
     pub goal: Vec<[i64; 3]>,
 }
 

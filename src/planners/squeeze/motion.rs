@@ -1,4 +1,4 @@
-//! Motions in closed form: configurations one after another, with the least time of each transition.
+//! Trajectories in closed form: configurations one after another, with the least time of each transition.
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
@@ -34,7 +34,7 @@ pub enum Profile {
     /// Constant acceleration for half the time, constant deceleration for the other, as in the paper.
     #[default]
     BangBang,
-    /// With a stretch of constant speed where the speed limit is active: the least time.
+    /// A ramp, an interval of constant speed where the speed limit is active, and a ramp: the least time.
     Trapezoid,
 }
 
@@ -398,7 +398,7 @@ impl Motion {
             .fold(0.0, |time, transition| time + libm::sqrt(transition.time_squared.to_f64()))
     }
 
-    /// Returns true if the angular momentum stays zero all the way.
+    /// Returns true if the angular momentum stays zero throughout.
     pub fn is_balanced(&self) -> bool {
         self.transitions.iter().all(|transition| transition.balanced)
     }

@@ -42,7 +42,7 @@ struct Merging {
     level: i64,
     /// Its partner is there.
     paired: bool,
-    /// Of a pair, it goes to the lower half.
+    /// True if it goes to the lower half of a pair.
     below: bool,
     /// The row of its box.
     row: i64,

@@ -1,13 +1,13 @@
 //! Ranks of cells in the column at the end of the last fold, in closed form.
 //!
-//! With all bits folded, a cell's row is a number of as many bits; where the count is no power of two,
-//! some rows are empty, and a cell's place is the number of cells in rows below its own.
+//! With all bits folded, a cell's row is a number of as many bits; where the count is no power of two, some
+//! rows are empty, and a cell's index is the number of cells in rows below its own.
 
 use super::domain::{Domain, by_bits};
 use std::collections::{BTreeMap, HashMap};
 
-/// Returns domains on which the places in the column (and all that is affine in bits) are affine, and the place of
-/// each cell.
+/// Returns domains on which the indices in the column (and all that is affine in bits) are affine, and the
+/// index of each cell.
 pub(super) fn of(count: u64, folds: u32) -> (Vec<Domain>, impl Fn(u64) -> i64) {
     let mut places = vec![0_i64; count as usize];
     let rows = (0..1 << folds).map(|row| cell_of(row, folds)).filter(|&cell| cell < count);
@@ -31,12 +31,12 @@ struct Run {
     bits: Bits,
 }
 
-/// Stride and difference of places of each bit, innermost first.
+/// The stride and difference of indices of each bit, innermost first.
 type Bits = Vec<(u64, i64)>;
 
 fn parts(places: &[i64], folds: u32, lone: u64) -> Vec<Domain> {
     let half = 1 << (folds - 1);
-    // The ends of the column are counted in multiples of this: on the bits below, places are affine.
+    // The ends of the column are counted in multiples of this: on the bits below, indices are affine.
     let even = (places.len() as u64).trailing_zeros() as usize;
     let mut domains = Vec::new();
     for (lo, hi) in [(0, lone), (lone, half), (half, places.len() as u64)] {
@@ -59,8 +59,8 @@ fn parts(places: &[i64], folds: u32, lone: u64) -> Vec<Domain> {
     domains
 }
 
-/// Returns runs of the cells `first + Σ bits`, bits in rising order: the runs of the two halves by the highest bit,
-/// merged where they differ by a constant. On the lowest `free` bits places are affine.
+/// Returns runs of the cells `first + Σ bits`, bits in rising order: the runs of the two halves by the
+/// highest bit, merged where they differ by a constant. On the lowest `free` bits indices are affine.
 fn merged(places: &[i64], first: u64, bits: &[u64], free: usize) -> Vec<Run> {
     let difference = |first: u64, bit: u64| places[(first + bit) as usize] - places[first as usize];
     let Some((&bit, lower)) = bits.split_last().filter(|_| bits.len() > free) else {

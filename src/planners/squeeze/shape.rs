@@ -1,15 +1,15 @@
 //! The shape of a set of cells.
 
-/// Places of cells, moved so that the lowest along each axis is 0, in order.
+/// The positions of cells, translated so that the lowest along each axis is 0, in order.
 pub(super) struct Shape {
-    /// The places.
+    /// The positions.
     pub places: Vec<[i64; 3]>,
     /// The sides of the bounding box, in cells.
     pub sides: [u64; 3],
 }
 
 impl Shape {
-    /// Returns the shape of the cells at these places.
+    /// Returns the shape of the cells at these positions.
     pub(super) fn of(places: &[[i64; 3]]) -> Shape {
         let low = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis]).min().unwrap_or(0));
         let mut places: Vec<[i64; 3]> =

@@ -29,8 +29,8 @@ pub fn unroll(limits: PlanLimits, sides: [u64; 3]) -> Result<Motion, Refusal> {
     Ok(builder.motion())
 }
 
-/// Returns a domain for each pair of parities, of the layer and of the rod within it: these say which way to
-/// go.
+/// Returns the domains by the parities of the layer and of the rod within it, which determine the direction
+/// of motion.
 fn domains([a, b, c]: [u64; 3]) -> Vec<Domain> {
     let parities = [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter();
     let domain = |(layer, rod): (u64, u64)| {

@@ -71,11 +71,11 @@ impl ConcurrentMerges {
 
 /// Everything that pairs need for themselves.
 struct Reservations {
-    /// For each index of the tree: true if the edge to the parent is in a loop.
+    /// True, by index of the tree, if the edge to the parent is in a loop.
     edges: Vec<bool>,
     /// The docks of pairs.
     docks: Vec<Dock>,
-    /// For each module: a number of its chain; chains that become one have equal numbers.
+    /// The number of each module's chain; chains that become one have equal numbers.
     chains: Vec<usize>,
 }
 
@@ -84,7 +84,7 @@ impl Reservations {
         Reservations { edges: vec![false; state.tree.shoes()], docks: Vec::new(), chains: state.chains() }
     }
 
-    /// The edges of the path between a pair's docks, each by its lower index.
+    /// Returns the edges of the path between a pair's docks, each by its lower index.
     fn edges(state: &State, pair: &Pair) -> Vec<usize> {
         let tree = &state.tree;
         let path = tree.path(tree.index[pair.a.shoe()], tree.index[pair.b.shoe()]);

@@ -46,7 +46,7 @@ const DEGREE_PARTS: f64 = 1e9;
 /// An assembly of RoFI modules beside the planner's robot.
 pub(super) struct Translated<'a> {
     pub(super) assembly: &'a Assembly,
-    /// For each module: the assembly's indices of alpha, beta and gamma.
+    /// The assembly's indices of alpha, beta and gamma of each module.
     pub(super) joints: Vec<[usize; 3]>,
     /// The planner's robot; its bonds are those of the assembly, in order.
     pub(super) robot: Robot,

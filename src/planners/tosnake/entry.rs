@@ -167,7 +167,7 @@ impl<'a> Task<'a> {
     }
 }
 
-/// The figures of a step sequence, without the number of actions.
+/// Returns the figures of a step sequence, without the number of actions.
 fn report(start: &Robot, found: &StepSequence) -> Report {
     let mut report = Report { tried: found.status.tried, work: found.status.work, ..Report::default() };
     let mut joints = start.joints.clone();

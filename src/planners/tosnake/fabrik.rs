@@ -117,7 +117,7 @@ impl Chain {
         turn.max((end.translation - self.goal.translation).amax())
     }
 
-    /// The poses of all shoes along the chain.
+    /// Returns the poses of all shoes along the chain.
     fn frames(&self, joints: &Joints) -> Vec<RigidTransform> {
         let mut frames = vec![self.base];
         for segment in &self.segments {
@@ -201,13 +201,13 @@ fn at(pose: &RigidTransform, point: &[f64; 3]) -> Vec3 {
     pose.rotation * Vec3::from(*point) + pose.translation
 }
 
-/// An angle plus whole turns, in [-π, π).
+/// Returns an angle plus whole turns, in [-π, π).
 fn wrapped(angle: f64) -> f64 {
     angle - TAU * libm::floor((angle + PI) / TAU)
 }
 
-/// The tilt (rad) nearest to a wanted one at which the ball that it carries, on a circle of radius 1 about
-/// the shoe at `here`, overlaps no obstacle; the wanted one if there is none.
+/// Returns the tilt (rad) nearest to a wanted one at which the ball that it carries, on a circle of radius 1
+/// about the shoe at `here`, overlaps no obstacle; the wanted one if there is none.
 fn nearest_free_tilt(wanted: f64, here: &RigidTransform, obstacles: &[Vec3]) -> f64 {
     // The intervals of tilts that each obstacle forbids.
     let mut forbidden: Vec<(f64, f64)> = Vec::new();

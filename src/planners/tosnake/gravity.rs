@@ -1,5 +1,5 @@
-//! Static joint torques of a robot of which one shoe is held fast: each joint bears the weight of all that
-//! hangs on it, at rest. Forces in N, torques in N times the pitch.
+//! Static joint torques of a robot of which one shoe is held fast: each joint bears the weight of all distal
+//! to it, at rest. Forces in N, torques in N times the pitch.
 
 use super::tree::{JointRef, Tree};
 use crate::geometry::{RigidTransform, Vec3};
@@ -13,9 +13,10 @@ pub struct GravityModel {
     pub root: usize,
     /// Unit vector of gravity in the frame of the shoe that is held.
     pub down: Vec3,
-    /// For each shoe: the weight at its centre, N.
+    /// The weight of each shoe at its centre, N.
     pub shoes: Vec<f64>,
-    /// For each module: torque limits of alpha, beta and gamma in N times the pitch; infinite if none is stated.
+    /// The torque limits of alpha, beta and gamma of each module, N times the pitch; infinite if none is
+    /// stated.
     pub limits: Vec<[f64; 3]>,
 }
 

@@ -20,7 +20,7 @@ use std::f64::consts::FRAC_PI_2;
 /// The mode of the inverse kinematics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IkMode {
-    /// Only the loop's joints move, and only the endpoint has to be free of overlap: on the way balls are
+    /// The endpoint alone has to be free of overlap, and only the loop's joints move: before it balls are
     /// repelled, and may pass through each other.
     Endpoint,
     /// All joints of the robot move, and balls in contact do not approach: the descent itself is free.
@@ -35,14 +35,14 @@ pub struct Settings {
     /// Greatest step of a joint in one iteration, rad. Default 0.2, where linearisation still holds.
     pub joint_step_max: f64,
     /// Greatest displacement of a ball in one iteration of a collision-free descent. Default 0.3, below the
-    /// distance at which balls could change places unseen.
+    /// distance at which balls could pass through each other between iterations.
     pub ball_step_max: f64,
     /// Norm of translation and rotation error below which the loop is closed. Default 1e-11: far below what
     /// docking needs, well above rounding.
     pub tol_closed: f64,
     /// Least distance of balls that constraints keep. Default 1.002, a little more than touching.
     pub min_distance: f64,
-    /// Distance below which balls repel each other. Default 1.2.
+    /// Threshold distance below which balls repel each other, in pitches. Default 1.2.
     pub repulsion_reach: f64,
     /// Gain of the repulsion in the endpoint mode. Default 0.3.
     pub endpoint_repulsion_gain: f64,
@@ -52,7 +52,7 @@ pub struct Settings {
     /// converge quadratically. Default 1e-2.
     pub nearly_closed: f64,
     /// Relative growth of [`Settings::iterations_max`] and of the steps for every module of the loop: long
-    /// loops have a long way to go. Default 0.1.
+    /// loops have a greater distance to close. Default 0.1.
     pub loop_scale: f64,
     /// Iterations that the initial bias lasts. Default 12.
     pub initial_bias_steps: usize,
@@ -97,7 +97,7 @@ impl Loop {
         Loop { from, to, joints: joints_between(tree, from, to) }
     }
 
-    /// The closure error of the second shoe: translation in pitches, then rotation vector in radians.
+    /// Returns the closure error of the second shoe: translation in pitches, then rotation vector in radians.
     fn error(&self, poses: &[RigidTransform]) -> Vector6<f64> {
         let wanted = poses[self.from].then(&mate(RED, 0, RED));
         let found = &poses[self.to];
@@ -107,7 +107,7 @@ impl Loop {
     }
 }
 
-/// The joints between two shoes, each with the sign with which its turn carries the second.
+/// Returns the joints between two shoes, each with the sign with which its turn carries the second.
 fn joints_between(tree: &Tree, from: usize, to: usize) -> Vec<(JointRef, f64)> {
     let mut joints = Vec::new();
     for step in tree.path(from, to).indices.windows(2) {
@@ -207,8 +207,8 @@ struct Descent<'a> {
     bias_steps: usize,
     work: &'a mut u64,
     postures: Vec<Joints>,
-    /// At the last posture: poses by index, closure error, balls that are near each other, the gain of their
-    /// repulsion, and whether the initial bias still lasts.
+    /// The state at the last posture: poses by index, closure error, balls that are near each other, the gain
+    /// of their repulsion, and true while the initial bias lasts.
     poses: Vec<RigidTransform>,
     error: Vector6<f64>,
     neighbours: Vec<Neighbours>,
@@ -247,8 +247,8 @@ impl IkProblem for Descent<'_> {
         }
     }
 
-    /// The six rows that close the loop: the Jacobian of the second shoe, with as much of the error as one
-    /// step can make good.
+    /// Returns the six rows that close the loop: the Jacobian of the second shoe, with as much of the error
+    /// as one step can make good.
     fn task(&self) -> Vec<Row> {
         let LoopClosure { lp, .. } = self.closure;
         let error = &self.error;
@@ -271,8 +271,8 @@ impl IkProblem for Descent<'_> {
         rows
     }
 
-    /// The secondary task: steps of the joints (rad) that are wanted as far as the constraints leave them
-    /// open. The initial bias, plus the joint torques of the repulsion times a gain.
+    /// Returns the secondary task: steps of the joints (rad) that are wanted as far as the constraints leave
+    /// them open. The initial bias, plus the joint torques of the repulsion times a gain.
     fn preferred(&self, count: usize) -> Vec<f64> {
         let LoopClosure { lp, mode, settings, .. } = *self.closure;
         let bias = if self.biased { self.initial_bias } else { &[] };
@@ -305,21 +305,21 @@ impl IkProblem for Descent<'_> {
         step.iter_mut().for_each(|s| *s *= scale);
     }
 
-    /// The row that keeps two balls apart: the gradient of their distance, and its least change.
+    /// Returns the row that keeps two balls apart: the gradient of their distance, and its least change.
     fn inequality(&self, number: usize) -> Row {
         let pair = &self.neighbours[number];
         let at = self.poses[pair.b].translation;
         let between = joints_between(self.tree(), pair.a, pair.b);
         let term = |(joint, sign): &(JointRef, f64)| {
             let (axis, point) = self.tree().axis(*joint, &self.poses);
-            // A turn of the joint carries b, or the other way round a: the distance changes alike.
+            // A turn of the joint carries b, or conversely a: the distance changes alike.
             let v = axis.cross(&(at - point)) * *sign;
             (3 * joint.module + joint.joint, pair.normal.dot(&v))
         };
         Row { terms: between.iter().map(term).collect(), goal: self.least_separation(pair) }
     }
 
-    /// In a collision-free descent, the pairs of balls that a step brings too near, the worst first.
+    /// Returns the pairs of balls that a step brings too near in a collision-free descent, the worst first.
     fn violated(&self, step: &[f64], active: &[usize]) -> Vec<usize> {
         if self.closure.mode == IkMode::Endpoint || self.neighbours.is_empty() {
             return Vec::new();
@@ -350,15 +350,15 @@ impl Descent<'_> {
         self.closure.scene.tree
     }
 
-    /// The least change of the distance of two balls in one step, in pitches; negative if they may approach.
+    /// Returns the least change of the distance of two balls in one step, in pitches; negative if they may
+    /// approach.
     fn least_separation(&self, pair: &Neighbours) -> f64 {
         let missing = self.closure.settings.min_distance - pair.distance;
         if missing > 0.0 { (0.5 * missing).min(0.05) } else { missing }
     }
 
-    /// Returns the displacement of each ball, by its index, after a step of the joints, to first order, in
-    /// pitches. Twists are summed from the root outwards, which is the product with the whole Jacobian in
-    /// linear time.
+    /// Returns the displacement of each ball by a step of the joints, to first order, in pitches. Twists are
+    /// summed from the root outwards, which is the product with the whole Jacobian in linear time.
     fn displacements(&self, step: &[f64]) -> Vec<Vec3> {
         let mut twist = vec![(Vec3::zeros(), Vec3::zeros()); self.poses.len()];
         let mut displacements = vec![Vec3::zeros(); self.poses.len()];
@@ -406,7 +406,7 @@ impl Repulsion {
         Repulsion { force: forces, moment: moments }
     }
 
-    /// The torque about an axis through `point` of the forces on the subtree of `index`.
+    /// Returns the torque about an axis through `point` of the forces on the subtree of `index`.
     fn torque(&self, tree: &Tree, index: usize, axis: &Vec3, point: &Vec3) -> f64 {
         let end = tree.end[index];
         let force = self.force[end] - self.force[index];

@@ -60,8 +60,8 @@ pub fn free_angle(
     left * angle.signum()
 }
 
-/// The angle at which a ball that turns counter-clockwise comes as near as `min_distance` to a fixed one, from
-/// distance² = nearest + 2 · r₁ · r₂ · (1 - cos φ); `left` if it never does.
+/// Returns the angle at which a ball that turns counter-clockwise comes as near as `min_distance` to a fixed
+/// one, from distance² = nearest + 2 · r₁ · r₂ · (1 - cos φ); `left` if it never does.
 fn contact_angle(moving: &Ball, fixed: &Ball, nearest: f64, min_distance: f64, left: f64) -> f64 {
     let product = moving.radius * fixed.radius;
     let cosine = (moving.x * fixed.x + moving.y * fixed.y) / product;
@@ -73,7 +73,7 @@ fn contact_angle(moving: &Ball, fixed: &Ball, nearest: f64, min_distance: f64, l
     }
     let (between, within) = (libm::atan2(sine, cosine), libm::acos(limit));
     if between.abs() <= within + ROUNDING {
-        // Near at once: a ball ahead is in the way; from one behind it parts, to meet it after a turn.
+        // Near at once: a ball ahead blocks the turn; from one behind it parts, to meet it after a turn.
         let again = between - within + TAU;
         return if between > -ROUNDING { 0.0 } else { again };
     }

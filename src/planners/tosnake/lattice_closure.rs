@@ -1,6 +1,6 @@
-//! Closure of short loops by exhaustive search: with joints at quarter turns, two or three modules have few
-//! postures, and all of them are enumerated. Some loops close only at the ends of the joints' ranges, where
-//! descent does not get.
+//! Inverse kinematics of short loops by exhaustive search: with joints at quarter turns, two or three modules
+//! have few postures, and all of them are enumerated. Some loops close only at the ends of the joints'
+//! ranges, where descent does not get.
 
 use super::merging::Pair;
 use super::robot::{GAMMA, RED, across, mate};

@@ -59,7 +59,7 @@ pub fn free_ends(state: &State) -> Vec<[Dock; 2]> {
     pairs
 }
 
-/// The distance between the centres of two docks' shoes, in pitches.
+/// Returns the distance between the centres of two docks' shoes, in pitches.
 fn gap(state: &State, a: Dock, b: Dock) -> f64 {
     let centre = |dock: Dock| state.poses[state.tree.index[dock.shoe()]].translation;
     (centre(a) - centre(b)).norm()
@@ -68,7 +68,7 @@ fn gap(state: &State, a: Dock, b: Dock) -> f64 {
 /// The radii within which balls around an end are counted, in pitches.
 const DENSITY_RADII: [f64; 2] = [2.5, 5.0];
 
-/// Returns for each shoe the number of balls within each of the radii of its own, itself included.
+/// Returns the number of balls within each of the radii of each shoe's own, itself included.
 fn local_density(state: &State) -> Vec<[usize; 2]> {
     let mut density = vec![[1, 1]; state.poses.len()];
     broad_phase::pairs(&state.poses, DENSITY_RADII[1], &mut |a, b, squared| {
@@ -81,8 +81,8 @@ fn local_density(state: &State) -> Vec<[usize; 2]> {
     density
 }
 
-/// The logit of the probability that an attempt at a pair fails, but for a constant. The coefficients are
-/// those of a logistic regression over 8,000 attempts in four random configurations: the density around
+/// Returns the logit of the probability that an attempt at a pair fails, but for a constant. The coefficients
+/// are those of a logistic regression over 8,000 attempts in four random configurations: the density around
 /// the ends counts most, then their distance, then the number of balls that move. Short loops hardly close.
 fn failure_logit(length: usize, gap: f64, density: [f64; 2], moved: f64) -> f64 {
     let short = match length {
@@ -97,7 +97,7 @@ fn failure_logit(length: usize, gap: f64, density: [f64; 2], moved: f64) -> f64 
     1.5 * log(density[0]) + 0.7 * log(density[1]) + 0.9 * log(1.0 + gap) + 0.4 * log(1.0 + moved) + short
 }
 
-/// The cost of a pair under gravity, in modules: long loops are heavy arms.
+/// Returns the cost of a pair under gravity, in modules: long loops are heavy arms.
 fn load_cost(length: usize, gap: f64) -> f64 {
     let short = match length {
         0 | 1 => 1000.0,
@@ -108,7 +108,7 @@ fn load_cost(length: usize, gap: f64) -> f64 {
     length as f64 + 0.3 * gap + short
 }
 
-/// The number of modules that bend between two docks, and the number of balls that they move.
+/// Returns the number of modules that bend between two docks, and the number of balls that they move.
 fn bending(state: &State, a: Dock, b: Dock) -> (usize, usize) {
     let tree = &state.tree;
     let (mut p, mut q) = (tree.index[a.shoe()], tree.index[b.shoe()]);
@@ -169,7 +169,7 @@ impl Attempt<'_> {
         }
     }
 
-    /// A straight path to the endpoint, or a detour.
+    /// Returns a straight path to the endpoint, or a detour.
     fn path_to_endpoint(
         &self,
         scene: &Scene,
@@ -190,7 +190,7 @@ impl Attempt<'_> {
         RrtConnect { scene, joints: &joints }.path(here, &there, &mut own, work)
     }
 
-    /// The postures of a collision-free descent, in as few straight segments as bisection finds.
+    /// Returns the postures of a collision-free descent, in as few straight segments as bisection finds.
     fn path_of_descent(
         &self,
         scene: &Scene,
@@ -303,8 +303,8 @@ fn connect(
     connect(scene, descent, from, middle, work, path) && connect(scene, descent, middle, to, work, path)
 }
 
-/// The bonds between the docks of a pair that are no snake bonds; there is at least one. Those come first
-/// that free a dock -Z.
+/// Returns the bonds between the docks of a pair that are no snake bonds; there is at least one. Those come
+/// first that free a dock -Z.
 fn replaceable_bonds(state: &State, pair: &Pair) -> Vec<usize> {
     let tree = &state.tree;
     let path = tree.path(tree.index[pair.a.shoe()], tree.index[pair.b.shoe()]);

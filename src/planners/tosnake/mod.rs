@@ -6,10 +6,10 @@
 //!
 //! Loops are opened ([`search`]); then two chains at a time become one ([`merging`]): the ends of a pair are
 //! brought together by damped least-squares inverse kinematics ([`inverse_kinematics`]), and the bond is
-//! undocked that the new one replaces. Between that the robot is straightened ([`straighten`]), and at last the
-//! path is shortened by shortcuts. Every motion is checked all the way ([`motion_check`], [`joint_sweep`]), not
-//! only where it ends; where the straight motion in joint space is not free, RRT-Connect looks for another
-//! ([`rrt_connect`]). The entry is [`plan`].
+//! undocked that the new one replaces. Between that the robot is straightened ([`straighten`]), and at last
+//! the path is shortened by shortcuts. Every motion is checked over its whole duration ([`motion_check`],
+//! [`joint_sweep`]), not only where it ends; where the straight motion in joint space is not free,
+//! RRT-Connect looks for another ([`rrt_connect`]). The entry is [`plan`].
 
 // The robot, and where its bodies are.
 pub mod robot;

@@ -86,8 +86,8 @@ impl<'a> Scene<'a> {
         parts[a] != parts[b] && !always_touch(self.tree, a, b, &self.docked)
     }
 
-    /// Returns true if on the straight motion between two joint positions no balls overlap and no joint is
-    /// overloaded. `work` counts forward kinematics.
+    /// Returns true if on the straight motion between two joint positions (rad) no balls overlap and no joint
+    /// is overloaded. `work` counts forward kinematics.
     pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
         let parts = self.tree.parts(|module| from[module] != to[module]);
         let carried = self.tree.carried(|module| from[module] != to[module]);
@@ -208,7 +208,7 @@ impl Motion<'_> {
     }
 }
 
-/// The greatest deviation of a ball from the straight line in the middle of a step, and the greatest
+/// Returns the greatest deviation of a ball from the straight line in the middle of a step, and the greatest
 /// displacement, in pitches.
 fn deviation(
     carried: &[usize],
@@ -235,7 +235,7 @@ fn overlap(neighbours: &[(u32, u32)], from: &[RigidTransform], to: &[RigidTransf
     })
 }
 
-/// The least squared length of `r + s·d` for s in [0, 1].
+/// Returns the least squared length of `r + s·d` for s in [0, 1].
 fn least_squared_length(r: &Vec3, d: &Vec3) -> f64 {
     let along = d.norm_squared();
     let s = if along > 0.0 { (-r.dot(d) / along).clamp(0.0, 1.0) } else { 0.0 };

@@ -28,8 +28,7 @@ pub struct NeighbourList<'a> {
     scene: &'a Scene<'a>,
     /// Two indices whose balls come as near as their docks ask, and are left out.
     meeting: (usize, usize),
-    /// A number for each ball, by its index: balls of one number do not move against each other, and are left
-    /// out.
+    /// The rigid part of each ball: balls of one part do not move against each other, and are left out.
     parts: Vec<usize>,
     list: Vec<(u32, u32)>,
     /// The distance within which the list held all pairs when it was made.
@@ -71,7 +70,7 @@ impl<'a> NeighbourList<'a> {
             let squared = apart.norm_squared();
             if squared < reach * reach {
                 let distance = libm::sqrt(squared);
-                // Balls in one place are driven apart along an arbitrary axis.
+                // Balls at one position are driven apart along an arbitrary axis.
                 let normal = if distance > COINCIDENT { apart / distance } else { Vec3::x() };
                 all.push(Neighbours { a, b, distance, normal });
             }

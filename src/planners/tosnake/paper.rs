@@ -85,8 +85,8 @@ pub(super) fn unwind(
     Err(if without_tips { Refusal::NoFreeTips(reached) } else { Refusal::Exhausted(reached) })
 }
 
-/// `CONNECTANDCUT` of the paper: the state with the tips of a pair docked, and the first bond between them
-/// undocked that is no snake bond.
+/// Returns the state with the tips of a pair docked, and the first bond between them undocked that is no
+/// snake bond (`CONNECTANDCUT` of the paper).
 fn connected_and_cut(state: &State, [a, b]: [Dock; 2], settings: &Settings, work: &mut u64) -> Option<State> {
     let chain = Chain::new(state, a, b);
     if !chain.is_long_enough() {

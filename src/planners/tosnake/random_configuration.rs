@@ -20,8 +20,8 @@ const ATTEMPTS_MAX: usize = 100;
 const TOL_EQUAL: f64 = 1e-6;
 
 /// Returns a snake of `modules` modules after `actions` random actions: quarter turns of joints that are free
-/// on the way, docking where docks meet, and undocking where the robot stays connected. All bonds in its list
-/// are closed. The same seed gives the same configuration.
+/// of collisions, docking where docks meet, and undocking where the robot stays connected. All bonds in its
+/// list are closed. The same seed gives the same configuration.
 pub fn random_configuration(modules: usize, actions: usize, seed: u64) -> Robot {
     let bond = |m: usize| Bond { a: Dock::red(2 * m + 1), b: Dock::red(2 * (m + 1)), turn: 0 };
     let bonds: Vec<Bond> = (0..modules.saturating_sub(1)).map(bond).collect();
@@ -126,7 +126,7 @@ impl RandomWalk {
         *self = RandomWalk::new(self.robot.clone());
     }
 
-    /// The bonds that can be made between free docks that meet.
+    /// Returns the bonds that can be made between free docks that meet.
     fn meeting(&self) -> Vec<Bond> {
         let at = self.robot.bond_at();
         let mut bonds = Vec::new();

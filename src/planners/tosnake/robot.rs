@@ -47,7 +47,7 @@ pub struct Robot {
     pub joints: Vec<[f64; 3]>,
     /// All bonds, those included that were let go.
     pub bonds: Vec<Bond>,
-    /// True for each bond that is closed.
+    /// True, by bond, if it is closed.
     pub holds: Vec<bool>,
 }
 
@@ -159,7 +159,7 @@ pub fn mate(a: usize, turn: u32, b: usize) -> RigidTransform {
     }
 }
 
-/// The frame of a dock's face in the frame of its shoe; the outward normal is its -z.
+/// Returns the frame of a dock's face in the frame of its shoe; the outward normal is its -z.
 fn face(face: usize) -> Matrix3<f64> {
     match face {
         0 => Matrix3::new(0.0, 0.0, -1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0),

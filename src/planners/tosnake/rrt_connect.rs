@@ -55,7 +55,7 @@ impl RrtConnect<'_> {
         None
     }
 
-    /// A random posture around the straight motion.
+    /// Returns a random posture around the straight motion.
     fn sample(&self, from: &Joints, to: &Joints, rng: &mut SplitMix64) -> Joints {
         let part = rng.next_f64();
         let mut sample = from.clone();
@@ -90,7 +90,7 @@ impl RrtConnect<'_> {
         Some(tree.len() - 1)
     }
 
-    /// Squared distance in joint space, rad².
+    /// Returns the squared distance in joint space, rad².
     fn squared_distance(&self, a: &Joints, b: &Joints) -> f64 {
         let squared = |joint: &JointRef| {
             let apart = a[joint.module][joint.joint] - b[joint.module][joint.joint];
@@ -100,7 +100,7 @@ impl RrtConnect<'_> {
     }
 }
 
-/// The path through both trees, by way of one node of each that have the same posture.
+/// Returns the path through both trees, through one node of each that have the same posture.
 fn joined(trees: &[Vec<Node>; 2], [first, second]: [usize; 2]) -> Vec<Joints> {
     let to_root = |tree: &[Node], mut at: usize| {
         let mut nodes = vec![at];

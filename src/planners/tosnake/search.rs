@@ -42,7 +42,7 @@ const DETOUR_SPREAD: f64 = 0.3;
 /// Smaller robots are searched on one thread: starting more costs more than it gains.
 const PARALLEL_MODULES_MIN: usize = 16;
 
-/// Greatest number of pairs tried of each kind under gravity, where each pair is tried in more ways.
+/// Greatest number of pairs tried of each kind under gravity, where each pair is tried with more settings.
 const GRAVITY_PAIRS_MAX: usize = 20;
 
 /// Under gravity it matters which tentacle moves: both of them, and each alone, are tried.
@@ -81,7 +81,7 @@ pub struct StepSequence {
 }
 
 /// Searches for the steps from a configuration to the snake. With a gravity model, no joint exceeds its
-/// torque limit on the way; without one the robot floats.
+/// torque limit during the motion; without one the robot floats.
 ///
 /// # Errors
 /// [`Refusal`]: the start is invalid, torque limits or the budget do not suffice, or `progress` ended the
@@ -168,8 +168,8 @@ struct Search<'s, 'p> {
     status: SearchStatus,
     /// The smallest overload so far, and what the robot was to do.
     overload: Option<(JointLoad, Operation)>,
-    /// For each pair: the number of modules that bent between the ends at the last failed attempt, and how many
-    /// attempts failed with that number.
+    /// The number of modules that bent between the ends at the last failed attempt, and the number of
+    /// attempts that failed with it, by pair.
     failed_attempts: BTreeMap<[Dock; 2], (usize, u32)>,
 }
 

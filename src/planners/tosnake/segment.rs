@@ -7,7 +7,7 @@ use crate::geometry::RigidTransform;
 /// A segment of a chain, from one shoe to the next.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Segment {
-    /// From a shoe to the one docked to it, at a constant pose.
+    /// The step from a shoe to the one docked to it, at a constant pose.
     Mate(RigidTransform),
     /// Across a module.
     Module {

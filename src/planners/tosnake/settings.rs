@@ -1,4 +1,4 @@
-//! Settings of the search, each with its unit, its default and the reason for the default.
+//! Settings and thresholds of the search, each with its unit, its default and the reason for the default.
 
 use super::fabrik;
 use super::inverse_kinematics;
@@ -24,7 +24,7 @@ pub struct Settings {
     pub detour_pairs_max: usize,
     /// Settings of the inverse kinematics that closes loops.
     pub inverse_kinematics: inverse_kinematics::Settings,
-    /// The places where collisions are checked; everything but the default is the paper's own method.
+    /// The states in which collisions are checked; everything but the default is the paper's own method.
     pub collisions: Collisions,
     /// Settings of FABRIK, the paper's own inverse kinematics.
     pub fabrik: fabrik::Settings,
@@ -52,16 +52,16 @@ impl Default for Settings {
     }
 }
 
-/// The places where collisions are checked.
+/// The states in which collisions are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collisions {
-    /// At all instants of every motion: this planner's own search.
+    /// All instants of every motion are checked: this planner's own search.
     Motion,
     /// Nowhere: the paper's method.
     None,
-    /// In the states in which tips meet: the paper's method.
+    /// The states in which tips meet are checked: the paper's method.
     Detection,
-    /// In the states in which tips meet, and in the inverse kinematics: the paper's method.
+    /// The states in which tips meet are checked, and avoided in the inverse kinematics: the paper's method.
     Avoidance,
 }
 

@@ -24,7 +24,7 @@ pub enum Step {
     Undock(usize),
 }
 
-/// A robot on its way to the snake.
+/// The robot during the search for the snake.
 #[derive(Clone, Debug)]
 pub struct State {
     /// The configuration.
@@ -183,8 +183,8 @@ pub fn spread(poses: &[RigidTransform]) -> f64 {
     squares - sum.norm_squared() / count
 }
 
-/// The module in the middle of the longest path of the tree, found by two sweeps: the shoe farthest from
-/// any is one end, and the shoe farthest from that is the other.
+/// Returns the module in the middle of the longest path of the tree, found by two sweeps: the shoe farthest
+/// from any is one end, and the shoe farthest from that is the other.
 fn middle(tree: &Tree, robot: &Robot) -> usize {
     let Some(tree) = Tree::grow(robot, tree.shoe[0] / 2) else { return 0 };
     let depths = |tree: &Tree| {

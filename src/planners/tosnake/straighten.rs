@@ -64,7 +64,7 @@ fn straighten_together(state: &mut State, joints: &[JointRef]) {
     straighten_together(state, second);
 }
 
-/// The tilts that are not zero.
+/// Returns the tilts that are not zero.
 fn tilted(state: &State) -> Vec<JointRef> {
     let tilted = |joint: &JointRef| {
         joint.joint != GAMMA && state.robot.joints[joint.module][joint.joint].abs() > TOL_TILT

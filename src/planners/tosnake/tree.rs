@@ -28,7 +28,7 @@ pub struct Tree {
 enum Link {
     /// None: it is the root.
     Root,
-    /// Both are shoes of one module.
+    /// The link between the two shoes of one module.
     Module,
     /// Both are docked to each other.
     Mate {
@@ -102,7 +102,8 @@ impl Tree {
         self.shoe.len()
     }
 
-    /// Computes the poses of all shoes by index in the frame of the root (forward kinematics).
+    /// Computes the poses of all shoes by index, in pitches, in the frame of the root (forward kinematics);
+    /// `joints`: rad.
     pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<RigidTransform>) {
         poses.clear();
         for index in 0..self.shoes() {
@@ -110,7 +111,8 @@ impl Tree {
         }
     }
 
-    /// Recomputes the poses of some shoes, given in order of index; the others stay.
+    /// Recomputes the poses of some shoes, given in order of index; the others stay. `joints`: rad; poses in
+    /// pitches.
     pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
         for &index in moved {
             poses[index] = self.pose(index, joints, poses);
@@ -233,8 +235,7 @@ pub struct Path {
     pub top: usize,
 }
 
-/// Returns for each bond true if a breadth-first search from a module takes it; `None` if it does not reach
-/// all.
+/// Returns true, by bond, if a breadth-first search from a module takes it; `None` if it does not reach all.
 fn spanning(robot: &Robot, at: &[[Option<usize>; DOCKS]], root: usize) -> Option<Vec<bool>> {
     let mut taken = vec![false; robot.bonds.len()];
     let mut reached = vec![false; robot.modules()];

@@ -1,5 +1,5 @@
 //! Validation of a start configuration: connected, loops closed, no overlap. Files of tangled robots name
-//! some modules as connected in two ways that contradict each other; [`repair`] opens such bonds.
+//! some modules as connected by bonds that contradict each other; [`repair`] opens such bonds.
 
 use super::broad_phase;
 use super::motion_check::MIN_DISTANCE;
@@ -61,7 +61,7 @@ pub fn repair(robot: &mut Robot) -> Result<Vec<usize>, InvalidStart> {
 /// Greatest number of contradictions of which all combinations are tried: 1,024 forward kinematics.
 const TWINS_MAX: usize = 10;
 
-/// Another bond between the same two modules.
+/// Returns another bond between the same two modules.
 fn twin(robot: &Robot, bond: usize) -> Option<usize> {
     let modules = |bond: usize| {
         let ends = robot.bonds[bond];
@@ -92,7 +92,7 @@ impl Choice {
     }
 }
 
-/// The first overlap of two modules that is found.
+/// Returns the first overlap of two modules that is found.
 fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<InvalidStart> {
     let docked = broad_phase::docked(robot, tree);
     let mut found = None;
@@ -106,7 +106,7 @@ fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<Inval
     found
 }
 
-/// A module that is not connected to the first.
+/// Returns a module that is not connected to the first.
 fn loose(robot: &Robot) -> usize {
     let mut reached = vec![false; robot.modules()];
     let mut open = vec![0];

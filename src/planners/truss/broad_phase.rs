@@ -34,7 +34,7 @@ struct Pair {
 
 impl Pair {
     /// Returns true if the slab between the two struts along `normal` stays as thick as the clearance from x
-    /// to y: a separating direction at both ends of linear motion separates all the way.
+    /// to y: a separating direction at both ends of linear motion separates throughout.
     fn stays_apart(&self, truss: &Structure, y: &[Vec3]) -> bool {
         let along = |(p, q): (Vec3, Vec3)| (p.dot(&self.normal), q.dot(&self.normal));
         let (first, second) =

@@ -1,5 +1,6 @@
-//! Inequality constraints g(x) >= 0 on the nodes of a truss, each with its value and gradient: lengths,
-//! distances between struts and from obstacles, heights, angles, sums of lengths, rigidity.
+//! Inequality constraints g(x) >= 0 on the nodes of a truss, each with its value and gradient, a row of the
+//! constraint Jacobian: lengths, distances between struts and from obstacles, heights, angles, sums of
+//! lengths, rigidity.
 
 use super::rigidity;
 use super::structure::Structure;

@@ -45,7 +45,7 @@ pub struct TrussProblem {
 pub enum InvalidTruss {
     /// There are not as many names as nodes, or no struts.
     Incomplete,
-    /// A strut (its number) joins a node to itself, to no node, or to one in the same place.
+    /// A strut (its number) joins a node to itself, to no node, or to one at the same position.
     Degenerate {
         /// The number of the strut.
         strut: usize,
@@ -207,8 +207,8 @@ impl TrussProblem {
         Ok(())
     }
 
-    /// Returns in words why there was no step: the constraints that were in the way, obstacles and ground
-    /// first, for of a truss's own struts many are at some limit.
+    /// Returns in words why there was no step: the constraints that blocked it, obstacles and ground first,
+    /// for of a truss's own struts many are at some limit.
     pub fn explain(&self, truss: &Structure, error: &StepError) -> String {
         let (why, constraints) = match error {
             StepError::Infeasible(constraints) => ("no step keeps all limits", constraints),

@@ -51,8 +51,8 @@ fn axis(x: &[Vec3], edge: (usize, usize)) -> Axis {
     Axis { origin: x[edge.0], along: (x[edge.1] - x[edge.0]).normalize() }
 }
 
-/// Returns a constraint that a roll would violate on its way: a strut would meet an obstacle, or the ground
-/// before its ends do. `None` if the way is free.
+/// Returns a constraint that a roll would violate: a strut would meet an obstacle, or the ground before its
+/// ends do. `None` if the roll is free.
 pub(in crate::planners) fn blocked(truss: &Structure, x: &[Vec3], roll: Roll) -> Option<Constraint> {
     rotation::blocked(truss, x, &axis(x, roll.edge), roll.angle)
 }

@@ -73,7 +73,7 @@ pub(super) fn touchdown(truss: &Structure, axis: &Axis, p: Vec3) -> Option<f64> 
 }
 
 /// Returns a constraint that the truss would violate while it rotates by an angle, rad: a strut meets an
-/// obstacle, or ground before its ends do. `None` if the way is free.
+/// obstacle, or ground before its ends do. `None` if the roll is free.
 pub(super) fn blocked(truss: &Structure, x: &[Vec3], axis: &Axis, angle: f64) -> Option<Constraint> {
     (0..truss.struts.len()).find_map(|strut| {
         let ends = truss.segment(x, strut);

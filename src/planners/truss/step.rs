@@ -1,6 +1,7 @@
-//! One step of sequential quadratic programming (SQP): Algorithm 1 of the paper, mended. A quadratic
-//! program over linearised constraints gives the displacements of the nodes; whatever constraint they
-//! would violate is added as a row, and it is solved again (an active set grown by violation).
+//! One step of sequential quadratic programming (SQP): Algorithm 1 of the paper, mended. A quadratic program
+//! over linearised constraints (rows of the constraint Jacobian) gives the displacements of the nodes;
+//! whatever constraint they would violate is added as a row, and it is solved again (an active set grown by
+//! violation).
 //!
 //! The rows of the paper ask that a value does not fall to first order. Lengths and distances curve, so a
 //! value at its limit falls all the same, and the same row comes back for ever (livelock). Here rows ask for
@@ -93,7 +94,7 @@ pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec
             }
             Err(Unsolved::Numerical) => return Err(StepError::NotConverged(rows.constraints())),
         };
-        // Check all constraints at the end of the step and on the way.
+        // Check all constraints at the end of the step and during it.
         let violated = violated(problem, &y, &mut warm_start.neighbours);
         if violated.is_empty() {
             let near = |constraint: &Constraint| {
@@ -223,8 +224,8 @@ impl<'a> Rows<'a> {
                     self.add(Constraint::Rigidity(j, i), shortfall);
                 }
             }
-            // Lengths are convex: what made this one longer than its row predicted also keeps it from
-            // getting as short as the other row fears.
+            // Lengths are convex: what made this one longer than its row predicted also keeps it from getting
+            // as short as the other row's bound allows.
             Constraint::LengthMax(strut) if truss.limits.locked.contains(&strut) => {
                 self.loosen(Constraint::LengthMin(strut), shortfall);
             }
@@ -273,7 +274,7 @@ fn displaced(problem: &StepProblem, columns: &[Option<usize>], u: &[f64]) -> (Ve
     (problem.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * fraction).collect(), fraction)
 }
 
-/// Returns the constraints that are violated at y or on the way there, each with its shortfall, m.
+/// Returns the constraints that are violated at y or before, each with its shortfall, m.
 fn violated(
     problem: &StepProblem,
     y: &[Vec3],
@@ -281,7 +282,7 @@ fn violated(
 ) -> Vec<(Constraint, f64)> {
     let StepProblem { truss, x, .. } = *problem;
     let margin = truss.tolerances.clearance_margin * truss.unit;
-    // Broad phase: pairs of struts that may come too near on the way.
+    // Broad phase: pairs of struts that may come too near during the step.
     let pairs = NeighbourList::candidates(neighbours, truss, (x, y), margin);
     // Values at y.
     let lengths = (0..truss.struts.len())
@@ -305,8 +306,8 @@ fn violated(
             check(Constraint::Rigidity(i, i), mode.spare(truss));
         }
     }
-    // Conservative advancement on the way. Uneven ground comes last, once all else holds: of a long step,
-    // before its rows are known, its certificate takes long.
+    // Conservative advancement during the step. Uneven ground comes last, once all else holds: of a long
+    // step, before its rows are known, its certificate takes long.
     let between = advancement::violations(truss, x, y, &pairs, margin);
     let obstacles = environment::obstacle_violations(truss, x, y, margin);
     let ground = if problem.ground && violated.is_empty() {

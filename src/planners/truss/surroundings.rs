@@ -61,7 +61,7 @@ impl Surroundings {
         Vec3::new(-slope[0], -slope[1], 1.0)
     }
 
-    /// Returns the rise of the ground from one place to another, m, each height averaged over a disc of the
+    /// Returns the rise of the ground from one point to another, m, each height averaged over a disc of the
     /// given radius, m.
     pub fn ground_rise(&self, from: [f64; 2], to: [f64; 2], radius: f64) -> f64 {
         let Some(terrain) = &self.terrain else { return 0.0 };
@@ -74,7 +74,7 @@ impl Surroundings {
     }
 
     /// Returns the signed distance between a strut and a part, m, and the direction from the strut to it;
-    /// distances beyond `enough` may be told too small, but not below `enough`.
+    /// distances beyond `enough` may be returned too small, but not below `enough`.
     pub fn signed_distance(&self, strut: (Vec3, Vec3), part: usize, enough: f64) -> SignedDistance {
         segment_part(strut, &self.parts[part].1, enough)
     }

@@ -1,4 +1,4 @@
-//! Tolerances of the truss planners.
+//! Tolerances and thresholds of the truss planners.
 
 /// Tolerances of the truss planners, each with its default and the reason for it. "Unit" stands for the
 /// mean strut length at the start ([`Structure::unit`](super::Structure::unit)): lengths given in units
@@ -12,8 +12,8 @@ pub struct Tolerances {
     /// advancement between the ends of a step ends after finitely many samples. 2e-4: two samples for
     /// most pairs, and nothing of the clearance lost that matters.
     pub clearance_margin: f64,
-    /// The value, in units, that a row of the quadratic programme asks a constraint to keep at first.
-    /// 1e-6: above `qp_residual`, so that the solver's error violates nothing.
+    /// The value, in units, that a row of the quadratic program asks a constraint to keep at first. 1e-6:
+    /// above `qp_residual`, so that the solver's error violates nothing.
     pub bound_inset: f64,
     /// The factor by which a row that is violated again asks for more than the shortfall; above 1, so
     /// that second-order terms are overtaken. 1.5: the livelock of the paper's Algorithm 1 ends in two or
@@ -22,7 +22,7 @@ pub struct Tolerances {
     /// Constraints with a value below this many units stay in the active set for the next step. 0.02:
     /// a little less than half a step.
     pub active_band: f64,
-    /// The residual of the rows that the quadratic programme is solved to, units. 1e-9.
+    /// The residual of the rows that the quadratic program is solved to, units. 1e-9.
     pub qp_residual: f64,
     /// The least fraction of a shortened step by which a shortfall is divided to scale it to the whole
     /// step. 0.02: smaller fractions would ask for rows far beyond reach.
@@ -30,8 +30,8 @@ pub struct Tolerances {
     /// Two struts whose angle has a smaller sine get a row for each end beside the one for their closest
     /// points, which jump from end to end. 0.1.
     pub parallel_sine: f64,
-    /// The slack of a length, or sum of lengths, that has to stay, units: nodes move on straight lines,
-    /// so a strut that turns gets shorter on the way. 2e-3.
+    /// The slack of a length, or sum of lengths, that has to stay, units: nodes move on straight lines, so a
+    /// strut that turns gets shorter during the step. 2e-3.
     pub locked_slack: f64,
     /// The part of the depth to which struts may be below uneven ground that planners leave unused,
     /// units. 1e-4: the judge samples elsewhere.

@@ -29,7 +29,7 @@ pub(super) struct Advancement<'a> {
     samples_max: usize,
     samples: usize,
     clearance: Option<Clearance>,
-    /// The worst collision of each pair of modules; excused ones apart.
+    /// The key: the pair of modules, and true if it is excused.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
     used: BTreeSet<usize>,
     state: IntervalState,
@@ -41,7 +41,7 @@ struct Clearance {
     modules: (usize, usize),
 }
 
-/// A part of the robot that hangs together, over a window of time.
+/// A connected part of the robot, over a window of time.
 struct Region<'a> {
     kinematics: Kinematics,
     levels: ReferenceLinks,
@@ -80,8 +80,8 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Judges a window of time in which bonds stay as they are. Parts that do not hang together are judged each by
-    /// itself: how they lie to one another is unknown.
+    /// Judges a window of time in which bonds stay as they are. Parts that are not connected are judged each
+    /// by itself: how they lie to one another is unknown.
     pub(super) fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
         let mut seen = vec![false; self.robot.modules.len()];
         while let Some(first) = seen.iter().position(|seen| !seen) {
@@ -168,7 +168,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// The pairs of bodies within a module that joints move.
+    /// Appends the pairs of bodies within a module that joints move.
     fn within(&self, region: &Region, module: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(module, module) as u32;
         let first = self.bodies.of(module).start;
@@ -179,7 +179,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// The pairs of bodies of two modules; mated ones may meet.
+    /// Appends the pairs of bodies of two modules; mated ones may meet.
     fn expand(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(m, n) as u32;
         let allowed = self.bodies.allowed_depth(m, n);
@@ -319,9 +319,9 @@ impl<'a> Advancement<'a> {
         self.need(region, module(pair.a), module(pair.b), pair.counts, pair.allowed)
     }
 
-    /// The distance that two bodies of these modules must be proved to have: none deeper than
-    /// allowed, none nearer than the clearance if that is more. Once they are known to collide only
-    /// the greatest depth is looked for.
+    /// Returns the distance that two bodies of these modules must be proved to have: none deeper than
+    /// allowed, none nearer than the clearance if that is more. Once they are known to collide only the
+    /// greatest depth is sought.
     fn need(&self, region: &Region, a: usize, b: usize, counts: bool, allowed: f64) -> f64 {
         if !self.collisions.is_empty()
             && let Some(known) = self.collisions.get(&(a, b, self.excuse(region, a, b).is_some()))
@@ -353,7 +353,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// A penetration in the middle. It is the first of its pair of modules if the interval is short
+    /// Records a penetration in the middle. It is the first of its pair of modules if the interval is short
     /// enough to be an instant: all before is proved to be separated.
     fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: bool) {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);

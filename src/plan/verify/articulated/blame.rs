@@ -17,17 +17,17 @@ use crate::robot::{JointId, JointOwner};
 pub(super) const BLAMED_MAX: usize = 3;
 const TRIED_MAX: usize = 24;
 
-/// Failures for which the blame is sought; the rest name whoever moves.
+/// Failures for which the blame is sought; the rest name the actions that move at that time.
 const FAILURES_MAX: usize = 12;
 
 /// Segments of each joint that are examined, the latest first.
 const SEGMENTS_EACH: usize = 2;
 
-/// An action that may be to blame.
+/// An action that may be to blame: a candidate.
 pub(super) struct Suspect {
     /// The joint that it moves.
     pub joint: usize,
-    /// When its segment begins, s.
+    /// The time at which its segment begins, s.
     pub start: f64,
     /// The command.
     pub cause: CauseId,
@@ -122,7 +122,7 @@ fn still(sample: &Sample, failure: &Failure, rollout: &Rollout, ledger: &mut Led
     }
 }
 
-/// The `set` lines of the modules concerned, or all; or else the `connect` lines.
+/// Returns the `set` lines of the modules concerned, or all; or else the `connect` lines.
 fn of_start(tracks: &Tracks, failure: &Failure) -> Vec<CauseId> {
     let owners: Vec<JointOwner> = tracks.robot.joints().collect();
     let concerned = |joint: JointId| match owners[joint.0 as usize] {

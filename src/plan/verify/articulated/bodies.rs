@@ -19,11 +19,11 @@ pub struct UnsoundLink {
 /// The convex parts of a robot's links.
 #[derive(Clone, Debug)]
 pub struct Bodies {
-    /// In order of link.
+    /// The bodies, in order of link.
     pub bodies: Vec<Body>,
     /// Index of the first body of each module, and one more at the end.
     first: Vec<usize>,
-    /// Of each module, a bound on how far any point of it is from its body link's origin, m.
+    /// An upper bound, for each module, on the distance of its points from its body link's origin, m.
     pub reach: Vec<f64>,
     kinds: Vec<Kind>,
     kind_of: Vec<usize>,
@@ -47,7 +47,7 @@ pub struct InnerPair {
 /// One convex part of a link.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// In the frame of the carrier.
+    /// The convex part, in the frame of the carrier.
     pub part: Part,
     /// The link it belongs to, by the numbering of [`Kinematics`].
     pub link: usize,
@@ -139,6 +139,8 @@ struct Kind {
     bodies: Vec<(usize, usize, Part)>,
     inner: Vec<InnerPair>,
     touch: f64,
+    /// Returns an upper bound on the distance of any point of the module from its body's origin, m: by the
+    /// joints' arms, however they turn, and the greatest travel of slides.
     reach: f64,
 }
 
@@ -201,7 +203,7 @@ fn stay(kind: &ModuleType, x: &(usize, usize, Part), y: &(usize, usize, Part)) -
     x.1 == y.1 || revolute.any(|j| joins(j) && (about(j, x) || about(j, y)))
 }
 
-/// The link that a part moves with, and the part in its frame.
+/// Returns the link that a part moves with, and the part in its frame.
 fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) {
     let borne = |joint: &&Joint| joint.kind == JointKind::Revolute && joint.child == link;
     for joint in kind.joints.iter().filter(borne) {
@@ -223,7 +225,7 @@ fn drawn_overlap(kind: &ModuleType, solids: &[Solid], a: usize, b: usize) -> f64
     pairs.map(|(p, q)| -signed_distance(p, q, &X_AB).distance).fold(0.0, f64::max)
 }
 
-/// Farthest that any point of the module can be from its body's origin: by the joints' arms, however
+/// Returns farthest that any point of the module can be from its body's origin: by the joints' arms, however
 /// they turn, and the greatest travel of slides.
 fn reach(kind: &ModuleType, solids: &[Solid]) -> f64 {
     let mut arm = vec![f64::INFINITY; kind.links.len()];

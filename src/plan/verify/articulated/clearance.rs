@@ -65,7 +65,7 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
     Some(poses[a.carrier].transform_point(&met.into()).coords)
 }
 
-/// The pairs of bodies that may not meet, with how deep they may be in each other, m.
+/// Returns the pairs of bodies that may not meet, with how deep they may be in each other, m.
 fn pairs(
     tracks: &Tracks,
     bodies: &Bodies,

@@ -21,7 +21,8 @@ use crate::units::{Dimension, quantity};
 pub struct Findings {
     /// Proved, or failed, or the number of intervals at which it gave up.
     pub status: Status,
-    /// In order of time; one for each pair of modules, and one more where it was excused before.
+    /// The collisions, in order of time; one for each pair of modules, and one more where it was excused
+    /// before.
     pub collisions: Vec<Collision>,
     /// Least signed distance of links that may not touch. `None` where there are no two such.
     pub clearance: Option<Worst>,
@@ -104,7 +105,7 @@ impl Collision {
     }
 }
 
-/// The plan cut where bonds change and where exemptions begin or end, and the instant of its end,
+/// Returns the plan cut where bonds change and where exemptions begin or end, and the instant of its end,
 /// which is never excused and in which the last docks hold.
 fn windows(tracks: &Tracks, exemptions: &[Exemption]) -> Vec<(f64, f64)> {
     let docks = tracks.docks.iter().map(|d| d.time);
@@ -121,7 +122,7 @@ fn windows(tracks: &Tracks, exemptions: &[Exemption]) -> Vec<(f64, f64)> {
     windows
 }
 
-/// The exemptions that hold all through a window.
+/// Returns the exemptions that hold all through a window.
 fn excused(tracks: &Tracks, exemptions: &[Exemption], window: (f64, f64)) -> Vec<Excuse> {
     let end = window.0 == window.1 && window.0 == tracks.duration;
     let holding = exemptions.iter().enumerate().filter(|(_, e)| e.from <= window.0 && window.1 <= e.to);

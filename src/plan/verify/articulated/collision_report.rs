@@ -42,7 +42,7 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     ledger.check(CheckKind::Collision, found.status);
 }
 
-/// The actions whose joint, held still from its start, keeps the two links apart where they would be
+/// Returns the actions whose joint, held still from its start, keeps the two links apart where they would be
 /// deepest in each other; latest first.
 fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
     let state = tracks.state(meeting.deepest);

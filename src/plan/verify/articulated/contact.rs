@@ -15,7 +15,7 @@ pub struct ContactPoint {
     pub k: u8,
     /// The link of the feature.
     pub link: usize,
-    /// From the centre of mass; +z up, m.
+    /// The position from the centre of mass; +z up, m.
     pub p: Vec3,
     /// Height above the ground, m.
     pub gap: f64,
@@ -118,7 +118,7 @@ pub(super) fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     found
 }
 
-/// Proximal weight of the dual solution, so that it exists whatever the contact points are.
+/// Proximal weight of the Lagrangian dual's solution, so that it exists whatever the contact points are.
 const HELD_BACK: f64 = 1e-8;
 const PROXIMAL_ROUNDS: usize = 3;
 const NEWTON_ROUNDS_MAX: usize = 60;
@@ -126,9 +126,9 @@ const HALVINGS_MAX: usize = 40;
 /// Gradient at which the dual is solved, in parts of the weight.
 const GRADIENT_MIN: f64 = 1e-14;
 
-/// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass
-/// and N ≥ 0, where κ falls with the gap. It is solved by its dual in three unknowns: `N = κ max(0, λ·g)` with
-/// `g = (1, x, y)`. If no such loads exist, the moment left is least.
+/// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass and N ≥
+/// 0, where κ falls with the gap. Solved by its Lagrangian dual in three unknowns: `N = κ max(0, λ·g)` with
+/// `g = (1, x, y)`. Where no such loads exist, the moment left is least.
 fn spread(contact_points: &mut [ContactPoint], tolerances: &Tolerances) {
     let near = |t: &ContactPoint| t.gap <= tolerances.gap_loaded;
     let size =

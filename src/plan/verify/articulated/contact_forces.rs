@@ -1,10 +1,10 @@
 //! The contact forces that minimise the greatest load of a robot: they decide if forces exist under which
 //! nothing is overloaded.
 //!
-//! Each contact force lies in a pyramid inside its friction cone (linearised friction); together they carry the weight.
-//! The least greatest load is a linear programme (LP). Its solution is not trusted: the forces are brought
-//! to exact balance and the loads computed from them, which proves that they exist; and the
-//! multipliers give a bound below which no forces whatever can come.
+//! Each contact force lies in a pyramid inside its friction cone (linearised friction); together they carry
+//! the weight. The least greatest load is the value of a linear program (LP). Its solution is not trusted:
+//! the forces are brought to exact balance and the loads computed from them, which proves that they exist;
+//! and the multipliers give a bound below which no forces whatever can come.
 
 use super::contact::ContactPoint;
 use super::contact_lp::ContactLp;
@@ -28,7 +28,7 @@ const COLUMNS_MAX: usize = 100_000;
 pub(super) struct Column {
     /// The wrenches of one unit of it.
     pub wrenches: Vec<Wrench>,
-    /// It may also act the other way round.
+    /// True if it may also act in the opposite direction.
     pub free: bool,
 }
 
@@ -50,9 +50,9 @@ pub(super) struct ContactForces {
 pub(super) struct WarmStart {
     /// Feature and point, in order.
     contacts: Vec<(usize, u8)>,
-    /// Of each contact, along the edges of its pyramid.
+    /// The forces of each contact, along the edges of its pyramid.
     wrenches: Vec<[f64; EDGES]>,
-    /// Of the bonds that close loops.
+    /// The wrenches of the bonds that close loops.
     loops: Vec<f64>,
 }
 
@@ -205,7 +205,7 @@ impl ContactQuery<'_> {
         Some(ContactForces { ratio: ratio(worst), load: worst, bound, warm_start })
     }
 
-    /// The nearest sizes that balance, measured by the sizes themselves; `None` where one would have
+    /// Returns the nearest sizes that balance, measured by the sizes themselves; `None` where one would have
     /// to pull.
     fn balanced(&self, columns: &[Column], sizes: &[f64]) -> Option<Vec<f64>> {
         if self.fixed_base {

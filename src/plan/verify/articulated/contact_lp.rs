@@ -36,7 +36,7 @@ struct Node {
     parent: usize,
     /// The point about which its moments are taken, m.
     place: Vec3,
-    /// Of its own links.
+    /// The weight of its own links.
     weight: Vector6<f64>,
 }
 
@@ -76,9 +76,10 @@ impl ContactLp {
         ContactLp { problem, rows }
     }
 
-    /// Returns a lower bound on the greatest load from dual multipliers, whatever solver made them: for any weights `z ≥ 0` of the rows that sum to 1
-    /// and any `y`, `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ
-    /// of the contacts' forces sum to 1, so that the least coefficient bounds the sum.
+    /// Returns a lower bound on the greatest load, the Lagrangian dual bound of any multipliers, whatever
+    /// solver made them: for any weights `z ≥ 0` of the rows that sum to 1 and any `y`,
+    /// `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ of the contacts'
+    /// forces sum to 1, so that the least coefficient bounds the sum.
     pub(super) fn bound(&self, query: &ContactQuery, columns: &[Column], solution: &LinearSolution) -> f64 {
         let z: Vec<f64> = solution.z[..self.rows.len()].iter().map(|z| z.max(0.0)).collect();
         let total: f64 = z.iter().sum();
@@ -122,21 +123,21 @@ fn wrench(query: &ContactQuery, push: &super::statics::Wrench) -> Vector6<f64> {
     Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
 }
 
-/// `g·(F, M about the origin)` as a functional of (F, M about `place`).
+/// Returns `g·(F, M about the origin)` as a functional of (F, M about `place`).
 fn about(g: &Vector6<f64>, place: &Vec3) -> Vector6<f64> {
     let (force, moment) = (g.fixed_rows::<3>(0).into_owned(), g.fixed_rows::<3>(3).into_owned());
     let force = force + moment.cross(place);
     Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
-/// (F, M about the origin) taken about `place`.
+/// Returns (F, M about the origin) taken about `place`.
 fn taken_about(w: &Vector6<f64>, place: &Vec3) -> Vector6<f64> {
     let (f, m) = (w.fixed_rows::<3>(0).into_owned(), w.fixed_rows::<3>(3).into_owned());
     let m = m - place.cross(&f);
     Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
 }
 
-/// The pieces of the tree between the cuts of the loads, the root's first, parents before children;
+/// Returns the pieces of the tree between the cuts of the loads, the root's first, parents before children;
 /// and the piece of every link.
 fn nodes(query: &ContactQuery) -> (Vec<Node>, Vec<usize>) {
     let model = query.model;
@@ -164,8 +165,8 @@ fn nodes(query: &ContactQuery) -> (Vec<Node>, Vec<usize>) {
     (nodes, node_of)
 }
 
-/// Each rigid piece passes on the wrench that it gets from its children, from the ground and by its weight; the root has
-/// no one to pass it on to. The root's equations come first.
+/// Returns the equations of balance. Each rigid piece passes on the wrench that it gets from its children,
+/// from the ground and by its weight; the root has no one to pass it on to. The root's equations come first.
 fn balances(
     query: &ContactQuery,
     columns: &[Column],
@@ -185,7 +186,7 @@ fn balances(
         }
     }
     for (index, node) in nodes.iter().enumerate().skip(1) {
-        // To the parent, whose place is elsewhere: the force has a moment there.
+        // To the parent, whose position is elsewhere: the force has a moment there.
         let arm = node.place - nodes[node.parent].place;
         for i in 0..6 {
             equal[6 * node.parent + i].0.push((first(index) + i, 1.0));
@@ -200,7 +201,7 @@ fn balances(
     equal
 }
 
-/// Every load, both ways round unless it is a pull, in parts of its limit.
+/// Returns the rows of every load, in both directions unless it is a pull, in fractions of its limit.
 fn rows(query: &ContactQuery) -> Vec<Row> {
     let mut rows = Vec::new();
     for &index in query.loads {
@@ -225,7 +226,7 @@ fn rows(query: &ContactQuery) -> Vec<Row> {
     rows
 }
 
-/// A load as linear parts: one, or for a moment its components in several directions.
+/// Returns a load as linear parts: one, or for a moment its components in several directions.
 fn parts(load: &Load) -> Vec<(Vec<(usize, f64)>, bool)> {
     match load.kind {
         LoadKind::Joint { .. } => vec![(load.terms.clone(), true)],

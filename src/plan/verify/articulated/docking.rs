@@ -64,7 +64,7 @@ fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &Dock, ledger: &mut Ledg
     let robot = &rollout.tracks.robot;
     let kinematics = Kinematics::new(robot, bonds, robot.base);
     let Bond { a, b, .. } = robot.bonds[dock.bond];
-    // A module that hangs on nothing is nowhere: that is another failure.
+    // Links that nothing connects with the base have no pose: that is another failure.
     if [a, b].iter().any(|port| kinematics.tree.loose.contains(&port.module)) {
         return true;
     }

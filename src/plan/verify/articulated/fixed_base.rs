@@ -1,7 +1,7 @@
 //! Gravity torques of a robot with a fixed base, proved at every instant and not only at samples.
 //!
-//! In the middle of an interval every torque is known; by how much it differs until the ends follows from
-//! how far joints can turn in it. Seen from the piece before a joint, what hangs on it changes by each turn
+//! In the middle of an interval every torque is known; by how much it differs until the ends follows from how
+//! far joints can turn in it. Seen from the piece before a joint, the links distal to it change by each turn
 //! beyond the joint no more than the angle times the arm; and the piece before turns against gravity by no
 //! more than all angles before it. Stretches are halved until that is enough.
 
@@ -21,9 +21,9 @@ use crate::robot::Motion;
 pub(super) enum BetweenSamples {
     /// No load is ever over its limit.
     Proved,
-    /// Not examined, or not decided.
+    /// It was not examined, or not decided.
     Open,
-    /// At this instant one is.
+    /// A load is exceeded at this instant.
     Over { time: f64, load: usize, ratio: f64 },
 }
 
@@ -77,7 +77,7 @@ struct GravityLoads<'a> {
     structure: Structure,
     /// Downwards in the frame of the base's body, of length 1.
     down: Vec3,
-    /// For each link: the step of the kinematics that leads to it.
+    /// The step of the kinematics that leads to each link.
     step_of: Vec<Option<usize>>,
     /// The steps that move, in the order of the structure's cuts.
     moving: Vec<usize>,
@@ -90,16 +90,17 @@ enum Assessment {
     Over { load: usize, ratio: f64 },
 }
 
-/// Of a step: what hangs on it.
+/// The links distal to a step.
 #[derive(Clone, Copy, Default)]
 struct DistalLoad {
-    /// N
+    /// The weight, N.
     weight: f64,
-    /// Sum of weights times places, N·m.
+    /// Sum of weights times positions, N·m.
     moment: Vec3,
     /// Sum of weights times distances from the step's axis' point, N·m.
     arms: f64,
-    /// The joint's angle (or way) at most, and by how much all beyond, weighed, moves at most.
+    /// The greatest displacement of the joint (rad or m), and the greatest displacement of the distal links,
+    /// weighted.
     turn: f64,
     shift: f64,
     /// All angles before it.
@@ -204,7 +205,7 @@ impl<'a> GravityLoads<'a> {
         }
     }
 
-    /// A point on the axis of a step, in the frame of the base's body.
+    /// Returns a point on the axis of a step, in the frame of the base's body.
     fn point(&self, posture: &Posture, step: usize) -> Vec3 {
         let step = &self.model.kinematics.steps[step];
         posture.p[step.link] - posture.R[step.link] * step.offset

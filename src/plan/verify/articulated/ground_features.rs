@@ -15,7 +15,7 @@ pub(super) const CIRCLE_POINTS: u8 = 8;
 /// A circle whose plane is level within this (sine of the angle) has no lowest point of its own.
 const LEVEL: f64 = 1e-9;
 
-/// Nesting of unions that is looked into; deeper parts are not declared by anyone.
+/// The greatest depth of nested unions that is examined; nobody declares deeper ones.
 const UNIONS_MAX: usize = 100_000;
 
 /// A part of a link's surface, in the frame of the link or in another one.
@@ -115,7 +115,7 @@ const EIGHTHS: [(f64, f64); 8] = [
     (-HALF_ROOT, HALF_ROOT),
 ];
 
-/// The unit vector in the plane of a circle that goes down steepest; for a level circle one that
+/// Returns the unit vector in the plane of a circle that goes down steepest; for a level circle one that
 /// depends on its axis alone.
 fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     let e = axis * up.dot(axis) - up;
@@ -169,7 +169,7 @@ fn of_shape(shape: &Shape) -> Vec<Feature> {
     }
 }
 
-/// Only corners of the convex hull can be lowest.
+/// Returns the corners of the convex hull of points: only they can be lowest.
 fn vertices(points: &[Vec3]) -> Vec<Feature> {
     let corners = hull::faces(points).map(|faces| faces.points);
     let corners = corners.as_deref().unwrap_or(points);

@@ -9,23 +9,23 @@ use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, validation};
 
-/// Greatest number of moments of a history; of a longer rollout every second, fourth, ... is kept.
+/// The greatest number of moments of a history; of a longer rollout every second, fourth, ... is kept.
 pub const MOMENTS_MAX: usize = 4096;
 
-/// Of so many moments one tells the loads of the joints, which take longer to find.
+/// The stride of moments that have the loads of the joints, which take longer to find.
 const LOADS_EACH: usize = 8;
 
-/// Points of contact that one moment tells; of more every second, third, ...
+/// The greatest number of contact points of a moment; of more every second, third, ... is kept.
 pub const CONTACTS_MAX: usize = 128;
 
 /// The robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
-    /// Seconds.
+    /// The time, s.
     pub time: f64,
     /// World pose of the base module's body (`X_WB`).
     pub base: Pose,
-    /// Centre of mass of what hangs on the base, in the world, m.
+    /// The centre of mass of the links connected with the base, in the world, m.
     pub centre: Vec3,
     /// Corners of the hull of what touches the ground, counter-clockwise from above, world, m; fewer
     /// than three where the contacts span no area, none without a ground.

@@ -24,9 +24,9 @@ pub(super) struct IntervalState {
     poses: Vec<Pose>,
     /// World orientation, position, angular velocity (rad/s) and velocity (m/s) of each link.
     pub links: Vec<Moving>,
-    /// Of each step of the kinematics.
+    /// The state of each step of the kinematics.
     joints: Vec<JointStretch>,
-    /// Of each level that was asked for: the deviation of each link.
+    /// The deviation of each link, for each level that was asked for.
     deviations: Vec<Vec<Deviation>>,
     known: Vec<bool>,
 }
@@ -47,11 +47,11 @@ pub(super) struct Moving {
 /// Bounds on the difference of a link's velocities, relative to a reference link, from those in the middle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Deviation {
-    /// Of the link's origin, m/s.
+    /// The deviation of the velocity of the link's origin, m/s.
     pub velocity: f64,
-    /// For each metre that a point is away from the link's origin, 1/s.
+    /// The deviation of the velocity for each metre that a point is away from the link's origin, 1/s.
     pub gradient: f64,
-    /// Of the angular velocity, rad/s.
+    /// The deviation of the angular velocity, rad/s.
     turn: f64,
     /// Bound of the angular velocity, rad/s.
     spin: f64,
@@ -153,8 +153,8 @@ struct JointStretch {
 }
 
 impl Deviation {
-    /// Of the next link over a joint. `arms`: the two links' origins from its axis, m; `spins`: the
-    /// two links' angular velocities in the middle, rad/s.
+    /// Returns the deviation of the next link over a joint. `arms`: the two links' origins from its axis, m;
+    /// `spins`: the two links' angular velocities in the middle, rad/s.
     fn beyond(&self, step: &Step, joint: &JointStretch, arms: (f64, f64), spins: (f64, f64)) -> Deviation {
         // An axis of this link turns by at most this angle, and a unit vector moves by no more.
         let tilt = f64::min(2.0, self.spin * joint.half);

@@ -76,7 +76,7 @@ fn drives(robot: &Assembly) -> Vec<Drive> {
     joints.chain(motors).collect()
 }
 
-/// The motion of a drive: the sum of its joints' pieces, cut where any of them begins or ends.
+/// Returns the motion of a drive: the sum of its joints' pieces, cut where any of them begins or ends.
 fn pieces(tracks: &Tracks, drive: &Drive) -> Vec<Piece> {
     let moving: Vec<_> = drive
         .terms

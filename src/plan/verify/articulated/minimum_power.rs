@@ -43,7 +43,7 @@ const ROUNDS_MAX: usize = 100;
 /// The rounds end when the displacement changes by less than this part of the greatest motion.
 const CHANGE_MIN: f64 = 1e-10;
 
-/// A patch and how the robot's own motion would drag it.
+/// A patch with the motion by which the robot's own motion would drag it.
 struct SlidingPatch {
     link: usize,
     /// Part of the weight, halved.
@@ -59,7 +59,7 @@ struct SlidingPatch {
 }
 
 impl SlidingPatch {
-    /// Its slip if the robot is carried by `by`.
+    /// Returns its slip if the robot is displaced by `shift`.
     fn slip(&self, shift: &Vec3) -> [f64; 3] {
         [self.v[0] + shift.x - shift.z * self.y, self.v[1] + shift.y + shift.z * self.x, self.spin + shift.z]
     }
@@ -120,7 +120,7 @@ fn drag(
     }
 }
 
-/// The twist (rotation vector, velocity at the origin) whose exponential is a displacement.
+/// Returns the twist (rotation vector, velocity at the origin) whose exponential is a displacement.
 fn twist(R: &Mat3, t: &Vec3) -> (Vec3, Vec3) {
     let vee = Vec3::new(R[(2, 1)] - R[(1, 2)], R[(0, 2)] - R[(2, 0)], R[(1, 0)] - R[(0, 1)]) / 2.0;
     let (s, c) = (vee.norm(), (R.trace() - 1.0) / 2.0);
@@ -131,7 +131,7 @@ fn twist(R: &Mat3, t: &Vec3) -> (Vec3, Vec3) {
     (o, t - o.cross(t) * 0.5 + o.cross(&o.cross(t)) * factor)
 }
 
-/// The displacement of least friction, by reweighted least squares.
+/// Returns the displacement of least friction, by reweighted least squares.
 fn least_power(patches: &[SlidingPatch]) -> Vec3 {
     let zero = Vec3::zeros();
     let greatest = patches.iter().map(|d| libm::sqrt(d.square(&d.slip(&zero)))).fold(0.0, f64::max);

@@ -12,15 +12,15 @@ pub struct Model<'a> {
     pub robot: &'a Assembly,
     /// Its kinematics from the base.
     pub kinematics: Kinematics,
-    /// One for every link of the assembly, loose ones too.
+    /// The bodies, one for every link of the assembly, loose ones too.
     pub bodies: Vec<Body>,
-    /// Links that hang on the base, in order of link.
+    /// The links connected with the base, in order of link.
     pub attached: Vec<usize>,
-    /// Of the attached links, in order of link.
+    /// The features of the attached links, in order of link.
     pub features: Vec<Feature>,
     /// The link of each feature.
     pub link_of: Vec<usize>,
-    /// Of the attached links, kg.
+    /// The mass of the attached links, kg.
     pub mass: f64,
 }
 
@@ -29,9 +29,9 @@ pub struct Model<'a> {
 pub struct Body {
     /// The module that it belongs to.
     pub module: usize,
-    /// Kilograms.
+    /// The mass, kg.
     pub mass: f64,
-    /// In the link's frame, m.
+    /// The centre of mass in the link's frame, m.
     pub com: Vec3,
     /// Friction coefficient on the ground.
     pub friction: f64,

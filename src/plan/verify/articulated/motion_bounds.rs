@@ -8,9 +8,9 @@ use crate::plan::{Tracks, polynomial};
 #[derive(Clone, Debug)]
 pub(super) struct MotionBounds {
     start: Vec<f64>,
-    /// Of each joint, in order of time.
+    /// The pieces of each joint, in order of time.
     pieces: Vec<Vec<Piece>>,
-    /// Of each joint: when its rate jumps, and by how much.
+    /// The jumps of each joint's rate: (time, size).
     jumps: Vec<Vec<(f64, f64)>>,
 }
 
@@ -110,7 +110,7 @@ fn position_and_rate(pieces: &[Piece], start: f64, t: f64) -> (f64, f64) {
     (polynomial::value(&piece.control, u), polynomial::value(&piece.rates, u))
 }
 
-/// A track at rest before, after and between its pieces.
+/// Returns the jumps of the rate of a track, which is at rest before, after and between its pieces.
 fn jumps(pieces: &[Piece]) -> Vec<(f64, f64)> {
     let mut jumps = Vec::new();
     let (mut since, mut rate) = (f64::NEG_INFINITY, 0.0);

@@ -1,11 +1,11 @@
 //! Reference links: for each pair of modules the link relative to which their motion is bounded, by a centroid
 //! decomposition of the tree of modules.
 //!
-//! The deviation of a link from uniform motion is bounded by a sum over the joints between it and the
-//! frame that it is seen from; from the far end of a long snake that sum is hopeless. A centroid
-//! splits the tree of modules into halves at most; pairs on different sides of it are seen from
-//! it, and each side is split again. So every pair has one frame on the path between its two
-//! modules, its sums run over that path alone, and there are only log₂ n frames for each link.
+//! The deviation of a link from uniform motion is bounded by a sum over the joints between it and the frame
+//! that it is seen from; from the far end of a long snake that sum is too loose. A centroid splits the tree
+//! of modules into halves at most; pairs on different sides of it are seen from it, and each side is split
+//! again. So every pair has one frame on the path between its two modules, its sums run over that path alone,
+//! and there are only log₂ n frames for each link.
 
 use crate::robot::{Assembly, Kinematics};
 
@@ -16,7 +16,7 @@ const NOWHERE: u32 = u32::MAX;
 pub(super) struct ReferenceLinks {
     /// The levels of the decomposition, coarsest first.
     pub levels: Vec<ReferenceLevel>,
-    /// For each level, the centroid whose body link is the reference of each module.
+    /// The centroid whose body link is the reference of each module, for each level.
     centroids: Vec<Vec<u32>>,
 }
 
@@ -25,13 +25,13 @@ pub(super) struct ReferenceLinks {
 pub(super) struct ReferenceLevel {
     /// The body link of each centroid.
     pub origins: Vec<usize>,
-    /// From links already reached to their neighbours.
+    /// The steps from links already reached to their neighbours.
     pub hops: Vec<Hop>,
     /// The reference link of each link.
     pub origin_of: Vec<u32>,
 }
 
-/// From one link to a neighbour over a step of the kinematics.
+/// A step from a link to a neighbour over a step of the kinematics.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hop {
     /// The link already reached.
@@ -71,8 +71,8 @@ impl ReferenceLinks {
         ReferenceLinks { levels, centroids }
     }
 
-    /// The level at which a centroid lies between two modules, or is one of them. A module is looked
-    /// at from itself.
+    /// Returns the level at which a centroid lies between two modules, or is one of them. A module is its own
+    /// reference.
     pub(super) fn between(&self, a: usize, b: usize) -> usize {
         let same = |level: &&Vec<u32>| level[a] == level[b] && level[a] != NOWHERE;
         self.centroids.iter().take_while(same).count() - 1
@@ -138,7 +138,7 @@ impl ReferenceLevel {
     }
 }
 
-/// The modules connected with `start`, each with the index of its predecessor in the list.
+/// Returns the modules connected with `start`, each with the index of its predecessor in the list.
 fn reach(neighbours: &[Vec<usize>], taken: &[bool], start: usize) -> Vec<(usize, usize)> {
     let mut part = vec![(start, 0)];
     let mut next = 0;
@@ -155,7 +155,7 @@ fn reach(neighbours: &[Vec<usize>], taken: &[bool], start: usize) -> Vec<(usize,
     part
 }
 
-/// The module whose removal leaves the smallest greatest piece; the first in the list of equals.
+/// Returns the module whose removal leaves the smallest greatest piece; the first in the list of equals.
 fn centroid(part: &[(usize, usize)]) -> usize {
     let mut below = vec![1usize; part.len()];
     let mut greatest = vec![0usize; part.len()];

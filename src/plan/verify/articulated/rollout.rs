@@ -32,7 +32,7 @@ pub struct Rollout<'a> {
 
 /// The robot at one sample.
 pub struct Sample<'a> {
-    /// Seconds.
+    /// The time, s.
     pub time: f64,
     /// The sample before; the same as `time` at the start.
     pub before: f64,
@@ -56,7 +56,7 @@ pub struct Sample<'a> {
     pub tip: Option<&'a TipOver>,
     /// Slip of loaded links since the sample before, m, with their part of the weight.
     pub slips: &'a [(usize, f64, f64)],
-    /// At the start, or where a ground begins: the angle by which the robot turned to settle, rad.
+    /// The angle by which the robot turned to settle, rad; at the start, or where a ground begins.
     pub settling: Option<f64>,
 }
 
@@ -82,17 +82,17 @@ pub enum RolloutEnd {
     AtEnd,
     /// Too many samples; it got to this time.
     Limit(f64),
-    /// Whoever watched had seen enough.
+    /// The observer ended the rollout.
     Stopped,
 }
 
 /// Halvings of one step: times are that close that nothing moves between them.
 const HALVINGS_MAX: usize = 50;
 
-/// A state from which a rollout goes on.
+/// A state from which a rollout continues.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
-    /// Seconds.
+    /// The time, s.
     pub time: f64,
     /// The stance at that time.
     pub stance: Stance,
@@ -167,7 +167,7 @@ impl<'a> Stepper<'a> {
         Stepper { rollout, model, bonds, stance, now, joints, poses, world, held_since, samples: 0 }
     }
 
-    /// The first sample.
+    /// Observes the first sample.
     fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
         let pose = self.rollout.tracks.start.base;
         let kept = if self.on_ground() { Kept::Nothing } else { unsettled(&self.world) };
@@ -195,7 +195,7 @@ impl<'a> Stepper<'a> {
         RolloutEnd::AtEnd
     }
 
-    /// One sample, or several where a step has to be halved.
+    /// Takes one sample, or several where a step has to be halved.
     fn advance(
         &mut self,
         target: f64,
@@ -314,7 +314,7 @@ impl<'a> Stepper<'a> {
         TipOver { time: fallen, fall, motion, edge, excused }
     }
 
-    /// Bonds and worlds that begin at `t`.
+    /// Returns the bonds and worlds that begin at `t`.
     fn changes(&self, t: f64) -> Changes {
         let bonds = bonds_at(self.rollout.tracks, t) != self.bonds;
         Changes { bonds, world: world_at(self.rollout.worlds, t) != self.world }
@@ -340,7 +340,7 @@ impl<'a> Stepper<'a> {
         step
     }
 
-    /// The same stance seen through another tree of bonds: nothing moves.
+    /// Rebuilds the stance over another tree of bonds: nothing moves.
     fn restand(&mut self) {
         let pose = self.stance.base_pose(&self.model);
         let held = self.stance.held;

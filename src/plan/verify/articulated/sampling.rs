@@ -48,7 +48,7 @@ pub(super) fn count(
     between.fold(1, usize::saturating_add)
 }
 
-/// An upper bound on how far a joint moves, back and forth: the length of its control polygon.
+/// Returns an upper bound on how far a joint moves, back and forth: the length of its control polygon.
 fn travel(tracks: &Tracks, joint: JointId, t0: f64, t1: f64) -> f64 {
     let Some(track) = tracks.track(joint) else { return 0.0 };
     let first = track.segments.partition_point(|s| s.end <= t0);
@@ -69,7 +69,7 @@ fn travel(tracks: &Tracks, joint: JointId, t0: f64, t1: f64) -> f64 {
     sum
 }
 
-/// Position just before a time: where the joint jumps, not where it jumps to.
+/// Returns the position just before a time: where the joint jumps, that before the jump.
 fn before(tracks: &Tracks, joint: JointId, t: f64) -> f64 {
     let start = tracks.start.joints[joint.0 as usize];
     let Some(track) = tracks.track(joint) else { return start };

@@ -143,7 +143,7 @@ impl Motion {
 }
 
 impl IntervalState {
-    /// World position and velocity of a body's centre.
+    /// Returns the world position and velocity of a body's centre.
     fn centre(&self, body: &Body) -> Motion {
         let link = &self.links[body.carrier];
         let arm = link.R * body.part.centre;

@@ -13,7 +13,7 @@ use crate::plan::verify::support_polygon;
 
 /// Longest trial turn, rad (2°).
 const STEP_MAX: f64 = 0.034_906_585_039_886_59;
-/// Of the predicted fall, a trial must show this part.
+/// The fraction of the predicted fall that a trial must show.
 const ACCEPTED_PART: f64 = 0.1;
 /// Weight of long turns at the beginning, rad²/m, for robots of up to a metre.
 const REACH_START: f64 = 1e3;
@@ -43,8 +43,8 @@ pub(super) fn height(features: &[Feature], up: &Vec3) -> f64 {
     -features.iter().map(|feature| feature.lowest(up)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the attitude at which a robot comes to rest from its present one; `features` have the centre of mass at the origin and
-/// +z up.
+/// Returns the attitude at which a robot comes to rest from its present one; `features` have the centre of
+/// mass at the origin and +z up.
 pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
     let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);
     let mut turn = Mat3::identity();
@@ -109,7 +109,7 @@ fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_ma
     planes
 }
 
-/// The turn to try, not longer than `step`, and the height that the planes promise there.
+/// Returns the turn to try, not longer than `step`, and the height that the planes promise there.
 fn trial(planes: &[SupportPlane], step: f64, reach: f64) -> (Vec3, f64) {
     let mut tau = REACH_START / reach.max(1.0) / reach.max(1.0);
     let mut basis = lowest_bundle(planes, tau);
@@ -150,7 +150,7 @@ fn lowest_bundle(planes: &[SupportPlane], tau: f64) -> Basis {
     basis
 }
 
-/// The best basis among the new plane and up to two of the old.
+/// Returns the best basis among the new plane and up to two of the old.
 fn exchanged(basis: &Basis, plane: SupportPlane, tau: f64) -> Option<Basis> {
     let old = &basis.planes;
     let mut best: Option<Basis> = None;
@@ -215,9 +215,9 @@ fn keep_lowest(bundle: &mut Vec<Vec3>, features: &[Feature], up: &Vec3, level: f
     bundle.drain(..excess);
 }
 
-/// An unstable balance, on one point or one edge exactly under the centre of mass, is left by
-/// shaking: the first of eight small turns that lets the centre of mass fall. A robot that stands
-/// must not be shaken: it could be pushed over its edge.
+/// Returns the first of eight small turns that lets the centre of mass fall: it leaves an unstable balance,
+/// on one point or one edge exactly under the centre of mass. A robot that stands must not be perturbed: it
+/// could be pushed over its edge.
 fn perturbed(features: &[Feature], turn: &Mat3, level: f64, tolerances: &Tolerances) -> Option<(Mat3, f64)> {
     let up = turn.transpose() * Vec3::z();
     let mut support = Vec::new();

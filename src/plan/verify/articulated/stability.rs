@@ -26,9 +26,9 @@ pub(super) struct Monitor<'a> {
 /// An interval of time without support.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SupportLoss {
-    /// When it begins, s.
+    /// The time at which it begins, s.
     pub since: f64,
-    /// When it ends, s.
+    /// The time at which it ends, s.
     pub until: f64,
     /// Fall of the centre of mass, m; `None` without a tip-over.
     pub drop: Option<f64>,
@@ -131,13 +131,13 @@ impl<'a> Monitor<'a> {
         };
     }
 
-    /// Support is back at `t`: was it away for too long?
+    /// Ends an interval without support at `t`; returns it if it was too long.
     fn ended(&mut self, t: f64) -> Option<SupportLoss> {
         let loss = self.loss.take()?;
         (t - loss.since > self.settings.unstable_for).then_some(SupportLoss { until: t, ..loss })
     }
 
-    /// Margin in the support by the rule of the settings, and the modules' links at its edge.
+    /// Returns the margin in the support by the rule of the settings, and the modules' links at its edge.
     fn support(&self, sample: &Sample) -> Option<(Margin, [usize; 2])> {
         match self.settings.stability {
             Stability::Footprint => {
@@ -150,8 +150,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Between two samples no tip is possible where the centre of mass is further inside its support
-    /// than any motion of the step can bring it.
+    /// Proves the step between two samples: no tip is possible where the centre of mass is further inside its
+    /// support than any motion of the step can bring it.
     fn prove(&mut self, sample: &Sample) {
         let stance = sample.stance;
         let safe = self.settings.stability == Stability::Footprint
@@ -220,14 +220,14 @@ impl SupportLoss {
     }
 }
 
-/// Modules of the links at an edge.
+/// Returns the modules of the links at an edge.
 fn edge_names(sample: &Sample, links: &[usize]) -> Vec<String> {
     let mut names: Vec<String> = links.iter().map(|&l| sample.model.module_name(l).to_owned()).collect();
     names.dedup();
     names
 }
 
-/// An edge by the modules at its ends; where they are one module, by its parts.
+/// Returns an edge in words: by the modules at its ends; where they are one module, by its parts.
 fn edge_words(sample: &Sample, links: &[usize]) -> String {
     let names = edge_names(sample, links);
     let [module] = names.as_slice() else { return names.join(" and ") };
@@ -239,8 +239,8 @@ fn edge_words(sample: &Sample, links: &[usize]) -> String {
     format!("{module} ({})", links.iter().map(part).collect::<Vec<_>>().join(" and "))
 }
 
-/// The paper's rule: the mean of the modules' centres (it takes them for equally heavy) in the hull
-/// of the lowest centres. It rejects a straight chain and a single module.
+/// Returns the margin by the paper's rule: of the mean of the modules' centres (it takes them for equally
+/// heavy) in the hull of the lowest centres. It rejects a straight chain and a single module.
 fn centres(sample: &Sample, tolerances: &Tolerances) -> Option<(Margin, [usize; 2])> {
     let kinematics = &sample.model.kinematics;
     let bodies: Vec<usize> = kinematics.tree.order.iter().map(|&(m, _)| kinematics.link(m, 0)).collect();

@@ -16,7 +16,7 @@ use nalgebra::{Rotation3, UnitQuaternion};
 pub struct Stance {
     /// Poses of the links in the base's frame.
     pub posture: Posture,
-    /// Orientation of the base's frame, before the turn by the place's yaw.
+    /// Orientation of the base's frame, before the turn by the yaw of the planar pose.
     pub R: Mat3,
     /// Height of the centre of mass, m.
     pub height: f64,
@@ -101,7 +101,7 @@ impl Stance {
         let turned =
             UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rest.turn)).angle();
         stance.turn(&rest);
-        // The base stays over the place where it was drawn, whatever the settling did.
+        // The base stays over the point where it was drawn, whatever the settling did.
         let drift = stance.base_pose(model).translation.vector - X_WB.translation.vector;
         stance.place.x -= drift.x;
         stance.place.y -= drift.y;

@@ -19,7 +19,7 @@ pub(super) struct Structure {
     /// True if some motor's effort does not follow from those of its joints.
     pub motors_open: bool,
     cuts: Vec<Cut>,
-    /// Preorder number of each link, and the last number of those that hang on it.
+    /// Preorder number of each link, and the last number of those distal to it.
     span: Vec<(usize, usize)>,
     /// Links of the far sides of bonds that close loops: (bond, link at a, link at b).
     pub closing: Vec<(usize, usize, usize)>,
@@ -52,9 +52,9 @@ pub(super) enum LoadKind {
 /// A cut of the tree, and the component of force or moment asked for.
 #[derive(Clone, Copy, Debug)]
 enum Cut {
-    /// At the joint of a step, by the joint's coordinate.
+    /// A cut at the joint of a step, by the joint's coordinate.
     Step { link: usize, motion: Motion, offset: Vec3, parent: usize },
-    /// At a bond, in the frame of the near port: force or moment along an axis of it.
+    /// A cut at a bond, in the frame of the near port: force or moment along an axis of it.
     Bond { link: usize, near: usize, origin: Vec3, axis: Vec3, moment: bool },
 }
 
@@ -214,8 +214,8 @@ impl Structure {
         }
     }
 
-    /// With `motor = Σ factor · joint` the joints' torques are `Fᵀ` times the motors': where F has an
-    /// inverse, the motors' follow.
+    /// Adds the loads of motors. With `motor = Σ factor · joint` the joints' torques are `Fᵀ` times the
+    /// motors': where F has an inverse, the motors' follow.
     fn motors(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
         for &(module, _) in &model.kinematics.tree.order {
             let motors = &model.robot.module_type(module).motors;
@@ -340,7 +340,7 @@ fn spans(model: &Model) -> Vec<(usize, usize)> {
     for step in model.kinematics.steps.iter().rev() {
         size[step.parent] += size[step.link];
     }
-    // Loose links hang on nothing: an empty span each.
+    // Loose links have none distal to them: an empty span each.
     let mut first = vec![usize::MAX; links];
     first[model.base_link()] = 0;
     let mut next: Vec<usize> = first.iter().map(|f| f.wrapping_add(1)).collect();

@@ -8,8 +8,9 @@ use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Settings, Tracks, World, WorldFrom};
 use crate::robot::{Assembly, State};
 
-/// Returns the corners of the support polygon, the hull of what touches the ground, counter-clockwise from above, in the frame of the
-/// base module's body as it rests; m. Fewer than three where the contacts span no area.
+/// Returns the corners of the support polygon, the hull of what touches the ground, counter-clockwise from
+/// above, in the frame of the base module's body as it rests; m. Fewer than three where the contacts span no
+/// area.
 pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
     let tracks = Tracks::at_rest(robot.clone(), state.clone());
     let rollout = Rollout {

@@ -1,4 +1,4 @@
-//! The tolerances of the judgement of articulated robots.
+//! Tolerances and thresholds of the judgement of articulated robots.
 
 /// Tolerances of the judgement of collisions.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Quasi-static loads of joints, motors and bonds, compared with their limits.
 //!
-//! First with the loads that the ground takes without friction: where nothing is overloaded with
-//! those, forces exist. Loads whose far side touches nothing are the same whatever the forces are.
-//! Only for others, and only where the first answer is no, the best contact forces are sought.
+//! First with the loads that the ground takes without friction: where nothing is overloaded with those,
+//! forces exist. Loads whose far side touches nothing are the same whatever the forces are. The best contact
+//! forces are sought only for others, and only where the first answer is no.
 
 use super::contact::ContactPoint;
 use super::contact_forces::{ContactForces, ContactQuery, WarmStart};
@@ -32,7 +32,7 @@ pub(super) struct Monitor<'a> {
     unknown: usize,
     /// Size of all LPs solved so far.
     effort: usize,
-    /// Samples at which it was not decided whether forces exist that overload nothing.
+    /// The samples at which the existence of forces that overload nothing was not decided.
     undecided: usize,
     uneven: Option<UnevenForces>,
     energy: f64,
@@ -221,8 +221,8 @@ impl<'a> Monitor<'a> {
         keep_least(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
     }
 
-    /// Remembers where the loads of even contact forces were too great, and whether others without
-    /// friction would do.
+    /// Records where the loads of even contact forces were too great, and if others without friction would
+    /// do.
     fn uneven(&mut self, time: f64, query: ContactQuery, worst: (usize, f64), best: &ContactForces) {
         if self.uneven.as_ref().is_some_and(|u| worst.1 <= UNEVEN_STEP * u.even) {
             return;
@@ -233,7 +233,7 @@ impl<'a> Monitor<'a> {
         self.uneven = Some(UnevenForces { time, even: worst.1, best: best.ratio, name, needs_friction });
     }
 
-    /// Work of the motors since the sample before: what they give, not what they get back.
+    /// Adds the work of the motors since the sample before: what they give, not what they get back.
     fn work(&mut self, sample: &Sample, compiled: &Compiled, held: &[f64]) {
         let effort = |joint| compiled.structure.joint_effort(joint, held, &compiled.effects);
         let efforts: Vec<f64> = (0..sample.joints.len()).map(effort).collect();
@@ -407,12 +407,11 @@ pub(super) fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, l
     observe.failures.iter().any(|f| f.name == name)
 }
 
-/// Size of LPs (columns and loads) that are solved for the sake of an exact margin;
-/// after that only where it is open whether forces exist at all. About 500 LPs of a walker of
-/// 15 modules, 20 of a snake of 300.
+/// Size of LPs (columns and loads) that are solved for the sake of an exact margin; after that only where the
+/// existence of forces is open. About 500 LPs of a walker of 15 modules, 20 of a snake of 300.
 const EFFORT_FOR_MARGIN: usize = 60_000;
 
-/// The best forces: those of the sample before, brought to balance here, do if nothing is worse than
+/// Returns the best forces: those of the sample before, brought to balance here, do if nothing is worse than
 /// what was seen already; otherwise by an LP.
 fn best(
     query: &ContactQuery,
@@ -431,7 +430,7 @@ fn best(
     Some(best)
 }
 
-/// The weights of all links.
+/// Returns the weights of all links.
 fn weights(sample: &Sample) -> Vec<Wrench> {
     let (model, stance) = (sample.model, sample.stance);
     let push = |&link: &usize| {
@@ -464,7 +463,7 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
     let held = structure.held(sample.model, sections, &wrenches);
     let ratios = structure.loads.iter().map(|load| structure.size(load, &held) / load.limit).collect();
     let all: Vec<usize> = (0..structure.loads.len()).collect();
-    // A base that is bolted down is balanced by its holder, whatever loops carry.
+    // A base fixed in the world is balanced by its fixture, whatever loops carry.
     let balanced = match sample.world.ground {
         Ground::Held => true,
         _ => libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held,
@@ -473,7 +472,7 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
     Loads { ratios, held, judged }
 }
 
-/// Of some loads those that no forces of the ground can change: nothing beyond their cuts, or
+/// Returns those of some loads that no forces of the ground can change: nothing beyond their cuts, or
 /// everything, touches it, and no loop passes through them.
 fn determinate_loads(
     structure: &Structure,

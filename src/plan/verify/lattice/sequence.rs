@@ -124,7 +124,7 @@ impl Judgement<'_> {
         Ok(())
     }
 
-    /// K7, and the start by itself for plans that do not move at first.
+    /// Checks K7, and the start by itself for plans that do not move at first.
     fn start(&self, cubes: &[Cube], grid: Grid, ledger: &mut Ledger) {
         let change = Change::of(cubes, cubes);
         self.sizes(&change, grid.lines, 0.0, None, ledger);

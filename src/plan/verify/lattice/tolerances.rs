@@ -1,4 +1,4 @@
-//! The tolerances of the judgement of lattices.
+//! Tolerances and thresholds of the judgement of lattices.
 
 /// Tolerances of the judgement of lattices. Everything else is compared exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -35,7 +35,7 @@ pub(super) fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance:
     // A cell of the grid is as large as a box is in the mean.
     let sizes: f64 = boxes.iter().map(|swept| (swept.high - swept.low).max()).sum();
     let cell = sizes / boxes.len().max(1) as f64;
-    // Twice the clearance, so that a distance is told where nothing is nearer.
+    // Twice the clearance, so that a distance is reported where nothing is nearer.
     let reach = 2.0 * clearance;
     let mut found = Vec::new();
     near_boxes(&boxes, reach, cell, |i, j| {

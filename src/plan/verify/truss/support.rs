@@ -10,7 +10,7 @@ use crate::units::{Dimension, quantity};
 
 const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 
-/// Judges static stability step after step, and records slip on the way.
+/// Judges static stability step after step, and records the slip.
 pub(super) struct Standing<'a> {
     judgement: &'a Judgement<'a>,
     contact: f64,

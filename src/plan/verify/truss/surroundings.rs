@@ -76,7 +76,7 @@ impl Judgement<'_> {
         // Broad phase: bounding spheres.
         let (p, q) = (step.from[a], step.from[b]);
         let gap = ((p + q) / 2.0 - part.centre).norm() - (p - q).norm() / 2.0 - part.radius;
-        // Twice the clearance, so that a distance is told where nothing is nearer.
+        // Twice the clearance, so that a distance is reported where nothing is nearer.
         if gap > 2.0 * clearance + fastest {
             return;
         }

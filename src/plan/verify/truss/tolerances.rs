@@ -1,4 +1,4 @@
-//! The tolerances of the judgement of trusses.
+//! Tolerances and thresholds of the judgement of trusses.
 
 /// Tolerances of the judgement of trusses. Lengths in metres, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
