@@ -73,7 +73,7 @@ impl Interpreter<'_> {
 
     /// Returns the modules that may be the base where none is named: that of each part than which no other is
     /// heavier. A car with a long arm stands on the car, whichever module is nearest to the centre of mass.
-    /// Where all parts are single modules, every module is a candidate.
+    /// Every module is a candidate where all parts are single modules.
     fn base_candidates(&mut self, design: &Rc<Design>, assembly: &Assembly) -> Eval<Vec<usize>> {
         let Some(parts) = design.config().and_then(|config| config.parts.get()) else { return Ok(vec![0]) };
         let mass_of = |part: &PartElement| -> f64 {

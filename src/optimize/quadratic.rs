@@ -66,8 +66,8 @@ impl QuadraticProgram {
     /// The reason that there is none. `Numerical` also where a strictly convex program has a solution that
     /// rounding hides.
     pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
-        // Where the active-set method fails the other decides, for rounding may hide the solution; if that
-        // can't, either, what was found first holds.
+        // The other method decides where the active-set method fails, for rounding may hide the solution; if
+        // that can't, either, the first result holds.
         let mut doubt = Unsolved::Numerical;
         if let Some(active) = &mut self.active {
             match active.solve() {

@@ -3,7 +3,7 @@
 //! The folding is undone, one hinge after the other, back to the flat pattern: a depth-first search over the
 //! sets of hinges that are still folded, with dead ends remembered. Most panels are obstacles to each other
 //! when they are folded, so it is there that choices matter. Of the hinges that can be opened that one goes
-//! first which a preferred order folds last. What was found is put into steps again: a hinge folds with the
+//! first which a preferred order folds last. The order found is put into steps again: a hinge folds with the
 //! one before it where neither carries the other and nothing meets.
 
 use super::layout::Layout;

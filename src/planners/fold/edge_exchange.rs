@@ -19,7 +19,7 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let mut paths: Vec<Option<Vec<usize>>> = vec![None; n];
     paths[root] = Some(Vec::new());
     let mut hinges = Vec::with_capacity(n - 1);
-    // By face: the cheapest hinge to add it by so far.
+    // The cheapest hinge so far to add each face by.
     let mut best: Vec<(f64, usize, usize)> = vec![(f64::INFINITY, 0, 0); n];
     let mut newest = root;
     for _ in 1..n {

@@ -346,8 +346,8 @@ impl<'t> Lagrangian<'t> {
 /// Rounds between two calls of the Lagrangian heuristic.
 const LAYOUTS_EVERY: usize = 20;
 
-/// Returns the hinges of a layout made of one arc into each face (Lagrangian heuristic). What is connected to
-/// the root stays as it is; cycles are joined to it across the first hinge that leads there.
+/// Returns the hinges of a layout made of one arc into each face (Lagrangian heuristic). Faces connected to
+/// the root stay as they are; cycles are joined to it across the first hinge that leads there.
 pub fn repaired(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
     let n = target.faces.len();
     let hinge_of = |arc: usize| target.sides[arc / 3][arc % 3].expect("arcs lead across hinges");

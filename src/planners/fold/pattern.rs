@@ -134,8 +134,8 @@ fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
     !parts(a, b) && !parts(b, a)
 }
 
-/// Returns true if the line through a side of `a` has all of `b` on its outer side. Where a corner lies is
-/// computed without rounding; the tolerance is for the rounding of the corners themselves.
+/// Returns true if the line through a side of `a` has all of `b` on its outer side. The side on which a
+/// corner lies is computed without rounding; the tolerance is for the rounding of the corners themselves.
 fn parts(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let coordinate = |[x, y]: Point| Coord { x, y };
     (0..3).any(|k| {

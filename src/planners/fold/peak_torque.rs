@@ -10,8 +10,8 @@
 //! Σ_r λ_r load_r + Σ over faces not yet dealt of min over r of λ_r K(r, j)
 //! ```
 //!
-//! and the shares are those that make this greatest at the beginning. Where every face is dealt, a tree is
-//! grown in each part. If none of its hinges carries more than the root's, its peak is that of the division;
+//! and the shares are those that make this greatest at the beginning. A tree is grown in each part once every
+//! face is assigned. If none of its hinges carries more than the root's, its peak is that of the division;
 //! else the division is kept as a lower bound.
 
 use super::layout::Layout;

@@ -5,10 +5,10 @@
 //! already, and these collide. Nothing collides where a ring is cut into strips that roll up each in its own
 //! sector, on one strip that rolls up last. Such layouts are found as maximum spanning trees by properties of
 //! the hinges: trees of those that are longest, most convex, or fold the most or the least, and of nearly
-//! equal trees those that cost the least. Where few collisions occur, the cheap layouts themselves are a
-//! beginning. Faces that still overlap in the plane or collide while they fold are separated by exchanges of
-//! one hinge for another between the two, as in `tabu_unfolding`; and collision-free layouts are made cheaper
-//! by exchanges that keep them so. Nothing is proved, and collisions are sampled: the judge decides.
+//! equal trees those that cost the least. The cheap layouts themselves are a beginning where few collisions
+//! occur. Faces that still overlap in the plane or collide while they fold are separated by exchanges of one
+//! hinge for another between the two, as in `tabu_unfolding`; and collision-free layouts are made cheaper by
+//! exchanges that keep them so. Nothing is proved, and collisions are sampled: the judge decides.
 
 use super::edge_exchange::{self, Rules};
 use super::layout::Layout;

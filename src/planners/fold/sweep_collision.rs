@@ -1,5 +1,5 @@
 //! Sampled sweep collision check of panels in motion: it spares the judge plans that it would reject. Panels
-//! are triangles without thickness (separating axes), or solids. What passes is not proved.
+//! are triangles without thickness (separating axes), or solids. A layout that passes is not proved.
 
 use super::kinematics::poses_at;
 use super::layout::Layout;

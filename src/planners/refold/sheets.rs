@@ -471,7 +471,7 @@ impl<'t> Sheet<'t> {
 
 /// Returns the lower bound on the number of connections that have to be made, at most `most`. Those that both
 /// shapes have join panels to pieces, each a part of a layout of either; the other connections of the second
-/// shape are made. Whether so few pieces do is searched exhaustively, as far as the steps reach.
+/// shape are made. The search for so few pieces is exhaustive, as far as the steps reach.
 fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
     let mut left = budget;
     (0..most).find(|more| can_do_with(from, to, more + 1, &mut left)).unwrap_or(most)

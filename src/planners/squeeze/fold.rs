@@ -6,9 +6,9 @@
 //!
 //! In bits: before fold `k` cell `i` is at `i >> k` of its row; it goes up in the fold if bits 0 and `k + 1`
 //! of `i` differ. So its row, written in bits, is `(i0 ^ i1) (i0 ^ i2) .. (i0 ^ ik)`, and all positions are
-//! affine in the bits of cells of one parity. Where an odd cell is last, its partner is missing, and nothing
-//! else changes: until the last fold no row is empty. In the last fold rows of one cell stay one row, and
-//! cells are counted.
+//! affine in the bits of cells of one parity. The partner of an odd last cell is missing, and nothing else
+//! changes: until the last fold no row is empty. In the last fold rows of one cell stay one row, and cells
+//! are counted.
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE, by_bits, free_bits};

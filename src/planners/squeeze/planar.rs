@@ -141,7 +141,7 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
     /// A cell's part in the hairpin of its column.
     #[derive(Clone, Copy, Default)]
     struct Pin {
-        /// Of the box of two levels.
+        /// The level of the box of two levels.
         level: i64,
         /// The last of an odd column, which stays whole.
         alone: bool,

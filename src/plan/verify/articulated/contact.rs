@@ -128,7 +128,7 @@ const GRADIENT_MIN: f64 = 1e-14;
 
 /// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass and N ≥
 /// 0, where κ falls with the gap. Solved by its Lagrangian dual in three unknowns: `N = κ max(0, λ·g)` with
-/// `g = (1, x, y)`. Where no such loads exist, the moment left is least.
+/// `g = (1, x, y)`. The moment left is least where no such loads exist.
 fn spread(contact_points: &mut [ContactPoint], tolerances: &Tolerances) {
     let near = |t: &ContactPoint| t.gap <= tolerances.gap_loaded;
     let size =
