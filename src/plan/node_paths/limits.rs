@@ -71,19 +71,19 @@ pub struct Margins {
     /// The distance to the nearer end of the range of a strut's lengths, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
-    /// The distance, beyond the clearance, between struts that share no node, m.
+    /// The distance between struts that share no node minus the clearance, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// The distance, beyond the clearance, from obstacles, m.
+    /// The distance from obstacles minus the clearance, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub obstacle: Option<f64>,
     /// The distance of the centre of mass inside the hull of the nodes on the ground, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub support: Option<f64>,
-    /// The angle between struts that share a node, beyond the least, rad.
+    /// The angle between struts that share a node minus the least angle, rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
-    /// The least singular value of the rigidity matrix, above its limit.
+    /// The least singular value of the rigidity matrix minus its limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
     /// The distance to the nearer end of the range of a sum of lengths, m.
