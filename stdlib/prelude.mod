@@ -1798,7 +1798,7 @@ extern type Morphing is Plan {
 ///
 /// The target is moved so that its middle is the middle of the nodes; it is not scaled. The outer surface
 /// is that of the truss's hull, if triangles of struts make it up, else that of its tetrahedra of struts.
-/// Each step is a quadratic programme (Gauss and Newton's step for the distances both ways, with springs
+/// Each step is a quadratic program (Gauss and Newton's step for the distances both ways, with springs
 /// in all struts that vanish) under the limits of the struts: length, and clearance between struts that
 /// share no node, which hold between the steps, too. It is done when both distances, as root mean squares,
 /// are within `tolerance`; after `budget` steps the best so far is given, with a warning.
@@ -1859,7 +1859,7 @@ extern type Travel is Plan {
 ///
 /// The places of the path are in the world, in which the truss begins where its nodes were declared, put
 /// down on the ground at height 0 and fallen to where it rests; heights of the path mean nothing. A place
-/// is reached within a quarter of a strut. Each step is a quadratic programme under the limits of the
+/// is reached within a quarter of a strut. Each step is a quadratic program under the limits of the
 /// struts, with the `objective` of the linear-actuator-robots paper: `springs` keeps all struts near their
 /// first length (17), `lengths` changes lengths as little as possible (14, with the motion of nodes beside
 /// it, without which it gets stuck), `restoring` is `lengths` towards the first lengths, `fewest` moves

@@ -34,7 +34,7 @@ impl Run<'_> {
             return Err(Refusal::at(cause, Reason::BadNumber { what: "a duration", value: duration }));
         }
         let positions = self.positions();
-        let played = self.rehearse(body, positions, cause)?;
+        let played = self.run_body(body, positions, cause)?;
         let duration = tick_after(duration);
         let scale = if played.duration > 0.0 { duration / played.duration } else { 1.0 };
         let at = |t: f64| if t == played.duration { duration } else { tick_near(t * scale).min(duration) };
@@ -109,9 +109,9 @@ impl Run<'_> {
             return Err(Refusal::at(cause, Reason::BadNumber { what: "a phase", value: shift }));
         }
         let positions = self.positions();
-        let first = self.rehearse(body, positions, cause)?;
+        let first = self.run_body(body, positions, cause)?;
         let goes = moves(&first);
-        let second = self.rehearse(body, first.end, cause)?;
+        let second = self.run_body(body, first.end, cause)?;
         let duration = second.duration;
         if goes && !moves(&second) {
             return Err(Refusal::at(
@@ -136,7 +136,7 @@ impl Run<'_> {
     }
 
     /// Runs a body by itself from given positions.
-    fn rehearse(&mut self, body: &Arc<Node>, positions: Vec<f64>, cause: CauseId) -> Result<Played, Refusal> {
+    fn run_body(&mut self, body: &Arc<Node>, positions: Vec<f64>, cause: CauseId) -> Result<Played, Refusal> {
         limit(self.cycles + 1, self.settings.cycles_max, "cycles in cycles")?;
         if let Some(what) = not_cyclic(body) {
             return Err(Refusal::at(cause, Reason::NotCyclic { what }));

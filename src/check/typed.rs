@@ -44,7 +44,7 @@ impl Program {
     }
 }
 
-/// A declaration.
+/// A declaration of a program, checked.
 #[derive(Clone, Debug)]
 pub struct Def {
     /// Its name.
@@ -129,7 +129,7 @@ pub struct NativeDef {
     pub frame: usize,
 }
 
-/// A parameter.
+/// A parameter with its type and default.
 #[derive(Clone, Debug)]
 pub struct Param {
     /// Its name.
@@ -144,7 +144,7 @@ pub struct Param {
     pub variadic: bool,
 }
 
-/// An `extern type`.
+/// A record type: `extern type`.
 #[derive(Clone, Debug)]
 pub struct RecordDef {
     /// The record that this one extends: a `Folding` is a `Plan`.
@@ -166,7 +166,7 @@ pub struct RecordField {
     pub doc: Option<Arc<str>>,
 }
 
-/// A `connector`.
+/// A connector with its clauses: `connector`.
 #[derive(Clone, Debug)]
 pub struct ConnectorDef {
     /// The connectors that mate with it, with the spans of their names.
@@ -217,14 +217,14 @@ pub enum MemberKind {
     Node,
 }
 
-/// A `module`.
+/// A module with its links, joints and ports: `module`.
 #[derive(Clone, Debug)]
 pub struct ModuleDef {
     /// The parameters.
     pub params: Vec<Param>,
     /// The parameters and `let`s.
     pub members: Vec<Member>,
-    /// `mass`: a mass.
+    /// The mass of the whole module (`mass`), if it is stated.
     pub mass: Option<Expr>,
     /// `touch`: the depth beyond which penetration is a collision, a length.
     pub touch: Option<Expr>,
@@ -354,7 +354,7 @@ pub enum ModuleClause {
     Port(Box<PortClause>),
     /// Two links (indices into `links`) that may touch, and the span of the clause.
     Touching(usize, usize, Span),
-    /// A local `let`.
+    /// A local definition: `let name = value`.
     Let { local: Local, value: Expr },
     /// A requirement: `require condition`.
     Require(Require),
@@ -385,7 +385,7 @@ pub struct PortClause {
     pub span: Span,
 }
 
-/// A `require` clause.
+/// A requirement that is checked when the body is complete: `require condition`.
 #[derive(Clone, Debug)]
 pub struct Require {
     /// The span of the clause.
@@ -410,7 +410,7 @@ pub struct FactsDef {
     pub frame: usize,
 }
 
-/// A `config`.
+/// A configuration with its parts and clauses: `config`.
 #[derive(Clone, Debug)]
 pub struct ConfigDef {
     /// The parameters.
@@ -508,7 +508,7 @@ pub enum ConfigClause {
     Connect { a: Expr, b: Expr, turn: Option<Expr>, span: Span },
     /// `set joint = value`: a joint position at the start.
     Set { joint: Expr, value: Expr, span: Span },
-    /// A local `let`.
+    /// A local definition: `let name = value`.
     Let { local: Local, value: Expr },
     /// A requirement: `require condition`.
     Require(Require),
@@ -518,7 +518,7 @@ pub enum ConfigClause {
     For { binder: Local, iterable: Expr, body: Vec<ConfigClause> },
 }
 
-/// A `lattice`.
+/// A lattice with its cell and arrangement: `lattice`.
 #[derive(Clone, Debug)]
 pub struct LatticeDef {
     /// The parameters.
@@ -533,7 +533,7 @@ pub struct LatticeDef {
     pub frame: usize,
 }
 
-/// A `truss`.
+/// A truss with its strut and clauses: `truss`.
 #[derive(Clone, Debug)]
 pub struct TrussDef {
     /// The parameters.
@@ -564,7 +564,7 @@ pub enum TrussClause {
     Node { member: MemberId, index: Option<Expr>, value: Expr, span: Span },
     /// Nodes by member and index.
     Strut { a: NodeRef, b: NodeRef, span: Span },
-    /// A local `let`.
+    /// A local definition: `let name = value`.
     Let { local: Local, value: Expr },
     /// A requirement: `require condition`.
     Require(Require),

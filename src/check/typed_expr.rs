@@ -27,7 +27,7 @@ pub struct Test {
     pub body: Body,
 }
 
-/// A statement.
+/// A statement with its span.
 #[derive(Clone, Debug)]
 pub struct Stmt {
     /// The span of the statement.
@@ -73,7 +73,7 @@ pub enum ExprKind {
     Int(i64),
     /// A whole number of more digits.
     BigInt(Symbol),
-    /// `true`, `false`
+    /// A truth value: `true`, `false`.
     Bool(bool),
     /// A text without interpolation.
     Text(Arc<str>),

@@ -37,7 +37,7 @@ pub enum Type {
     Fn(Arc<FnType>),
     /// A choice of words and types.
     Choice(Arc<Choice>),
-    /// `Joint<Angle>`, `Joint<Length>`
+    /// A joint, by the dimension of its position: `Joint<Angle>`, `Joint<Length>`.
     Joint(Arc<Type>),
     /// A port of a module: `Port`.
     Port,
@@ -63,7 +63,7 @@ pub enum Type {
     Instance(DefId),
     /// The supertypes: `Module`, `Config` (a module is the smallest one), `Lattice`, ...
     AnyOf(Family),
-    /// An `extern type`.
+    /// A record, declared by `extern type`.
     Record(DefId),
     /// A type parameter of the `extern fn` at hand.
     Param(u8),
@@ -74,17 +74,17 @@ pub enum Type {
 /// A family of declarations with instances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// `module` declarations.
+    /// Modules, declared by `module`.
     Module,
-    /// `config` declarations.
+    /// Configurations, declared by `config`.
     Config,
-    /// `cell` declarations.
+    /// Cells of lattices, declared by `cell`.
     Cell,
-    /// `strut` declarations.
+    /// Struts of trusses, declared by `strut`.
     Strut,
-    /// `lattice` declarations.
+    /// Lattices, declared by `lattice`.
     Lattice,
-    /// `truss` declarations.
+    /// Trusses, declared by `truss`.
     Truss,
 }
 

@@ -8,7 +8,7 @@ use super::terminal::{
 };
 use super::{CallError, Ending, output, program, report, show};
 use crate::check::Checked;
-use crate::interpret::session::Tell;
+use crate::interpret::session::Shown;
 use crate::interpret::{Options, WriteError};
 use crate::session::command::{self, Command};
 use crate::session::entry::{goes_on, is_incomplete};
@@ -80,7 +80,7 @@ pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending,
     listen_for_cancel();
     let mut repl = Repl::new(project, globals);
     for text in texts {
-        let input = Input { text, name: "<-e>", first_line: 1, tell: Tell::Values, keep: true };
+        let input = Input { text, name: "<-e>", first_line: 1, shown: Shown::Values, keep: true };
         repl.enter(&input);
         if repl.wrong {
             break;
@@ -165,7 +165,7 @@ impl<'g> Repl<'g> {
             None if let Some(call) = self.session.call_of(text) => print(&call),
             None => {
                 let text = text.trim_end();
-                self.enter(&Input { text, name: "<stdin>", first_line, tell: Tell::All, keep: true });
+                self.enter(&Input { text, name: "<stdin>", first_line, shown: Shown::All, keep: true });
             }
         }
         Next::GoOn
@@ -179,7 +179,7 @@ impl<'g> Repl<'g> {
 
     /// Runs work that Ctrl-C cancels.
     fn cancellable<T>(&mut self, work: impl FnOnce(&mut Session, &mut Terminal) -> T) -> T {
-        if self.session.is_left() && !settled(|| self.session.settle()) {
+        if self.session.is_abandoned() && !settled(|| self.session.wait_for_abandoned()) {
             self.session.renew(&self.terminal);
             print("what was interrupted does not end; values are worked out again when they are needed\n");
         }
@@ -194,8 +194,8 @@ impl<'g> Repl<'g> {
     }
 
     /// Evaluates the expression of a command, and keeps nothing of it.
-    fn ask(&mut self, text: &str, tell: Tell) -> bool {
-        self.enter(&Input { text, name: "<command>", first_line: 1, tell, keep: false })
+    fn ask(&mut self, text: &str, shown: Shown) -> bool {
+        self.enter(&Input { text, name: "<command>", first_line: 1, shown, keep: false })
     }
 
     fn load(&mut self, path: &str) {
@@ -243,10 +243,10 @@ impl<'g> Repl<'g> {
             Command::Doc(name) => self.answer(self.session.doc(&name)),
             Command::Source(name) => self.answer(self.session.source(&name)),
             Command::Ports(text) => {
-                self.ask(&format!("for p in ports({text}) {{ print(p) }}"), Tell::Nothing);
+                self.ask(&format!("for p in ports({text}) {{ print(p) }}"), Shown::Nothing);
             }
             Command::Verify(text) => {
-                self.ask(&format!("print(verify({text}))"), Tell::Nothing);
+                self.ask(&format!("print(verify({text}))"), Shown::Nothing);
             }
             Command::View(text) => self.view(&text),
             Command::Time(text) => {
@@ -255,7 +255,7 @@ impl<'g> Repl<'g> {
                     text: &text,
                     name: "<command>",
                     first_line: 1,
-                    tell: Tell::All,
+                    shown: Shown::All,
                     keep: true,
                 });
                 print(&format!("{:.1} ms\n", begin.elapsed().as_secs_f64() * 1e3));
@@ -286,7 +286,7 @@ impl<'g> Repl<'g> {
     }
 
     fn view(&mut self, text: &str) {
-        if self.ask(&format!("show({text}, \"{VIEW_PAGE}\")"), Tell::Nothing) {
+        if self.ask(&format!("show({text}, \"{VIEW_PAGE}\")"), Shown::Nothing) {
             let page = self.globals.out.join(VIEW_PAGE);
             if let Err(CallError(why)) = show::open_page(&page.to_string_lossy()) {
                 print_error(&format!("{why}\n"));

@@ -27,7 +27,7 @@ const ABOVE: Side = |p| [p.x, p.y];
 /// Returns a truss with its facts and two pictures.
 pub(super) fn truss(design: &Design, truss: &TrussDesign) -> String {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
-    let nodes: Vec<Vec3> = truss.nodes.iter().map(|node| node.place).collect();
+    let nodes: Vec<Vec3> = truss.nodes.iter().map(|node| node.position).collect();
     let lengths = truss.struts.iter().map(|&(a, b)| (nodes[a] - nodes[b]).norm());
     let (least, most) = lengths.fold((f64::INFINITY, 0.0f64), |(least, most), l| (least.min(l), most.max(l)));
     let mut lines = vec![format!(

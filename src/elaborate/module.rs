@@ -56,7 +56,7 @@ impl Interpreter<'_> {
         if self.failed_since(mark) {
             return Ok(None);
         }
-        self.attempt(|this| this.weigh(&mut draft, name, &mut frame))?;
+        self.attempt(|this| this.mass_properties(&mut draft, name, &mut frame))?;
         let groups = self.attempt(|this| this.order_ports(&mut draft))?;
         let (Some(port_groups), false) = (groups, self.failed_since(mark)) else { return Ok(None) };
         Ok(Some(DesignKind::Module(ModuleDesign {
@@ -390,7 +390,7 @@ impl Interpreter<'_> {
     }
 
     /// Computes masses, centres and inertias of the links: as stated, else from the module's mass by volume.
-    fn weigh(&mut self, draft: &mut Draft, name: Span, frame: &mut Frame) -> Eval<()> {
+    fn mass_properties(&mut self, draft: &mut Draft, name: Span, frame: &mut Frame) -> Eval<()> {
         let stated: Vec<_> = draft.solids.iter().map(|s| (s.parts.as_slice(), s.mass)).collect();
         let (whole, span) = match &draft.def.mass {
             Some(mass) => (self.positive(mass, "the mass of a module", frame)?, mass.span),

@@ -23,12 +23,12 @@ const LENGTH_TOLERANCE: f64 = 1e-9;
 /// More nodes make the rigidity matrix too large to decompose in a few seconds.
 const NODES_MAX: usize = 1000;
 /// The greatest number of faults of one truss that are reported.
-const FAULTS_TOLD: usize = 8;
+const FAULTS_REPORTED_MAX: usize = 8;
 /// The greatest number of nodes whose rigidity is examined without a notice: of more nodes this takes a
 /// while.
-const NODES_AT_ONCE: usize = 100;
+const NODES_WITHOUT_NOTICE: usize = 100;
 /// The greatest number of free motions of a truss that are reported.
-const MOTIONS_TOLD: usize = 6;
+const MOTIONS_REPORTED_MAX: usize = 6;
 
 /// A truss while its body is read; struts with where they stand.
 #[derive(Default)]
@@ -72,12 +72,12 @@ impl Interpreter<'_> {
         if self.failed_since(mark) {
             return Ok(None);
         }
-        let places: Vec<Vec3> = draft.nodes.iter().map(|n| n.place).collect();
+        let positions: Vec<Vec3> = draft.nodes.iter().map(|n| n.position).collect();
         let struts: Vec<(usize, usize)> = draft.struts.iter().map(|(a, b, _)| (*a, *b)).collect();
-        if places.len() > NODES_AT_ONCE {
-            interrupt::start_task(format!("finding out how {} nodes hold each other", places.len()));
+        if positions.len() > NODES_WITHOUT_NOTICE {
+            interrupt::start_task(format!("finding out how {} nodes hold each other", positions.len()));
         }
-        let rigidity = truss::rigidity(&places, &struts);
+        let rigidity = truss::rigidity(&positions, &struts);
         let design = TrussDesign { of, nodes: draft.nodes, struts, rigidity };
         if !design.rigidity.rigid() {
             self.report(not_rigid(&design, name));
@@ -112,8 +112,8 @@ impl Interpreter<'_> {
             TrussClause::Node { member, index, value, span } => {
                 let group = def.members[member.0 as usize].name;
                 let index = self.eval_optional(index.as_ref(), frame)?;
-                let Value::Vec3(place, _) = self.eval(value, frame)? else { return Ok(()) };
-                self.add_node(draft, group, index, place, *span)
+                let Value::Vec3(position, _) = self.eval(value, frame)? else { return Ok(()) };
+                self.add_node(draft, group, index, position, *span)
             }
             TrussClause::Strut { a, b, span } => {
                 let (a, b) = (self.find_node(a, def, draft, frame)?, self.find_node(b, def, draft, frame)?);
@@ -151,7 +151,7 @@ impl Interpreter<'_> {
         draft: &mut Draft,
         group: Symbol,
         index: Option<Value>,
-        place: Vec3,
+        position: Vec3,
         span: Span,
     ) -> Eval<()> {
         let name = match index {
@@ -170,7 +170,7 @@ impl Interpreter<'_> {
                 .label(twin.span, "declared here")
                 .into());
         }
-        draft.nodes.push(Node { name, group: Some(group), place, span });
+        draft.nodes.push(Node { name, group: Some(group), position, span });
         Ok(())
     }
 
@@ -226,10 +226,10 @@ impl Interpreter<'_> {
             let message = format!("no strut holds the node {}", node.name);
             faults.push((node.span, fault(code::BAD_TRUSS, node.span, message, "no strut ends here")));
         }
-        let mut told: Vec<Span> = Vec::new();
+        let mut reported: Vec<Span> = Vec::new();
         for (span, stop) in faults {
-            if told.len() < FAULTS_TOLD && !told.contains(&span) {
-                told.push(span);
+            if reported.len() < FAULTS_REPORTED_MAX && !reported.contains(&span) {
+                reported.push(span);
                 self.attempt(|_| Err::<(), Stop>(stop))?;
             }
         }
@@ -249,7 +249,7 @@ impl Interpreter<'_> {
             let message = format!("the strut {} begins and ends at one node", name(a, b));
             return Err(fault(code::BAD_TRUSS, span, message, "no length"));
         }
-        let length = (draft.nodes[a].place - draft.nodes[b].place).norm();
+        let length = (draft.nodes[a].position - draft.nodes[b].position).norm();
         let (low, high) = kind.length;
         if !(low - LENGTH_TOLERANCE..=high + LENGTH_TOLERANCE).contains(&length) {
             let message = format!(
@@ -262,7 +262,7 @@ impl Interpreter<'_> {
             );
             return Err(fault(code::BAD_TRUSS, span, message, format!("{} long", metres(length))));
         }
-        let ends = |a: usize, b: usize| (draft.nodes[a].place, draft.nodes[b].place);
+        let ends = |a: usize, b: usize| (draft.nodes[a].position, draft.nodes[b].position);
         for &(c, d, other) in before {
             if (a, b) == (c, d) || (a, b) == (d, c) {
                 let message = format!("the strut {} is there twice", name(a, b));
@@ -296,13 +296,13 @@ impl Interpreter<'_> {
 
 /// Returns the nodes at the position of an earlier one, with that.
 fn twins(nodes: &[Node]) -> Vec<(usize, usize)> {
-    let near = |a: usize, b: usize| (nodes[a].place - nodes[b].place).norm() < NODE_DISTANCE_MIN;
+    let near = |a: usize, b: usize| (nodes[a].position - nodes[b].position).norm() < NODE_DISTANCE_MIN;
     (0..nodes.len()).filter_map(|a| Some((a, (0..a).find(|&b| near(a, b))?))).collect()
 }
 
-fn numbered(places: Vec<Vec3>, span: Span) -> Vec<Node> {
-    let node = |(i, place)| Node { name: format!("{i}"), group: None, place, span };
-    places.into_iter().enumerate().map(node).collect()
+fn numbered(positions: Vec<Vec3>, span: Span) -> Vec<Node> {
+    let node = |(i, position)| Node { name: format!("{i}"), group: None, position, span };
+    positions.into_iter().enumerate().map(node).collect()
 }
 
 fn not_rigid(truss: &TrussDesign, name: Span) -> Diagnostic {
@@ -311,11 +311,11 @@ fn not_rigid(truss: &TrussDesign, name: Span) -> Diagnostic {
     let count = rigidity.free.len();
     let motions = if count == 1 { "1 free motion".to_string() } else { format!("{count} free motions") };
     let mut diagnostic = Diagnostic::error(code::NOT_RIGID, message).label(name, motions);
-    for (index, motion) in truss.free_motions().into_iter().take(MOTIONS_TOLD).enumerate() {
+    for (index, motion) in truss.free_motions().into_iter().take(MOTIONS_REPORTED_MAX).enumerate() {
         diagnostic = diagnostic.hint(format!("free motion {}: {motion}", index + 1));
     }
-    if count > MOTIONS_TOLD {
-        diagnostic = diagnostic.hint(format!("and {} more free motions", count - MOTIONS_TOLD));
+    if count > MOTIONS_REPORTED_MAX {
+        diagnostic = diagnostic.hint(format!("and {} more free motions", count - MOTIONS_REPORTED_MAX));
     }
     diagnostic.hint("add struts between nodes that move against each other")
 }

@@ -37,7 +37,7 @@ impl RigidTransform {
         }
     }
 
-    /// Returns `X_BA`.
+    /// Returns the inverse transform, `X_BA`.
     #[inline]
     pub fn inverse(&self) -> RigidTransform {
         let back = self.rotation.transpose();

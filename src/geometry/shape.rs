@@ -5,7 +5,7 @@ use super::pose::{Pose, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A solid.
+/// A solid, the shape of a link or a part of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
@@ -50,7 +50,7 @@ pub enum Shape {
     Mesh {
         /// Name of the file, relative to the project.
         name: String,
-        /// Positions, m.
+        /// The positions of the vertices, m.
         #[schemars(with = "Vec<[f64; 3]>")]
         vertices: Vec<Vec3>,
         /// Indices of vertices, counterclockwise as seen from outside.

@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 /// The volume of a solid, with its first and second moments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Volume {
-    /// Volume, m³.
+    /// The volume, m³.
     pub volume: f64,
-    /// Centroid, m.
+    /// The centroid, m.
     pub centre: Vec3,
     /// Second moments `∫ p pᵀ dV` with p from the centroid, m⁵.
     pub second: Matrix3<f64>,

@@ -17,39 +17,39 @@ use std::rc::Rc;
 pub enum Kind {
     /// Any value: the declaration has a type parameter there, or several types.
     Value,
-    /// `Bool`.
+    /// A truth value, `Bool`.
     Bool,
-    /// `Int`.
+    /// A whole number, `Int`.
     Int,
     /// A quantity of any dimension, in SI units.
     Number,
-    /// `Text`.
+    /// A text, `Text`.
     Text,
     /// `List`, or a variadic parameter.
     List,
-    /// `Vec3`.
+    /// A vector, `Vec3`.
     Vec3,
-    /// `Range`.
+    /// A range, `Range`.
     Range,
-    /// `Pose`.
+    /// A pose, `Pose`.
     Pose,
     /// A function.
     Fn,
     /// An instance of a module, configuration, lattice or truss.
     Instance,
-    /// `Joint`.
+    /// A joint of a robot, `Joint`.
     Joint,
-    /// `Port`.
+    /// A port of a robot, `Port`.
     Port,
-    /// `Behavior`.
+    /// A behaviour, `Behavior`.
     Behavior,
-    /// `Condition`.
+    /// A condition of an action, `Condition`.
     Condition,
-    /// `Shape`.
+    /// A shape of a link, `Shape`.
     Shape,
-    /// `Mesh`.
+    /// A polygon mesh, `Mesh`.
     Mesh,
-    /// `Terrain`.
+    /// A height field, `Terrain`.
     Terrain,
     /// A record, by the name of its type.
     Record(&'static str),
@@ -63,7 +63,7 @@ pub enum Kind {
 
 /// The reason that a value is not what a native asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Misfit {
+pub enum ArgumentError {
     /// It has another type, which `check` excludes.
     Type,
     /// The value is out of range; the text follows the description of the parameter in the message.
@@ -78,8 +78,8 @@ pub trait Argument<'c>: Sized {
     /// Reads a value.
     ///
     /// # Errors
-    /// A [`Misfit`] where the value has another type or is out of range.
-    fn read(value: &'c Value) -> Result<Self, Misfit>;
+    /// A [`ArgumentError`] where the value has another type or is out of range.
+    fn read(value: &'c Value) -> Result<Self, ArgumentError>;
 }
 
 /// An enum whose values a program writes as words. The words stand here and in the declarations, which
@@ -219,10 +219,10 @@ macro_rules! arguments_of_variants {
         impl<'c> Argument<'c> for $type {
             const KIND: Kind = Kind::$kind;
 
-            fn read(value: &'c Value) -> Result<Self, Misfit> {
+            fn read(value: &'c Value) -> Result<Self, ArgumentError> {
                 match value {
                     $pattern => Ok($result),
-                    _ => Err(Misfit::Type),
+                    _ => Err(ArgumentError::Type),
                 }
             }
         }
@@ -249,7 +249,7 @@ arguments_of_variants! {
 impl<'c> Argument<'c> for &'c Value {
     const KIND: Kind = Kind::Value;
 
-    fn read(value: &'c Value) -> Result<&'c Value, Misfit> {
+    fn read(value: &'c Value) -> Result<&'c Value, ArgumentError> {
         Ok(value)
     }
 }
@@ -257,28 +257,28 @@ impl<'c> Argument<'c> for &'c Value {
 impl<'c> Argument<'c> for f64 {
     const KIND: Kind = Kind::Number;
 
-    fn read(value: &'c Value) -> Result<f64, Misfit> {
-        value.as_number().ok_or(Misfit::Type)
+    fn read(value: &'c Value) -> Result<f64, ArgumentError> {
+        value.as_number().ok_or(ArgumentError::Type)
     }
 }
 
 impl<'c> Argument<'c> for Positive {
     const KIND: Kind = Kind::Number;
 
-    fn read(value: &'c Value) -> Result<Positive, Misfit> {
+    fn read(value: &'c Value) -> Result<Positive, ArgumentError> {
         let x = f64::read(value)?;
-        if x > 0.0 { Ok(Positive(x)) } else { Err(Misfit::Range("must be positive")) }
+        if x > 0.0 { Ok(Positive(x)) } else { Err(ArgumentError::Range("must be positive")) }
     }
 }
 
 impl<'c> Argument<'c> for usize {
     const KIND: Kind = Kind::Int;
 
-    fn read(value: &'c Value) -> Result<usize, Misfit> {
+    fn read(value: &'c Value) -> Result<usize, ArgumentError> {
         match value {
-            Value::Int(n) => usize::try_from(*n).map_err(|_| Misfit::Range("must not be negative")),
-            Value::Big(_) => Err(Misfit::Range("is too large")),
-            _ => Err(Misfit::Type),
+            Value::Int(n) => usize::try_from(*n).map_err(|_| ArgumentError::Range("must not be negative")),
+            Value::Big(_) => Err(ArgumentError::Range("is too large")),
+            _ => Err(ArgumentError::Type),
         }
     }
 }
@@ -287,8 +287,8 @@ impl<'c> Argument<'c> for usize {
 impl<'c> Argument<'c> for (f64, f64) {
     const KIND: Kind = Kind::Range;
 
-    fn read(value: &'c Value) -> Result<(f64, f64), Misfit> {
-        let Value::Range(ends) = value else { return Err(Misfit::Type) };
+    fn read(value: &'c Value) -> Result<(f64, f64), ArgumentError> {
+        let Value::Range(ends) = value else { return Err(ArgumentError::Type) };
         Ok((f64::read(&ends.0)?, f64::read(&ends.1)?))
     }
 }
@@ -296,13 +296,13 @@ impl<'c> Argument<'c> for (f64, f64) {
 impl<'c> Argument<'c> for &'c StateValue {
     const KIND: Kind = Kind::Record("State");
 
-    fn read(value: &'c Value) -> Result<&'c StateValue, Misfit> {
+    fn read(value: &'c Value) -> Result<&'c StateValue, ArgumentError> {
         match value {
             Value::Record(record) => match &**record {
                 Record::State(state) => Ok(state),
-                _ => Err(Misfit::Type),
+                _ => Err(ArgumentError::Type),
             },
-            _ => Err(Misfit::Type),
+            _ => Err(ArgumentError::Type),
         }
     }
 }
@@ -310,13 +310,13 @@ impl<'c> Argument<'c> for &'c StateValue {
 impl<'c> Argument<'c> for World {
     const KIND: Kind = Kind::Record("World");
 
-    fn read(value: &'c Value) -> Result<World, Misfit> {
+    fn read(value: &'c Value) -> Result<World, ArgumentError> {
         match value {
             Value::Record(record) => match &**record {
                 Record::World(world) => Ok(*world),
-                _ => Err(Misfit::Type),
+                _ => Err(ArgumentError::Type),
             },
-            _ => Err(Misfit::Type),
+            _ => Err(ArgumentError::Type),
         }
     }
 }
@@ -324,7 +324,7 @@ impl<'c> Argument<'c> for World {
 impl<'c, T: Argument<'c>> Argument<'c> for Option<T> {
     const KIND: Kind = Kind::Optional(&T::KIND);
 
-    fn read(value: &'c Value) -> Result<Option<T>, Misfit> {
+    fn read(value: &'c Value) -> Result<Option<T>, ArgumentError> {
         match value {
             Value::Missing => Ok(None),
             value => T::read(value).map(Some),
@@ -335,17 +335,17 @@ impl<'c, T: Argument<'c>> Argument<'c> for Option<T> {
 impl<'c, C: Choice> Argument<'c> for C {
     const KIND: Kind = Kind::Choice(C::words);
 
-    fn read(value: &'c Value) -> Result<C, Misfit> {
-        let Value::Word(word) = value else { return Err(Misfit::Type) };
+    fn read(value: &'c Value) -> Result<C, ArgumentError> {
+        let Value::Word(word) = value else { return Err(ArgumentError::Type) };
         let found = C::WORDS.iter().find(|(known, _)| *known == word.as_str());
-        found.map(|(_, value)| *value).ok_or(Misfit::Type)
+        found.map(|(_, value)| *value).ok_or(ArgumentError::Type)
     }
 }
 
 impl<'c, C: Choice, T: Argument<'c>> Argument<'c> for WordOr<C, T> {
     const KIND: Kind = Kind::WordOr(C::words, &T::KIND);
 
-    fn read(value: &'c Value) -> Result<WordOr<C, T>, Misfit> {
+    fn read(value: &'c Value) -> Result<WordOr<C, T>, ArgumentError> {
         match value {
             Value::Word(_) => C::read(value).map(WordOr::Word),
             value => T::read(value).map(WordOr::Value),

@@ -178,7 +178,7 @@ pub struct Node {
     /// The name of the array, `ring`; `None` for a single node.
     pub group: Option<Symbol>,
     /// The position in the start pose, m.
-    pub place: Vec3,
+    pub position: Vec3,
     /// The clause that declares it.
     pub span: Span,
 }
@@ -213,12 +213,12 @@ impl TrussDesign {
     }
 
     /// Returns the position of a node, or the list of those of an array; `None` where there is no such node.
-    pub fn place_of(&self, name: Symbol) -> Option<Value> {
-        let place = |node: &Node| Value::Vec3(node.place, Dimension::LENGTH);
+    pub fn position_of(&self, name: Symbol) -> Option<Value> {
+        let position = |node: &Node| Value::Vec3(node.position, Dimension::LENGTH);
         let mut of_group = self.nodes.iter().filter(|n| n.group == Some(name)).peekable();
         match of_group.peek() {
-            Some(node) if node.name == name.as_str() => Some(place(node)),
-            Some(_) => Some(Value::list(of_group.map(place).collect())),
+            Some(node) if node.name == name.as_str() => Some(position(node)),
+            Some(_) => Some(Value::list(of_group.map(position).collect())),
             None => None,
         }
     }

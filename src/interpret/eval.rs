@@ -407,7 +407,7 @@ impl Interpreter<'_> {
             }),
             MemberKind::Node => {
                 let DesignKind::Truss(truss) = &instance.design.kind else { return Ok(Value::Unknown) };
-                Ok(truss.place_of(declared.name).unwrap_or(Value::Unknown))
+                Ok(truss.position_of(declared.name).unwrap_or(Value::Unknown))
             }
             MemberKind::Behavior(behavior) => {
                 Ok(Value::Fn(Rc::new(Callable::Behavior { object: instance.clone(), behavior: *behavior })))

@@ -50,8 +50,8 @@ impl HostProxy {
 
     /// Returns a sink that sends progress reports to the host.
     pub fn progress_sink(&self) -> impl Fn(String) + 'static {
-        let stage = self.clone();
-        move |line| stage.send(Request::Progress(line))
+        let proxy = self.clone();
+        move |line| proxy.send(Request::Progress(line))
     }
 
     /// Writes a file of the output folder and returns the path to show.
@@ -111,12 +111,12 @@ pub fn run<T: Send>(
     evaluate: impl FnOnce(HostProxy) -> T + Send,
 ) -> T {
     let (sender, requests) = sync_channel(WAITING_MAX);
-    let stage = HostProxy { requests: sender, cancel_state: host.cancel_state() };
+    let proxy = HostProxy { requests: sender, cancel_state: host.cancel_state() };
     std::thread::scope(|scope| {
         let evaluator = std::thread::Builder::new()
             .name("evaluator".into())
             .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, move || evaluate(stage))
+            .spawn_scoped(scope, move || evaluate(proxy))
             .expect("the system can start a thread");
         requests.iter().for_each(|request| answer(request, files, host));
         evaluator.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
@@ -132,7 +132,7 @@ pub struct EvaluatorThread<J, R> {
     /// A sender for requests of the caller's thread to itself.
     waker: SyncSender<Request>,
     /// True while a job runs that nobody waits for any more.
-    left: Cell<bool>,
+    abandoned: Cell<bool>,
 }
 
 impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
@@ -160,14 +160,14 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
                 }
             })
             .expect("the system can start a thread");
-        EvaluatorThread { jobs, requests: asked, results, cancel_state, waker, left: Cell::new(false) }
+        EvaluatorThread { jobs, requests: asked, results, cancel_state, waker, abandoned: Cell::new(false) }
     }
 
     /// Runs a job and serves its requests here until it is done. Returns `None` if the user abandons it
     /// meanwhile; then the job ends by itself at its next checkpoint. Panics if an abandoned job has not been
     /// waited for.
     pub fn run(&self, job: J, files: &dyn Files, host: &mut dyn Host) -> Option<R> {
-        assert!(!self.left.get(), "the job before was settled");
+        assert!(!self.abandoned.get(), "the job before was settled");
         let waker = self.waker.clone();
         // With a full queue the serving thread is awake.
         self.cancel_state.on_abandon(move || drop(waker.try_send(Request::GivenUp)));
@@ -180,7 +180,7 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
                 request => answer(request, files, host),
             }
             if self.cancel_state.is_abandoned() {
-                self.left.set(true);
+                self.abandoned.set(true);
                 return None;
             }
         }
@@ -188,18 +188,18 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
     }
 
     /// Returns true while a job runs that nobody waits for any more.
-    pub fn is_left(&self) -> bool {
-        self.left.get()
+    pub fn is_abandoned(&self) -> bool {
+        self.abandoned.get()
     }
 
     /// Waits for an abandoned job and returns its result; `None` if the user abandons the wait, too. The job
     /// stays cancelled.
-    pub fn settle(&self) -> Option<R> {
+    pub fn wait_for_abandoned(&self) -> Option<R> {
         self.cancel_state.resume_waiting();
         for request in &self.requests {
             match request {
                 Request::Done => {
-                    self.left.set(false);
+                    self.abandoned.set(false);
                     return Some(self.results.recv().expect("a job that is done has a result"));
                 }
                 _ if self.cancel_state.is_abandoned() => return None,

@@ -1,6 +1,6 @@
 //! Built-ins as the evaluator sees them: a key, parameters, and a body to call.
 
-use super::argument::{Argument, Misfit, Parameter, Positive};
+use super::argument::{Argument, ArgumentError, Parameter, Positive};
 use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
@@ -75,8 +75,8 @@ impl<'c> Call<'c> {
         self.check_type(name, std::any::type_name::<T>());
         match T::read(self.arg(name)) {
             Ok(value) => Ok(value),
-            Err(Misfit::Range(bound)) => Err(self.refuse(name, format!("{what} {bound}"))),
-            Err(Misfit::Type) => {
+            Err(ArgumentError::Range(bound)) => Err(self.refuse(name, format!("{what} {bound}"))),
+            Err(ArgumentError::Type) => {
                 unreachable!("`check` lets only fitting arguments through to {what} of `{}`", self.native.key)
             }
         }

@@ -49,7 +49,7 @@ impl Interpreter<'_> {
                 let from = self.unary(op, &ends.1, span)?;
                 Value::Range(Rc::new((from, to)))
             }
-            _ => return Err(unfit(span)),
+            _ => return Err(operands_do_not_fit(span)),
         })
     }
 
@@ -100,22 +100,22 @@ impl Interpreter<'_> {
                 let condition = if op == BinaryOp::And { Condition::And(x, y) } else { Condition::Or(x, y) };
                 Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))
             }
-            _ => Err(unfit(span)),
+            _ => Err(operands_do_not_fit(span)),
         }
     }
 
     fn compare(&mut self, op: BinaryOp, a: &Value, b: &Value, span: Span) -> Eval<Value> {
         match (a, b) {
             (Value::Signal(signal), limit) => {
-                let value = limit.as_number().ok_or_else(|| unfit(span))?;
+                let value = limit.as_number().ok_or_else(|| operands_do_not_fit(span))?;
                 Ok(compare_signal(signal, comparison(op), value))
             }
             (limit, Value::Signal(signal)) => {
-                let value = limit.as_number().ok_or_else(|| unfit(span))?;
+                let value = limit.as_number().ok_or_else(|| operands_do_not_fit(span))?;
                 Ok(compare_signal(signal, flipped(comparison(op)), value))
             }
             _ => {
-                let order = order_of(a, b).ok_or_else(|| unfit(span))?;
+                let order = order_of(a, b).ok_or_else(|| operands_do_not_fit(span))?;
                 Ok(Value::Bool(match op {
                     BinaryOp::Lt => order.is_lt(),
                     BinaryOp::Le => order.is_le(),
@@ -166,7 +166,7 @@ impl Interpreter<'_> {
         span: Span,
         right: Span,
     ) -> Eval<Value> {
-        let (Some(x), Some(y)) = (a.as_big(), b.as_big()) else { return Err(unfit(span)) };
+        let (Some(x), Some(y)) = (a.as_big(), b.as_big()) else { return Err(operands_do_not_fit(span)) };
         let limit = self.limits().digits as f64 * std::f64::consts::LOG2_10;
         let bits = |n: &BigInt| n.bits() as f64;
         let expected = match op {
@@ -220,8 +220,10 @@ fn small(op: BinaryOp, x: i64, y: i64) -> Option<i64> {
 }
 
 fn real(op: BinaryOp, a: &Value, b: &Value, span: Span, right: Span) -> Eval<Value> {
-    let (Some(x), Some(y)) = (a.as_number(), b.as_number()) else { return Err(unfit(span)) };
-    let (Some(dx), Some(dy)) = (a.as_dimension(), b.as_dimension()) else { return Err(unfit(span)) };
+    let (Some(x), Some(y)) = (a.as_number(), b.as_number()) else { return Err(operands_do_not_fit(span)) };
+    let (Some(dx), Some(dy)) = (a.as_dimension(), b.as_dimension()) else {
+        return Err(operands_do_not_fit(span));
+    };
     // The sum of an empty list is a zero of no dimension.
     let same = || dx.common(dy).unwrap_or(if dx == Dimension::NUMBER { dy } else { dx });
     let (value, dimension) = match op {
@@ -234,7 +236,7 @@ fn real(op: BinaryOp, a: &Value, b: &Value, span: Span, right: Span) -> Eval<Val
         BinaryOp::Pow if y == libm::trunc(y) && y.abs() < 128.0 => {
             return power(x, dx, y as i64, span, right);
         }
-        _ => return Err(unfit(span)),
+        _ => return Err(operands_do_not_fit(span)),
     };
     finite(value, dimension, span)
 }
@@ -248,17 +250,21 @@ fn vectors(op: BinaryOp, a: &Value, b: &Value, span: Span, right: Span) -> Eval<
             Ok(Value::Vec3(x - y, d.common(*e).unwrap_or(*d)))
         }
         (BinaryOp::Mul, Value::Vec3(x, d), k) | (BinaryOp::Mul, k, Value::Vec3(x, d)) => {
-            let (Some(factor), Some(e)) = (k.as_number(), k.as_dimension()) else { return Err(unfit(span)) };
+            let (Some(factor), Some(e)) = (k.as_number(), k.as_dimension()) else {
+                return Err(operands_do_not_fit(span));
+            };
             Ok(Value::Vec3(x * factor, d.times(e).unwrap_or(*d)))
         }
         (BinaryOp::Div, Value::Vec3(x, d), k) => {
-            let (Some(divisor), Some(e)) = (k.as_number(), k.as_dimension()) else { return Err(unfit(span)) };
+            let (Some(divisor), Some(e)) = (k.as_number(), k.as_dimension()) else {
+                return Err(operands_do_not_fit(span));
+            };
             if divisor == 0.0 {
                 return Err(by_zero(right));
             }
             Ok(Value::Vec3(x / divisor, d.over(e).unwrap_or(*d)))
         }
-        _ => Err(unfit(span)),
+        _ => Err(operands_do_not_fit(span)),
     }
 }
 
@@ -325,7 +331,7 @@ fn by_zero(span: Span) -> super::stop::Stop {
 }
 
 /// Returns the fault of operands that do not fit: `check` lets none through, this is the net under it.
-fn unfit(span: Span) -> super::stop::Stop {
+fn operands_do_not_fit(span: Span) -> super::stop::Stop {
     Diagnostic::error(code::OPERANDS, "the operator does not apply to these values")
         .label(span, "here")
         .into()

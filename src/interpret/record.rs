@@ -19,9 +19,9 @@ pub enum Record {
     Plan(Rc<PlanValue>),
     /// A `Report` of the judge.
     Report(Rc<Verdict>),
-    /// A `State`.
+    /// A state of a robot, `State`.
     State(StateValue),
-    /// A `World`.
+    /// The assumptions about the surroundings, `World`.
     World(World),
     /// A `Frame`: nodes and struts.
     Frame(Vec<Vec3>, Vec<(usize, usize)>),

@@ -57,13 +57,13 @@ pub struct Entered {
     /// True if the declarations stay. Otherwise all is as if the entry had never been.
     pub keep: bool,
     /// The printed part of it.
-    pub tell: Tell,
+    pub shown: Shown,
 }
 
 /// The part of an entry's result that is printed besides what it prints itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tell {
-    /// Nothing.
+pub enum Shown {
+    /// Nothing is printed.
     Nothing,
     /// The values of expressions.
     Values,
@@ -98,20 +98,20 @@ impl Evaluator {
     }
 
     /// Runs a task and returns its result. An abandoned task counts as interrupted. Panics if an abandoned
-    /// task has not been waited for ([`settle`](Self::settle)).
+    /// task has not been waited for ([`wait_for_abandoned`](Self::wait_for_abandoned)).
     pub fn run(&self, task: Task, files: &dyn Files, host: &mut dyn Host) -> Answer {
         self.0.run(task, files, host).unwrap_or(Answer { interrupted: true, ..Answer::default() })
     }
 
     /// Returns true while a task is being done that nobody waits for any more.
-    pub fn is_left(&self) -> bool {
-        self.0.is_left()
+    pub fn is_abandoned(&self) -> bool {
+        self.0.is_abandoned()
     }
 
     /// Waits for an abandoned task; returns true if it went well after all and changed the memory. `None` if
     /// the user abandons the wait, too.
-    pub fn settle(&self) -> Option<bool> {
-        self.0.settle().map(|answer| answer.kept)
+    pub fn wait_for_abandoned(&self) -> Option<bool> {
+        self.0.wait_for_abandoned().map(|answer| answer.kept)
     }
 }
 
@@ -235,15 +235,15 @@ impl<'a> Interpreter<'a> {
         let mut frame = Frame::new(program.statements.frame, None);
         for piece in self.pieces(entered.file) {
             match piece {
-                Piece::Declaration(def) => self.enter_declaration(def, entered.tell)?,
+                Piece::Declaration(def) => self.enter_declaration(def, entered.shown)?,
                 Piece::Statement(Stmt { kind: StmtKind::Expr(expr), .. }) => {
                     let value = self.eval(expr, &mut frame)?;
-                    self.tell_value(&value, expr, entered.tell)?;
+                    self.tell_value(&value, expr, entered.shown)?;
                 }
                 Piece::Statement(statement) => self.execute(statement, &mut frame)?,
                 Piece::Test(test) => {
                     self.execute_body(&test.body)?;
-                    if self.reported.errors == 0 && entered.tell == Tell::All {
+                    if self.reported.errors == 0 && entered.shown == Shown::All {
                         self.shared.host.print(format!("test \"{}\" ... ok", test.name));
                     }
                 }
@@ -266,12 +266,12 @@ impl<'a> Interpreter<'a> {
         pieces.into_iter().map(|(_, piece)| piece).collect()
     }
 
-    fn enter_declaration(&mut self, def: DefId, tell: Tell) -> Eval<()> {
+    fn enter_declaration(&mut self, def: DefId, shown: Shown) -> Eval<()> {
         let program = self.shared.program;
         let declared = program.def(def);
         let DefKind::Let(binding) = &declared.kind else {
             self.check_declaration(def)?;
-            if self.reported.errors == 0 && tell == Tell::All {
+            if self.reported.errors == 0 && shown == Shown::All {
                 let line = (self.shared.routines.describe_declaration)(self, def)?;
                 self.shared.host.print(line);
             }
@@ -281,24 +281,24 @@ impl<'a> Interpreter<'a> {
         let value = self.recover(value)?;
         // The value of an expression is kept under a name that nobody gave it.
         if declared.span == binding.value.span {
-            return self.tell_value(&value, &binding.value, tell);
+            return self.tell_value(&value, &binding.value, shown);
         }
         self.check_known(&value, declared.span);
-        if self.reported.errors == 0 && tell == Tell::All {
+        if self.reported.errors == 0 && shown == Shown::All {
             self.shared.host.print(format!("{}: {}", declared.name, program.type_name(&binding.ty)));
         }
         Ok(())
     }
 
-    fn tell_value(&mut self, value: &Value, expr: &Expr, tell: Tell) -> Eval<()> {
+    fn tell_value(&mut self, value: &Value, expr: &Expr, shown: Shown) -> Eval<()> {
         self.check_known(value, expr.span);
-        if self.reported.errors > 0 || tell == Tell::Nothing || matches!(value, Value::Nothing) {
+        if self.reported.errors > 0 || shown == Shown::Nothing || matches!(value, Value::Nothing) {
             return Ok(());
         }
         let display = self.display(value)?;
         // An instance is called by its type.
-        let shown = match tell {
-            Tell::All if !matches!(value, Value::Instance(_)) => match display.split_once('\n') {
+        let shown = match shown {
+            Shown::All if !matches!(value, Value::Instance(_)) => match display.split_once('\n') {
                 None => format!("{display}: {}", self.shared.program.type_name(&expr.ty)),
                 Some((head, rest)) => format!("{head}: {}\n{rest}", self.shared.program.type_name(&expr.ty)),
             },

@@ -196,7 +196,7 @@ fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
 
 fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
     library.struts.push(truss.strut_kind()?.clone());
-    let places = truss.nodes.iter().map(|node| node.place.into());
+    let places = truss.nodes.iter().map(|node| node.position.into());
     let start = Keyframe {
         time: 0.0,
         interpolation: Interpolation::Linear,

@@ -411,7 +411,7 @@ fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
         |dock: &Dock| format!("{}.{}", assembly.modules[dock.module].name, port_name(dock.module, dock.dock));
     let (name, short) = (&assembly.modules[load.module].name, JOINTS[load.joint]);
     let when = match operation {
-        Operation::Standing => "before anything moves".to_string(),
+        Operation::HoldingStart => "before anything moves".to_string(),
         Operation::OpeningLoops => "once its loops are opened".to_string(),
         Operation::Joining(a, b) => format!("when {} and {} are brought together", dock(a), dock(b)),
         Operation::Straightening => "when the snake is straightened".to_string(),
@@ -427,7 +427,7 @@ fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
     let SearchStatus { needed, made, tried, .. } = status;
     let held = &assembly.modules[assembly.base].name;
     let label = match operation {
-        Operation::Standing | Operation::OpeningLoops => format!("held by {held}"),
+        Operation::HoldingStart | Operation::OpeningLoops => format!("held by {held}"),
         _ => format!(
             "held by {held}; {made} of {needed} connections were made, {tried} pairs of ends tried, and nothing was less heavy"
         ),

@@ -206,7 +206,7 @@ fn problem(
     Ok(Some(TrussProblem {
         strut,
         node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
-        nodes: truss.nodes.iter().map(|node| node.place).collect(),
+        nodes: truss.nodes.iter().map(|node| node.position).collect(),
         struts: truss.struts.clone(),
         limits: limits(call, truss, limited)?,
         obstacles,

@@ -16,7 +16,7 @@ pub struct QuadraticProgram {
     /// The entries of the positive semidefinite H on and above the diagonal; those with equal indices are
     /// summed.
     hessian: Vec<(usize, usize, f64)>,
-    /// c.
+    /// The linear term c of the objective.
     linear: Vec<f64>,
     /// Each row, with true if it is an equality.
     rows: Vec<(Row, bool)>,

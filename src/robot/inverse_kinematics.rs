@@ -275,7 +275,7 @@ const TRACE_MIN: f64 = 1e-9;
 
 /// The part of a pose that is to be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Aim {
+pub enum TaskSpace {
     /// Origin and orientation: six rows.
     Pose,
     /// The origin alone: three rows.
@@ -295,7 +295,7 @@ pub struct Reach<'a> {
     /// The pose at which the frame is to be, `X_WF`.
     pub goal: Pose,
     /// The part of that pose that matters.
-    pub aim: Aim,
+    pub task_space: TaskSpace,
     /// Positions that joints are drawn to as far as the goal allows (secondary task), one for every joint.
     pub rest: Option<&'a [f64]>,
     /// The errors at which the goal counts as reached: m, and rad.
@@ -439,9 +439,9 @@ impl FrameProblem<'_> {
     }
 
     fn rows(&self) -> usize {
-        match self.task.aim {
-            Aim::Pose => 6,
-            Aim::Position => 3,
+        match self.task.task_space {
+            TaskSpace::Pose => 6,
+            TaskSpace::Position => 3,
         }
     }
 }
@@ -450,7 +450,7 @@ impl IkProblem for FrameProblem<'_> {
     fn evaluate(&mut self, q: &[f64], _iteration: usize) -> Evaluation {
         self.update(q);
         let (place, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
-        let turn = if self.task.aim == Aim::Pose { turn } else { 0.0 };
+        let turn = if self.task.task_space == TaskSpace::Pose { turn } else { 0.0 };
         let residual_squared = (place / self.scale) * (place / self.scale) + turn * turn;
         let converged = place <= self.task.tolerance.0 && turn <= self.task.tolerance.1;
         Evaluation { residual_squared, merit: libm::sqrt(residual_squared), converged }

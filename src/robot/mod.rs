@@ -20,8 +20,8 @@ pub mod jacobian;
 mod matching;
 mod symmetry;
 
+mod banded_qr;
 pub mod truss;
-mod truss_band;
 
 pub mod rofi;
 pub mod rofi_assembly;

@@ -54,20 +54,20 @@ pub struct Dock {
 /// A shoe of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// Shoe A, the body of the module.
+    /// The shoe A, the body of the module.
     A,
-    /// Shoe B.
+    /// The shoe B.
     B,
 }
 
 /// A face of a shoe that carries a dock, by its direction in the shoe's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
-    /// +X.
+    /// The face +X.
     PlusX,
-    /// -X.
+    /// The face -X.
     MinusX,
-    /// -Z, at the end of the shoe.
+    /// The face -Z, at the end of the shoe.
     MinusZ,
 }
 

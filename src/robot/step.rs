@@ -46,7 +46,7 @@ enum Drive {
 /// others, and nearly all joints have such an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// None.
+    /// No motion: the joint is fixed.
     Fixed,
     /// A turn about +x of the child's frame, times this sign.
     X(f64),

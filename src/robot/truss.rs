@@ -2,7 +2,7 @@
 //! the self-stresses (Maxwell 1864, Calladine 1978). Both are null spaces of the rigidity matrix, the Jacobian of
 //! half the squared lengths, with one row for each strut and three columns for each node.
 
-use super::truss_band;
+use super::banded_qr;
 use crate::geometry::Vec3;
 use nalgebra::{DMatrix, DVector};
 
@@ -74,7 +74,7 @@ impl Rigidity {
 /// which must have length.
 pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     if nodes.len() > NODES_DENSE
-        && let Some(report) = truss_band::examine(nodes, struts)
+        && let Some(report) = banded_qr::examine(nodes, struts)
     {
         let rank = 3 * nodes.len() - rigid_motions(nodes).len();
         return Rigidity {

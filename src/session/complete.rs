@@ -4,7 +4,7 @@
 
 use super::command::COMMANDS;
 use super::dependencies::meant;
-use super::kept::Kept;
+use super::kept::FileSnapshot;
 use super::locals::{LocalName, Origin, locals};
 pub(crate) use super::members::Named;
 use super::members::{about, members, params_of_member};
@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// The state of a session that completion needs; cheap to clone.
 #[derive(Clone)]
 pub struct Knowledge {
-    files: Arc<Kept>,
+    files: Arc<FileSnapshot>,
     entries: Vec<Entry>,
     checked: Arc<Checked>,
     last: Option<Symbol>,

@@ -10,24 +10,24 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub type Project = Arc<dyn Files + Send + Sync>;
 
 /// A project with the files read from it so far.
-pub struct Kept {
+pub struct FileSnapshot {
     project: Project,
     read: Mutex<BTreeMap<String, Result<Vec<u8>, ReadError>>>,
 }
 
-impl Kept {
+impl FileSnapshot {
     /// Returns a snapshot with nothing read yet.
-    pub fn new(project: Project) -> Kept {
-        Kept { project, read: Mutex::default() }
+    pub fn new(project: Project) -> FileSnapshot {
+        FileSnapshot { project, read: Mutex::default() }
     }
 
     /// Returns a new snapshot of the same project.
-    pub fn fresh(&self) -> Kept {
-        Kept::new(self.project.clone())
+    pub fn fresh(&self) -> FileSnapshot {
+        FileSnapshot::new(self.project.clone())
     }
 }
 
-impl Files for Kept {
+impl Files for FileSnapshot {
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.entry(path.to_owned()).or_insert_with(|| self.project.read(path)).clone()

@@ -22,5 +22,5 @@ mod reload;
 mod save;
 
 pub use changes::{Change, ChangeKind};
-pub use kept::{Kept, Project};
+pub use kept::{FileSnapshot, Project};
 pub use state::{Input, Reloaded, Reply, Session};

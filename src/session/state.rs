@@ -2,11 +2,11 @@
 
 use super::changes::{Change, changes};
 use super::dependencies::{Dependencies, meant};
-use super::kept::{Kept, Project};
+use super::kept::{FileSnapshot, Project};
 use super::reload::stale;
 use crate::check::typed::{DefId, DefKind, Stmt, StmtKind};
 use crate::check::{self, Checked, Entry, Type};
-use crate::interpret::session::{Entered, Evaluator, Task, Tell, UNDO_MAX, Work};
+use crate::interpret::session::{Entered, Evaluator, Shown, Task, UNDO_MAX, Work};
 use crate::interpret::{Host, Options};
 use crate::source::{Diagnostic, FileId, Files, Symbol, code};
 use crate::syntax::{self, ast};
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// A session: the entries so far, the program they make, and its values.
 pub struct Session {
     /// The snapshot of the project's files.
-    pub(super) files: Arc<Kept>,
+    pub(super) files: Arc<FileSnapshot>,
     /// The accepted entries, in order.
     pub(super) entries: Vec<Entry>,
     /// The program that they make.
@@ -53,7 +53,7 @@ pub struct Input<'t> {
     /// The line of a longer input at which it begins; 1 if there is none.
     pub first_line: usize,
     /// The values that are printed.
-    pub tell: Tell,
+    pub shown: Shown,
     /// True if its declarations are kept.
     pub keep: bool,
 }
@@ -107,7 +107,7 @@ impl Reply {
 impl Session {
     /// Returns an empty session in a project. Only the cancellation token of `host` is used.
     pub fn new(project: Project, options: Options, host: &dyn Host) -> Session {
-        let files = Arc::new(Kept::new(project));
+        let files = Arc::new(FileSnapshot::new(project));
         let checked = Arc::new(check::check_session(&*files, &[]));
         Session {
             files,
@@ -129,14 +129,14 @@ impl Session {
     }
 
     /// Returns true if abandoned work is still running.
-    pub fn is_left(&self) -> bool {
-        self.evaluator.is_left()
+    pub fn is_abandoned(&self) -> bool {
+        self.evaluator.is_abandoned()
     }
 
     /// Waits for abandoned work to end, and returns true if it has. Returns false if the wait is abandoned,
     /// too.
-    pub fn settle(&mut self) -> bool {
-        let Some(kept) = self.evaluator.settle() else { return false };
+    pub fn wait_for_abandoned(&mut self) -> bool {
+        let Some(kept) = self.evaluator.wait_for_abandoned() else { return false };
         // The work ended normally at the last moment, but was reported as cancelled.
         self.to_take_back.set(kept);
         true
@@ -183,7 +183,7 @@ impl Session {
         let checked = Arc::new(checked);
         let (stale, notes) = self.redefined(&checked);
         let check = elaborated(&checked).filter(|def| checked.program.def(*def).file > file).collect();
-        let work = Work::Enter(Entered { file, check, stale, keep: input.keep, tell: input.tell });
+        let work = Work::Enter(Entered { file, check, stale, keep: input.keep, shown: input.shown });
         let answer = self.run(&checked, work, host);
         let broken = if answer.ok { self.newly_wrong(&checked, file) } else { Vec::new() };
         let mut diagnostics = own;
@@ -321,7 +321,7 @@ impl Session {
             }
         };
         let known = self.checked.sources.files().count();
-        let input = Input { text: "", name: "", first_line: 1, tell: Tell::Nothing, keep: true };
+        let input = Input { text: "", name: "", first_line: 1, shown: Shown::Nothing, keep: true };
         let mut reply = self.take(entry, &input, host);
         if reply.ok {
             let names = self.names_since(known);

@@ -31,7 +31,7 @@ pub struct File {
     pub unread: Vec<Symbol>,
 }
 
-/// A comment.
+/// A comment with its kind and span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comment {
     /// Its span, marks included.
@@ -224,7 +224,7 @@ pub struct TypeExpr {
 /// The kinds of types as written.
 #[derive(Clone, Debug)]
 pub enum TypeKind {
-    /// `Length`, `std.smores.Smores`, `List<Length>`, `Vec3<Length>`
+    /// A type by its name: `Length`, `std.smores.Smores`, `List<Length>`, `Vec3<Length>`.
     Named { path: Vec<Name>, args: Vec<TypeExpr> },
     /// `Quantity<kg*m^2>`: the unit as written (a lone name may be a dimension parameter).
     Quantity(UnitExpr),
@@ -265,7 +265,7 @@ pub enum ConnectorClause {
     Mates(Vec<Name>),
     /// `turns 4`: the number of turns at which it mates.
     Turns(Expr),
-    /// `holds 88N`, `holds 1.9N*m`
+    /// The greatest force or torque that it holds: `holds 88N`, `holds 1.9N*m`.
     Holds(Expr),
     /// The error that docking tolerates: `capture 4mm 5deg`.
     Capture { keyword: Span, distance: Expr, angle: Option<Expr> },
@@ -404,7 +404,7 @@ pub struct ConfigClause {
 pub enum ConfigClauseKind {
     /// A part: `part name: Type`.
     Part(Part),
-    /// `port head = body.head`, `port side[4] = [...]`
+    /// A port or an array of ports of the whole: `port head = body.head`, `port side[4] = [...]`.
     Port { name: Name, count: Option<Expr>, value: Expr },
     /// The base module: `base path`.
     Base(Path),
@@ -583,7 +583,7 @@ pub struct Test {
     pub body: Vec<Stmt>,
 }
 
-/// A statement.
+/// A statement with its span.
 #[derive(Clone, Debug)]
 pub struct Stmt {
     /// Its span.
@@ -625,13 +625,13 @@ pub struct Expr {
 pub enum ExprKind {
     /// `12`, `1_000`, `90deg`: the digits as written without underscores, and the unit attached to them.
     Number { digits: Symbol, unit: Option<UnitExpr> },
-    /// `true`, `false`
+    /// A truth value: `true`, `false`.
     Bool(bool),
     /// Text with `{expr}` in it; a plain text is one `Literal` (or none, when empty).
     Text(Vec<TextPart>),
     /// A name.
     Name(Symbol),
-    /// `X`, `Y`, `Z`; `-X` is a `Unary`.
+    /// A coordinate axis: `X`, `Y`, `Z`; `-X` is a `Unary`.
     Axis(Axis),
     /// `_`: the missing value, as in the rows of a gait table.
     Hole,
@@ -657,7 +657,7 @@ pub enum ExprKind {
     If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
     /// A block: `{ let a = ... newline expr }`; without `value` it has none.
     Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
-    /// `x => e`, `(a, b) => e`
+    /// An anonymous function: `x => e`, `(a, b) => e`.
     Lambda { params: Vec<Name>, body: Box<Expr> },
     /// A piece that could not be parsed.
     Error,

@@ -33,9 +33,9 @@ pub enum TokenKind {
         /// The depth of brackets nested in its `{ }`.
         depth: usize,
     },
-    /// `(`, `[` or `{`
+    /// An opening bracket: `(`, `[` or `{`.
     Open,
-    /// `)`, `]` or `}`
+    /// A closing bracket: `)`, `]` or `}`.
     Close,
     /// A sign or mark.
     Operator,

@@ -29,30 +29,30 @@ pub(super) struct Drawing {
 }
 
 /// The attributes of lines and surfaces, as in SVG.
-pub(super) type Look<'a> = &'a str;
+pub(super) type SvgAttributes<'a> = &'a str;
 
 impl Drawing {
     /// Adds a line from `a` to `b`.
-    pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2], look: Look) {
+    pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2], look: SvgAttributes) {
         let [x1, y1, x2, y2] = [a[0], a[1], b[0], b[1]].map(short);
         writeln!(self.text, r#"<line x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}" {look}/>"#).expect("text grows");
     }
 
     /// Adds a rectangle with its upper left corner `at`; `round` is the radius of its corners.
-    pub(super) fn rect(&mut self, at: [f64; 2], size: [f64; 2], round: f64, look: Look) {
+    pub(super) fn rect(&mut self, at: [f64; 2], size: [f64; 2], round: f64, look: SvgAttributes) {
         let [x, y, w, h, r] = [at[0], at[1], size[0], size[1], round].map(short);
         writeln!(self.text, r#"<rect x="{x}" y="{y}" width="{w}" height="{h}" rx="{r}" {look}/>"#)
             .expect("text grows");
     }
 
     /// Adds a circle around `at`.
-    pub(super) fn circle(&mut self, at: [f64; 2], radius: f64, look: Look) {
+    pub(super) fn circle(&mut self, at: [f64; 2], radius: f64, look: SvgAttributes) {
         let [x, y, r] = [at[0], at[1], radius].map(short);
         writeln!(self.text, r#"<circle cx="{x}" cy="{y}" r="{r}" {look}/>"#).expect("text grows");
     }
 
     /// Adds a closed polygon.
-    pub(super) fn polygon(&mut self, points: &[[f64; 2]], look: Look) {
+    pub(super) fn polygon(&mut self, points: &[[f64; 2]], look: SvgAttributes) {
         let points: Vec<String> =
             points.iter().map(|[x, y]| format!("{},{}", short(*x), short(*y))).collect();
         writeln!(self.text, r#"<polygon points="{}" {look}/>"#, points.join(" ")).expect("text grows");

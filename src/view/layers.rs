@@ -96,8 +96,8 @@ fn faces(cell: &CellBox) -> [Flat; 3] {
     })
 }
 
-/// Returns the SVG of panels in rows; `untold` is the number of panels left out.
-fn laid_out(input: &RenderInput, panels: Vec<Panel>, untold: usize) -> String {
+/// Returns the SVG of panels in rows; `undrawn` is the number of panels left out.
+fn laid_out(input: &RenderInput, panels: Vec<Panel>, undrawn: usize) -> String {
     let all = || panels.iter().flat_map(|p| p.pieces.iter().flat_map(|f| f.points.iter().copied()));
     let (from, size) = around(all(), 0.0);
     let scale = (PANEL - 30.0) / size[0].max(size[1]).max(1e-9);
@@ -117,8 +117,8 @@ fn laid_out(input: &RenderInput, panels: Vec<Panel>, untold: usize) -> String {
     }
     let rows = panels.len().div_ceil(COLUMNS);
     let mut tall = rows as f64 * (PANEL + HEAD);
-    if untold > 0 {
-        drawing.words([PANEL, tall + 10.0], 12.0, SOFT, &format!("and {untold} more, which are not drawn"));
+    if undrawn > 0 {
+        drawing.words([PANEL, tall + 10.0], 12.0, SOFT, &format!("and {undrawn} more, which are not drawn"));
         tall += HEAD;
     }
     drawing.finish(input.title, [0.0; 2], [panels.len().min(COLUMNS) as f64 * PANEL, tall + 10.0], "px")

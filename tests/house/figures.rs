@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 /// Files of one import knot at most.
 const KNOT_MAX: usize = 8;
 
-/// The rooms of the right wing, whose `pub` items are an interface for Rust programs.
-const RIGHT_WING: &[&str] =
+/// The rooms of the back end, whose `pub` items are an interface for Rust programs.
+const BACK_END: &[&str] =
     &["units", "geometry", "optimize", "robot", "plan", "behavior", "planners", "view", "formats"];
 
-/// The share of `pub` items of the right wing that have a doc comment, at least.
+/// The share of `pub` items of the back end that have a doc comment, at least.
 const DOCUMENTED_MIN: f64 = 0.95;
 
 /// One thing of each kind that grows, with a pattern that only the code about it contains.
@@ -34,7 +34,7 @@ fn figures_of_the_house() {
         println!("import knot of {}: {}", knot.len(), knot.join(" "));
     }
     let (documented, items) = documented(&source);
-    println!("pub items of the right wing with a doc comment: {documented} of {items}");
+    println!("pub items of the back end with a doc comment: {documented} of {items}");
     for (kind, pattern, home) in GROWTH {
         let places =
             mentions(&source, pattern).into_iter().filter(|file| !file.starts_with(home)).collect::<Vec<_>>();
@@ -64,12 +64,12 @@ fn mentions<'s>(source: &'s BTreeMap<String, String>, pattern: &str) -> Vec<&'s 
     source.iter().filter(|(_, text)| has(text)).map(|(file, _)| file.as_str()).collect()
 }
 
-/// The `pub` items of the right wing that have a doc comment, and all of them: functions, types, constants,
+/// The `pub` items of the back end that have a doc comment, and all of them: functions, types, constants,
 /// modules and fields.
 fn documented(source: &BTreeMap<String, String>) -> (usize, usize) {
     let (mut documented, mut items) = (0, 0);
     for (file, text) in source {
-        if !RIGHT_WING.iter().any(|room| file.starts_with(&format!("src/{room}/"))) {
+        if !BACK_END.iter().any(|room| file.starts_with(&format!("src/{room}/"))) {
             continue;
         }
         let lines: Vec<&str> = text.lines().map(str::trim).collect();

@@ -6,7 +6,7 @@ use modl::planners::fold::Observer;
 use modl::planners::fold::branch_and_bound::{Decision, NoLayout};
 use modl::planners::fold::heuristic::{Measure, preferred};
 use modl::planners::fold::inertia::{Body, Inertia};
-use modl::planners::fold::local_search::{Measured, Settings, survey};
+use modl::planners::fold::local_search::{Measured, Settings, search};
 use modl::planners::fold::random_orders::sample;
 use modl::planners::fold::simulation::{Circumstances, Count, simulate};
 use modl::planners::fold::{Conventions, Minimise, Objective};
@@ -27,7 +27,7 @@ fn objective(target: &Target, conventions: Conventions, minimise: Minimise) -> O
 fn surveyed(objective: &Objective, target: &Target, root: Option<usize>, budget: u64) -> Measured {
     let roots = root.map_or_else(|| (0..target.faces.len()).collect(), |root| vec![root]);
     let settings = Settings { roots, flat: false, budget, keep: 4, prefilter: None };
-    survey(target, &objective.weights, &settings, &mut |layout| objective.value(layout), &Observer::none())
+    search(target, &objective.weights, &settings, &mut |layout| objective.value(layout), &Observer::none())
 }
 
 /// Sums over sets of faces find the same layouts, ties and least values as measuring each.
@@ -49,7 +49,7 @@ fn a_glance_leaves_out_nothing_that_is_good() {
                 .and_then(|n| n.parse::<usize>().ok())
                 .expect("a number"),
         );
-        let glanced = survey(
+        let glanced = search(
             &target,
             &objective.weights,
             &settings,

@@ -5,7 +5,7 @@
 use crate::support::robots;
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
-use modl::robot::inverse_kinematics::{Aim, Reach, Settings, StopReason, reach};
+use modl::robot::inverse_kinematics::{Reach, Settings, StopReason, TaskSpace, reach};
 use modl::robot::jacobian::{LinkFrame, base_jacobian, geometric_jacobian};
 use modl::robot::{Assembly, Hinge, Joint, JointKind, Kinematics, Library, Limits, PortRef};
 use nalgebra::{DMatrix, Vector6};
@@ -167,7 +167,7 @@ proptest! {
             frame,
             base: (0, X_WB),
             goal,
-            aim: Aim::Pose,
+            task_space: TaskSpace::Pose,
             rest: None,
             tolerance: (1e-9, 1e-9),
         };
@@ -217,7 +217,7 @@ fn reached(
         frame: arm.2,
         base: (0, Pose::identity()),
         goal: shifted(Vec3::new(x, y, 0.0)),
-        aim: Aim::Position,
+        task_space: TaskSpace::Position,
         rest: None,
         tolerance: (1e-10, 1e-10),
     };
@@ -271,7 +271,7 @@ fn what_is_too_far_is_told_so() {
         frame: arm.2,
         base: (0, Pose::identity()),
         goal: shifted(Vec3::new(0.0, 0.7, 0.0)),
-        aim: Aim::Position,
+        task_space: TaskSpace::Position,
         rest: None,
         tolerance: (1e-10, 1e-10),
     };
@@ -317,7 +317,7 @@ fn joints_that_are_free_go_where_they_rest() {
             frame,
             base: (0, Pose::identity()),
             goal,
-            aim: Aim::Position,
+            task_space: TaskSpace::Position,
             rest,
             tolerance: (1e-9, 1e-9),
         };

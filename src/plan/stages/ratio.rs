@@ -10,9 +10,9 @@ use std::cmp::Ordering;
 pub struct Ratio(pub i64, pub i64);
 
 impl Ratio {
-    /// 0.
+    /// The number 0.
     pub const ZERO: Ratio = Ratio(0, 1);
-    /// 1.
+    /// The number 1.
     pub const ONE: Ratio = Ratio(1, 1);
 
     /// Returns `numerator / denominator` in lowest terms; `None` where 64 bits do not hold it, or where the

@@ -18,7 +18,7 @@ pub(super) struct Ledger<'a> {
     /// Kinds of which an excuse was needed.
     excused: Vec<CheckKind>,
     /// Failures beyond [`FAILURES_MAX`].
-    untold: usize,
+    unreported: usize,
     /// The verdict so far.
     pub verdict: Verdict,
 }
@@ -27,7 +27,14 @@ impl<'a> Ledger<'a> {
     /// Returns an empty record for a plan with these exemptions that ends at `end` (s).
     pub(super) fn new(exemptions: &'a [Exemption], end: f64) -> Ledger<'a> {
         let verdict = Verdict { duration: end, ..Verdict::default() };
-        Ledger { exemptions, end, used: vec![false; exemptions.len()], excused: vec![], untold: 0, verdict }
+        Ledger {
+            exemptions,
+            end,
+            used: vec![false; exemptions.len()],
+            excused: vec![],
+            unreported: 0,
+            verdict,
+        }
     }
 
     /// Returns true if an exemption of the kind excuses what happens at `t` (s), and marks it as needed.
@@ -61,7 +68,7 @@ impl<'a> Ledger<'a> {
         if self.verdict.failures.len() < FAILURES_MAX {
             self.verdict.failures.push(failure);
         } else {
-            self.untold += 1;
+            self.unreported += 1;
         }
     }
 
@@ -111,8 +118,8 @@ impl<'a> Ledger<'a> {
         self.verdict.events.sort_by(|a, b| a.0.total_cmp(&b.0));
         self.verdict.checks.sort_by_key(|check| check.kind);
         self.without_rounding();
-        if self.untold > 0 {
-            self.note(format!("{} more failures are not listed", self.untold));
+        if self.unreported > 0 {
+            self.note(format!("{} more failures are not listed", self.unreported));
         }
         self.verdict
     }

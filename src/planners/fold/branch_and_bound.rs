@@ -36,16 +36,16 @@ const QUEUE_BYTES_MAX: usize = 1 << 29;
 const ROUNDS: usize = 6;
 
 /// The least part of the gap that an ascent has to close for another one to follow before branching.
-const WORTHWHILE: f64 = 0.05;
+const GAP_CLOSED_MIN: f64 = 0.05;
 
 /// The first step of an ascent is the last step of its parent's ascent divided by this.
-const RESUMED: f64 = 0.5;
+const STEP_RESTART: f64 = 0.5;
 
 /// The step length, as a part of the gap, below which an ascent has converged.
 const LENGTH_MIN: f64 = 0.01;
 
 /// The remaining budget divided by this is the budget of one tabu search for a layout that lies flat.
-const FLATTENING: u64 = 4;
+const FLAT_BUDGET_SHARE: u64 = 4;
 
 /// The options of a search for the optimum.
 #[derive(Clone, Copy, Debug)]
@@ -175,7 +175,7 @@ pub(crate) fn search<'a>(
         slack,
         best: None,
         reached: vec![f64::INFINITY; n],
-        aims: vec![f64::INFINITY; n],
+        optimum_estimates: vec![f64::INFINITY; n],
         open_nodes: BinaryHeap::new(),
         queue_bytes: 0,
         open_bound: f64::INFINITY,
@@ -227,7 +227,7 @@ struct Search<'s, 'a, 'o> {
     /// The least perturbed energy found, by root.
     reached: Vec<f64>,
     /// An estimate of the energy of the best layout of each root, flat or not, for Polyak's step.
-    aims: Vec<f64>,
+    optimum_estimates: Vec<f64>,
     open_nodes: BinaryHeap<Node>,
     /// The size of the open nodes, bytes.
     queue_bytes: usize,
@@ -318,15 +318,16 @@ impl<'s> Search<'s, '_, '_> {
         bound: f64,
         ways: &mut NodePaths,
     ) -> Option<f64> {
-        if self.aims[root].is_infinite() {
+        if self.optimum_estimates[root].is_infinite() {
             self.start(root);
         }
         let cutoff = self.cutoff(root);
-        let aim = if cutoff.is_finite() { cutoff } else { self.aims[root].max(bound) };
+        let optimum_estimate =
+            if cutoff.is_finite() { cutoff } else { self.optimum_estimates[root].max(bound) };
         let (target, perturbed) = (self.target, self.perturbed);
         let relaxation = bounds.relaxation.get_or_insert_with(|| Lagrangian::new(target, perturbed));
         let (mut left, mut allowed) = (self.budget_left, ways.allowed.clone());
-        let limits = AscentLimits { cutoff, aim, rounds: ROUNDS, length: ways.length };
+        let limits = AscentLimits { cutoff, optimum_estimate, rounds: ROUNDS, length: ways.length };
         let found =
             relaxation.ascend(root, &mut allowed, &ways.multipliers, limits, &mut left, |chosen, steps| {
                 let layout = Layout::of_hinges(target, &lagrangian::repaired(target, root, chosen), root);
@@ -338,10 +339,11 @@ impl<'s> Search<'s, '_, '_> {
         ways.multipliers = found.multipliers.into();
         ways.uses = found.uses;
         // A child begins with steps that are not yet as short as its parent's last.
-        ways.length = (found.length / RESUMED).min(1.0);
+        ways.length = (found.length / STEP_RESTART).min(1.0);
         let cutoff = self.cutoff(root);
-        let aim = if cutoff.is_finite() { cutoff } else { aim };
-        ways.rising = found.bound - bound > WORTHWHILE * (aim - bound) && found.length > LENGTH_MIN;
+        let optimum_estimate = if cutoff.is_finite() { cutoff } else { optimum_estimate };
+        ways.rising =
+            found.bound - bound > GAP_CLOSED_MIN * (optimum_estimate - bound) && found.length > LENGTH_MIN;
         let bound = bound.max(found.bound);
         if bound >= cutoff || !self.reroute(&mut bounds.routes, root, ways, allowed) {
             return None;
@@ -492,7 +494,7 @@ impl<'s> Search<'s, '_, '_> {
             return edge_exchange::improved_where(target, weights, rerooted, &mut self.budget_left, &is_flat);
         }
         // Only a part of the budget: the rest is for the proof.
-        let mut part = self.budget_left / FLATTENING;
+        let mut part = self.budget_left / FLAT_BUDGET_SHARE;
         let granted = part;
         let flat = tabu_unfolding::without_overlaps(target, weights, first.clone(), self.seed, &mut part);
         self.budget_left -= granted - part;
@@ -503,7 +505,7 @@ impl<'s> Search<'s, '_, '_> {
     /// only improves the estimate of the optimum.
     fn consider(&mut self, layout: Layout) {
         let root = layout.root;
-        self.aims[root] = self.aims[root].min(layout.energy(self.perturbed));
+        self.optimum_estimates[root] = self.optimum_estimates[root].min(layout.energy(self.perturbed));
         if self.accepts.is_none() {
             self.offer(layout);
         }

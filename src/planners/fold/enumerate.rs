@@ -21,7 +21,7 @@ const CHUNK: usize = 8;
 
 /// The spanning trees of a target, counted by their energy.
 #[derive(Clone, Debug)]
-pub struct Census {
+pub struct Enumeration {
     /// The number of layouts visited.
     pub layouts: u64,
     /// True if these are all layouts; else the budget ended the enumeration.
@@ -64,7 +64,7 @@ pub fn census(
     weights: &Weights,
     settings: &Settings,
     observer: &Observer,
-) -> Result<Census, TooManyFaces> {
+) -> Result<Enumeration, TooManyFaces> {
     let sums = Sums::new(target, weights);
     let n = target.faces.len();
     let mut energies = vec![0.0; n];
@@ -79,7 +79,7 @@ pub fn census(
         let least = best.as_ref().map(|(least, ..)| *least);
         observer.report(|| progress_text::counted(visited, &all, "layouts", least));
         // Energies of the layout with every root, from one of them.
-        tree.hang(hinges);
+        tree.root_at_first(hinges);
         tree.energies(&sums, &mut energies);
         for (root, &energy) in energies.iter().enumerate() {
             if settings.root.is_some_and(|asked| asked != root) {
@@ -104,7 +104,7 @@ pub fn census(
     })?;
     let (least, hinges, root) = best.expect("a connected target has a layout");
     let layout = Layout::of_hinges(target, &hinges, root).expect("only trees are enumerated");
-    Ok(Census {
+    Ok(Enumeration {
         layouts: walked.layouts,
         complete: walked.complete,
         best: layout,
@@ -285,8 +285,8 @@ impl<'t> Peaks<'t> {
     }
 
     /// Takes up a layout.
-    pub fn hang(&mut self, hinges: &[usize]) {
-        self.tree.hang(hinges);
+    pub fn set_layout(&mut self, hinges: &[usize]) {
+        self.tree.root_at_first(hinges);
     }
 
     /// Returns the greatest mean torque of the layout that was taken up last, with a root: N·m for steps of one
@@ -324,7 +324,7 @@ impl<'t> Tree<'t> {
         }
     }
 
-    fn hang(&mut self, hinges: &[usize]) {
+    fn root_at_first(&mut self, hinges: &[usize]) {
         self.degree = [0; FACES_MAX];
         for &index in hinges {
             let [a, b] = self.target.hinges[index].faces;

@@ -14,11 +14,11 @@ pub struct Measure {
     pub inertia: f64,
     /// λ2: half the side by the sine of 60 degrees, times the mass, kg·m.
     pub arm: f64,
-    /// λ3, kg.
+    /// λ3: the mass of a panel, kg.
     pub mass: f64,
     /// λ4: from hinge to hinge, m.
     pub span: f64,
-    /// κ1, κ2, κ3.
+    /// κ1, κ2, κ3: the constants of the design.
     pub design: [f64; 3],
 }
 

@@ -66,7 +66,7 @@ pub struct Measured {
 }
 
 /// Searches the layouts of least value: values are compared by their first number, then by their second.
-pub fn survey(
+pub fn search(
     target: &Target,
     weights: &Weights,
     settings: &Settings,
@@ -81,7 +81,7 @@ pub fn survey(
     roots.dedup();
     // Enumeration where the budget reaches all pairs, else local search.
     let pairs = spanning_trees::layouts(target) * roots.len();
-    let mut kept = Kept { target, settings, best: Vec::new(), ties: vec![0; n], least: f64::INFINITY };
+    let mut kept = BestLayouts { target, settings, best: Vec::new(), ties: vec![0; n], least: f64::INFINITY };
     let most = settings.prefilter.map_or(settings.budget, |prefilter| prefilter.budget.max(settings.budget));
     let complete = n <= enumerate::FACES_MAX && pairs.to_u64().is_some_and(|pairs| pairs <= most);
     if complete {
@@ -92,7 +92,7 @@ pub fn survey(
             visited += 1;
             observer.report(|| progress_text::counted(visited, &all, "layouts", None));
             if let Some((_, peaks)) = &mut prefilter {
-                peaks.hang(hinges);
+                peaks.set_layout(hinges);
             }
             // The prefilter skips pairs that are worse than all that are kept.
             for &root in &roots {
@@ -110,7 +110,7 @@ pub fn survey(
     } else {
         improve(&mut kept, weights, &roots, value);
     }
-    let Kept { best, ties, least, .. } = kept;
+    let BestLayouts { best, ties, least, .. } = kept;
     // A result for a root holds for those equal to it by symmetry.
     let asked = settings.roots.iter().copied();
     let roots = asked.clone().filter(|root| ties[equals[*root]] > 0).collect();
@@ -120,7 +120,12 @@ pub fn survey(
 
 /// Improves greedy trees at the roots of least bound, the best tree first, by exchanges as long as they help
 /// (local search).
-fn improve(kept: &mut Kept, weights: &Weights, roots: &[usize], value: &mut dyn FnMut(&Layout) -> [f64; 2]) {
+fn improve(
+    kept: &mut BestLayouts,
+    weights: &Weights,
+    roots: &[usize],
+    value: &mut dyn FnMut(&Layout) -> [f64; 2],
+) {
     let (target, mut left) = (kept.target, kept.settings.budget);
     let bounds = ShortestPaths::new(target, weights);
     let mut roots = roots.to_vec();
@@ -152,7 +157,7 @@ fn exchanged(
     layout: &Layout,
     best: [f64; 2],
     left: &mut u64,
-    kept: &mut Kept,
+    kept: &mut BestLayouts,
     value: &mut dyn FnMut(&Layout) -> [f64; 2],
 ) -> Option<(Layout, [f64; 2])> {
     let folding = layout.hinges();
@@ -177,7 +182,7 @@ fn exchanged(
 }
 
 /// The best layouts so far.
-struct Kept<'s> {
+struct BestLayouts<'s> {
     target: &'s Target,
     settings: &'s Settings,
     best: Vec<(Layout, [f64; 2])>,
@@ -186,7 +191,7 @@ struct Kept<'s> {
     least: f64,
 }
 
-impl Kept<'_> {
+impl BestLayouts<'_> {
     /// Returns true if a layout with this first value changes nothing: enough better ones are kept.
     fn is_full_of_less_than(&self, value: f64) -> bool {
         let last = self.best.last().filter(|_| self.best.len() >= self.settings.keep.max(1));

@@ -7,7 +7,7 @@
 //! the greatest load is at least
 //!
 //! ```text
-//! Σ_r λ_r load_r + Σ over faces not yet dealt of min over r of λ_r K(r, j)
+//! Σ_r λ_r load_r + Σ over faces not yet assigned of min over r of λ_r K(r, j)
 //! ```
 //!
 //! and the shares are those that make this greatest at the beginning. A tree is grown in each part once every
@@ -50,7 +50,7 @@ pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64,
         share,
         faces,
         rest,
-        dealt: Vec::new(),
+        assigned: Vec::new(),
         loads: Vec::new(),
         best: None,
         cutoff: known,
@@ -143,7 +143,7 @@ struct PartitionSearch<'t> {
     faces: Vec<usize>,
     rest: Vec<f64>,
     /// The root's hinge to which each face is assigned, in their order.
-    dealt: Vec<usize>,
+    assigned: Vec<usize>,
     loads: Vec<f64>,
     best: Option<(Layout, f64)>,
     /// The best of what was met, also of what is no layout that lies flat.
@@ -155,7 +155,7 @@ impl PartitionSearch<'_> {
     /// Assigns the next face to each of the root's hinges; as deep as there are faces.
     fn next(&mut self, steps: &mut u64) {
         interrupt::checkpoint();
-        let at = self.dealt.len();
+        let at = self.assigned.len();
         let Some(&face) = self.faces.get(at) else { return self.settle() };
         let own = self.around.iter().position(|(_, other)| *other == face);
         for r in 0..self.around.len() {
@@ -170,12 +170,12 @@ impl PartitionSearch<'_> {
             *steps = left;
             let load = self.loads[r];
             self.loads[r] += self.weights.at(self.around[r].0, face);
-            let dealt: f64 = self.loads.iter().zip(&self.share).map(|(load, share)| load * share).sum();
+            let assigned: f64 = self.loads.iter().zip(&self.share).map(|(load, share)| load * share).sum();
             let limit = self.cutoff * (1.0 - TOLERANCES.tie);
-            if self.loads[r] < limit && dealt + self.rest[at + 1] < limit {
-                self.dealt.push(r);
+            if self.loads[r] < limit && assigned + self.rest[at + 1] < limit {
+                self.assigned.push(r);
                 self.next(steps);
-                self.dealt.pop();
+                self.assigned.pop();
             }
             self.loads[r] = load;
             if self.ended {
@@ -188,7 +188,7 @@ impl PartitionSearch<'_> {
     fn is_reached(&self, at: usize, face: usize, r: usize) -> bool {
         self.target.around(face).any(|(_, other)| {
             other != self.root
-                && self.faces[..at].iter().position(|f| *f == other).is_none_or(|i| self.dealt[i] == r)
+                && self.faces[..at].iter().position(|f| *f == other).is_none_or(|i| self.assigned[i] == r)
         })
     }
 
@@ -196,7 +196,7 @@ impl PartitionSearch<'_> {
     fn settle(&mut self) {
         let greatest = self.loads.iter().copied().fold(0.0, f64::max);
         let mut part = vec![usize::MAX; self.target.faces.len()];
-        for (face, r) in self.faces.iter().zip(&self.dealt) {
+        for (face, r) in self.faces.iter().zip(&self.assigned) {
             part[*face] = *r;
         }
         let Some(layout) = self.grown(&part) else { return };

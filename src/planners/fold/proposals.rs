@@ -172,7 +172,7 @@ impl Task<'_> {
         let budget = prefilter.map_or(budget, |prefilter| prefilter.budget);
         let weights = &self.objective.weights;
         let mut value = |layout: &Layout| self.objective.value(layout);
-        let found = local_search::survey(self.target, weights, &settings, &mut value, self.observer);
+        let found = local_search::search(self.target, weights, &settings, &mut value, self.observer);
         let Measured { best, ties, roots, least, complete } = found;
         let Some((_, first)) = best.first() else {
             return Err(if complete { Refusal::AllOverlap } else { Refusal::NothingFlat });

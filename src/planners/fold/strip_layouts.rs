@@ -60,13 +60,13 @@ const EXCHANGES_SAMPLED: usize = 12;
 const PATIENCE: usize = 12;
 
 /// The number of collision-free layouts at which the search ends.
-const CLEAR_ENOUGH: usize = 8;
+const COLLISION_FREE_MAX: usize = 8;
 
 /// Collision-free layouts that are made cheaper.
-const CHEAPENED_MAX: usize = 3;
+const IMPROVED_MAX: usize = 3;
 
 /// The remaining budget divided by this goes into each of them.
-const CHEAPENING: usize = 4;
+const IMPROVEMENT_SHARE: usize = 4;
 
 /// A search for layouts that fold with the leaves first.
 pub struct StripSearch<'t> {
@@ -118,18 +118,21 @@ impl StripSearch<'_> {
         let (clear, blocked): (Vec<_>, Vec<_>) =
             starts.into_iter().partition(|(conflicts, _)| conflicts.is_clear());
         let mut clear: Vec<Layout> = clear.into_iter().map(|(_, layout)| layout).collect();
-        let kept = self.states_left / CHEAPENING;
+        let kept = self.states_left / IMPROVEMENT_SHARE;
         for turn in 0..TURNS {
             for (_, layout) in blocked.iter().take(SEPARATED_MAX) {
-                if self.states_left > kept && clear.len() < CLEAR_ENOUGH && (turn == 0 || clear.is_empty()) {
+                if self.states_left > kept
+                    && clear.len() < COLLISION_FREE_MAX
+                    && (turn == 0 || clear.is_empty())
+                {
                     clear.extend(self.separated(layout.clone(), self.seed + turn, kept));
                 }
             }
         }
         let by_energy = |a: &Layout, b: &Layout| a.energy(self.weights).total_cmp(&b.energy(self.weights));
         clear.sort_by(by_energy);
-        for layout in clear.clone().into_iter().take(CHEAPENED_MAX) {
-            let kept = self.states_left - self.states_left / CHEAPENING;
+        for layout in clear.clone().into_iter().take(IMPROVED_MAX) {
+            let kept = self.states_left - self.states_left / IMPROVEMENT_SHARE;
             let cheaper = self.cheaper(layout, kept);
             clear.push(cheaper);
         }

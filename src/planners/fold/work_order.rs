@@ -18,7 +18,7 @@ pub const BRANCH_MAX: usize = 18;
 
 /// An order of folding, one hinge after the other.
 #[derive(Clone, Debug)]
-pub struct Lifting {
+pub struct WorkOrder {
     /// All faces but the root in order of folding.
     pub order: Vec<usize>,
     /// The work of Eq. 17, J.
@@ -31,8 +31,8 @@ pub struct Lifting {
 }
 
 /// Returns the order of least work; `weights`: by face, N.
-pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> Lifting {
-    let mut all = Lifting { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
+pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrder {
+    let mut all = WorkOrder { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {
         let branch = Branch::new(target, layout, weights, child);
         let part = branch.least();
@@ -134,23 +134,23 @@ impl Branch {
         Branch { faces, paths, potentials, known: known.to_vec(), bound: (heights[1] - heights[0]).abs() }
     }
 
-    fn least(&self) -> Lifting {
+    fn least(&self) -> WorkOrder {
         let reached = |work: f64| work <= self.bound * (1.0 + TOLERANCES.work) + f64::MIN_POSITIVE;
         let best = self.known.iter().min_by(|a, b| a.1.total_cmp(&b.1)).expect("there are two");
         if reached(self.known[0].1) || self.potentials.is_empty() {
             let (order, work) = if reached(self.known[0].1) { &self.known[0] } else { best };
             let optimal = reached(*work);
-            return Lifting { order: order.clone(), work: *work, bound: self.bound, optimal };
+            return WorkOrder { order: order.clone(), work: *work, bound: self.bound, optimal };
         }
-        let (order, work) = self.programme();
+        let (order, work) = self.by_subsets();
         // Of equal orders one with the fewest steps: leaves first or root first, as the tree is high.
         let known = self.known.iter().find(|known| known.1 <= work * (1.0 + TOLERANCES.work));
         let order = known.map_or(order, |known| known.0.clone());
-        Lifting { order, work, bound: work, optimal: true }
+        WorkOrder { order, work, bound: work, optimal: true }
     }
 
     /// Returns the order of least work by dynamic programming over all subsets of the branch, with that work.
-    fn programme(&self) -> (Vec<usize>, f64) {
+    fn by_subsets(&self) -> (Vec<usize>, f64) {
         let bits = self.faces.len();
         let energies: Vec<f64> = (0..1usize << bits).map(|set| self.energy(set)).collect();
         let mut least = vec![f64::INFINITY; 1 << bits];

@@ -51,12 +51,12 @@ impl Listed {
             if states == last {
                 continue;
             }
-            let parting = greatest_relative_displacement(&cubes(&last), &cubes(&states), LINES)
+            let relative_displacement = greatest_relative_displacement(&cubes(&last), &cubes(&states), LINES)
                 .ok_or(Refusal::TooLarge)?;
             let domains = runs(&last, &states);
             last.clone_from(&states);
             // Of distances, what is held is the difference; it comes in lines of the judge's grid.
-            builder.stage(name, parting / 4, &domains, move |i| states[i as usize])?;
+            builder.stage(name, relative_displacement / 4, &domains, move |i| states[i as usize])?;
         }
         Ok(builder.motion())
     }

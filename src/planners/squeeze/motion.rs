@@ -95,7 +95,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Appends a stage that takes each cell to `place`. On the domains both the last state and the next must be
-    /// affine; `parting` is the greatest distance (in quarters, along an axis) by which two cells move against
+    /// affine; `relative_displacement` is the greatest distance (in quarters, along an axis) by which two cells move against
     /// each other that stay in contact. A stage in which nothing moves is left out.
     ///
     /// # Errors
@@ -103,14 +103,15 @@ impl<'a> Builder<'a> {
     pub(super) fn stage(
         &mut self,
         name: &'static str,
-        parting: i64,
+        relative_displacement: i64,
         domains: &[Domain],
         place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<(), Refusal> {
         let motion = Displacements::of(domains, self.motion.count, &self.last, &place);
         if motion.moves {
             let (time_squared, law) =
-                least_time(&self.limits, self.motion.count, &motion, parting).ok_or(Refusal::TooLarge)?;
+                least_time(&self.limits, self.motion.count, &motion, relative_displacement)
+                    .ok_or(Refusal::TooLarge)?;
             self.motion.transitions.push(Transition { name, time_squared, law, balanced: motion.balanced });
             self.motion.configurations.push(runs(domains, self.motion.count, &place)?);
         }
@@ -126,7 +127,7 @@ impl<'a> Builder<'a> {
     pub(super) fn two_phase_stage(
         &mut self,
         name: &'static str,
-        parting: i64,
+        relative_displacement: i64,
         domains: &[Domain],
         middle: impl Fn(u64) -> CellState + 'a,
         end: impl Fn(u64) -> CellState + 'a,
@@ -134,8 +135,8 @@ impl<'a> Builder<'a> {
         let whole = Displacements::of(domains, self.motion.count, &self.last, &end);
         let resized = 2 * Displacements::of(domains, self.motion.count, &self.last, &middle).resized;
         let limits = PlanLimits { profile: Profile::Trapezoid, ..self.limits };
-        let (time, law) =
-            least_time(&limits, self.motion.count, &whole, parting.max(resized)).ok_or(Refusal::TooLarge)?;
+        let (time, law) = least_time(&limits, self.motion.count, &whole, relative_displacement.max(resized))
+            .ok_or(Refusal::TooLarge)?;
         let half = Ratio::new(time.0.into(), 4 * i128::from(time.1)).ok_or(Refusal::TooLarge)?;
         let ramp = law.ramps().0.times(Ratio(2, 1)).ok_or(Refusal::TooLarge)?;
         for (law, place) in
@@ -160,15 +161,23 @@ impl<'a> Builder<'a> {
 }
 
 /// Returns the square of the least time in which cells can make these displacements and part (or change their
-/// sizes) by `parting / WHOLE`, with the time law that does it: at unit acceleration a distance D takes
+/// sizes) by `relative_displacement / WHOLE`, with the time law that does it: at unit acceleration a distance D takes
 /// T² = 4D, bang-bang.
-fn least_time(limits: &PlanLimits, count: u64, motion: &Displacements, parting: i64) -> Option<(Ratio, Law)> {
-    let parting = parting.max(motion.resized);
+fn least_time(
+    limits: &PlanLimits,
+    count: u64,
+    motion: &Displacements,
+    relative_displacement: i64,
+) -> Option<(Ratio, Law)> {
+    let relative_displacement = relative_displacement.max(motion.resized);
     let distance = motion.distance(limits, count)?;
-    let parting_squared = Ratio::new(i128::from(parting) * i128::from(parting), i128::from(WHOLE * WHOLE))?;
+    let relative_displacement_squared = Ratio::new(
+        i128::from(relative_displacement) * i128::from(relative_displacement),
+        i128::from(WHOLE * WHOLE),
+    )?;
     let speed = limits.cell.speed_squared;
-    // The square of the time for the parting at full speed.
-    let coasting = parting_squared.times(Ratio(speed.1, speed.0))?;
+    // The square of the time for the relative_displacement at full speed.
+    let coasting = relative_displacement_squared.times(Ratio(speed.1, speed.0))?;
     if coasting.order(distance).is_le() {
         return Some((distance.times(Ratio(4, 1))?, Law::BangBang));
     }

@@ -27,7 +27,7 @@ const SKIN: f64 = 1.0;
 pub struct NeighbourList<'a> {
     scene: &'a Scene<'a>,
     /// Two indices whose balls come as near as their docks ask, and are left out.
-    meeting: (usize, usize),
+    docking_pair: (usize, usize),
     /// The rigid part of each ball: balls of one part do not move against each other, and are left out.
     parts: Vec<usize>,
     list: Vec<(u32, u32)>,
@@ -40,11 +40,11 @@ pub struct NeighbourList<'a> {
 }
 
 impl<'a> NeighbourList<'a> {
-    /// Returns an empty list. `meeting` are the indices of two shoes whose docks are to meet; `parts` are the
+    /// Returns an empty list. `docking_pair` are the indices of two shoes whose docks are to meet; `parts` are the
     /// rigid parts, see [`Tree::parts`](super::tree::Tree::parts).
-    pub fn new(scene: &'a Scene<'a>, meeting: (usize, usize), parts: Vec<usize>) -> NeighbourList<'a> {
+    pub fn new(scene: &'a Scene<'a>, docking_pair: (usize, usize), parts: Vec<usize>) -> NeighbourList<'a> {
         let (list, listed, before) = (Vec::new(), Vec::new(), Vec::new());
-        NeighbourList { scene, meeting, parts, list, reach: 0.0, listed, before }
+        NeighbourList { scene, docking_pair, parts, list, reach: 0.0, listed, before }
     }
 
     /// Returns the pairs of balls whose centres are nearer than `reach` (pitches) at `poses` (by index of the
@@ -79,10 +79,10 @@ impl<'a> NeighbourList<'a> {
     }
 
     fn renew(&mut self, poses: &[RigidTransform]) {
-        let NeighbourList { scene, meeting, parts, list, reach, listed, .. } = self;
+        let NeighbourList { scene, docking_pair, parts, list, reach, listed, .. } = self;
         list.clear();
         broad_phase::pairs(poses, *reach, &mut |a, b, _| {
-            let meet = (a, b) == *meeting || (b, a) == *meeting;
+            let meet = (a, b) == *docking_pair || (b, a) == *docking_pair;
             if !meet && scene.may_meet(parts, a, b) {
                 list.push((a as u32, b as u32));
             }

@@ -97,11 +97,11 @@ impl RandomWalk {
     }
 
     fn dock(&mut self, rng: &mut SplitMix64) -> bool {
-        let meeting = self.meeting();
-        if meeting.is_empty() {
+        let possible = self.bonds_possible();
+        if possible.is_empty() {
             return false;
         }
-        let bond = meeting[rng.below(meeting.len())];
+        let bond = possible[rng.below(possible.len())];
         self.robot.dock(bond);
         self.rebuild_tree();
         true
@@ -127,7 +127,7 @@ impl RandomWalk {
     }
 
     /// Returns the bonds that can be made between free docks that meet.
-    fn meeting(&self) -> Vec<Bond> {
+    fn bonds_possible(&self) -> Vec<Bond> {
         let at = self.robot.bond_at();
         let mut bonds = Vec::new();
         broad_phase::pairs(&self.poses, 1.0 + TOL_EQUAL, &mut |p, q, _| {

@@ -75,7 +75,7 @@ pub struct Overload {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// Holding the start configuration.
-    Standing,
+    HoldingStart,
     /// Letting go the bonds that close loops.
     OpeningLoops,
     /// Bringing these docks together, and letting go the bond that the new one replaces.

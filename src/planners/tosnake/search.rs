@@ -127,7 +127,7 @@ fn unwind_with_restarts(
         let (overload, is_last) = match found {
             Err(Refusal::Overload(overload)) => {
                 // Another search would begin with the same overload.
-                (overload, matches!(overload.operation, Operation::Standing | Operation::OpeningLoops))
+                (overload, matches!(overload.operation, Operation::HoldingStart | Operation::OpeningLoops))
             }
             // The budget is spent because everything was too heavy.
             Err(Refusal::BudgetSpent(status)) if search.overload.is_some() || nearest.is_some() => {
@@ -233,7 +233,8 @@ impl<'s, 'p> Search<'s, 'p> {
         match self.state.load() {
             Some(load) if load.ratio > 1.0 => {
                 let whole = self.state.steps.is_empty();
-                Err(self.overloaded(load, if whole { Operation::Standing } else { Operation::OpeningLoops }))
+                Err(self
+                    .overloaded(load, if whole { Operation::HoldingStart } else { Operation::OpeningLoops }))
             }
             _ => Ok(()),
         }

@@ -43,7 +43,7 @@ pub struct State {
     pub gravity: Option<Arc<GravityModel>>,
     /// Greatest load of a joint that motions may cause, as a fraction of its torque limit.
     pub load_share: f64,
-    /// See [`LoadLimit::least_overload`].
+    /// The smallest overload since the last was taken; see [`LoadLimit::least_overload`].
     pub least_overload: Cell<Option<JointLoad>>,
 }
 

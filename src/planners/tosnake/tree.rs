@@ -45,7 +45,7 @@ pub struct JointRef {
     pub child: usize,
     /// The module.
     pub module: usize,
-    /// [`ALPHA`], [`BETA`] or [`GAMMA`].
+    /// The index of the joint: [`ALPHA`], [`BETA`] or [`GAMMA`].
     pub joint: usize,
 }
 

@@ -18,7 +18,7 @@ pub const RIGIDITY_NODES_MAX: usize = 200;
 /// be farther apart in angle.
 const ANGLE_LIMIT_MAX: f64 = FRAC_PI_3;
 /// Constraints that are named in the reason why a search ended.
-const CONSTRAINTS_TOLD: usize = 4;
+const CONSTRAINTS_REPORTED_MAX: usize = 4;
 
 /// A truss of struts of one kind, in the world's frame.
 #[derive(Clone, Debug)]
@@ -225,8 +225,8 @@ impl TrussProblem {
                 told.push(words);
             }
         }
-        let more = told.len().saturating_sub(CONSTRAINTS_TOLD);
-        told.truncate(CONSTRAINTS_TOLD);
+        let more = told.len().saturating_sub(CONSTRAINTS_REPORTED_MAX);
+        told.truncate(CONSTRAINTS_REPORTED_MAX);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         if told.is_empty() { why.to_string() } else { format!("{why}: {}{more}", told.join(", ")) }
     }

@@ -24,7 +24,7 @@ const FAILURES_MAX: usize = 12;
 const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame: a candidate.
-pub(super) struct Suspect {
+pub(super) struct Candidate {
     /// The joint that it moves.
     pub joint: usize,
     /// The time at which its segment begins, s.
@@ -68,12 +68,12 @@ pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mu
 }
 
 /// Returns the actions begun before a time (s), latest first.
-pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
+pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Candidate> {
     let mut found = Vec::new();
     for track in &tracks.tracks {
         let begun = track.segments.partition_point(|s| s.start < t);
         for segment in track.segments[..begun].iter().rev().take(SEGMENTS_EACH) {
-            found.push(Suspect {
+            found.push(Candidate {
                 joint: track.joint.0 as usize,
                 start: segment.start,
                 cause: segment.cause,
@@ -86,7 +86,7 @@ pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Suspect> {
 }
 
 /// Returns true if the failure is gone when the suspect's joint stays where it was.
-fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Suspect, failure: &Failure) -> bool {
+fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Candidate, failure: &Failure) -> bool {
     let held = Rollout { held: Some((suspect.joint, suspect.start)), ..*rollout };
     let from = checkpoints.iter().rev().find(|w| w.time <= suspect.start);
     let until = rollout.tracks.duration.min(failure.time + rollout.settings.sample);

@@ -139,8 +139,6 @@ struct Kind {
     bodies: Vec<(usize, usize, Part)>,
     inner: Vec<InnerPair>,
     touch: f64,
-    /// Returns an upper bound on the distance of any point of the module from its body's origin, m: by the
-    /// joints' arms, however they turn, and the greatest travel of slides.
     reach: f64,
 }
 
@@ -225,8 +223,8 @@ fn drawn_overlap(kind: &ModuleType, solids: &[Solid], a: usize, b: usize) -> f64
     pairs.map(|(p, q)| -signed_distance(p, q, &X_AB).distance).fold(0.0, f64::max)
 }
 
-/// Returns farthest that any point of the module can be from its body's origin: by the joints' arms, however
-/// they turn, and the greatest travel of slides.
+/// Returns an upper bound on the distance of any point of the module from its body's origin, m: by the joints'
+/// arms, however they turn, and the greatest travel of slides.
 fn reach(kind: &ModuleType, solids: &[Solid]) -> f64 {
     let mut arm = vec![f64::INFINITY; kind.links.len()];
     arm[0] = 0.0;

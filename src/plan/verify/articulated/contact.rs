@@ -119,7 +119,7 @@ pub(super) fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
 }
 
 /// Proximal weight of the Lagrangian dual's solution, so that it exists whatever the contact points are.
-const HELD_BACK: f64 = 1e-8;
+const PROXIMAL_WEIGHT: f64 = 1e-8;
 const PROXIMAL_ROUNDS: usize = 3;
 const NEWTON_ROUNDS_MAX: usize = 60;
 const HALVINGS_MAX: usize = 40;
@@ -164,12 +164,12 @@ fn newton(springs: &[(f64, Vec3, usize)], before: Vec3) -> Vec3 {
     let value = |lambda: &Vec3| {
         let bent: f64 =
             springs.iter().map(|(k, g, _)| k * lambda.dot(g).max(0.0) * lambda.dot(g).max(0.0)).sum();
-        0.5 * bent - lambda.x + 0.5 * HELD_BACK * (lambda - before).norm_squared()
+        0.5 * bent - lambda.x + 0.5 * PROXIMAL_WEIGHT * (lambda - before).norm_squared()
     };
     let mut lambda = before;
     for _ in 0..NEWTON_ROUNDS_MAX {
-        let mut gradient = (lambda - before) * HELD_BACK - Vec3::x();
-        let mut hessian = super::ground_features::Mat3::from_diagonal_element(HELD_BACK);
+        let mut gradient = (lambda - before) * PROXIMAL_WEIGHT - Vec3::x();
+        let mut hessian = super::ground_features::Mat3::from_diagonal_element(PROXIMAL_WEIGHT);
         for (kappa, g, _) in springs {
             let pressed = lambda.dot(g);
             if pressed > 0.0 {

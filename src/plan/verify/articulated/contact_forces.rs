@@ -75,7 +75,7 @@ pub(super) struct ContactQuery<'a> {
     pub weights: &'a [f64],
     /// The loads that count.
     pub loads: &'a [usize],
-    /// Weight, N.
+    /// The weight of the robot, N.
     pub weight: f64,
     /// Factor on the friction coefficients of links.
     pub friction: f64,

@@ -35,7 +35,7 @@ pub(super) struct ContactLp {
 struct Node {
     parent: usize,
     /// The point about which its moments are taken, m.
-    place: Vec3,
+    reference: Vec3,
     /// The weight of its own links.
     weight: Vector6<f64>,
 }
@@ -66,7 +66,7 @@ impl ContactLp {
             let mut terms = vec![(last, -1.0)];
             for (link, g) in &row.terms {
                 let node = node_of[*link];
-                let local = about(g, &nodes[node].place);
+                let local = about(g, &nodes[node].reference);
                 terms.extend((0..6).filter(|&i| local[i] != 0.0).map(|i| (first(node) + i, local[i])));
             }
             problem.at_most.push((terms, 0.0));
@@ -123,17 +123,17 @@ fn wrench(query: &ContactQuery, push: &super::statics::Wrench) -> Vector6<f64> {
     Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
 }
 
-/// Returns `g·(F, M about the origin)` as a functional of (F, M about `place`).
-fn about(g: &Vector6<f64>, place: &Vec3) -> Vector6<f64> {
+/// Returns `g·(F, M about the origin)` as a functional of (F, M about `reference`).
+fn about(g: &Vector6<f64>, reference: &Vec3) -> Vector6<f64> {
     let (force, moment) = (g.fixed_rows::<3>(0).into_owned(), g.fixed_rows::<3>(3).into_owned());
-    let force = force + moment.cross(place);
+    let force = force + moment.cross(reference);
     Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
-/// Returns (F, M about the origin) taken about `place`.
-fn taken_about(w: &Vector6<f64>, place: &Vec3) -> Vector6<f64> {
+/// Returns (F, M about the origin) taken about `reference`.
+fn taken_about(w: &Vector6<f64>, reference: &Vec3) -> Vector6<f64> {
     let (f, m) = (w.fixed_rows::<3>(0).into_owned(), w.fixed_rows::<3>(3).into_owned());
-    let m = m - place.cross(&f);
+    let m = m - reference.cross(&f);
     Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
 }
 
@@ -148,15 +148,15 @@ fn nodes(query: &ContactQuery) -> (Vec<Node>, Vec<usize>) {
         }
     }
     let mut node_of = vec![0; model.bodies.len()];
-    let mut nodes = vec![Node { parent: 0, place: Vec3::zeros(), weight: Vector6::zeros() }];
+    let mut nodes = vec![Node { parent: 0, reference: Vec3::zeros(), weight: Vector6::zeros() }];
     let stance = query.stance;
     for step in &model.kinematics.steps {
         let parent = node_of[step.parent];
         node_of[step.link] = parent;
         if cut[step.link] {
-            let place = stance.R * (stance.posture.p[step.link] - stance.posture.centre);
+            let reference = stance.R * (stance.posture.p[step.link] - stance.posture.centre);
             node_of[step.link] = nodes.len();
-            nodes.push(Node { parent, place, weight: Vector6::zeros() });
+            nodes.push(Node { parent, reference, weight: Vector6::zeros() });
         }
     }
     for push in query.gravity_wrenches {
@@ -176,18 +176,18 @@ fn balances(
     let first = |node: usize| columns.len() + 6 * (node - 1);
     let mut equal: Vec<(Vec<(usize, f64)>, f64)> = Vec::with_capacity(6 * nodes.len());
     for node in nodes {
-        equal.extend((0..6).map(|i| (Vec::new(), -taken_about(&node.weight, &node.place)[i])));
+        equal.extend((0..6).map(|i| (Vec::new(), -taken_about(&node.weight, &node.reference)[i])));
     }
     for (k, column) in columns.iter().enumerate() {
         for push in &column.wrenches {
             let node = node_of[push.link];
-            let local = taken_about(&wrench(query, push), &nodes[node].place);
+            let local = taken_about(&wrench(query, push), &nodes[node].reference);
             (0..6).filter(|&i| local[i] != 0.0).for_each(|i| equal[6 * node + i].0.push((k, local[i])));
         }
     }
     for (index, node) in nodes.iter().enumerate().skip(1) {
         // To the parent, whose position is elsewhere: the force has a moment there.
-        let arm = node.place - nodes[node.parent].place;
+        let arm = node.reference - nodes[node.parent].reference;
         for i in 0..6 {
             equal[6 * node.parent + i].0.push((first(index) + i, 1.0));
             equal[6 * index + i].0.push((first(index) + i, -1.0));

@@ -25,7 +25,7 @@ pub(super) struct IntervalState {
     /// World orientation, position, angular velocity (rad/s) and velocity (m/s) of each link.
     pub links: Vec<Moving>,
     /// The state of each step of the kinematics.
-    joints: Vec<JointStretch>,
+    joints: Vec<JointInterval>,
     /// The deviation of each link, for each level that was asked for.
     deviations: Vec<Vec<Deviation>>,
     known: Vec<bool>,
@@ -131,9 +131,9 @@ impl IntervalState {
         self.poses[a].inverse() * self.poses[b]
     }
 
-    fn joint(&self, step: &Step) -> JointStretch {
+    fn joint(&self, step: &Step) -> JointInterval {
         let sum = |of: &[f64]| step.terms().iter().map(|&(joint, factor)| factor.abs() * of[joint]).sum();
-        JointStretch {
+        JointInterval {
             rate: step.position(&self.interval.rate).abs(),
             deviation: sum(&self.interval.deviation),
             half: self.interval.half,
@@ -144,7 +144,7 @@ impl IntervalState {
 
 /// The joint of a step over the interval.
 #[derive(Clone, Copy, Debug, Default)]
-struct JointStretch {
+struct JointInterval {
     rate: f64,
     deviation: f64,
     half: f64,
@@ -155,7 +155,7 @@ struct JointStretch {
 impl Deviation {
     /// Returns the deviation of the next link over a joint. `arms`: the two links' origins from its axis, m;
     /// `spins`: the two links' angular velocities in the middle, rad/s.
-    fn beyond(&self, step: &Step, joint: &JointStretch, arms: (f64, f64), spins: (f64, f64)) -> Deviation {
+    fn beyond(&self, step: &Step, joint: &JointInterval, arms: (f64, f64), spins: (f64, f64)) -> Deviation {
         // An axis of this link turns by at most this angle, and a unit vector moves by no more.
         let tilt = f64::min(2.0, self.spin * joint.half);
         if let Motion::Along(_) = step.motion {

@@ -49,7 +49,7 @@ struct SlidingPatch {
     /// Part of the weight, halved.
     load: f64,
     /// Load times friction.
-    grip: f64,
+    friction_load: f64,
     x: f64,
     y: f64,
     spread: f64,
@@ -111,7 +111,7 @@ fn drag(
     SlidingPatch {
         link,
         load,
-        grip: load * model.bodies[link].friction,
+        friction_load: load * model.bodies[link].friction,
         x: patch.x,
         y: patch.y,
         spread: patch.spread + SPREAD_MIN,
@@ -145,7 +145,7 @@ fn least_power(patches: &[SlidingPatch]) -> Vec3 {
         let mut right = zero;
         for d in patches {
             let softened = libm::sqrt(d.square(&d.slip(&shift)) + smoothed * smoothed);
-            let weight = if round == 0 { d.grip } else { d.grip / softened };
+            let weight = if round == 0 { d.friction_load } else { d.friction_load / softened };
             let rows = [
                 (Vec3::new(1.0, 0.0, -d.y), d.v[0], 1.0),
                 (Vec3::new(0.0, 1.0, d.x), d.v[1], 1.0),

@@ -82,7 +82,7 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     if samples > plan.settings.samples_max {
         ledger.fail(too_many_samples(samples, plan.settings.samples_max));
     } else {
-        let checkpoints = on_the_way(&rollout, missed, &mut ledger);
+        let checkpoints = check_samples(&rollout, missed, &mut ledger);
         collision_report::judge(&rollout, &mut ledger);
         blame::blame(&rollout, &checkpoints, ledger.failures_mut());
     }
@@ -95,12 +95,12 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
 }
 
 /// Number of checkpoints that are kept for rolling out parts of the plan again.
-const WAYPOINTS_MAX: usize = 16;
+const CHECKPOINTS_MAX: usize = 16;
 
 /// Judges everything that is judged from sample to sample. Returns checkpoints to roll out from.
-fn on_the_way(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Checkpoint> {
+fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Checkpoint> {
     let mut loops = docking::Monitor::new(rollout, missed);
-    let mut checkpoints = Decimated::new(WAYPOINTS_MAX);
+    let mut checkpoints = Decimated::new(CHECKPOINTS_MAX);
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
     let mut base_motion = base_motion::Monitor::new(rollout.tolerances);
     let mut torque = torque::Monitor::new(rollout.tolerances);

@@ -26,14 +26,14 @@ pub(super) struct ReferenceLevel {
     /// The body link of each centroid.
     pub origins: Vec<usize>,
     /// The steps from links already reached to their neighbours.
-    pub hops: Vec<Hop>,
+    pub hops: Vec<LinkStep>,
     /// The reference link of each link.
     pub origin_of: Vec<u32>,
 }
 
 /// A step from a link to a neighbour over a step of the kinematics.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hop {
+pub(super) struct LinkStep {
     /// The link already reached.
     pub from: u32,
     /// Its neighbour.
@@ -130,7 +130,13 @@ impl ReferenceLevel {
                     let step = &kinematics.steps[index];
                     let (near, far) = (step.shift.norm(), step.offset.norm());
                     let (out, back) = if step.parent == from { (near, far) } else { (far, near) };
-                    level.hops.push(Hop { from: from as u32, to: to as u32, step: index as u32, out, back });
+                    level.hops.push(LinkStep {
+                        from: from as u32,
+                        to: to as u32,
+                        step: index as u32,
+                        out,
+                        back,
+                    });
                 }
             }
         }

@@ -6,7 +6,7 @@
 use super::contact;
 use super::model::{Model, Posture};
 use super::sampling;
-use super::stance::{Kept, Stance, StepOutcome};
+use super::stance::{Placement, Stance, StepOutcome};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
@@ -170,8 +170,8 @@ impl<'a> Stepper<'a> {
     /// Observes the first sample.
     fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
         let pose = self.rollout.tracks.start.base;
-        let kept = if self.on_ground() { Kept::Nothing } else { unsettled(&self.world) };
-        let (settling, fall) = self.stand(&pose, kept);
+        let kept = if self.on_ground() { Placement::Settled } else { unsettled(&self.world) };
+        let (settling, fall) = self.place_on_ground(&pose, kept);
         self.show(observe, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
     }
 
@@ -325,7 +325,7 @@ impl<'a> Stepper<'a> {
             self.bonds = bonds_at(self.rollout.tracks, t);
             self.model = Model::new(&self.rollout.tracks.robot, &self.bonds);
             step.moved = true;
-            self.restand();
+            self.rebuild_stance();
         }
         if changes.world {
             let before = self.world.ground;
@@ -333,7 +333,7 @@ impl<'a> Stepper<'a> {
             step.moved = true;
             if self.on_ground() && before != Ground::Settle {
                 let pose = self.stance.base_pose(&self.model);
-                let (settling, fall) = self.stand(&pose, Kept::Nothing);
+                let (settling, fall) = self.place_on_ground(&pose, Placement::Settled);
                 (step.settling, step.fall) = (Some(settling), fall);
             }
         }
@@ -341,15 +341,15 @@ impl<'a> Stepper<'a> {
     }
 
     /// Rebuilds the stance over another tree of bonds: nothing moves.
-    fn restand(&mut self) {
+    fn rebuild_stance(&mut self) {
         let pose = self.stance.base_pose(&self.model);
         let held = self.stance.held;
         let posture = self.model.posture(&self.joints, &mut self.poses);
-        self.stance = Stance::start(&self.model, posture, &pose, Kept::Pose, self.rollout.tolerances).0;
+        self.stance = Stance::start(&self.model, posture, &pose, Placement::Fixed, self.rollout.tolerances).0;
         self.stance.held = held;
     }
 
-    fn stand(&mut self, pose: &Pose, kept: Kept) -> (f64, f64) {
+    fn place_on_ground(&mut self, pose: &Pose, kept: Placement) -> (f64, f64) {
         let posture = self.model.posture(&self.joints, &mut self.poses);
         let (stance, fall, turn) = Stance::start(&self.model, posture, pose, kept, self.rollout.tolerances);
         (self.stance, self.held_since) = (stance, None);
@@ -388,8 +388,8 @@ impl<'a> Stepper<'a> {
 }
 
 /// Returns the part of the drawn pose that is kept where a robot does not settle.
-fn unsettled(world: &World) -> Kept {
-    if world.ground == Ground::Held { Kept::Pose } else { Kept::Orientation }
+fn unsettled(world: &World) -> Placement {
+    if world.ground == Ground::Held { Placement::Fixed } else { Placement::Lowered }
 }
 
 #[derive(Clone, Copy)]

@@ -61,15 +61,15 @@ pub enum StepOutcome {
 }
 
 impl Stance {
-    /// Returns the stance of a robot with the base at `X_WB`: kept there (`Kept::Pose`), lowered to the
-    /// ground with its orientation (`Kept::Orientation`), or lowered and then settled (`Kept::Nothing`). Also
+    /// Returns the stance of a robot with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to the
+    /// ground with its orientation (`Placement::Lowered`), or lowered and then settled (`Placement::Settled`). Also
     /// returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless
     /// it settles.
     pub fn start(
         model: &Model,
         posture: Posture,
         X_WB: &Pose,
-        kept: Kept,
+        kept: Placement,
         tolerances: &Tolerances,
     ) -> (Stance, f64, f64) {
         let R = *X_WB.rotation.to_rotation_matrix().matrix();
@@ -78,8 +78,8 @@ impl Stance {
         let c = X_WB.transform_point(&posture.centre.into());
         let place = PlanarPose { x: c.x, y: c.y, yaw: 0.0 };
         let level = match kept {
-            Kept::Pose => c.z,
-            Kept::Nothing | Kept::Orientation => up,
+            Placement::Fixed => c.z,
+            Placement::Settled | Placement::Lowered => up,
         };
         let mut stance = Stance {
             posture,
@@ -92,7 +92,7 @@ impl Stance {
             held: false,
             anchors: vec![],
         };
-        if kept != Kept::Nothing {
+        if kept != Placement::Settled {
             stance.find_contacts(model, tolerances);
             return (stance, 0.0, 0.0);
         }
@@ -160,7 +160,7 @@ impl Stance {
     /// Returns the stance with the same base pose in a new posture.
     pub fn kept(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Stance {
         let X_WB = self.base_pose(model);
-        Stance::start(model, posture, &X_WB, Kept::Pose, tolerances).0
+        Stance::start(model, posture, &X_WB, Placement::Fixed, tolerances).0
     }
 
     /// Returns the static stability margin in the support polygon of the contacts; `None` where they span no area.
@@ -220,7 +220,7 @@ impl Stance {
 
 /// The part of a given base pose that is kept when a robot is placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum Placement {
     /// It is lowered to the ground and settles.
     Nothing,
     /// It is lowered to the ground.

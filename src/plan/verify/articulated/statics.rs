@@ -86,7 +86,7 @@ pub(super) struct Wrench {
     pub link: usize,
     /// Point of application, from the centre of mass, level axes, m.
     pub p: Vec3,
-    /// Force, N.
+    /// The force, N.
     pub f: Vec3,
     /// Moment in addition to that of the force, N·m.
     pub m: Vec3,

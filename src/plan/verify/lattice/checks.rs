@@ -10,7 +10,7 @@ use crate::plan::{CheckKind, Dynamics, Ratio, Stage};
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
-    /// K1: checks the smallest and the largest edge at the end of a stage. Returns false where one fails.
+    /// Checks the smallest and the largest edge at the end of a stage (K1). Returns false where one fails.
     pub(super) fn sizes(
         &self,
         change: &Change,
@@ -37,7 +37,7 @@ impl Judgement<'_> {
         true
     }
 
-    /// K4 and K6: checks the greatest acceleration and the greatest rate of a size.
+    /// Checks the greatest acceleration and the greatest rate of a size (K4 and K6).
     pub(super) fn laws(&self, step: &Step, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
         let lines = 2 * i128::from(step.lines);
@@ -84,7 +84,7 @@ impl Judgement<'_> {
         }
     }
 
-    /// K5: checks the greatest relative speed over contacts that last the stage.
+    /// Checks the greatest relative speed over contacts that last the stage (K5).
     pub(super) fn contact_speed(&self, step: &Step, forest: &ContactForest, ledger: &mut Ledger) {
         let (a, b) = forest.fastest;
         self.note_speed(step, forest.relative, 2 * step.lines, &[a, b], ledger);
@@ -123,7 +123,7 @@ impl Judgement<'_> {
         keep_least(&mut ledger.verdict.speed_margin, margin, step.from, || names(cells));
     }
 
-    /// F1 and F3: checks linear and angular momentum. Also records peak speed and energies.
+    /// Checks linear and angular momentum (F1 and F3). Also records peak speed and energies.
     pub(super) fn momentum(&self, step: &Step, dynamics: &mut Dynamics, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
         if let Some(axis) = (0..3).find(|&axis| change.drift[axis] != 0) {
@@ -153,7 +153,7 @@ impl Judgement<'_> {
         dynamics.peak_speed = dynamics.peak_speed.max(libm::sqrt(change.square as f64) / lines * rate);
     }
 
-    /// F2 and F4: checks that contact forces explain the motion, and their limit.
+    /// Checks that contact forces explain the motion, and their limit (F2 and F4).
     pub(super) fn forces(
         &self,
         step: &Step,
@@ -192,7 +192,7 @@ impl Judgement<'_> {
         }
     }
 
-    /// K2: records an overlap of two cells.
+    /// Records an overlap of two cells (K2).
     pub(super) fn overlapping(
         &self,
         overlap: &Overlap,
@@ -208,7 +208,7 @@ impl Judgement<'_> {
         self.fail_at(CheckKind::Collision, time, stage, (message, 0.0, 0.0), &[a, b], ledger);
     }
 
-    /// K3: checks that contacts connect all cells.
+    /// Checks that contacts connect all cells (K3).
     pub(super) fn connected(
         &self,
         forest: &mut ContactForest,

@@ -99,7 +99,13 @@ impl Judgement<'_> {
             after.clone_from(&before);
             grid.place(&stage.end, &mut after)?;
             if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {
-                self.seam((last, &earlier), &before, (stage, &after), instants[index], ledger);
+                self.velocities_continuous(
+                    (last, &earlier),
+                    &before,
+                    (stage, &after),
+                    instants[index],
+                    ledger,
+                );
             }
             let step = Step {
                 stage,
@@ -152,7 +158,7 @@ impl Judgement<'_> {
     }
 
     /// Checks that velocities are continuous between two stages.
-    fn seam(
+    fn velocities_continuous(
         &self,
         last: (&Stage, &[Cube]),
         between: &[Cube],

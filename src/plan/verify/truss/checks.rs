@@ -2,7 +2,7 @@
 //! between struts, and the summary of a plan.
 
 use super::judgement::{Judgement, Step};
-use super::support::Standing;
+use super::support::StabilityMonitor;
 use super::{lengths, strut_distance, support};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
@@ -11,7 +11,13 @@ use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
     /// Judges the start of a plan of one keyframe as a step in which nothing moves.
-    pub(super) fn at_rest(&self, x: &[Vec3], world: World, standing: &mut Standing, ledger: &mut Ledger) {
+    pub(super) fn at_rest(
+        &self,
+        x: &[Vec3],
+        world: World,
+        standing: &mut StabilityMonitor,
+        ledger: &mut Ledger,
+    ) {
         let step = Step {
             from: x.to_vec(),
             to: x.to_vec(),
@@ -120,7 +126,7 @@ impl Judgement<'_> {
     pub(super) fn summary(
         &self,
         places: &[Vec<Vec3>],
-        standing: &Standing,
+        standing: &StabilityMonitor,
         plan: &Plan,
         ledger: &mut Ledger,
     ) {

@@ -22,7 +22,7 @@ use crate::geometry::{HeightField, Vec3};
 use crate::interrupt;
 use crate::plan::{CheckKind, Interpolation, NodePaths, Plan, Verdict};
 use judgement::{Judgement, Step};
-use support::Standing;
+use support::StabilityMonitor;
 use tolerances::Tolerances;
 
 /// Returns the verdict on a truss plan.
@@ -53,7 +53,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         let last = plan.worlds.partition_point(|w| w.from <= t).max(1) - 1;
         plan.worlds[last].world
     };
-    let mut standing = Standing::new(&judged);
+    let mut standing = StabilityMonitor::new(&judged);
     // The start.
     judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);

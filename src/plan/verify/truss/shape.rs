@@ -51,10 +51,10 @@ impl Judgement<'_> {
         };
         // Advancement: the angle changes no faster than both directions turn.
         let speed = turns(p) + turns(q);
-        let (mut part, mut least) = (0.0, (between(at(p, 1.0), at(q, 1.0)), 1.0));
+        let (mut part, mut least) = (0.0, (angle_between(at(p, 1.0), at(q, 1.0)), 1.0));
         let mut proved = false;
         for _ in 0..ADVANCEMENT_STEPS_MAX {
-            let found = between(at(p, part), at(q, part));
+            let found = angle_between(at(p, part), at(q, part));
             if found < least.0 {
                 least = (found, part);
             }
@@ -179,7 +179,7 @@ impl Corner {
     /// Returns the angle between its struts at node positions `x`, rad.
     pub(super) fn angle(&self, x: &[Vec3]) -> f64 {
         let (p, q) = self.ends;
-        between(x[p] - x[self.node], x[q] - x[self.node])
+        angle_between(x[p] - x[self.node], x[q] - x[self.node])
     }
 }
 
@@ -205,7 +205,7 @@ pub(super) fn corners(paths: &NodePaths) -> Vec<Corner> {
 
 /// Returns the angle between two vectors, rad, from the norms of the sum and the difference of unit vectors:
 /// accurate for small angles, too (Kahan).
-fn between(u: Vec3, v: Vec3) -> f64 {
+fn angle_between(u: Vec3, v: Vec3) -> f64 {
     let (u, v) = (u.normalize(), v.normalize());
     2.0 * libm::atan2((u - v).norm(), (u + v).norm())
 }

@@ -1,7 +1,7 @@
 //! Comparison of the margins that a plan states at its keyframes with those found there.
 
 use super::judgement::{Judgement, Step};
-use super::support::{Standing, centre};
+use super::support::{StabilityMonitor, centre};
 use super::{shape, strut_distance};
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
@@ -16,7 +16,7 @@ impl Judgement<'_> {
         stated: &Margins,
         x: &[Vec3],
         time: f64,
-        standing: &Standing,
+        standing: &StabilityMonitor,
     ) -> Option<Failure> {
         let Margins { length, clearance, obstacle, support, angle, rigidity, sum } = *stated;
         let found = |stated: Option<f64>, found: &dyn Fn() -> Option<f64>, what: &'static str| {

@@ -11,7 +11,7 @@ use crate::units::{Dimension, quantity};
 const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 
 /// Judges static stability step after step, and records the slip.
-pub(super) struct Standing<'a> {
+pub(super) struct StabilityMonitor<'a> {
     judgement: &'a Judgement<'a>,
     contact: f64,
     /// Distance that each node slid over the ground, m.
@@ -50,14 +50,14 @@ pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
     }
 }
 
-impl<'a> Standing<'a> {
+impl<'a> StabilityMonitor<'a> {
     /// Returns the state before the first step.
-    pub(super) fn new(judgement: &'a Judgement<'a>) -> Standing<'a> {
+    pub(super) fn new(judgement: &'a Judgement<'a>) -> StabilityMonitor<'a> {
         let paths = judgement.paths;
         let first = &paths.keyframes[0].nodes;
         let length = |&(a, b): &(usize, usize)| (Vec3::from(first[a]) - Vec3::from(first[b])).norm();
         let mean = paths.struts.iter().map(length).sum::<f64>() / paths.struts.len().max(1) as f64;
-        Standing {
+        StabilityMonitor {
             judgement,
             contact: judgement.tolerances.contact * mean,
             slid: vec![0.0; first.len()],

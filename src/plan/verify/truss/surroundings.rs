@@ -34,7 +34,7 @@ pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
 }
 
 /// Returns the position of a node, m, at a part of a step from 0 to 1.
-pub(super) fn place(step: &Step, node: usize, part: f64) -> Vec3 {
+pub(super) fn position(step: &Step, node: usize, part: f64) -> Vec3 {
     match step.interpolation {
         Interpolation::Linear => step.from[node] + (step.to[node] - step.from[node]) * part,
         Interpolation::RigidRoll { edge, angle } => {
@@ -46,7 +46,7 @@ pub(super) fn place(step: &Step, node: usize, part: f64) -> Vec3 {
 }
 
 /// Returns the length of the path of a node on a step, m: an upper bound on its speed per step.
-fn way(step: &Step, node: usize) -> f64 {
+fn path_length(step: &Step, node: usize) -> f64 {
     match step.interpolation {
         Interpolation::Linear => (step.to[node] - step.from[node]).norm(),
         Interpolation::RigidRoll { edge, angle } => {
@@ -62,17 +62,23 @@ impl Judgement<'_> {
         for obstacle in &self.obstacles {
             for strut in 0..self.paths.struts.len() {
                 for part in &obstacle.solid.parts {
-                    self.beside(step, strut, (obstacle, part), ledger);
+                    self.strut_obstacle(step, strut, (obstacle, part), ledger);
                 }
             }
         }
     }
 
     /// Checks one strut against one convex part of an obstacle, by conservative advancement.
-    fn beside(&self, step: &Step, strut: usize, (obstacle, part): (&Obstacle, &Part), ledger: &mut Ledger) {
+    fn strut_obstacle(
+        &self,
+        step: &Step,
+        strut: usize,
+        (obstacle, part): (&Obstacle, &Part),
+        ledger: &mut Ledger,
+    ) {
         let (a, b) = self.paths.struts[strut];
         let clearance = self.strut.clearance;
-        let fastest = way(step, a).max(way(step, b));
+        let fastest = path_length(step, a).max(path_length(step, b));
         // Broad phase: bounding spheres.
         let (p, q) = (step.from[a], step.from[b]);
         let gap = ((p + q) / 2.0 - part.centre).norm() - (p - q).norm() / 2.0 - part.radius;
@@ -81,7 +87,7 @@ impl Judgement<'_> {
             return;
         }
         let sample = |at: f64| {
-            let (p, q) = (place(step, a, at), place(step, b, at));
+            let (p, q) = (position(step, a, at), position(step, b, at));
             let segment = Part::capsule((p + q) / 2.0, (q - p) / 2.0, 0.0);
             signed_distance_within(&segment, part, &Pose::identity(), None, 2.0 * clearance + fastest)
                 .distance
@@ -185,11 +191,11 @@ impl Judgement<'_> {
             let (at, height) = terrain.lowest(step.from[node], step.to[node]);
             return (height < -self.tolerances.uneven_ground).then_some((-height, at));
         }
-        let fastest = ends.iter().map(|&node| way(step, node)).fold(0.0, f64::max);
+        let fastest = ends.iter().map(|&node| path_length(step, node)).fold(0.0, f64::max);
         let falls = fastest * libm::hypot(1.0, self.steepest);
         let sample = |at: f64| match *ends {
-            [node] => terrain.above(place(step, node, at)),
-            [a, b, ..] => terrain.lowest(place(step, a, at), place(step, b, at)).1,
+            [node] => terrain.above(position(step, node, at)),
+            [a, b, ..] => terrain.lowest(position(step, a, at), position(step, b, at)).1,
             [] => f64::INFINITY,
         };
         let mut at = 0.0;

@@ -40,7 +40,7 @@ pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<Rigid
     let mut all = rows.clone();
     all.extend(pinning_rows(&nodes)?);
     all.sort_by_key(|row| row.first);
-    let mut band = Band::new(3 * nodes.len(), all.iter().map(Row::width).max()?);
+    let mut band = BandedQr::new(3 * nodes.len(), all.iter().map(Row::width).max()?);
     for row in &all {
         interrupt::checkpoint();
         band.insert(row);
@@ -150,16 +150,16 @@ impl Row {
 }
 
 /// The upper triangular factor R of the QR decomposition, within a narrow band, row by row from the diagonal on.
-struct Band {
+struct BandedQr {
     columns: usize,
     width: usize,
     rows: Vec<f64>,
     taken: Vec<bool>,
 }
 
-impl Band {
-    fn new(columns: usize, width: usize) -> Band {
-        Band { columns, width, rows: vec![0.0; columns * width], taken: vec![false; columns] }
+impl BandedQr {
+    fn new(columns: usize, width: usize) -> BandedQr {
+        BandedQr { columns, width, rows: vec![0.0; columns * width], taken: vec![false; columns] }
     }
 
     fn row(&self, at: usize) -> &[f64] {
@@ -241,7 +241,7 @@ fn starting_vectors(columns: usize, count: usize) -> Vec<DVector<f64>> {
 /// Returns the least singular value of the struts' rows but those of rigid motions, by inverse subspace iteration:
 /// slender trusses bend in two planes almost alike. The inverse of the pinned matrix, between two projections, is the
 /// pseudo-inverse of the free one.
-fn least_singular_value(band: &Band, rows: &[Row], whole: &[DVector<f64>]) -> Option<f64> {
+fn least_singular_value(band: &BandedQr, rows: &[Row], whole: &[DVector<f64>]) -> Option<f64> {
     let mut space = starting_vectors(band.columns, SUBSPACE);
     converged(&mut || {
         let solved = space.drain(..).map(|mut x| {
