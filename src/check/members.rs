@@ -174,7 +174,7 @@ impl<'a> Checker<'a> {
             }
             return self.report(d);
         }
-        // A joint and a port of one name are told apart by use, and so is their alias.
+        // A joint and a port of one name are distinguished by use, and so is their alias.
         if let Some(joint) = joint {
             if let Some(first) = members.joint_index.get(&name.text).copied() {
                 let first = members.joints[first].span;

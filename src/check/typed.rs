@@ -173,7 +173,8 @@ pub struct ConnectorDef {
     pub mates: Vec<(DefId, Span)>,
     /// The number of turns at which it mates, evenly over a full turn; `None` if the clause is missing.
     pub turns: Option<Expr>,
-    /// The greatest forces and torques that it holds; the type of an expression tells a force from a torque.
+    /// The greatest forces and torques that it holds; the type of an expression distinguishes a force from a
+    /// torque.
     pub holds: Vec<Expr>,
     /// The tolerances of docking: distance and angle.
     pub capture: Option<(Expr, Option<Expr>)>,

@@ -172,7 +172,7 @@ impl Interpreter<'_> {
                 counted(design.module_count(), "module"),
                 mass_words(&design)
             ),
-            DesignKind::Lattice(lattice) => format!(": {}", counted(lattice.cells.places.len(), "cell")),
+            DesignKind::Lattice(lattice) => format!(": {}", counted(lattice.cells.positions.len(), "cell")),
             DesignKind::Truss(truss) => {
                 format!(": {}, {}", counted(truss.nodes.len(), "node"), counted(truss.struts.len(), "strut"))
             }

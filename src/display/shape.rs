@@ -11,18 +11,18 @@ const ROWS_MAX: i64 = 60;
 
 /// Returns the cells layer by layer from the highest, each as `cells` reads it: y up, x to the right.
 pub(super) fn cells(cells: &Cells) -> String {
-    let count = counted(cells.places.len(), "cell");
+    let count = counted(cells.positions.len(), "cell");
     let ends = |axis: usize| {
-        let along = cells.places.iter().map(|place| place[axis]);
+        let along = cells.positions.iter().map(|place| place[axis]);
         (along.clone().min().unwrap_or(0), along.max().unwrap_or(0))
     };
     let [(x0, x1), (y0, y1), (z0, z1)] = [ends(0), ends(1), ends(2)];
     let rows = (y1 - y0 + 1).saturating_mul(z1 - z0 + 1);
-    if cells.places.is_empty() || x1 - x0 >= COLUMNS_MAX || rows > ROWS_MAX {
+    if cells.positions.is_empty() || x1 - x0 >= COLUMNS_MAX || rows > ROWS_MAX {
         let size = [x1 - x0 + 1, y1 - y0 + 1, z1 - z0 + 1].map(|n| n.to_string()).join(" x ");
         return format!("{count} in {size}");
     }
-    let taken: std::collections::BTreeSet<[i64; 3]> = cells.places.iter().copied().collect();
+    let taken: std::collections::BTreeSet<[i64; 3]> = cells.positions.iter().copied().collect();
     let mut lines = vec![count];
     for z in (z0..=z1).rev() {
         if z1 > z0 {

@@ -45,7 +45,7 @@ impl Interpreter<'_> {
             Value::Condition(_) => "a condition".into(),
             Value::Shape(_) => "a shape".into(),
             Value::JointKind(_) => "a kind of joint".into(),
-            Value::Cells(cells) => format!("{} cells", cells.places.len()),
+            Value::Cells(cells) => format!("{} cells", cells.positions.len()),
             Value::Mesh(mesh) => format!("a mesh of {} faces", mesh.faces.len()),
             Value::Terrain(field) => format!("a terrain of {} by {} heights", field.columns, field.rows()),
             Value::Cloud(points) => format!("a cloud of {} points", points.len()),

@@ -22,7 +22,7 @@ impl Interpreter<'_> {
         let (Some(of), Value::Cells(cells)) = (of, value) else { return Ok(None) };
         let declared = self.shared.program.def(def);
         let span = self.stack.calls.last().map_or(declared.span, |call| call.span);
-        if cells.places.is_empty() {
+        if cells.positions.is_empty() {
             let message = format!("the lattice `{}` has no cells", declared.name);
             return self.attempt(|_| Err(fault(code::BAD_LATTICE, span, message, "no cells")));
         }

@@ -29,7 +29,7 @@ impl Interpreter<'_> {
             return Ok(robot.clone());
         }
         let robot = self.build_robot(design)?.map(Rc::new);
-        // Building does not come back here, so the place is still free.
+        // Building does not come back here, so the cell is still empty.
         Ok(cell.get_or_init(|| robot).clone())
     }
 

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, VecDeque};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cells {
     /// The whole coordinates of each cell, in the order of the numbers.
-    pub places: Vec<[i64; 3]>,
+    pub positions: Vec<[i64; 3]>,
 }
 
 /// A character of a cell text that is no cell and no gap.
@@ -27,39 +27,39 @@ pub struct BadCell {
 /// The first character that is none of these.
 pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
     let lines: Vec<&str> = text.lines().collect();
-    let mut places = Vec::new();
+    let mut positions = Vec::new();
     for (row, line) in lines.iter().enumerate() {
         for (x, (offset, character)) in line.char_indices().enumerate() {
             match character {
-                '#' => places.push([x as i64, (lines.len() - 1 - row) as i64, z]),
+                '#' => positions.push([x as i64, (lines.len() - 1 - row) as i64, z]),
                 '.' | ' ' => {}
                 character => return Err(BadCell { character, line: row, offset }),
             }
         }
     }
-    Ok(places)
+    Ok(positions)
 }
 
 impl Cells {
     /// Returns a block of cells, `size` along x, y and z, with a corner at the origin.
     pub fn block(size: [usize; 3]) -> Cells {
-        let mut places = Vec::with_capacity(size.iter().product());
+        let mut positions = Vec::with_capacity(size.iter().product());
         for z in 0..size[2] {
             for y in 0..size[1] {
-                places.extend((0..size[0]).map(|x| [x as i64, y as i64, z as i64]));
+                positions.extend((0..size[0]).map(|x| [x as i64, y as i64, z as i64]));
             }
         }
-        Cells { places }
+        Cells { positions }
     }
 
     /// Returns the number of cells of each connected component (over faces), in order of their first cell;
     /// one component for a connected arrangement.
     pub fn pieces(&self) -> Vec<usize> {
         let index: BTreeMap<[i64; 3], usize> =
-            self.places.iter().enumerate().map(|(i, place)| (*place, i)).collect();
-        let mut reached = vec![false; self.places.len()];
+            self.positions.iter().enumerate().map(|(i, place)| (*place, i)).collect();
+        let mut reached = vec![false; self.positions.len()];
         let mut sizes = Vec::new();
-        for start in 0..self.places.len() {
+        for start in 0..self.positions.len() {
             if reached[start] {
                 continue;
             }
@@ -69,7 +69,7 @@ impl Cells {
             while let Some(cell) = frontier.pop_front() {
                 crate::interrupt::checkpoint();
                 size += 1;
-                for place in neighbours(self.places[cell]) {
+                for place in neighbours(self.positions[cell]) {
                     if let Some(&next) = index.get(&place)
                         && !reached[next]
                     {

@@ -338,7 +338,7 @@ fn phase(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let body = call.get::<&Rc<Behavior>>("behavior")?;
     let shift = call.get::<f64>("shift")?;
     let cause = interpreter.cause(call.span, Vec::new(), "");
-    // A whole cycle more is the same place in the cycle.
+    // A whole cycle more is the same phase of the cycle.
     let shift = shift - libm::floor(shift);
     Ok(behavior(body.robot.clone(), Node::Phase { body: body.node.clone(), shift, cause }))
 }

@@ -59,32 +59,32 @@ fn block(interpreter: &mut Interpreter, call: &Call, size: [usize; 3]) -> Eval<V
 
 fn drawn(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let text = call.get::<&str>("text")?;
-    let places = cells::layer(text, 0).map_err(|bad| bad_cell(interpreter, call.at("text"), text, bad))?;
-    arrangement(interpreter, call, "text", places)
+    let positions = cells::layer(text, 0).map_err(|bad| bad_cell(interpreter, call.at("text"), text, bad))?;
+    arrangement(interpreter, call, "text", positions)
 }
 
 fn layers(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let mut places = Vec::new();
+    let mut positions = Vec::new();
     for (z, text) in call.get::<&[Value]>("texts")?.iter().enumerate() {
         let Value::Text(text) = text else { return Err(call.refuse("texts", "texts are wanted")) };
         let layer =
             cells::layer(text, z as i64).map_err(|bad| bad_cell(interpreter, call.at("texts"), text, bad))?;
-        places.extend(layer);
+        positions.extend(layer);
     }
-    arrangement(interpreter, call, "texts", places)
+    arrangement(interpreter, call, "texts", positions)
 }
 
 fn arrangement(
     interpreter: &mut Interpreter,
     call: &Call,
     drawn: &str,
-    places: Vec<[i64; 3]>,
+    positions: Vec<[i64; 3]>,
 ) -> Eval<Value> {
-    interpreter.check_list(places.len(), call.span)?;
-    if places.is_empty() {
+    interpreter.check_list(positions.len(), call.span)?;
+    if positions.is_empty() {
         return Err(fault(code::BAD_LATTICE, call.at(drawn), "no cell is drawn", "`#` is a cell"));
     }
-    Ok(Value::Cells(Rc::new(Cells { places })))
+    Ok(Value::Cells(Rc::new(Cells { positions })))
 }
 
 fn bad_cell(interpreter: &Interpreter, span: Span, text: &str, bad: BadCell) -> Stop {

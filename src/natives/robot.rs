@@ -49,7 +49,7 @@ fn instance<'c>(call: &Call<'c>) -> Eval<&'c Rc<Instance>> {
 fn count(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let design = &instance(call)?.design;
     Ok(Value::count(match &design.kind {
-        DesignKind::Lattice(lattice) => lattice.cells.places.len(),
+        DesignKind::Lattice(lattice) => lattice.cells.positions.len(),
         _ => design.module_count(),
     }))
 }
@@ -60,7 +60,7 @@ fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
         DesignKind::Cell(cell) => cell.mass,
         DesignKind::Strut(strut) => strut.mass,
         DesignKind::Lattice(lattice) => match &lattice.of.kind {
-            DesignKind::Cell(cell) => cell.mass * lattice.cells.places.len() as f64,
+            DesignKind::Cell(cell) => cell.mass * lattice.cells.positions.len() as f64,
             _ => 0.0,
         },
         DesignKind::Truss(truss) => truss.strut_kind().map_or(0.0, |s| s.mass) * truss.struts.len() as f64,

@@ -182,25 +182,25 @@ fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
         center: place.map(|x| Ratio(x, 1)),
         size: [Ratio::ONE; 3],
     };
-    let places = &lattice.cells.places;
+    let positions = &lattice.cells.positions;
     Some(Stages {
         cell: 0,
-        count: places.len() as u64,
+        count: positions.len() as u64,
         time_unit: 1.0,
         limits: CellLimits::default(),
         model: Model::default(),
-        start: places.iter().enumerate().map(run).collect(),
+        start: positions.iter().enumerate().map(run).collect(),
         stages: Vec::new(),
     })
 }
 
 fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
     library.struts.push(truss.strut_kind()?.clone());
-    let places = truss.nodes.iter().map(|node| node.position.into());
+    let positions = truss.nodes.iter().map(|node| node.position.into());
     let start = Keyframe {
         time: 0.0,
         interpolation: Interpolation::Linear,
-        nodes: places.collect(),
+        nodes: positions.collect(),
         cause: CauseId(0),
         margins: Margins::default(),
     };

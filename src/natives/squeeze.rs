@@ -77,8 +77,11 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             .label(call.at("to"), format!("of {}", other.name))
             .into());
     }
-    let problem =
-        Problem { cell: cell.clone(), start: start.cells.places.clone(), goal: end.cells.places.clone() };
+    let problem = Problem {
+        cell: cell.clone(),
+        start: start.cells.positions.clone(),
+        goal: end.cells.positions.clone(),
+    };
     let max_force = max_force.map(|force| force.0);
     let settings = Settings { method, model, profile, max_force, norm };
     crate::interrupt::start_task(format!("squeezing {} to {}", design.name, goal.name));

@@ -27,8 +27,8 @@ pub struct Cause {
 }
 
 impl Cause {
-    /// Returns the cause that stands for the call of a planner until the caller, who alone knows its place,
-    /// puts its own in.
+    /// Returns the cause that stands for the call of a planner until the caller, who alone knows its
+    /// position, puts its own in.
     pub fn planner_call() -> Cause {
         Cause {
             file: String::new(),

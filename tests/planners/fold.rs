@@ -5,7 +5,7 @@ use modl::geometry::Vec3;
 use modl::geometry::pose::turned;
 use modl::interpret::Mode;
 use modl::planners::fold::branch_and_bound::{self, NoLayout, optimum};
-use modl::planners::fold::enumerate::{self, census};
+use modl::planners::fold::enumerate::{self, enumerate_energies};
 use modl::planners::fold::heuristic::{Measure, preferred};
 use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::pattern::Pattern;
@@ -108,8 +108,9 @@ fn energies_occur_as_often_as_they_should() {
     let tetrahedron = [(1.0, 4), (16.0 / 9.0, 24), (23.0 / 9.0, 12), (10.0 / 3.0, 24)];
     let spectrum = |name: &str| {
         let target = target(name);
-        let found = census(&target, &weights(&target), &all_layouts(None, true), &Observer::none())
-            .expect("few faces");
+        let found =
+            enumerate_energies(&target, &weights(&target), &all_layouts(None, true), &Observer::none())
+                .expect("few faces");
         let levels = found.spectrum.expect("asked for").levels();
         levels.into_iter().map(|(energy, times)| (energy / found.least, times)).collect::<Vec<_>>()
     };
@@ -190,8 +191,9 @@ fn enumerations_agree_with_another_program() {
             continue;
         }
         let target = target(name);
-        let found = census(&target, &weights(&target), &all_layouts(Some(0), true), &Observer::none())
-            .expect("few faces");
+        let found =
+            enumerate_energies(&target, &weights(&target), &all_layouts(Some(0), true), &Observer::none())
+                .expect("few faces");
         assert!(found.complete);
         assert_eq!(found.layouts, truth["layouts"].as_u64().expect("a count"), "{name}");
         assert!(near(found.least, number(&truth["min_E_dt1"]), 1e-9), "{name}");
@@ -216,10 +218,11 @@ fn enumerations_agree_with_another_program() {
 fn a_budget_ends_an_enumeration_and_says_so() {
     let target = target("octahedron");
     let settings = enumerate::Settings { budget: 100, ..all_layouts(None, false) };
-    let some = census(&target, &weights(&target), &settings, &Observer::none()).expect("few faces");
+    let some =
+        enumerate_energies(&target, &weights(&target), &settings, &Observer::none()).expect("few faces");
     assert_eq!((some.layouts, some.complete), (100, false));
     let all = enumerate::Settings { budget: 384, ..settings };
-    let all = census(&target, &weights(&target), &all, &Observer::none()).expect("few faces");
+    let all = enumerate_energies(&target, &weights(&target), &all, &Observer::none()).expect("few faces");
     assert_eq!((all.layouts, all.complete, all.ties), (384, true, 192));
 }
 
@@ -455,7 +458,7 @@ proptest! {
         let root = root % target.faces.len();
         let weights = Weights::uniform(&target, MASS);
         let found = optimum(&target, &weights, &branch_and_bound::Settings::default()).expect("it has layouts");
-        let all = census(&target, &weights, &all_layouts(None, false), &Observer::none()).expect("few faces");
+        let all = enumerate_energies(&target, &weights, &all_layouts(None, false), &Observer::none()).expect("few faces");
         prop_assert_eq!(spanning_trees::layouts(&target).to_string(), all.layouts.to_string());
         prop_assert_eq!(found.proof, Proof::Optimal);
         prop_assert!(near(found.energy, all.least, 2e-9));

@@ -6,7 +6,7 @@
 use crate::planners::fold::{TRUTH, index, mesh, near, number, numbers, shapes, target, weights};
 use modl::geometry::{Vec3, subdivide};
 use modl::planners::fold::branch_and_bound::{self, optimum};
-use modl::planners::fold::enumerate::{self, census};
+use modl::planners::fold::enumerate::{self, enumerate_energies};
 use modl::planners::fold::lagrangian::{AscentLimits, Lagrangian};
 use modl::planners::fold::pattern::Pattern;
 use modl::planners::fold::{Layout, Proof, Target, Weights, edge_exchange, spanning_trees, symmetry};
@@ -149,7 +149,7 @@ fn millions_of_layouts_agree_with_another_program() {
         let weights = weights(&target);
         let truth = &TRUTH["shapes"][name]["full_enumeration_root0"];
         let asked = enumerate::Settings { root: Some(0), spectrum: true, budget: u64::MAX };
-        let found = census(&target, &weights, &asked, &Observer::none()).expect("few faces");
+        let found = enumerate_energies(&target, &weights, &asked, &Observer::none()).expect("few faces");
         assert!(found.complete);
         assert_eq!(found.layouts, truth["layouts"].as_u64().expect("a count"), "{name}");
         assert!(near(found.least, number(&truth["min_E_dt1"]), 1e-9), "{name}");
@@ -182,7 +182,7 @@ fn millions_of_layouts_agree_with_another_program() {
         if *name == "icosahedron" {
             // Every face is as good a root as any other: all 103,680,000 pairs.
             let asked = enumerate::Settings { root: None, ..asked };
-            let all = census(&target, &weights, &asked, &Observer::none()).expect("few faces");
+            let all = enumerate_energies(&target, &weights, &asked, &Observer::none()).expect("few faces");
             let every = all.spectrum.expect("asked for").levels();
             assert_eq!(every.iter().map(|level| level.1).sum::<u64>(), 5_184_000 * 20);
             assert_eq!(every.len(), levels.len());

@@ -2,7 +2,7 @@
 
 use crate::planners::fold::{MASS, TRUTH, mesh, near};
 use modl::geometry::Vec3;
-use modl::planners::fold::enumerate::{self, census};
+use modl::planners::fold::enumerate::{self, enumerate_energies};
 use modl::planners::fold::pattern::Pattern;
 use modl::planners::fold::{Layout, Proof, Target, Weights, branch_and_bound, edge_exchange, spanning_trees};
 use modl::planners::fold::{Observer, TOLERANCES};
@@ -128,7 +128,7 @@ proptest! {
         let layouts = spanning_trees::layouts(&target).to_u64();
         if layouts.is_some_and(|layouts| layouts <= enumerated()) {
             let all = enumerate::Settings { root: Some(root), spectrum: false, budget: u64::MAX };
-            let all = census(&target, &weights, &all, &Observer::none()).expect("few faces");
+            let all = enumerate_energies(&target, &weights, &all, &Observer::none()).expect("few faces");
             prop_assert_eq!(Some(all.layouts), layouts);
             prop_assert!(found.proof == Proof::Open || near(found.energy, all.least, 2.0 * TOLERANCES.perturbation));
             prop_assert!(found.bound <= all.least * (1.0 + TOLERANCES.perturbation));

@@ -59,7 +59,7 @@ pub struct TooManyFaces;
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than 64 faces.
-pub fn census(
+pub fn enumerate_energies(
     target: &Target,
     weights: &Weights,
     settings: &Settings,

@@ -126,7 +126,8 @@ impl Task<'_> {
         let asked =
             enumerate::Settings { root: self.problem.root, spectrum: false, budget: self.settings.budget };
         let weights = &self.objective.weights;
-        let all = enumerate::census(self.target, weights, &asked, self.observer).map_err(too_many)?;
+        let all =
+            enumerate::enumerate_energies(self.target, weights, &asked, self.observer).map_err(too_many)?;
         let tie = all.least * (1.0 + TOLERANCES.tie);
         let ties = (0..all.by_root.len()).filter(|root| all.by_root[*root] <= tie).collect();
         let least = self.scaled(all.least);

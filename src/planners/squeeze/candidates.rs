@@ -31,16 +31,16 @@ pub(super) fn candidates(
 ) -> Result<Vec<Candidate>, Refusal> {
     let mut found = Vec::new();
     let is_wanted = |method: Method| wanted == Method::Auto || wanted == method;
-    if from.places == to.places {
-        let motion = Listed::new(from.places.iter().map(|place| CellState::whole(*place)).collect());
+    if from.positions == to.positions {
+        let motion = Listed::new(from.positions.iter().map(|place| CellState::whole(*place)).collect());
         let motion = motion.into_motion(limits, &(0..from.count()).collect::<Vec<u64>>())?;
         let method = if wanted == Method::Auto { Method::Accordion } else { wanted };
         return Ok(vec![Candidate { method, motion }]);
     }
-    let supple = limits.cell.smallest.order(crate::plan::Ratio(1, 2)).is_le();
+    let shrinks_to_half = limits.cell.smallest.order(crate::plan::Ratio(1, 2)).is_le();
     let boxes = from.is_box() && to.is_box();
     if is_wanted(Method::Fold)
-        && supple
+        && shrinks_to_half
         && boxes
         // Between rows and columns the closed form does the same.
         && !((0..3).any(|k| from.is_row_along(k)) && (0..3).any(|k| to.is_row_along(k)))
@@ -51,7 +51,7 @@ pub(super) fn candidates(
     // Between boxes a merge is never the fastest: at its end it unfolds to the row as an accordion does,
     // and it has squeezed and swapped before.
     let merges = wanted == Method::Merge || (wanted == Method::Auto && !boxes);
-    let context = Context { limits, supple, wanted, merges };
+    let context = Context { limits, shrinks_to_half, wanted, merges };
     // Motions go through a row; where one of the shapes is a row, through that one.
     let is_row = |axis: usize| from.is_row_along(axis) || to.is_row_along(axis);
     let any_row = (0..3).any(is_row);
@@ -68,9 +68,9 @@ pub(super) fn candidates(
             if !merges || !flat_only(from) || !flat_only(to) || to.count() < 3 {
                 continue;
             }
-            let mut names = vec![0_u64; from.places.len()];
-            let places = places_in_column(from.count());
-            places.iter().enumerate().for_each(|(cell, &place)| names[place as usize] = cell as u64);
+            let mut names = vec![0_u64; from.positions.len()];
+            let positions = places_in_column(from.count());
+            positions.iter().enumerate().for_each(|(cell, &place)| names[place as usize] = cell as u64);
             let turn = accordion(limits, from.count())?.turned(axes(axis, other));
             for end in context.to_row(to, other, &|i| names[i as usize])? {
                 let merges = |c: &Candidate| c.method == Method::Merge || c.motion.transitions.is_empty();
@@ -80,7 +80,7 @@ pub(super) fn candidates(
         }
     }
     let melts = wanted == Method::Melt || (wanted == Method::Auto && found.is_empty());
-    if melts && supple && from.places.len() <= MELT_MAX {
+    if melts && shrinks_to_half && from.positions.len() <= MELT_MAX {
         let axis = (0..3).find(|&axis| is_row(axis)).unwrap_or(0);
         let (start, end) = (context.melted(from, axis)?, context.melted(to, axis)?);
         found.push(Candidate { method: Method::Melt, ..joined(&start, None, &end) });
@@ -98,7 +98,8 @@ fn flat_only(shape: &Shape) -> bool {
 
 struct Context {
     limits: PlanLimits,
-    supple: bool,
+    /// True if a cell can contract to half its size or less.
+    shrinks_to_half: bool,
     wanted: Method,
     /// True if merges are tried.
     merges: bool,
@@ -133,8 +134,8 @@ impl Context {
             return Ok(quickest);
         }
         let to = axes(axis, (axis + 1) % 3);
-        let places: Vec<[i64; 3]> = shape.places.iter().map(|p| to.map(|k| p[k])).collect();
-        let motion = melt(self.limits, &places, |i| i)?.turned(to);
+        let positions: Vec<[i64; 3]> = shape.positions.iter().map(|p| to.map(|k| p[k])).collect();
+        let motion = melt(self.limits, &positions, |i| i)?.turned(to);
         Ok(Candidate { method: Method::Melt, motion })
     }
 
@@ -165,13 +166,13 @@ impl Context {
                     add(Method::Accordion, motion?.turned(turn).reversed());
                 }
             }
-            if is_wanted(Method::Fold) && self.supple {
+            if is_wanted(Method::Fold) && self.shrinks_to_half {
                 add(Method::Fold, fold(limits, count)?.turned(turn).reversed());
             }
-            if is_wanted(Method::Arms) && self.supple && count >= 4 {
+            if is_wanted(Method::Arms) && self.shrinks_to_half && count >= 4 {
                 add(Method::Arms, arms(limits, count)?.turned(turn).reversed());
             }
-            if is_wanted(Method::Shear) && self.supple {
+            if is_wanted(Method::Shear) && self.shrinks_to_half {
                 add(Method::Shear, shear(limits, count)?.turned(turn).reversed());
             }
             return Ok(found);
@@ -182,11 +183,11 @@ impl Context {
                 add(Method::Accordion, unroll(limits, sides)?.turned([x, axis, z]));
             }
         }
-        if self.merges && self.supple {
+        if self.merges && self.shrinks_to_half {
             for across in (0..3).filter(|&k| k != axis && shape.is_flat_across(k)) {
                 let other = 3 - axis - across;
-                let places: Vec<[i64; 2]> = shape.places.iter().map(|p| [p[axis], p[other]]).collect();
-                add(Method::Merge, to_row(limits, &places, name)?.turned([axis, other, across]));
+                let positions: Vec<[i64; 2]> = shape.positions.iter().map(|p| [p[axis], p[other]]).collect();
+                add(Method::Merge, to_row(limits, &positions, name)?.turned([axis, other, across]));
             }
         }
         Ok(found)

@@ -13,17 +13,17 @@ const QUARTER: i64 = WHOLE / 4;
 /// not.
 pub fn halve(limits: PlanLimits, from: [u64; 3], to: [u64; 3]) -> Option<Result<Motion, Refusal>> {
     let folds = folds(from, to)?;
-    let mut places: Vec<[i64; 3]> = Vec::new();
+    let mut positions: Vec<[i64; 3]> = Vec::new();
     for z in 0..from[2] {
         for y in 0..from[1] {
-            places.extend((0..from[0]).map(|x| [x as i64, y as i64, z as i64]));
+            positions.extend((0..from[0]).map(|x| [x as i64, y as i64, z as i64]));
         }
     }
-    let mut motion = Listed::new(places.iter().map(|place| CellState::whole(*place)).collect());
+    let mut motion = Listed::new(positions.iter().map(|place| CellState::whole(*place)).collect());
     for (a, b) in folds {
-        fold(&mut motion, &mut places, a, b);
+        fold(&mut motion, &mut positions, a, b);
     }
-    let numbers: Vec<u64> = (0..places.len() as u64).collect();
+    let numbers: Vec<u64> = (0..positions.len() as u64).collect();
     Some(motion.into_motion(limits, &numbers))
 }
 
@@ -48,11 +48,11 @@ fn folds(from: [u64; 3], to: [u64; 3]) -> Option<Vec<(usize, usize)>> {
 }
 
 /// Appends a fold that halves side `a` and doubles side `b` (Lemma 4); the third side stays.
-fn fold(motion: &mut Listed, places: &mut [[i64; 3]], a: usize, b: usize) {
+fn fold(motion: &mut Listed, positions: &mut [[i64; 3]], a: usize, b: usize) {
     // Neighbouring boxes swap in opposite senses, so that they stay in contact over faces.
     let up = |place: [i64; 3]| (place[a] + (place[a] >> 1) + place[b]) & 1;
     let names = |names: [&'static str; 3], axis: usize| names[axis];
-    let at: Vec<[i64; 3]> = places.to_vec();
+    let at: Vec<[i64; 3]> = positions.to_vec();
     motion.stage(names(["x-squeeze", "y-squeeze", "z-squeeze"], a), |i, state| {
         state.center[a] = HALF * at[i][a] + QUARTER;
         state.size[a] = HALF;
@@ -65,13 +65,13 @@ fn fold(motion: &mut Listed, places: &mut [[i64; 3]], a: usize, b: usize) {
         state.center[a] = WHOLE * (at[i][a] >> 1) + HALF;
         state.size[a] = WHOLE;
     });
-    for place in places.iter_mut() {
+    for place in positions.iter_mut() {
         let high = up(*place);
         place[a] >>= 1;
         place[b] = 2 * place[b] + high;
     }
     motion.stage(names(["x-expand", "y-expand", "z-expand"], b), |i, state| {
-        state.center[b] = WHOLE * places[i][b] + HALF;
+        state.center[b] = WHOLE * positions[i][b] + HALF;
         state.size[b] = WHOLE;
     });
 }

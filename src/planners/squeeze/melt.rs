@@ -25,10 +25,14 @@ const PASS: [&str; 3] = ["x-pass", "y-pass", "z-pass"];
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if cells do not melt.
-pub fn melt(limits: PlanLimits, places: &[[i64; 3]], name: impl Fn(u64) -> u64) -> Result<Motion, Refusal> {
-    let start = places.iter().map(|place| CellState::whole(*place)).collect();
+pub fn melt(
+    limits: PlanLimits,
+    positions: &[[i64; 3]],
+    name: impl Fn(u64) -> u64,
+) -> Result<Motion, Refusal> {
+    let start = positions.iter().map(|place| CellState::whole(*place)).collect();
     let mut motion = Listed::new(start);
-    let mut tree = Tree::of(places);
+    let mut tree = Tree::of(positions);
     let mut idle = 0;
     // Each round is for one axis; all three without a move are the end.
     for axis in (0..3).cycle() {
@@ -41,7 +45,7 @@ pub fn melt(limits: PlanLimits, places: &[[i64; 3]], name: impl Fn(u64) -> u64) 
     if tree.boxes.len() > 1 {
         return Err(Refusal::Defect("cells are left that do not melt".into()));
     }
-    let mut number = vec![0; places.len()];
+    let mut number = vec![0; positions.len()];
     let row = tree.boxes[&tree.root].cells.iter().chain(&tree.row);
     row.enumerate().for_each(|(i, &cell)| number[cell] = name(i as u64));
     motion.into_motion(limits, &number)
@@ -81,9 +85,9 @@ fn moved(place: Place, axis: usize, step: i64) -> Place {
 impl Tree {
     /// Returns a spanning tree of all positions, rooted at the one farthest along x, whose paths to the root
     /// have the fewest corners (Dijkstra).
-    fn of(places: &[Place]) -> Tree {
-        let index: BTreeMap<Place, usize> = places.iter().enumerate().map(|(i, p)| (*p, i)).collect();
-        let root = places.iter().copied().max_by_key(|p| p[X]).unwrap_or_default();
+    fn of(positions: &[Place]) -> Tree {
+        let index: BTreeMap<Place, usize> = positions.iter().enumerate().map(|(i, p)| (*p, i)).collect();
+        let root = positions.iter().copied().max_by_key(|p| p[X]).unwrap_or_default();
         let mut boxes: BTreeMap<Place, Node> = BTreeMap::new();
         let mut order = Vec::new();
         // Corners and boxes on the path to the root, the position, and the step from there.

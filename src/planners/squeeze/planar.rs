@@ -22,14 +22,18 @@ const Z: usize = 2;
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.
-pub fn to_row(limits: PlanLimits, places: &[[i64; 2]], name: impl Fn(u64) -> u64) -> Result<Motion, Refusal> {
-    let low = |axis: usize| places.iter().map(|p| p[axis]).min().unwrap_or(0);
+pub fn to_row(
+    limits: PlanLimits,
+    positions: &[[i64; 2]],
+    name: impl Fn(u64) -> u64,
+) -> Result<Motion, Refusal> {
+    let low = |axis: usize| positions.iter().map(|p| p[axis]).min().unwrap_or(0);
     let (left, bottom) = (low(X), low(Y));
-    let places: Vec<[i64; 2]> = places.iter().map(|p| [p[0] - left, p[1] - bottom]).collect();
-    let start = places.iter().map(|p| CellState::whole([p[X], p[Y], 0])).collect();
+    let positions: Vec<[i64; 2]> = positions.iter().map(|p| [p[0] - left, p[1] - bottom]).collect();
+    let start = positions.iter().map(|p| CellState::whole([p[X], p[Y], 0])).collect();
     let mut motion = Listed::new(start);
-    let stacks = merge(&mut motion, &places);
-    let number: Vec<u64> = unfold(&mut motion, &stacks, places.len()).into_iter().map(name).collect();
+    let stacks = merge(&mut motion, &positions);
+    let number: Vec<u64> = unfold(&mut motion, &stacks, positions.len()).into_iter().map(name).collect();
     motion.into_motion(limits, &number)
 }
 
@@ -51,14 +55,14 @@ struct Merging {
 }
 
 /// Appends the stages that merge all rows into one row of stacks (log₂ of the number of rows rounds).
-fn merge(motion: &mut Listed, places: &[[i64; 2]]) -> Stacks {
+fn merge(motion: &mut Listed, positions: &[[i64; 2]]) -> Stacks {
     let mut stacks = Stacks::new();
-    for (cell, p) in places.iter().enumerate() {
+    for (cell, p) in positions.iter().enumerate() {
         stacks.entry((p[X], p[Y])).or_default().push(cell);
     }
-    let mut rows = places.iter().map(|p| p[Y] + 1).max().unwrap_or(1);
+    let mut rows = positions.iter().map(|p| p[Y] + 1).max().unwrap_or(1);
     while rows > 1 {
-        let (merging, merged) = paired(&stacks, places.len());
+        let (merging, merged) = paired(&stacks, positions.len());
         let m = |i: usize| merging[i];
         motion.stage("y-squeeze", |_, state| {
             state.center[Y] /= 2;

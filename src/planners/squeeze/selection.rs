@@ -150,7 +150,7 @@ fn not_covered(settings: &Settings, from: &Shape, limits: CellLimits) -> Refusal
 /// Checks that the plan begins and ends in the two shapes: exactly, up to a translation.
 fn check_ends(stages: &Stages, from: &Shape, to: &Shape) -> Result<(), Refusal> {
     let (start, end) = end_shapes(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
-    if start != from.places || end != to.places {
+    if start != from.positions || end != to.positions {
         return Err(Refusal::Defect("the plan does not lead from the one shape to the other".into()));
     }
     Ok(())

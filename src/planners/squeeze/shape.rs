@@ -3,25 +3,25 @@
 /// The positions of cells, translated so that the lowest along each axis is 0, in order.
 pub(super) struct Shape {
     /// The positions.
-    pub places: Vec<[i64; 3]>,
+    pub positions: Vec<[i64; 3]>,
     /// The sides of the bounding box, in cells.
     pub sides: [u64; 3],
 }
 
 impl Shape {
     /// Returns the shape of the cells at these positions.
-    pub(super) fn of(places: &[[i64; 3]]) -> Shape {
-        let low = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis]).min().unwrap_or(0));
-        let mut places: Vec<[i64; 3]> =
-            places.iter().map(|p| [p[0] - low[0], p[1] - low[1], p[2] - low[2]]).collect();
-        places.sort_unstable();
-        let sides = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis] as u64 + 1).max().unwrap_or(0));
-        Shape { places, sides }
+    pub(super) fn of(positions: &[[i64; 3]]) -> Shape {
+        let low = [0, 1, 2].map(|axis| positions.iter().map(|p| p[axis]).min().unwrap_or(0));
+        let mut positions: Vec<[i64; 3]> =
+            positions.iter().map(|p| [p[0] - low[0], p[1] - low[1], p[2] - low[2]]).collect();
+        positions.sort_unstable();
+        let sides = [0, 1, 2].map(|axis| positions.iter().map(|p| p[axis] as u64 + 1).max().unwrap_or(0));
+        Shape { positions, sides }
     }
 
     /// Returns the number of cells.
     pub(super) fn count(&self) -> u64 {
-        self.places.len() as u64
+        self.positions.len() as u64
     }
 
     /// Returns true if the cells fill their bounding box.
