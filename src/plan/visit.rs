@@ -71,6 +71,9 @@ fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
 
 /// Returns the same graph, sharing kept, with every action rewritten; `rewrite` sees the action with its
 /// `else` branch already done.
+///
+/// # Errors
+/// The first error of `rewrite`.
 pub fn rewritten<E>(
     root: &Arc<Node>,
     mut rewrite: impl FnMut(&Action) -> Result<Action, E>,

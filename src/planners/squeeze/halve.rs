@@ -11,6 +11,9 @@ const QUARTER: i64 = WHOLE / 4;
 
 /// Returns the motion from a box to another whose sides, in cells, differ by powers of two; `None` if they do
 /// not.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit.
 pub fn halve(limits: PlanLimits, from: [u64; 3], to: [u64; 3]) -> Option<Result<Motion, Refusal>> {
     let folds = folds(from, to)?;
     let mut positions: Vec<[i64; 3]> = Vec::new();

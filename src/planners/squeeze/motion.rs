@@ -344,6 +344,9 @@ impl Displacements {
 
 impl Motion {
     /// Returns the motion of no transitions at a configuration.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit.
     pub fn rest(count: u64, domains: &[Domain], place: impl Fn(u64) -> CellState) -> Result<Motion, Refusal> {
         Ok(Motion { count, configurations: vec![runs(domains, count, &place)?], transitions: vec![] })
     }
