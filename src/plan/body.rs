@@ -100,7 +100,7 @@ impl Body {
         if let Body::NodePaths(paths) = self { Some(paths) } else { None }
     }
 
-    /// Returns how many units the robot is made of, and what one of them is called.
+    /// Returns the number of units that the robot is made of (modules, cells or struts), and the name of one.
     pub fn units(&self) -> (u64, &'static str) {
         match self {
             Body::Tracks(tracks) => (tracks.robot.modules.len() as u64, "module"),

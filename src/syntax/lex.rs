@@ -12,7 +12,7 @@ pub struct Token {
     pub end: usize,
 }
 
-/// The kinds of tokens.
+/// The kinds of tokens, by what the text means to the grammar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
     /// A line end.

@@ -63,7 +63,7 @@ impl Conventions {
     }
 }
 
-/// The energy and the peak torque of a folding.
+/// The energy and the peak torque of a folding, N·m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// The energy (Eq. 5), N·m.
@@ -171,7 +171,7 @@ impl<'t> Objective<'t> {
         bounds.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the ratio of a peak of the closed form to the mean torque for steps of one second.
+    /// Returns the ratio of a peak torque of the closed form to the mean torque, for steps of one second.
     pub fn peak_by_mean(&self) -> f64 {
         QUINTIC_ACCELERATION / QUINTIC / (self.conventions.step * self.conventions.step)
     }

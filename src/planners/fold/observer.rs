@@ -3,7 +3,7 @@
 use crate::planners::Progress;
 use std::cell::{Cell, RefCell};
 
-/// Hands reports of all searches to one [`Progress`], and remembers that it ended the call.
+/// A forwarder of the reports of all searches to one [`Progress`], which remembers that it ended the call.
 pub struct Observer<'p> {
     progress: RefCell<Option<&'p mut dyn Progress>>,
     ended: Cell<bool>,

@@ -7,7 +7,7 @@ use super::steps;
 use super::tolerances::TOLERANCES;
 use crate::planners::random::SplitMix64;
 
-/// The costs of random orders, in the unit of what is compared: N·m for energies.
+/// The costs of random orders, in the unit of the compared quantity: N·m for energies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// The number of orders.

@@ -41,7 +41,8 @@ impl JointLoad {
 }
 
 impl GravityModel {
-    /// Returns the greatest load. Bonds that close loops are taken to carry nothing.
+    /// Returns the greatest load of a joint; `poses`: in pitches, by index of the tree. Bonds that close
+    /// loops are taken to carry nothing.
     pub fn greatest(&self, tree: &Tree, poses: &[RigidTransform]) -> JointLoad {
         self.loads(tree, poses).into_iter().fold(JointLoad::NONE, JointLoad::greater)
     }

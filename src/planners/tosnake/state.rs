@@ -114,7 +114,7 @@ impl State {
         motion_check::note_overload(&self.least_overload, load);
     }
 
-    /// Moves all joints at once to new positions.
+    /// Moves all joints at once to new positions, rad.
     pub fn move_to(&mut self, to: &[[f64; 3]]) {
         let mut turns = Vec::new();
         for (module, (from, to)) in self.robot.joints.iter().zip(to).enumerate() {
