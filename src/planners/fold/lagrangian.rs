@@ -58,7 +58,7 @@ pub struct AscentLimits {
     /// The bound at which the ascent ends; arcs that only costlier layouts use are removed.
     pub cutoff: f64,
     /// An estimate of the optimum, for Polyak's step.
-    pub aim: f64,
+    pub optimum_estimate: f64,
     /// The greatest number of rounds.
     pub rounds: usize,
     /// The length of the first step, as a part of the gap.
@@ -138,7 +138,7 @@ impl<'t> Lagrangian<'t> {
     ) -> Ascent {
         self.multipliers.fill(0.0);
         multipliers.iter().for_each(|&(at, multiplier)| self.multipliers[at as usize] = multiplier);
-        let AscentLimits { mut cutoff, mut aim, rounds, mut length } = limits;
+        let AscentLimits { mut cutoff, mut optimum_estimate, rounds, mut length } = limits;
         let mut best = f64::NEG_INFINITY;
         let mut best_multipliers: Vec<(u32, f64)> = multipliers.to_vec();
         let mut stale = 0;
@@ -158,7 +158,7 @@ impl<'t> Lagrangian<'t> {
                 best = f64::INFINITY;
                 break;
             };
-            stale = if bound > best + PROGRESS_MIN * (aim - best).abs() { 0 } else { stale + 1 };
+            stale = if bound > best + PROGRESS_MIN * (optimum_estimate - best).abs() { 0 } else { stale + 1 };
             if bound > best {
                 best = bound;
                 best_multipliers.clear();
@@ -167,7 +167,7 @@ impl<'t> Lagrangian<'t> {
             // Lagrangian heuristic: a layout near the choices.
             if round % LAYOUTS_EVERY == LAYOUTS_EVERY - 1 || round == 0 {
                 let found = layouts(&self.chosen, steps);
-                (cutoff, aim) = (cutoff.min(found), aim.min(found));
+                (cutoff, optimum_estimate) = (cutoff.min(found), optimum_estimate.min(found));
             }
             if best >= cutoff || *steps == 0 {
                 break;
@@ -179,7 +179,7 @@ impl<'t> Lagrangian<'t> {
             if stale > PATIENCE {
                 (length, stale) = (length * SHORTER, 0);
             }
-            if length < STEP_MIN || !self.step(root, length * (aim - bound).abs(), &mut moved) {
+            if length < STEP_MIN || !self.step(root, length * (optimum_estimate - bound).abs(), &mut moved) {
                 break;
             }
         }

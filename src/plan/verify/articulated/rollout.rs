@@ -170,8 +170,8 @@ impl<'a> Stepper<'a> {
     /// Observes the first sample.
     fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
         let pose = self.rollout.tracks.start.base;
-        let kept = if self.on_ground() { Placement::Settled } else { unsettled(&self.world) };
-        let (settling, fall) = self.place_on_ground(&pose, kept);
+        let placement = if self.on_ground() { Placement::Settled } else { unsettled(&self.world) };
+        let (settling, fall) = self.place_on_ground(&pose, placement);
         self.show(observe, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
     }
 
@@ -349,9 +349,10 @@ impl<'a> Stepper<'a> {
         self.stance.held = held;
     }
 
-    fn place_on_ground(&mut self, pose: &Pose, kept: Placement) -> (f64, f64) {
+    fn place_on_ground(&mut self, pose: &Pose, placement: Placement) -> (f64, f64) {
         let posture = self.model.posture(&self.joints, &mut self.poses);
-        let (stance, fall, turn) = Stance::start(&self.model, posture, pose, kept, self.rollout.tolerances);
+        let (stance, fall, turn) =
+            Stance::start(&self.model, posture, pose, placement, self.rollout.tolerances);
         (self.stance, self.held_since) = (stance, None);
         (turn, fall)
     }
@@ -387,7 +388,7 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// Returns the part of the drawn pose that is kept where a robot does not settle.
+/// Returns the placement of a robot that does not settle.
 fn unsettled(world: &World) -> Placement {
     if world.ground == Ground::Held { Placement::Fixed } else { Placement::Lowered }
 }

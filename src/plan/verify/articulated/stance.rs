@@ -69,7 +69,7 @@ impl Stance {
         model: &Model,
         posture: Posture,
         X_WB: &Pose,
-        kept: Placement,
+        placement: Placement,
         tolerances: &Tolerances,
     ) -> (Stance, f64, f64) {
         let R = *X_WB.rotation.to_rotation_matrix().matrix();
@@ -77,7 +77,7 @@ impl Stance {
         let up = height(&features, &Vec3::z());
         let c = X_WB.transform_point(&posture.centre.into());
         let place = PlanarPose { x: c.x, y: c.y, yaw: 0.0 };
-        let level = match kept {
+        let level = match placement {
             Placement::Fixed => c.z,
             Placement::Settled | Placement::Lowered => up,
         };
@@ -92,7 +92,7 @@ impl Stance {
             held: false,
             anchors: vec![],
         };
-        if kept != Placement::Settled {
+        if placement != Placement::Settled {
             stance.find_contacts(model, tolerances);
             return (stance, 0.0, 0.0);
         }
@@ -218,15 +218,15 @@ impl Stance {
     }
 }
 
-/// The part of a given base pose that is kept when a robot is placed.
+/// The placement of a robot at a given pose of its base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Placement {
     /// It is lowered to the ground and settles.
-    Nothing,
-    /// It is lowered to the ground.
-    Orientation,
-    /// It stays where it is.
-    Pose,
+    Settled,
+    /// It is lowered to the ground with its orientation.
+    Lowered,
+    /// It keeps the pose.
+    Fixed,
 }
 
 impl SettleAttempt {
