@@ -242,7 +242,7 @@ proptest! {
             (0..3).filter(|k| sides[*k].is_some()).map(|k| 1 << k).sum()
         }).collect();
         allowed[root] = 0;
-        let effort = AscentLimits { cutoff: best.energy * 1.01, aim: best.energy, rounds: 200, length: 1.0 };
+        let effort = AscentLimits { cutoff: best.energy * 1.01, optimum_estimate: best.energy, rounds: 200, length: 1.0 };
         let mut lagrange = Lagrangian::new(&target, &weights);
         let alone = lagrange.ascend(
             root, &mut allowed.clone(), &[], AscentLimits { rounds: 1, ..effort }, &mut 10_000_000, |_, _| f64::INFINITY,
