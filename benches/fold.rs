@@ -5,7 +5,7 @@
 use modl::geometry::Vec3;
 use modl::planners::fold::Observer;
 use modl::planners::fold::branch_and_bound::{self, Proof, optimum};
-use modl::planners::fold::enumerate::{self, census};
+use modl::planners::fold::enumerate::{self, enumerate_energies};
 use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::simulation::Count;
 use modl::planners::fold::sweep_collision::first_collision;
@@ -67,8 +67,8 @@ fn main() {
     let target = target(&truth["shapes"]["icosahedron"]);
     let start = Instant::now();
     let all = enumerate::Settings { root: None, spectrum: false, budget: u64::MAX };
-    let found =
-        census(&target, &Weights::uniform(&target, MASS), &all, &Observer::none()).expect("few faces");
+    let found = enumerate_energies(&target, &Weights::uniform(&target, MASS), &all, &Observer::none())
+        .expect("few faces");
     println!("\nicosahedron: {} layouts with 20 roots enumerated in {:?}", found.layouts, start.elapsed());
     dynamics(&truth);
 }

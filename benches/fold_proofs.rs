@@ -7,7 +7,7 @@
 use modl::geometry::{Vec3, subdivide};
 use modl::planners::fold::Observer;
 use modl::planners::fold::branch_and_bound::{self, Optimum, Proof, optimum};
-use modl::planners::fold::enumerate::{self, census};
+use modl::planners::fold::enumerate::{self, enumerate_energies};
 use modl::planners::fold::{Target, Weights};
 use std::fmt::Write as _;
 use std::sync::OnceLock;
@@ -156,7 +156,8 @@ fn main() {
     let target = target(icosahedron);
     let all = enumerate::Settings { root: None, spectrum: false, budget: u64::MAX };
     let weights = Weights::uniform(&target, MASS);
-    let (found, time) = timed(|| census(&target, &weights, &all, &Observer::none()).expect("few faces"));
+    let (found, time) =
+        timed(|| enumerate_energies(&target, &weights, &all, &Observer::none()).expect("few faces"));
     println!("icosahedron: {} layouts with 20 roots enumerated in {time:.3?}", found.layouts);
 }
 

@@ -283,7 +283,7 @@ fn rust_calls_the_planners_without_the_language() {
     let heavy = tosnake::Problem { start: &level, world: World::default(), ..problem };
     let refused = tosnake::plan(&heavy, &settings, &mut NoProgress).expect_err("joints are overloaded");
     let tosnake::Refusal::Overload(overload) = refused else { panic!("{refused}") };
-    assert_eq!(overload.operation, tosnake::Operation::Standing);
+    assert_eq!(overload.operation, tosnake::Operation::HoldingStart);
 
     let from = reconfigure::Configuration { robot: &east, state: &start };
     let to = reconfigure::Configuration { robot: &west, state: &goal };
