@@ -116,7 +116,7 @@ fn dynamics(truth: &serde_json::Value) {
             prefilter: closed.prefilter(100_000_000),
         };
         let start = Instant::now();
-        let found = local_search::survey(
+        let found = local_search::search(
             &target,
             &closed.weights,
             &all,
