@@ -13,7 +13,7 @@ use crate::interpret::plan_value::PlanValue;
 use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
-use crate::plan::{Bound, Plan, World};
+use crate::plan::{ObjectiveValue, Plan, World};
 use crate::planners::fold::{self, Count, MassModel, Method, Minimise, Problem, Sequence, Settings};
 use crate::planners::{RequestedProgress, Solution};
 use std::rc::Rc;
@@ -114,8 +114,11 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let bare = interpreter.bare_plan("fold", body, problem.panels.library.clone(), report.world, &causes);
     let mut plan = Plan { program, ..bare };
     plan.provenance.seed = Some(settings.seed);
-    let energetic = settings.minimise == Minimise::Energy && report.bound > 0.0;
-    plan.provenance.bound = energetic.then_some(Bound::FoldingEnergy(report.bound));
+    if settings.minimise == Minimise::Energy {
+        let stated = |value| Some(ObjectiveValue::FoldingEnergy(value));
+        plan.provenance.reached = stated(report.effort.energy);
+        plan.provenance.bound = stated(report.bound).filter(|_| report.bound > 0.0);
+    }
     let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
     planned.remember_verdict(report.verdict.clone());
     let planned = planned.with_report(report);

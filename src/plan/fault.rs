@@ -40,6 +40,18 @@ pub enum PlanFault {
         /// The value that no file can hold.
         value: Unwritable,
     },
+    /// A value that a planner minimised, or its bound, that is no number from 0 on.
+    ObjectiveValue {
+        /// In the unit of what was minimised.
+        value: f64,
+    },
+    /// A lower bound above the value that it is about.
+    BoundAbove {
+        /// The bound, in the unit of what was minimised.
+        bound: f64,
+        /// The value, in the same unit.
+        reached: f64,
+    },
     /// The first world does not hold from 0 on.
     FirstWorld,
     /// An exemption that ends before it begins.
@@ -414,6 +426,16 @@ impl fmt::Display for PlanFault {
             }
             PlanFault::TimeOrder { what } => write!(f, "{what} are not in order of time"),
             PlanFault::Unwritable { part, value } => write!(f, "{part}: {value}"),
+            PlanFault::ObjectiveValue { value } => {
+                write!(
+                    f,
+                    "the provenance states {value} as what was minimised or as its bound; neither is below 0"
+                )
+            }
+            PlanFault::BoundAbove { bound, reached } => write!(
+                f,
+                "the provenance states a lower bound of {bound}, above the {reached} that this plan reaches: no                  plan is below its bound"
+            ),
             PlanFault::FirstWorld => write!(f, "the first world must hold from 0 on"),
             PlanFault::ExemptionOrder => write!(f, "an exemption ends before it begins"),
             PlanFault::Gravity => write!(f, "gravity points upwards"),

@@ -45,7 +45,7 @@ pub use node_paths::{
 pub use operation_error::OperationError;
 pub use operations::{joined, reversed, sliced};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
-pub use provenance::{Bound, Change, Provenance};
+pub use provenance::{Change, ObjectiveValue, Provenance};
 pub use stages::{
     ArithmeticRun, CellBox, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages, arithmetic_runs,
 };

@@ -110,7 +110,7 @@ pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
 /// Writes a change into the history; what was proved or judged of the plan before holds no more.
 fn record(plan: &mut Plan, change: Change) {
     plan.verdict = None;
-    plan.provenance.bound = None;
+    (plan.provenance.bound, plan.provenance.reached) = (None, None);
     plan.provenance.history.push(change);
 }
 

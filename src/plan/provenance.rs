@@ -1,5 +1,6 @@
 //! The origin of a plan, and the changes to it since.
 
+use super::fault::{PlanFault, need};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,21 +16,47 @@ pub struct Provenance {
     pub seed: Option<u64>,
     /// The limit that was set for the search, in the steps that the planner counts.
     pub budget: Option<u64>,
-    /// A bound that the planner proved of every plan for the same task; none of a plan changed since.
+    /// A lower bound that the planner proved for all plans that this one was chosen from; none of a plan changed since.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bound: Option<Bound>,
+    pub bound: Option<ObjectiveValue>,
+    /// The value of the plan that the bound is about, not below it; none of a plan changed since.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reached: Option<ObjectiveValue>,
     /// The tool that planned it, with its version: `modl 0.1.0`.
     pub tool: String,
     /// The changes since, in order.
     pub history: Vec<Change>,
 }
 
-/// A value that no plan for the same task is below.
+/// A quantity that a planner minimised, with its value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Bound {
-    /// The energy of the hinges that fold, J.
+pub enum ObjectiveValue {
+    /// The sum of the mean torques of the hinges that fold, under the conventions of the call, N·m.
     FoldingEnergy(f64),
+}
+
+impl ObjectiveValue {
+    /// Returns the value, in the unit of the quantity.
+    pub fn value(self) -> f64 {
+        let ObjectiveValue::FoldingEnergy(value) = self;
+        value
+    }
+}
+
+impl Provenance {
+    /// Checks that the bound and the value that it is about are numbers from 0 on, and the bound is not above.
+    ///
+    /// # Errors
+    /// [`PlanFault::ObjectiveValue`] or [`PlanFault::BoundAbove`].
+    pub(super) fn check(&self) -> Result<(), PlanFault> {
+        let stated = [self.bound, self.reached].map(|stated| stated.map(ObjectiveValue::value));
+        for value in stated.into_iter().flatten() {
+            need(value.is_finite() && value >= 0.0, || PlanFault::ObjectiveValue { value })?;
+        }
+        let [Some(bound), Some(reached)] = stated else { return Ok(()) };
+        need(bound <= reached, || PlanFault::BoundAbove { bound, reached })
+    }
 }
 
 /// A change of a whole plan.

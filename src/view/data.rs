@@ -5,7 +5,7 @@ use super::number::number;
 use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
 use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
-use crate::plan::{Body, Bound, Ground, Plan, file};
+use crate::plan::{Body, Ground, ObjectiveValue, Plan, file};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
@@ -87,9 +87,9 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts.extend(made.seed.map(|seed| ("seed", seed.to_string())));
     facts.extend(made.budget.map(|budget| ("budget", budget.to_string())));
     facts.push(("duration", time(plan.body.duration())));
-    facts.extend(made.bound.map(|Bound::FoldingEnergy(least)| {
-        ("lower bound", format!("no such pattern folds with less than {}J", units::number(least)))
-    }));
+    let torque = |ObjectiveValue::FoldingEnergy(value)| quantity(value, Dimension::TORQUE);
+    facts.extend(made.reached.map(|reached| ("folding energy", torque(reached))));
+    facts.extend(made.bound.map(|bound| ("lower bound", format!("no folding is below {}", torque(bound)))));
     if let Some(verdict) = &plan.verdict {
         facts.push(("verdict", if verdict.ok() { "verified".into() } else { "not verified".into() }));
         facts.push(("energy", format!("{}J", units::number(libm::round(verdict.energy * 1e3) / 1e3))));

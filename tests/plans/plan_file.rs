@@ -6,7 +6,7 @@ use crate::support::robots::{LEFT, TILT, chain, reel, walk4};
 use modl::plan::file::{FileError, read, schema, write};
 use modl::plan::{
     Action, Body, CauseId, Change, Check, CheckKind, Command, Compare, Condition, Exemption, ExemptionKind,
-    Ground, Node, Otherwise, Plan, Segment, Status, Track, Verdict, World, WorldFrom, Worst,
+    Ground, Node, ObjectiveValue, Otherwise, Plan, Segment, Status, Track, Verdict, World, WorldFrom, Worst,
 };
 use modl::robot::{Cell, JointId, Library, PortRef};
 use proptest::prelude::*;
@@ -38,6 +38,8 @@ fn rich() -> Plan {
     plan.causes[3].caller = Some(Box::new(plan.causes[4].clone()));
     plan.causes[3].text = "move(\"\u{e9}\\\n\u{1f916}\")".into();
     plan.provenance.seed = Some(u64::MAX);
+    plan.provenance.bound = Some(ObjectiveValue::FoldingEnergy(0.1));
+    plan.provenance.reached = Some(ObjectiveValue::FoldingEnergy(0.1 + 0.2));
     plan.provenance.sources = vec![("a.mod".into(), "00ff".into())];
     let joined =
         Change::Joined { at: 1.0, renamed: vec![("a".into(), "b".into())], appended: vec![Change::Reversed] };
@@ -169,6 +171,29 @@ fn a_later_version_is_read_unless_it_uses_what_was_added() {
     assert!(added.line > 1);
     let unsaid = refused(&text.replacen("\"version\": 3,", "", 1));
     assert!(unsaid.message.contains("does not say its `version`"), "{unsaid}");
+}
+
+/// Whoever reads a bound can rely on its being below what the plan reaches.
+#[test]
+fn a_bound_above_what_the_plan_reaches_is_refused() {
+    let stating = |bound: Option<f64>, reached: Option<f64>| {
+        let mut plan = rich();
+        plan.provenance.bound = bound.map(ObjectiveValue::FoldingEnergy);
+        plan.provenance.reached = reached.map(ObjectiveValue::FoldingEnergy);
+        written(&plan)
+    };
+    for (bound, reached) in
+        [(Some(0.1), Some(0.1)), (Some(0.0), Some(1e300)), (None, Some(0.2)), (Some(0.2), None)]
+    {
+        assert!(read(&stating(bound, reached)).is_ok(), "{bound:?} and {reached:?}");
+    }
+    let above = refused(&stating(Some(0.0767593), Some(0.0757014)));
+    assert!(above.message.contains("a lower bound of 0.0767593, above the 0.0757014"), "{above}");
+    let next = f64::from_bits(0.1_f64.to_bits() + 1);
+    assert!(refused(&stating(Some(next), Some(0.1))).message.contains("above the 0.1 "));
+    for (bound, reached) in [(Some(-1e-9), Some(0.1)), (None, Some(-0.1))] {
+        assert!(refused(&stating(bound, reached)).message.contains("neither is below 0"), "{bound:?}");
+    }
 }
 
 /// The names of a file with one of them changed, by its place in the JSON.

@@ -20,6 +20,7 @@ use super::world::Ground;
 /// The first fault that was found.
 pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
     library::references(&plan.library)?;
+    plan.provenance.check()?;
     let duration = plan.body.duration();
     let in_range = duration.is_finite() && (0.0..=DURATION_MAX).contains(&duration);
     need(in_range, || PlanFault::Duration { duration })?;
