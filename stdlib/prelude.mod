@@ -1485,18 +1485,22 @@ extern type Folding is Plan {
   energy: Energy
   /// The greatest torque of a hinge that counts.
   peak_torque: Torque
-  /// With the leaves folded first no layout has a lower peak torque, where that was minimised; else,
-  /// none spends less energy.
+  /// No folding that this one was chosen from has a lower peak torque, where that was minimised; else, none
+  /// spends less energy, or none in as few steps, where these were minimised. Chosen from are all layouts that
+  /// lie flat and pass the verifier, with the roots that the call allows: leaves first or root first, if `sequence`
+  /// asks for that and a layout passed so; else in any order. Never above the value of this one; 0 where no
+  /// bound is known.
   bound: Energy
-  /// What the proof leaves open: by how much of what was minimised the bound is below it; 0 where it
-  /// is optimal.
+  /// What the proof leaves open: the part of the energy, or of the peak torque, by which the bound is
+  /// below it; 0 where that is less than 4e-9.
   gap: Number
   /// No layout folds in fewer steps.
   fewest_steps: Int
-  /// Whether it is proved that with the leaves folded first no better layout lies flat and passes the
-  /// verifier, and this is how it folds.
+  /// Whether it is proved that none of the foldings that `bound` is about is better: the gap is 0, and where
+  /// steps were minimised, none takes fewer.
   optimal: Bool
-  /// What was minimised, by the least that was found where patterns may overlap and panels may meet.
+  /// What was minimised, by the least that was found with the leaves first where patterns may overlap and
+  /// panels may meet; below 1 where another order is better than that.
   price: Number
   /// The faces that could stay on the ground for an equally good layout, as far as they were looked for.
   ties: List<Int>
@@ -1531,7 +1535,7 @@ extern type Folding is Plan {
 ///
 /// `exact` proves its answer without looking at every layout, where it can; `enumerate` looks at every
 /// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet on the way, the
-/// next best layout is sought, then other orders are tried: `optimal` and `price` tell.
+/// next best layout is sought, then other orders are tried: `order` and `price` tell.
 ///
 /// `minimise` says what is to be small with the leaves folded first: the `energy`, the greatest torque,
 /// or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are

@@ -42,7 +42,7 @@ pub enum PlanFault {
     },
     /// A value that a planner minimised, or its bound, that is no number from 0 on.
     ObjectiveValue {
-        /// In the unit of what was minimised.
+        /// The value, in the unit of what was minimised.
         value: f64,
     },
     /// A lower bound above the value that it is about.

@@ -71,9 +71,9 @@ impl Default for Settings {
 /// The strength of the proof of an optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
-    /// No layout costs less than this one by more than `TOLERANCES.perturbation` of its energy.
+    /// The bound is below the energy by less than `TOLERANCES.proof` of it.
     Optimal,
-    /// The budget ended the search, and the gap to the bound is open.
+    /// The search ended before, and the gap to the bound is open.
     Open,
 }
 
@@ -563,9 +563,12 @@ impl<'s> Search<'s, '_, '_> {
         let tie = best.energy * (1.0 + TOLERANCES.tie) + self.slack;
         let reaches = |root: &usize| equals[*root].is_some_and(|searched| self.reached[searched] <= tie);
         let roots = (0..equals.len()).filter(reaches).collect();
-        // Perturbations make bounds greater, by at most the slack.
-        let bound = (self.open_bound.min(best.energy * (1.0 - TOLERANCES.bound)) - self.slack).max(0.0);
-        let proof = if closed { Proof::Optimal } else { Proof::Open };
+        // Layouts at least as good as the best of their root were left out; perturbations make bounds greater, by at
+        // most the slack.
+        let reached = self.reached.iter().copied().fold(best.energy, f64::min) * (1.0 - TOLERANCES.bound);
+        let bound = (self.open_bound.min(reached) - self.slack).max(0.0);
+        // Nodes that are still open near the best are ties with it.
+        let proof = if TOLERANCES.prove(best.energy, bound) { Proof::Optimal } else { Proof::Open };
         Ok(Optimum { layout: best.layout, energy: best.energy, bound, proof, roots, nodes: self.nodes })
     }
 }

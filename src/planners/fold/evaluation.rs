@@ -1,7 +1,8 @@
 //! Best-first search for a layout that the judge lets through in the order that the settings ask for.
 
-use super::branch_and_bound::{self, Decision, Proof};
+use super::branch_and_bound::{self, Decision};
 use super::layout::Layout;
+use super::order_bounds::Orders;
 use super::proposals::Proposals;
 use super::refusal::{Refusal, Rejection};
 use super::settings::Sequence;
@@ -42,9 +43,19 @@ pub(super) struct Candidates {
     judged: usize,
 }
 
+/// An outcome with what is known of all that it was chosen from.
+pub(super) struct Chosen {
+    pub outcome: Outcome,
+    /// The lower bound for all that lies flat and passes the judge: on the peak torque where that is minimised,
+    /// else on the energy; N·m.
+    pub bound: f64,
+    /// True if it is known that nothing takes fewer steps, lies flat and passes the judge.
+    pub is_fewest: bool,
+}
+
 impl Task<'_> {
-    /// Returns the best layout that the judge lets through in the order asked for, with true if it is proved
-    /// that no better one passes.
+    /// Returns the best layout that the judge lets through in the order asked for, with the bound for all layouts
+    /// in that order.
     ///
     /// # Errors
     /// A reason that holds for every layout, as [`Task::judged`] says.
@@ -52,29 +63,39 @@ impl Task<'_> {
         &self,
         candidates: &mut Candidates,
         found: &Proposals,
-    ) -> Result<Option<(Outcome, bool)>, Refusal> {
-        let is_proved = found.proved && self.settings.sequence == Sequence::LeavesFirst;
+    ) -> Result<Option<Chosen>, Refusal> {
         for (place, layout) in found.layouts.iter().enumerate() {
             match self.evaluate(candidates, layout)? {
                 Decision::Accept => {
-                    let is_proved = is_proved && (found.listed || place == 0);
-                    return Ok(Some((candidates.accepted.remove(0), is_proved)));
+                    let bound = found.bound_from(place, self.settings.minimise);
+                    return Ok(Some(self.chosen(candidates.accepted.remove(0), bound, found)));
                 }
                 Decision::Refuse => {}
                 Decision::Stop => break,
             }
         }
         let next = self.next_best(candidates, found)?;
-        Ok(next.map(|(outcome, proved)| (outcome, is_proved && proved)))
+        Ok(next.map(|(outcome, bound)| self.chosen(outcome, found.bound.max(bound), found)))
     }
 
-    /// Returns the next layout in order of energy that is accepted by branch and bound, with true if it is
-    /// proved that none before it can be.
+    /// Returns an outcome in the order asked for; `bound`: that of the proposals, which fold with the leaves first.
+    fn chosen(&self, outcome: Outcome, bound: f64, found: &Proposals) -> Chosen {
+        let in_order = |orders| self.objective.lower_bound(&self.roots, orders);
+        let (bound, is_fewest) = match self.settings.sequence {
+            Sequence::LeavesFirst => (bound, found.is_gapless()),
+            Sequence::RootFirst => (in_order(Orders::RootFirst), false),
+            Sequence::LeastWork | Sequence::LeastEnergy => (in_order(Orders::Any), false),
+        };
+        Chosen { outcome, bound, is_fewest }
+    }
+
+    /// Returns the next layout in order of energy that is accepted by branch and bound, with the bound for those
+    /// that can be, N·m.
     fn next_best(
         &self,
         candidates: &mut Candidates,
         found: &Proposals,
-    ) -> Result<Option<(Outcome, bool)>, Refusal> {
+    ) -> Result<Option<(Outcome, f64)>, Refusal> {
         let Some(settings) = found.next_best() else { return Ok(None) };
         let refused: Vec<Vec<usize>> = found.layouts.iter().map(Layout::hinges).collect();
         let mut fault = None;
@@ -96,7 +117,7 @@ impl Task<'_> {
         let Ok(best) = best else { return Ok(None) };
         let accepted = std::mem::take(&mut candidates.accepted).into_iter();
         let outcome = accepted.into_iter().find(|outcome| outcome.layout == best.layout);
-        Ok(outcome.map(|outcome| (outcome, best.proof == Proof::Optimal)))
+        Ok(outcome.map(|outcome| (outcome, self.scaled(best.bound))))
     }
 
     /// Evaluates a layout in the order asked for: collision samples of thin panels spare the judge those that

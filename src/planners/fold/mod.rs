@@ -56,6 +56,7 @@ pub mod pattern;
 // Orders of folding.
 pub mod collision_free_order;
 pub mod energy_order;
+mod order_bounds;
 pub mod random_orders;
 pub mod steps;
 pub mod work_order;
@@ -86,6 +87,7 @@ pub use load_limits::{LoadLimits, Violation};
 pub use net::{Edge, Net};
 pub use objective::{Conventions, Effort, Minimise, Objective};
 pub use observer::Observer;
+pub use order_bounds::Orders;
 pub use panel::{NotAPanel, Panel, Panels, equal_sides};
 pub use plan::plan;
 pub use plate::Plate;

@@ -8,10 +8,12 @@ use super::gravity_bounds::GravityBounds;
 use super::inertia::{Body, Inertia};
 use super::layout::Layout;
 use super::local_search::BoundPrefilter;
+use super::order_bounds::{self, Orders};
 use super::peak_torque;
 use super::shortest_paths::ShortestPaths;
 use super::simulation::{Circumstances, Count, simulate};
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use super::weights::{QUINTIC, Weights};
 use crate::geometry::Vec3;
 
@@ -70,6 +72,16 @@ pub struct Effort {
     pub energy: f64,
     /// The peak torque of a hinge, N·m.
     pub peak: f64,
+}
+
+impl Effort {
+    /// Returns the quantity that a bound is about, N·m: the peak torque where that is minimised, else the energy.
+    pub fn minimised(&self, minimise: Minimise) -> f64 {
+        match minimise {
+            Minimise::PeakTorque => self.peak,
+            Minimise::Energy | Minimise::Steps => self.energy,
+        }
+    }
 }
 
 /// The objective on the layouts and orders of a target.
@@ -153,9 +165,18 @@ impl<'t> Objective<'t> {
         if self.conventions.is_separable() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }
     }
 
-    /// Returns the lower bound for layouts with these roots, leaves first: on the peak torque where that is
-    /// minimised, else on the energy; N·m.
-    pub fn lower_bound(&self, roots: &[usize]) -> f64 {
+    /// Returns the lower bound for all layouts with these roots in the orders given: on the peak torque where that
+    /// is minimised, else on the energy; N·m.
+    pub fn lower_bound(&self, roots: &[usize], orders: Orders) -> f64 {
+        let bounds = match orders {
+            Orders::LeavesFirst => self.leaves_first_bounds(roots),
+            Orders::RootFirst | Orders::Any => self.order_bounds(roots, orders),
+        };
+        bounds.into_iter().fold(f64::INFINITY, f64::min) * (1.0 - TOLERANCES.bound)
+    }
+
+    /// Returns the bounds with the leaves first, by root.
+    fn leaves_first_bounds(&self, roots: &[usize]) -> Vec<f64> {
         let routes = ShortestPaths::new(self.target, &self.weights);
         let gravity = self.conventions.gravity;
         let lift = (gravity != 0.0).then(|| GravityBounds::new(self.target, &self.masses, gravity));
@@ -167,8 +188,23 @@ impl<'t> Objective<'t> {
             }
             (None, _) => vec![0.0; roots.len()],
         };
-        let bounds = roots.iter().zip(lifted).map(|(root, lifted)| self.bound(&routes, *root).max(lifted));
-        bounds.fold(f64::INFINITY, f64::min)
+        roots.iter().zip(lifted).map(|(root, lifted)| self.bound(&routes, *root).max(lifted)).collect()
+    }
+
+    /// Returns the bounds for orders other than leaves first, by root.
+    fn order_bounds(&self, roots: &[usize], orders: Orders) -> Vec<f64> {
+        if self.conventions.gravity != 0.0 {
+            return roots.iter().map(|root| self.by_work(*root)).collect();
+        }
+        let energies = order_bounds::energies(self.target, &self.masses, self.conventions.inertia, orders);
+        let by_square = 1.0 / (self.conventions.step * self.conventions.step);
+        let hinges = (self.masses.len() - 1).max(1) as f64;
+        let bound = |&root: &usize| match self.minimise {
+            // The greatest mean torque is no less than the mean of all.
+            Minimise::PeakTorque => (energies[root] / hinges).max(self.by_itself(root)) * self.peak_by_mean(),
+            Minimise::Energy | Minimise::Steps => energies[root] * by_square,
+        };
+        roots.iter().map(bound).collect()
     }
 
     /// Returns the ratio of a peak torque of the closed form to the mean torque, for steps of one second.
@@ -176,23 +212,31 @@ impl<'t> Objective<'t> {
         QUINTIC_ACCELERATION / QUINTIC / (self.conventions.step * self.conventions.step)
     }
 
-    /// Returns the bound for one root, without what gravity asks of each hinge.
+    /// Returns the bound for one root with the leaves first, without what gravity asks of each hinge.
     fn bound(&self, routes: &ShortestPaths, root: usize) -> f64 {
         let by_square = 1.0 / (self.conventions.step * self.conventions.step);
-        let lifted = self.lifted(root);
-        let angles = || self.target.hinges.iter().map(|hinge| hinge.angle.abs());
         match (self.minimise, self.conventions.gravity == 0.0) {
+            (_, false) => self.by_work(root),
             (Minimise::PeakTorque, true) => self.heaviest(root) * self.peak_by_mean(),
-            // Work is torque by angle, so no more than the peak by all angles.
-            (Minimise::PeakTorque, false) => {
-                let mut angles: Vec<f64> = angles().collect();
-                angles.sort_by(|a, b| b.total_cmp(a));
-                quotient(lifted, angles.iter().take(self.masses.len() - 1).sum())
-            }
             // Counting the locked joints adds to what the moving ones spend.
             (_, true) => routes.bound(root) * by_square,
+        }
+    }
+
+    /// Returns the bound for one root under gravity that follows from the work of lifting all panels, which every
+    /// order does.
+    fn by_work(&self, root: usize) -> f64 {
+        let mut angles: Vec<f64> = self.target.hinges.iter().map(|hinge| hinge.angle.abs()).collect();
+        angles.sort_by(|a, b| b.total_cmp(a));
+        match self.minimise {
+            // Work is torque by angle, so no more than the peak by all angles.
+            Minimise::PeakTorque => {
+                quotient(self.lifted(root), angles.iter().take(self.masses.len() - 1).sum())
+            }
             // Work is torque by speed, so no more than the mean torque by the time by the greatest speed.
-            (_, false) => quotient(lifted, QUINTIC_SPEED * angles().fold(0.0, f64::max)),
+            Minimise::Energy | Minimise::Steps => {
+                quotient(self.lifted(root), QUINTIC_SPEED * angles.first().copied().unwrap_or(0.0))
+            }
         }
     }
 
@@ -228,16 +272,20 @@ impl<'t> Objective<'t> {
         (moment * self.conventions.gravity).abs()
     }
 
-    /// Returns a mean torque that some hinge reaches in every layout, N·m for steps of one second: every face
-    /// is carried by its own hinge, and all faces by the root's ([`peak`]).
+    /// Returns a mean torque that some hinge reaches in every layout with the leaves first, N·m for steps of one
+    /// second: every face is carried by its own hinge, and all faces by the root's ([`peak_torque`]).
     fn heaviest(&self, root: usize) -> f64 {
-        let faces = 0..self.masses.len();
-        let least = |face: usize, hinges: &mut dyn Iterator<Item = usize>| {
-            hinges.map(|hinge| self.weights.at(hinge, face)).fold(f64::INFINITY, f64::min)
+        self.by_itself(root).max(peak_torque::relaxed(self.target, &self.weights, root))
+    }
+
+    /// Returns a mean torque that some hinge reaches in every layout and order, N·m for steps of one second: that
+    /// of a face about its own hinge, which carries it whatever has folded before.
+    fn by_itself(&self, root: usize) -> f64 {
+        let own = |face: usize| {
+            let hinges = self.target.around(face).map(|(hinge, _)| self.weights.at(hinge, face));
+            hinges.fold(f64::INFINITY, f64::min)
         };
-        let others = || faces.clone().filter(|face| *face != root);
-        let own = others().map(|face| least(face, &mut self.target.around(face).map(|(hinge, _)| hinge)));
-        own.fold(peak_torque::relaxed(self.target, &self.weights, root), f64::max)
+        (0..self.masses.len()).filter(|face| *face != root).map(own).fold(0.0, f64::max)
     }
 }
 

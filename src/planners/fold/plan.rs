@@ -1,14 +1,16 @@
 //! The entry of the planner: from a problem to a folding that the judge lets through.
 
-use super::evaluation::Candidates;
+use super::evaluation::{Candidates, Chosen};
 use super::objective::Minimise;
 use super::observer::Observer;
+use super::order_bounds::Orders;
 use super::proposals::Proposals;
 use super::refusal::{BestPattern, NoFolding, Refusal, Rejection};
 use super::reordering::Reordering;
-use super::report::Report;
+use super::report::{Report, gap};
 use super::settings::{Problem, Settings};
 use super::task::{Outcome, Task};
+use super::tolerances::TOLERANCES;
 use super::{spanning_trees, steps, thickness, work_order};
 use crate::interrupt;
 use crate::planners::{Progress, Solution};
@@ -17,8 +19,8 @@ use crate::planners::{Progress, Solution};
 /// lets the judge decide about every layout in order of that quantity.
 ///
 /// If the judge refuses the order that the settings ask for, layouts made of strips and other orders are
-/// tried, and the lesser of what they find is the answer: then `report.optimal` is false. All actions of the
-/// program have cause 0.
+/// tried, and the lesser of what they find is the answer: then `report.bound` is one for all orders. All actions
+/// of the program have cause 0.
 ///
 /// # Errors
 /// A [`Refusal`]: settings that do not go together, a shape that does not fold, a search that ended without an
@@ -57,8 +59,8 @@ pub fn plan(
     // Layouts in order of their value, until the judge accepts one in the order asked for.
     let found = task.proposals()?;
     let mut candidates = Candidates::default();
-    if let Some((outcome, is_optimal)) = task.best_accepted(&mut candidates, &found)? {
-        return Ok(answer(&task, outcome, &found, is_optimal));
+    if let Some(chosen) = task.best_accepted(&mut candidates, &found)? {
+        return Ok(answer(&task, chosen, &found));
     }
     if problem.hinges.is_some() {
         return Err(given(candidates.first));
@@ -68,7 +70,8 @@ pub fn plan(
     let mut reordering = Reordering::new(&task);
     let reordered = reordering.first(&found)?;
     if let Some(outcome) = task.lesser(strips, reordered) {
-        return Ok(answer(&task, outcome, &found, false));
+        let bound = task.objective.lower_bound(&task.roots, Orders::Any);
+        return Ok(answer(&task, Chosen { outcome, bound, is_fewest: false }, &found));
     }
     Err(Refusal::NoFolding(Box::new(NoFolding {
         first: candidates.first,
@@ -89,33 +92,37 @@ fn best_pattern(task: &Task, found: &Proposals) -> BestPattern {
     let layout = &found.layouts[0];
     let effort = task.objective.effort(layout, &steps::leaves_first(layout));
     let minimise = task.settings.minimise;
-    let reached = match minimise {
-        Minimise::PeakTorque => effort.peak,
-        Minimise::Energy | Minimise::Steps => effort.energy,
-    };
-    let gap = if found.proved { 0.0 } else { (1.0 - found.bound / reached).max(0.0) };
-    BestPattern { minimise, reached, bound: found.bound, gap }
+    let reached = effort.minimised(minimise);
+    // Rounding aside, nothing is below its bound.
+    let bound = found.bound.min(reached);
+    BestPattern { minimise, reached, bound, gap: gap(reached, bound) }
 }
 
 /// Returns the solution of an accepted outcome, with its report.
-fn answer(task: &Task, outcome: Outcome, found: &Proposals, optimal: bool) -> Solution<Report> {
-    let Outcome { solution, layout, steps } = outcome;
+fn answer(task: &Task, chosen: Chosen, found: &Proposals) -> Solution<Report> {
+    let Chosen { outcome: Outcome { solution, layout, steps }, bound, is_fewest } = chosen;
     let Task { target, objective, panels, problem, settings, .. } = task;
     let loads = task.loads();
     let value = task.value(&layout, &steps);
     let opening =
         settings.hinge_radius.map(|radius| thickness::least_opening(panels.weakest.thickness, radius));
+    let (effort, fewest_steps) = (objective.effort(&layout, &steps), objective.fewest_steps(problem.root));
+    let minimised = effort.minimised(settings.minimise);
+    // Rounding aside, nothing is below its bound.
+    let bound = bound.min(minimised);
+    let is_fewest = is_fewest || settings.minimise != Minimise::Steps || steps.len() == fewest_steps;
+    let lifting = work_order::work(target, &layout, &loads, &steps.concat());
     let report = Report {
         layouts: spanning_trees::layouts(target),
-        effort: objective.effort(&layout, &steps),
-        bound: found.bound,
-        fewest_steps: objective.fewest_steps(problem.root),
+        effort,
+        bound,
+        fewest_steps,
         price: if found.least > 0.0 { value / found.least } else { 1.0 },
-        optimal,
+        optimal: is_fewest && TOLERANCES.prove(minimised, bound),
         ties: found.ties.clone(),
         tied: found.tied,
-        lifting: work_order::work(target, &layout, &loads, &steps.concat()),
-        lifting_bound: work_order::bound(target, &layout, &loads),
+        lifting,
+        lifting_bound: work_order::bound(target, &layout, &loads).min(lifting),
         too_thick: opening.map_or_else(Vec::new, |opening| thickness::too_thick(target, &layout, opening)),
         masses: panels.masses.clone(),
         conventions: task.conventions,

@@ -1,11 +1,12 @@
 //! Layouts that are proposed to the judge, by the method that the objective allows.
 
-use super::branch_and_bound::{self, NoLayout, Optimum, Proof};
+use super::branch_and_bound::{self, NoLayout, Optimum};
 use super::enumerate::{self, TooManyFaces};
 use super::heuristic::{self, Measure};
 use super::layout::Layout;
 use super::local_search::{self, Measured};
 use super::objective::Minimise;
+use super::order_bounds::Orders;
 use super::peak_torque;
 use super::refusal::Refusal;
 use super::settings::Method;
@@ -25,15 +26,15 @@ pub(super) struct Proposals {
     pub layouts: Vec<Layout>,
     /// The settings of a search for the next best; `None` where there is no such search.
     pub next: Option<branch_and_bound::Settings>,
-    /// The lower bound for all layouts, leaves first: on the peak torque where that is minimised, else on the
-    /// energy; N·m.
+    /// The lower bound for all layouts that lie flat, with the leaves first: on the peak torque where that is
+    /// minimised, else on the energy; N·m. If branch and bound minimises the steps, it holds for the layouts that
+    /// are no higher than the first.
     pub bound: f64,
     /// The least value of any layout, also of those whose patterns overlap.
     pub least: f64,
-    /// True if it is proved that no layout that lies flat is better than the first.
-    pub proved: bool,
-    /// True if the list is complete: no layout that lies flat is left out before its last.
-    pub listed: bool,
+    /// For each layout of the list: its value, and the one that decides ties; `None` unless the list is complete,
+    /// so that no layout that lies flat is left out before its last.
+    pub values: Option<Vec<[f64; 2]>>,
     /// The roots that are equally good.
     pub ties: Vec<usize>,
     /// The number of pairs of a layout and a root that are known to be equally good.
@@ -45,6 +46,35 @@ impl Proposals {
     pub(super) fn next_best(&self) -> Option<branch_and_bound::Settings> {
         self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
     }
+
+    /// Returns the lower bound for all layouts that lie flat but those before a place in the list: the least value
+    /// behind it, if the list is complete.
+    pub(super) fn bound_from(&self, place: usize, minimise: Minimise) -> f64 {
+        self.values.as_ref().map_or(self.bound, |values| least_from(values, place, minimise))
+    }
+
+    /// Returns whether no layout that lies flat is left out between those proposed: if the steps are minimised,
+    /// none with fewer steps comes after one with more.
+    pub(super) fn is_gapless(&self) -> bool {
+        self.next.is_some() || self.values.is_some()
+    }
+}
+
+/// Returns the least energy or peak torque in a complete list from a place on. If the steps are minimised, it is
+/// the energy of what takes as few.
+fn least_from(values: &[[f64; 2]], place: usize, minimise: Minimise) -> f64 {
+    let rest = &values[place..];
+    let least = match minimise {
+        Minimise::Energy | Minimise::PeakTorque => {
+            rest.iter().map(|value| value[0]).fold(f64::INFINITY, f64::min)
+        }
+        Minimise::Steps => {
+            let as_few = rest.iter().filter(|value| value[0] == rest[0][0]);
+            as_few.map(|value| value[1]).fold(f64::INFINITY, f64::min)
+        }
+    };
+    // Ties are in any order, also beyond the last.
+    least * (1.0 - TOLERANCES.tie)
 }
 
 impl Task<'_> {
@@ -65,7 +95,7 @@ impl Task<'_> {
     }
 
     /// Returns a value for steps of the call's time from one for steps of one second.
-    fn scaled(&self, energy: f64) -> f64 {
+    pub(super) fn scaled(&self, energy: f64) -> f64 {
         energy / (self.conventions.step * self.conventions.step)
     }
 
@@ -104,8 +134,7 @@ impl Task<'_> {
         Ok(Proposals {
             bound: self.scaled(found.bound),
             least,
-            proved: found.proof == Proof::Optimal,
-            listed: false,
+            values: None,
             next: Some(settings),
             tied: found.roots.len() as u64,
             ties: found.roots,
@@ -121,7 +150,13 @@ impl Task<'_> {
     fn enumerated(&self) -> Result<Proposals, Refusal> {
         if !self.objective.is_sum_over_faces() || self.settings.minimise == Minimise::Steps {
             let (found, limit) = self.measured()?;
-            return if found.proved { Ok(found) } else { Err(Refusal::TooManyLayouts { limit }) };
+            let first = self.objective.value(&found.layouts[0]);
+            let by_parts = self.objective.is_greatest_sum() && TOLERANCES.prove(first[0], found.bound);
+            return if by_parts || found.values.is_some() {
+                Ok(found)
+            } else {
+                Err(Refusal::TooManyLayouts { limit })
+            };
         }
         let asked =
             enumerate::Settings { root: self.problem.root, spectrum: false, budget: self.settings.budget };
@@ -136,7 +171,8 @@ impl Task<'_> {
         }
         // The best of all may overlap: the best that lies flat costs no less.
         let flat = self.proved()?;
-        Ok(Proposals { least, ties, tied: all.ties, ..flat })
+        let bound = flat.bound.max(least * (1.0 - TOLERANCES.bound));
+        Ok(Proposals { bound, least, ties, tied: all.ties, ..flat })
     }
 
     /// Returns the layout that the problem gives as pairs of faces, with its best roots.
@@ -175,15 +211,18 @@ impl Task<'_> {
         let mut value = |layout: &Layout| self.objective.value(layout);
         let found = local_search::search(self.target, weights, &settings, &mut value, self.observer);
         let Measured { best, ties, roots, least, complete } = found;
-        let Some((_, first)) = best.first() else {
+        let Some((_, [first, _])) = best.first() else {
             return Err(if complete { Refusal::AllOverlap } else { Refusal::NothingFlat });
         };
-        let is_measured = complete && self.settings.minimise != Minimise::Steps;
-        let bound = if is_measured { first[0] } else { self.objective.lower_bound(&self.roots) };
-        let first = first[0];
-        let layouts = best.into_iter().map(|(layout, _)| layout).collect();
-        let (proved, listed) = (complete, complete);
-        let found = Proposals { layouts, next: None, bound, least, proved, listed, ties: roots, tied: ties };
+        let first = *first;
+        let (layouts, values): (Vec<Layout>, Vec<[f64; 2]>) = best.into_iter().unzip();
+        let bound = if complete {
+            least_from(&values, 0, self.settings.minimise)
+        } else {
+            self.objective.lower_bound(&self.roots, Orders::LeavesFirst)
+        };
+        let values = complete.then_some(values);
+        let found = Proposals { layouts, next: None, bound, least, values, ties: roots, tied: ties };
         let by_parts = self.objective.is_greatest_sum();
         Ok((if by_parts && !complete { self.of_least_peak(found, first) } else { found }, budget))
     }
@@ -205,8 +244,7 @@ impl Task<'_> {
             }
         }
         found.least = found.least.min(best * scale);
-        found.bound = (bound * scale).max(found.bound).min(best * scale);
-        found.proved = bound >= best * (1.0 - TOLERANCES.tie);
+        found.bound = (bound * scale).max(found.bound);
         found
     }
 
@@ -221,10 +259,10 @@ impl Task<'_> {
         Ok(self.unproved(vec![found.layout], least, ties, found.ties))
     }
 
-    /// Layouts of which nothing is proved but the lower bound for all.
+    /// Layouts of which nothing is known but the lower bound for all.
     fn unproved(&self, layouts: Vec<Layout>, least: f64, ties: Vec<usize>, tied: u64) -> Proposals {
-        let bound = self.objective.lower_bound(&self.roots);
-        Proposals { layouts, next: None, bound, least, proved: false, listed: false, ties, tied }
+        let bound = self.objective.lower_bound(&self.roots, Orders::LeavesFirst);
+        Proposals { layouts, next: None, bound, least, values: None, ties, tied }
     }
 }
 

@@ -5,6 +5,7 @@ use super::objective::{Conventions, Effort, Minimise, Objective};
 use super::observer::Observer;
 use super::random_orders::{self, Sample};
 use super::target::Target;
+use super::tolerances::TOLERANCES;
 use crate::plan::{Verdict, World};
 use crate::planners::Progress;
 use num_bigint::BigInt;
@@ -22,14 +23,18 @@ pub struct Report {
     pub steps: Vec<Vec<usize>>,
     /// The energy and the peak torque of the folding, N·m.
     pub effort: Effort,
-    /// The lower bound for all layouts with the leaves folded first: on the peak torque where that is
-    /// minimised, else on the energy, N·m.
+    /// The lower bound on what was minimised, never above it, for all foldings that the answer was chosen from: the
+    /// peak torque, the energy, or the energy of as few steps, N·m; 0 where none is known. These are all layouts
+    /// with the roots allowed that lie flat and pass the judge, in the order that the settings ask for, or in any
+    /// order where none passed in that one.
     pub bound: f64,
     /// The least number of steps of any folding.
     pub fewest_steps: usize,
-    /// True if it is proved that no folding that lies flat and passes the judge is better, leaves first.
+    /// True if it is proved that none of these foldings is better: the bound is below what was minimised by less
+    /// than `TOLERANCES.proof` of it, and where the steps are minimised, none takes fewer.
     pub optimal: bool,
-    /// The minimised quantity by the least value of any layout, 1 where nothing was given up.
+    /// The minimised quantity by the least value that was found for any layout with the leaves first: 1 where
+    /// nothing was given up, less where another order is better.
     pub price: f64,
     /// The roots that are as good as the root of the layout, in order.
     pub ties: Vec<usize>,
@@ -56,15 +61,10 @@ pub struct Report {
 }
 
 impl Report {
-    /// Returns the gap between the value found and the bound, as a fraction of the value found; 0 where the
-    /// folding is optimal. Another order than leaves first may go below the bound, and then the gap is 0,
-    /// too.
+    /// Returns the part of what was minimised by which the bound is below it; 0 where that is less than
+    /// `TOLERANCES.proof`.
     pub fn gap(&self) -> f64 {
-        let found = match self.minimise {
-            Minimise::PeakTorque => self.effort.peak,
-            Minimise::Energy | Minimise::Steps => self.effort.energy,
-        };
-        if self.optimal || found <= 0.0 { 0.0 } else { (1.0 - self.bound / found).max(0.0) }
+        gap(self.effort.minimised(self.minimise), self.bound)
     }
 
     /// Compares the energy of the folding with that of `orders` random orders of the same layout, under the
@@ -75,4 +75,9 @@ impl Report {
         let observer = Observer::new(progress);
         random_orders::sample(&self.layout, orders, seed, self.effort.energy, energy, &observer)
     }
+}
+
+/// Returns the part of a value by which its lower bound is below it; 0 where that proves the value.
+pub(super) fn gap(value: f64, bound: f64) -> f64 {
+    if TOLERANCES.prove(value, bound) { 0.0 } else { 1.0 - bound / value }
 }

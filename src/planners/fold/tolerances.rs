@@ -30,7 +30,10 @@ pub struct Tolerances {
     pub perturbation: f64,
     /// Layouts whose values differ by less than this part are equally good.
     pub tie: f64,
-    /// A bound this near to the best energy, as a part of it, is rounding away from it.
+    /// A folding is optimal where the bound is below its value by less than this part: what perturbations, ties
+    /// and rounding come to together.
+    pub proof: f64,
+    /// The part by which bounds are lowered, and within which they reach the best energy: rounding of sums.
     pub bound: f64,
     /// Arcs are removed where they would cost this much more than the cutoff, as a part of it: what rounding
     /// may add up to.
@@ -38,6 +41,8 @@ pub struct Tolerances {
     /// The least gain of an exchange of hinges, as a part of the energy: less is rounding, which would go
     /// round in circles.
     pub gain: f64,
+    /// The part by which the least moment of inertia of a panel is lowered: rounding of its eigenvalues.
+    pub moment: f64,
     /// The part by which bounds under gravity are lowered: rounding and the quadrature over a step.
     pub gravity_bound: f64,
     /// Orders whose work differs by less than this part are equally good: rounding of sums.
@@ -50,6 +55,13 @@ pub struct Tolerances {
     pub worth: f64,
     /// Corners nearer to the line of a hinge than this part of a side rest on the hinge itself.
     pub hinge_line: f64,
+}
+
+impl Tolerances {
+    /// Returns whether a lower bound proves that nothing is better than a value.
+    pub fn prove(&self, value: f64, bound: f64) -> bool {
+        bound >= value * (1.0 - self.proof)
+    }
 }
 
 /// The tolerances with which every search of this planner computes.
@@ -65,9 +77,11 @@ pub const TOLERANCES: Tolerances = Tolerances {
     axis: 1e-9,
     perturbation: 1e-9,
     tie: 1e-9,
+    proof: 4e-9,
     bound: 1e-12,
     fixing: 1e-11,
     gain: 1e-11,
+    moment: 1e-9,
     gravity_bound: 1e-7,
     work: 1e-12,
     closing: 1e-9,

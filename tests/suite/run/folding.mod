@@ -16,8 +16,11 @@ use std.mori.Mori
 use std.shapes.{octahedron, quadruped18}
 let best = fold(octahedron(edge: 80mm), module: Mori)
 let fast = fold(octahedron(edge: 80mm), module: Mori, method: heuristic)
-print(abs(fast.energy / best.energy - 1) < 1e-6, fast.optimal, best.energy >= best.bound)
-//> true false true
+print(abs(fast.energy / best.energy - 1) < 1e-6, best.energy >= best.bound)
+//> true true
+// However it was found, what reaches the bound of all layouts is proved.
+print(fast.optimal, fast.gap, fold(octahedron(edge: 80mm), module: Mori, method: heuristic, sequence: root_first).optimal)
+//> true 0 false
 let quad = fold(quadruped18(edge: 80mm), module: Mori, root: 4)
 print(quad.layouts, quad.root, verify(quad).ok, fold(quadruped18(edge: 80mm), module: Mori).ties)
 //> 108 4 true [0]
@@ -235,6 +238,25 @@ print(fold(octahedron(e), module: Mori, method: heuristic).gap < 1e-9)
 let short = fold(tube(sides: 4, rings: 2, edge: e), module: Mori, budget: 1)
 print(short.optimal, short.gap >= 0, short.gap < 1, short.bound <= short.energy)
 //> false true true true
+
+--- a bound holds for the orders that the answer was chosen from
+use std.mori.Mori
+use std.shapes.{octahedron, quadruped18, tube}
+// With the leaves first no layout passes the judge, and other orders spend less than any layout with the leaves first.
+let lifted = fold(octahedron(edge: 80mm), module: Mori, gravity: on, count: all)
+print(lifted.price < 1, lifted.bound > 0N*m, lifted.bound < lifted.energy, lifted.gap > 0, lifted.optimal)
+//> true true true true false
+let tall = fold(tube(sides: 4, rings: 6, edge: 80mm), module: Mori, budget: 1_000_000)
+print(tall.price < 1, tall.bound > 0N*m, tall.bound < tall.energy, tall.gap > 0, tall.optimal)
+//> true true true true false
+let quad = quadruped18(edge: 80mm)
+let cheap = fold(quad, module: Mori, root: 8, sequence: least_energy)
+print(cheap.price < 1, cheap.bound > 0N*m, cheap.bound < cheap.energy, cheap.gap > 0, cheap.optimal)
+//> true true true true false
+// What the judge refuses is no part of the bound: the next best, which costs more, is proved.
+let next = fold(quad, module: Mori, root: 8)
+print(next.price > 1.1, next.bound < next.energy, abs(next.bound / next.energy - 1) < 4e-9, next.gap, next.optimal)
+//> true true true 0 true
 
 --- a search for sheets that its budget ends says how far it came
 use std.mori.Mori
