@@ -260,6 +260,10 @@ impl Interpreter<'_> {
 
     /// Runs `body` for every element of a list or of a range of whole numbers. Returns false if the elements
     /// are unknown.
+    ///
+    /// # Errors
+    /// A fault at `span` where an end of the range is no whole number of 64 bits, besides the errors of
+    /// `body`.
     pub fn for_each(
         &mut self,
         values: &Value,

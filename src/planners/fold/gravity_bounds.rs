@@ -42,8 +42,9 @@ struct Arc {
     below: usize,
     /// The sign of its angle: in this direction a folding hinge turns.
     sense: f64,
-    /// The mean over the step, and the values at its beginning and its end, by face.
+    /// The mean torque over the step, by face.
     mean: Vec<f64>,
+    /// The torques at its beginning and its end, by face.
     ends: [Vec<f64>; 2],
 }
 

@@ -68,7 +68,7 @@ fn gap(state: &State, a: Dock, b: Dock) -> f64 {
 /// The radii within which balls around an end are counted, in pitches.
 const DENSITY_RADII: [f64; 2] = [2.5, 5.0];
 
-/// Returns the number of balls within each of the radii of each shoe's own, itself included.
+/// Returns the number of balls within each of the radii of each shoe's ball, itself included.
 fn local_density(state: &State) -> Vec<[usize; 2]> {
     let mut density = vec![[1, 1]; state.poses.len()];
     broad_phase::pairs(&state.poses, DENSITY_RADII[1], &mut |a, b, squared| {
