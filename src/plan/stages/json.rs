@@ -17,8 +17,8 @@ pub(in crate::plan) struct StagesJson<'a> {
     cell_name: String,
     /// The number of cells.
     count: u64,
-    /// Seconds of one unit of time: that in which the greatest force brings a cell from rest to one
-    /// cell size a unit of time.
+    /// The unit of time, s: that in which the greatest force brings a cell from rest to one cell size a unit
+    /// of time.
     time_unit: f64,
     limits: CellLimits,
     /// The bounds on the cells' forces.

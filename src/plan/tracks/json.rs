@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Joint motions over time, and which bonds hold.
+/// The joint trajectories of an articulated robot over time, piecewise polynomials in Bernstein form, and the
+/// bonds that hold.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Tracks", deny_unknown_fields)]
 pub(in crate::plan) struct TracksJson<'a> {
@@ -93,8 +94,8 @@ struct ClusterJson {
     modules: Vec<String>,
 }
 
-/// The motion of one joint: segments in order of time that do not overlap. Between two segments and
-/// after the last, the joint holds where the segment before ended.
+/// The trajectory of one joint: segments in order of time that do not overlap. Between two segments and after
+/// the last, the joint holds the end position of the segment before.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Track", deny_unknown_fields)]
 struct TrackJson<'a> {
