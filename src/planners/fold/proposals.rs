@@ -53,7 +53,7 @@ impl Proposals {
         self.values.as_ref().map_or(self.bound, |values| least_from(values, place, minimise))
     }
 
-    /// Returns whether no layout that lies flat is left out between those proposed: if the steps are minimised,
+    /// Returns true if no layout that lies flat is left out between those proposed: if the steps are minimised,
     /// none with fewer steps comes after one with more.
     pub(super) fn is_gapless(&self) -> bool {
         self.next.is_some() || self.values.is_some()

@@ -58,7 +58,7 @@ pub struct Tolerances {
 }
 
 impl Tolerances {
-    /// Returns whether a lower bound proves that nothing is better than a value.
+    /// Returns true if a lower bound proves that nothing is better than a value.
     pub fn prove(&self, value: f64, bound: f64) -> bool {
         bound >= value * (1.0 - self.proof)
     }
