@@ -1,6 +1,7 @@
 //! Docking and undocking: the bond that a command makes or breaks, and its turn.
 
 use super::refusal::Reason;
+use super::tolerances::TOLERANCES;
 use crate::geometry::Pose;
 use crate::geometry::pose::turned;
 use crate::robot::{Assembly, Bond, Kinematics, PortRef};
@@ -72,15 +73,12 @@ fn nearest(robot: &Assembly, a: PortRef, b: PortRef, X_PQ: &Pose) -> (Bond, Opti
             _ => left,
         };
         let off = rest.rotation.angle();
-        if off < best.0 - TURN_TIE {
+        if off < best.0 - TOLERANCES.turn_tie {
             best = (off, turn, hinge);
         }
     }
     (Bond { a, b, turn: best.1 }, best.2)
 }
-
-/// The difference of fits, rad, below which two turns are equally near: rounding must not choose.
-const TURN_TIE: f64 = 1e-9;
 
 /// Returns the angle of the turn about an axis that comes nearest to a rotation, rad.
 fn twist(pose: &Pose, axis: &crate::geometry::Vec3) -> f64 {

@@ -3,11 +3,9 @@
 
 use super::conflict::conflicts;
 use super::schedule::{Problem, Settings, schedule};
+use super::tolerances::TOLERANCES;
 use crate::plan::{Failure, Plan, Track, Tracks};
 use crate::units::{Dimension, quantity};
-
-/// The greatest difference of positions (rad or m) and times (s) that count as the same: rounding.
-const TOL_SAME: f64 = 1e-9;
 
 /// Schedules the program of a plan anew and returns a failure that says where the motion differs from
 /// the plan's tracks. Returns `None` where they are the same, and for a plan without a program.
@@ -41,17 +39,15 @@ pub fn unfaithful(plan: &Plan) -> Option<Failure> {
 }
 
 fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
-    if (made.duration - stated.duration).abs() > TOL_SAME {
+    if (made.duration - stated.duration).abs() > TOLERANCES.faithful {
         let time = |t| quantity(t, Dimension::TIME);
         let (made, stated) = (time(made.duration), time(stated.duration));
         return Some(format!("the program lasts {made}, the motion of the file {stated}"));
     }
     let same_docks = made.docks.len() == stated.docks.len()
-        && made
-            .docks
-            .iter()
-            .zip(&stated.docks)
-            .all(|(a, b)| (a.kind, a.bond) == (b.kind, b.bond) && (a.time - b.time).abs() <= TOL_SAME);
+        && made.docks.iter().zip(&stated.docks).all(|(a, b)| {
+            (a.kind, a.bond) == (b.kind, b.bond) && (a.time - b.time).abs() <= TOLERANCES.faithful
+        });
     if !same_docks {
         return Some("the program docks or undocks otherwise than the motion of the file".to_owned());
     }
@@ -74,14 +70,14 @@ fn same(a: Option<&Track>, b: Option<&Track>, start: f64) -> bool {
         let mut at = start;
         let mut moving = Vec::new();
         for segment in segments {
-            if segment.control.iter().any(|q| (q - at).abs() > TOL_SAME) {
+            if segment.control.iter().any(|q| (q - at).abs() > TOLERANCES.faithful) {
                 moving.push(segment);
             }
             at = *segment.control.last().unwrap_or(&at);
         }
         moving
     });
-    let near = |x: f64, y: f64| (x - y).abs() <= TOL_SAME * f64::max(1.0, x.abs());
+    let near = |x: f64, y: f64| (x - y).abs() <= TOLERANCES.faithful * f64::max(1.0, x.abs());
     a.len() == b.len()
         && a.iter().zip(&b).all(|(a, b)| {
             near(a.start, b.start)

@@ -5,6 +5,7 @@
 //! robot's centres of mass, parallel to two axes of the base's frame; the image of a joint is the
 //! joint of its type whose child link and axis are where the mirror puts them.
 
+use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::visit::rewritten;
 use crate::plan::{Action, Command, Condition, Node, Signal, Target};
@@ -21,12 +22,6 @@ pub enum Plane {
     /// The plane along x and z: left becomes right.
     XZ,
 }
-
-/// The greatest distance of an image from a joint, m: parts are placed with less care than this only by
-/// mistake, and the masses of the two halves of a module may differ a little.
-const TOL_PLACE: f64 = 2e-3;
-/// The greatest sine of the angle between an axis and its image.
-const TOL_DIRECTION: f64 = 1e-3;
 
 /// The reason why a behaviour has no mirror image.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,8 +137,10 @@ impl Mirror {
         let candidates = marks.iter().enumerate().filter_map(|(index, other)| {
             let other = other.as_ref()?;
             let off = (other.centre - centre).norm().max((other.foot - foot).norm());
-            let fits = other.kind == mark.kind && other.prismatic == mark.prismatic && off <= TOL_PLACE;
-            (fits && other.axis.cross(&axis).norm() <= TOL_DIRECTION).then_some((off, index, other))
+            let fits =
+                other.kind == mark.kind && other.prismatic == mark.prismatic && off <= TOLERANCES.image_place;
+            (fits && other.axis.cross(&axis).norm() <= TOLERANCES.image_direction)
+                .then_some((off, index, other))
         });
         let (_, index, other) = candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
         Some((JointId(index as u32), other.axis.dot(&axis).signum()))

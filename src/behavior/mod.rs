@@ -18,6 +18,7 @@ mod docking;
 mod motion;
 mod run;
 mod schedule;
+mod tolerances;
 
 mod conflict;
 mod faithful;

@@ -1,5 +1,6 @@
 //! The conditions of a connection: free ports, connectors that mate, an allowed turn, no loop.
 
+use super::tolerances::TOLERANCES;
 use crate::check::typed::{ConfigDef, Expr};
 use crate::interpret::design::ConnectorDesign;
 use crate::interpret::design::shorten;
@@ -12,12 +13,6 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::quantity;
 use std::collections::VecDeque;
 use std::rc::Rc;
-
-/// A turn this near to an allowed one is meant to be it; a rounding of `360deg / 4`.
-const TURN_TOLERANCE: f64 = 1e-9;
-/// Loops may miss closing by this much, m and rad: rounding, not slack.
-const CLOSURE_DISTANCE_MAX: f64 = 1e-6;
-const CLOSURE_ANGLE_MAX: f64 = 1e-6;
 
 impl Interpreter<'_> {
     /// Adds the connection `connect a -- b turn t`.
@@ -197,7 +192,8 @@ impl Interpreter<'_> {
         }
         let Some(robot) = self.robot_of(design)? else { return Ok(()) };
         for residual in robot.residuals() {
-            if residual.distance <= CLOSURE_DISTANCE_MAX && residual.angle <= CLOSURE_ANGLE_MAX {
+            if residual.distance <= TOLERANCES.closure_distance && residual.angle <= TOLERANCES.closure_angle
+            {
                 continue;
             }
             let bond = &design.bonds()[residual.bond];
@@ -222,7 +218,7 @@ fn allowed_turn(connector: &ConnectorDesign, angle: f64, span: Span) -> Eval<u32
     let turns = f64::from(connector.connector.turns);
     let steps = angle / std::f64::consts::TAU * turns;
     let nearest = steps.round();
-    if (steps - nearest).abs() <= TURN_TOLERANCE * turns {
+    if (steps - nearest).abs() <= TOLERANCES.turn * turns {
         return Ok(nearest.rem_euclid(turns) as u32);
     }
     let allowed: Vec<String> =

@@ -16,6 +16,7 @@ pub mod lattice;
 pub mod module;
 pub mod robot_of;
 pub mod sweep;
+mod tolerances;
 pub mod truss;
 
 use crate::check::typed::DefId;

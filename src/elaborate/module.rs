@@ -1,5 +1,6 @@
 //! Modules: Definition IV.1, (D, X, A, K), from a declaration to a module type.
 
+use super::tolerances::TOLERANCES;
 use crate::check::typed::{
     DefId, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement, PortClause,
 };
@@ -16,15 +17,6 @@ use crate::robot::{Joint, JointKind, Limits, Link, ModuleType, Motor, Port, mass
 use crate::source::{Diagnostic, Span, code};
 use std::cell::OnceCell;
 use std::rc::Rc;
-
-/// Penetration deeper than this is a collision, m, unless the module says otherwise.
-const TOUCH_DEFAULT: f64 = 1e-4;
-/// Links within this of the ground touch it, m, unless the module says otherwise.
-const CONTACT_DEFAULT: f64 = 1e-3;
-/// Against the ground, where the shape says nothing.
-const FRICTION_DEFAULT: f64 = 0.5;
-/// `up` and `facing` nearer than this to one line leave the port's turn open (sine of the angle).
-const PARALLEL: f64 = 1e-6;
 
 /// A module while its body is read.
 struct Draft<'d> {
@@ -71,11 +63,11 @@ impl Interpreter<'_> {
     fn draft<'d>(&mut self, def: &'d ModuleDef, title: &str, frame: &mut Frame) -> Eval<Draft<'d>> {
         let touch = match &def.touch {
             Some(touch) => self.positive(touch, "`touch`", frame)?,
-            None => TOUCH_DEFAULT,
+            None => ModuleType::TOUCH_DEFAULT,
         };
         let contact = match &def.contact {
             Some(contact) => self.positive(contact, "`contact`", frame)?,
-            None => CONTACT_DEFAULT,
+            None => ModuleType::CONTACT_DEFAULT,
         };
         let module = ModuleType {
             name: title.to_string(),
@@ -123,7 +115,7 @@ impl Interpreter<'_> {
             mass: 0.0,
             com: Vec3::zeros(),
             inertia: [0.0; 6],
-            friction: solid.friction.unwrap_or(FRICTION_DEFAULT),
+            friction: solid.friction.unwrap_or(Link::FRICTION_DEFAULT),
         };
         Ok((solid, built))
     }
@@ -444,7 +436,7 @@ fn fixed_joint(joint: &JointDef, parent: usize, child: usize, pose: Pose) -> Joi
 /// on one line.
 fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>> {
     let y = up.cross(&facing);
-    if y.norm() < PARALLEL {
+    if y.norm() < TOLERANCES.parallel {
         return None;
     }
     let y = y.normalize();
@@ -454,7 +446,7 @@ fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>
 
 /// Upwards, or forwards for a port that faces up or down.
 fn default_up(facing: Vec3) -> Vec3 {
-    if facing.cross(&Vec3::z()).norm() < PARALLEL { Vec3::x() } else { Vec3::z() }
+    if facing.cross(&Vec3::z()).norm() < TOLERANCES.parallel { Vec3::x() } else { Vec3::z() }
 }
 
 /// Refuses a link's shape that encloses nothing.

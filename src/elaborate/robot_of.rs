@@ -1,6 +1,7 @@
 //! The robot of a design, for the back end (robotics): one assembly with its library, its start state and
 //! kinematics.
 
+use super::tolerances::TOLERANCES;
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
 use crate::interpret::design::{Design, DesignKind, PartElement};
@@ -10,12 +11,6 @@ use crate::interpret::stop::Eval;
 use crate::robot::{Assembly, Bond, Kinematics, Library, ModuleInstance, PortRef, State};
 use std::rc::Rc;
 use std::sync::Arc;
-
-/// Centres nearer to each other than this are equally near, since rounding breaks an exact symmetry.
-const TIE_DISTANCE: f64 = 1e-9;
-
-/// Parts whose masses differ by less than this part are equally heavy.
-const TIE_MASS: f64 = 1e-9;
 
 impl Interpreter<'_> {
     /// Returns the robot of a design that is complete; `None` where it is broken or no robot.
@@ -85,7 +80,7 @@ impl Interpreter<'_> {
             return Ok((0..assembly.modules.len()).collect());
         }
         let masses: Vec<f64> = elements.iter().map(|part| mass_of(part)).collect();
-        let heaviest = masses.iter().copied().fold(0.0, f64::max) * (1.0 - TIE_MASS);
+        let heaviest = masses.iter().copied().fold(0.0, f64::max) * (1.0 - TOLERANCES.tie_mass);
         let mut candidates = Vec::new();
         let heavy = elements.iter().zip(&masses).filter(|(_, mass)| **mass >= heaviest);
         for (part, _) in heavy.filter(|(part, _)| part.design.module_count() > 0) {
@@ -170,7 +165,7 @@ fn central_module(
     };
     let distances: Vec<f64> = candidates.iter().map(|&m| distance(m)).collect();
     let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    let near = candidates.iter().zip(&distances).filter(|(_, d)| **d <= least + TIE_DISTANCE);
+    let near = candidates.iter().zip(&distances).filter(|(_, d)| **d <= least + TOLERANCES.tie_distance);
     let names = &assembly.modules;
     near.map(|(&m, _)| m).min_by(|&a, &b| names[a].name.cmp(&names[b].name)).unwrap_or(0)
 }

@@ -1,6 +1,7 @@
 //! Trusses: nodes and struts of one kind, rigid in their start pose.
 
 use super::config::Deferred;
+use super::tolerances::TOLERANCES;
 use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::segment_segment_distance;
@@ -16,10 +17,6 @@ use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// The distance, m, below which two nodes have the same position.
-const NODE_DISTANCE_MIN: f64 = 1e-9;
-/// Struts may be this much outside of their range, m: a rounding of what was meant.
-const LENGTH_TOLERANCE: f64 = 1e-9;
 /// More nodes make the rigidity matrix too large to decompose in a few seconds.
 const NODES_MAX: usize = 1000;
 /// The greatest number of faults of one truss that are reported.
@@ -251,7 +248,7 @@ impl Interpreter<'_> {
         }
         let length = (draft.nodes[a].position - draft.nodes[b].position).norm();
         let (low, high) = kind.length;
-        if !(low - LENGTH_TOLERANCE..=high + LENGTH_TOLERANCE).contains(&length) {
+        if !(low - TOLERANCES.strut_length..=high + TOLERANCES.strut_length).contains(&length) {
             let message = format!(
                 "the strut {} is {} long; a {} reaches from {} to {}",
                 name(a, b),
@@ -275,7 +272,7 @@ impl Interpreter<'_> {
                 continue;
             }
             let distance = segment_segment_distance(ends(a, b), ends(c, d));
-            if distance < kind.clearance.max(NODE_DISTANCE_MIN) {
+            if distance < kind.clearance.max(TOLERANCES.node_distance) {
                 let message = format!(
                     "the struts {} and {} are {} apart; a {} keeps {}",
                     name(a, b),
@@ -296,7 +293,7 @@ impl Interpreter<'_> {
 
 /// Returns the nodes at the position of an earlier one, with that.
 fn twins(nodes: &[Node]) -> Vec<(usize, usize)> {
-    let near = |a: usize, b: usize| (nodes[a].position - nodes[b].position).norm() < NODE_DISTANCE_MIN;
+    let near = |a: usize, b: usize| (nodes[a].position - nodes[b].position).norm() < TOLERANCES.node_distance;
     (0..nodes.len()).filter_map(|a| Some((a, (0..a).find(|&b| near(a, b))?))).collect()
 }
 

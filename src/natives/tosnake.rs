@@ -16,10 +16,9 @@ use crate::interpret::verdicts::failure_line;
 use crate::interrupt;
 use crate::plan::{Body, Ground, Plan, Program, World};
 use crate::planners::tosnake::conversion::{JOINTS, port_name};
-use crate::planners::tosnake::motion_check::LOAD_SPARE;
 use crate::planners::tosnake::{
     self, Collisions, Dock, InvalidStart, NotRofi, Operation, Overload, Refusal, Report, SearchStatus,
-    Settings,
+    Settings, TOLERANCES,
 };
 use crate::planners::{Progress, Solution, reconfigure};
 use crate::source::{Diagnostic, Span, code};
@@ -420,7 +419,7 @@ fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
     let (would, limit) = (words(load.ratio * limit), words(limit));
     let spare = match load.ratio > 1.0 {
         true => String::new(),
-        false => format!(", of which the search leaves {}%", 100.0 * LOAD_SPARE),
+        false => format!(", of which the search leaves {}%", 100.0 * TOLERANCES.load_spare),
     };
     let message =
         format!("too heavy: {when} {name}.{short} would have to hold {would}; it holds {limit}{spare}");

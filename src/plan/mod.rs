@@ -29,6 +29,7 @@ mod finite;
 mod operation_error;
 mod operations;
 mod stated;
+mod tolerances;
 pub mod validation;
 
 pub mod file;
@@ -39,9 +40,7 @@ pub use cause::{Cause, CauseId};
 pub use fault::{LibraryFault, NodePathsFault, PlanFault, StagesFault, TracksFault};
 pub use finite::Unwritable;
 pub use motion_plan::Plan;
-pub use node_paths::{
-    Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TOL_JOIN_NODE, TrussLimits,
-};
+pub use node_paths::{Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TrussLimits};
 pub use operation_error::OperationError;
 pub use operations::{joined, reversed, sliced};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
@@ -49,7 +48,8 @@ pub use provenance::{Change, ObjectiveValue, Provenance};
 pub use stages::{
     ArithmeticRun, CellBox, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages, arithmetic_runs,
 };
-pub use tracks::{Dock, DockKind, Remap, Segment, TOL_JOIN_JOINT, Track, Tracks, timeline};
+pub use tolerances::{TOLERANCES, Tolerances};
+pub use tracks::{Dock, DockKind, Remap, Segment, Track, Tracks, timeline};
 pub use verdict::{
     Check, CheckKind, Dynamics, Failure, Measure, Status, Verdict, WORST_VALUES, Worst, WorstKind,
 };

@@ -82,6 +82,20 @@ pub struct ModuleType {
     pub contact: f64,
 }
 
+impl ModuleType {
+    /// The depth of a penetration that counts as touching unless the module says otherwise, m: 0.1 mm,
+    /// far above rounding and below the thickness of any part.
+    pub const TOUCH_DEFAULT: f64 = 1e-4;
+    /// The distance from the ground up to which a link touches it unless the module says otherwise, m: 1 mm,
+    /// since real contacts yield.
+    pub const CONTACT_DEFAULT: f64 = 1e-3;
+}
+
+impl Link {
+    /// The coefficient of friction of a link against the ground where its shapes state none.
+    pub const FRICTION_DEFAULT: f64 = 0.5;
+}
+
 /// A rigid body of a module.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -23,12 +23,6 @@ const JOINT_SPEED_MAX: f64 = FRAC_PI_2;
 const JOINT_TORQUE_MAX: f64 = 10.0;
 /// Docking tolerances: metres and radians.
 const CAPTURE: Capture = Capture { distance: 0.005, angle: 5.0 * PI / 180.0 };
-/// Coulomb friction of a link against the ground.
-const FRICTION: f64 = 0.5;
-/// Penetration below this counts as touching, m.
-const TOUCH: f64 = 1e-4;
-/// Links within this of the ground touch it, m.
-const CONTACT: f64 = 1e-3;
 
 /// Returns the universal module with the distance `pitch` (m) between the centres of its two bodies.
 ///
@@ -54,8 +48,8 @@ pub fn module_type(pitch: f64) -> ModuleType {
         ports: [("a", 0), ("b", 3)].into_iter().flat_map(|(side, link)| ports(side, link, pitch)).collect(),
         motors: Vec::new(),
         touching: vec![(0, 3), (0, 2), (1, 3)],
-        touch: TOUCH,
-        contact: CONTACT,
+        touch: ModuleType::TOUCH_DEFAULT,
+        contact: ModuleType::CONTACT_DEFAULT,
     }
 }
 
@@ -109,7 +103,7 @@ fn link(name: &str, pose: Pose, radius: f64) -> Link {
         mass: LINK_MASS,
         com: Vec3::zeros(),
         inertia: [inertia, inertia, inertia, 0.0, 0.0, 0.0],
-        friction: FRICTION,
+        friction: Link::FRICTION_DEFAULT,
     }
 }
 

@@ -2,14 +2,12 @@
 
 use super::input::RenderInput;
 use super::number::{number, vector};
+use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
 use crate::plan::{Cause, CheckKind, Failure, Measure, Plan, Verdict, Worst, WorstKind};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
-
-/// The tolerance within which a picture's time is that of a failure, in seconds.
-const TOL_TIME: f64 = 1e-3;
 
 /// Returns the time in seconds at which playing ends: the duration, or the first failure.
 pub(super) fn end(plan: &Plan) -> f64 {
@@ -67,7 +65,7 @@ fn meeting(failure: &Failure, modules: &[usize], plan: &Plan) -> Option<Vec3> {
 pub(super) fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
     let first = plan.verdict.as_ref().and_then(|verdict| verdict.failures.first());
     first
-        .filter(|failure| (failure.time - time).abs() <= TOL_TIME)
+        .filter(|failure| (failure.time - time).abs() <= TOLERANCES.picture_time)
         .map_or_else(Vec::new, |f| modules(&f.at, plan))
 }
 

@@ -5,6 +5,7 @@ use super::bodies::link_poses;
 use super::colour::{PALETTE, groups};
 use super::drawing::{Drawing, INK, SOFT, around};
 use super::input::RenderInput;
+use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 use crate::plan::Tracks;
 use crate::robot::{Assembly, PortRef};
@@ -73,6 +74,6 @@ fn places(input: &RenderInput, tracks: &Tracks) -> Vec<[f64; 2]> {
     let bonds = &tracks.robot.bonds;
     let mean = bonds.iter().map(|b| length(flat[b.a.module], flat[b.b.module])).sum::<f64>()
         / bonds.len().max(1) as f64;
-    let scale = if mean > 1e-9 { BOND / mean } else { 1.0 };
+    let scale = if mean > TOLERANCES.size { BOND / mean } else { 1.0 };
     flat.iter().map(|p| p.map(|x| x * scale)).collect()
 }

@@ -2,13 +2,10 @@
 //! thinned to what is visible.
 
 use super::number::{list, number, place};
+use super::tolerances::TOLERANCES;
 use crate::geometry::Pose;
 use crate::plan::verify::articulated::{self, Moment};
 use serde_json::{Value, json};
-
-/// A base pose is left out where interpolation between its neighbours is within this of it: metres for
-/// positions, 1 for quaternion components.
-const TOL_BASE: f64 = 1e-4;
 
 /// The most base poses that one linear piece replaces.
 const RUN_MAX: usize = 64;
@@ -66,8 +63,8 @@ fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
     let near = |k: usize| {
         let end = if k < 3 { b[k] } else { sign * b[k] };
         let line = a[k] + (end - a[k]) * part;
-        let same = (line - c[k]).abs() <= TOL_BASE;
-        same || (k >= 3 && (line + c[k]).abs() <= TOL_BASE)
+        let same = (line - c[k]).abs() <= TOLERANCES.base;
+        same || (k >= 3 && (line + c[k]).abs() <= TOLERANCES.base)
     };
     (0..7).all(near)
 }
@@ -108,7 +105,8 @@ pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
 
 /// Returns true if two sets of points are equal within tolerance.
 fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
-    let near = |(p, q): (&[f64; 2], &[f64; 2])| p.iter().zip(q).all(|(x, y)| (x - y).abs() <= TOL_BASE);
+    let near =
+        |(p, q): (&[f64; 2], &[f64; 2])| p.iter().zip(q).all(|(x, y)| (x - y).abs() <= TOLERANCES.base);
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 

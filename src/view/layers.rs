@@ -3,6 +3,7 @@
 use super::colour::Rgb;
 use super::drawing::{Drawing, INK, SOFT, around};
 use super::input::RenderInput;
+use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 use crate::plan::{CellBox, NodePaths, Stages};
 
@@ -100,7 +101,7 @@ fn faces(cell: &CellBox) -> [Flat; 3] {
 fn laid_out(input: &RenderInput, panels: Vec<Panel>, undrawn: usize) -> String {
     let all = || panels.iter().flat_map(|p| p.pieces.iter().flat_map(|f| f.points.iter().copied()));
     let (from, size) = around(all(), 0.0);
-    let scale = (PANEL - 30.0) / size[0].max(size[1]).max(1e-9);
+    let scale = (PANEL - 30.0) / size[0].max(size[1]).max(TOLERANCES.size);
     let mut drawing = Drawing::default();
     for (i, panel) in panels.iter().enumerate() {
         let corner = [(i % COLUMNS) as f64 * PANEL, (i / COLUMNS) as f64 * (PANEL + HEAD)];

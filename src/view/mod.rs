@@ -11,6 +11,7 @@ mod page;
 mod data;
 mod findings;
 mod number;
+mod tolerances;
 
 mod primitives;
 

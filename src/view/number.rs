@@ -1,14 +1,12 @@
 //! Numbers in a page, rounded to what is visible.
 
+use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
 use serde_json::{Value, json};
 
-/// The rounding step of lengths (m), angles (rad), directions and times (s).
-const STEP: f64 = 1e-7;
-
 /// Rounds a number to the nearest step; returns 0 for NaN and infinities, which JSON cannot hold.
 pub(super) fn short(x: f64) -> f64 {
-    let rounded = libm::round(x / STEP) * STEP;
+    let rounded = libm::round(x / TOLERANCES.rounding) * TOLERANCES.rounding;
     // Parsed from decimal text, so that 0.1 is not 0.10000000000000002.
     let text = format!("{rounded:.7}");
     let number = text.parse().unwrap_or(0.0);

@@ -8,18 +8,10 @@
 
 use super::drawing::{Drawing, INK, SOFT, around, short};
 use super::input::RenderInput;
+use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Shape, Vec3};
 use crate::plan::Tracks;
 use crate::robot::{JointOwner, Kinematics, ModuleType, PortRef};
-
-/// The tolerance of a panel's corner above or below the sheet, in metres; covers rounding of poses.
-const TOL_FLAT: f64 = 1e-6;
-
-/// Two edges whose midpoints are nearer than this in the end coincide, in metres.
-const TOL_MEET: f64 = 1e-5;
-
-/// Angles smaller than this are flat creases, in radians.
-const ANGLE_MIN: f64 = 1e-6;
 
 /// Millimetres per metre.
 const MILLIMETRES: f64 = 1e3;
@@ -119,7 +111,7 @@ fn meeting(free: &[(PortRef, Vec3)]) -> Vec<Option<usize>> {
     let mut pairs = vec![None; free.len()];
     let mut count = 0;
     for i in 0..free.len() {
-        let near = |j: &usize| pairs[*j].is_none() && (free[*j].1 - free[i].1).norm() < TOL_MEET;
+        let near = |j: &usize| pairs[*j].is_none() && (free[*j].1 - free[i].1).norm() < TOLERANCES.meet;
         if pairs[i].is_none()
             && let Some(j) = (i + 1..free.len()).find(near)
         {
@@ -145,12 +137,13 @@ fn panel(kind: &ModuleType, X: &Pose) -> Option<Panel> {
         Shape::Mesh { vertices, .. } => vertices,
         _ => return None,
     };
-    let upright =
-        (X.rotation * Vec3::z()).z.abs() > 1.0 - TOL_FLAT && X.translation.vector.z.abs() < TOL_FLAT;
+    let upright = (X.rotation * Vec3::z()).z.abs() > 1.0 - TOLERANCES.flat
+        && X.translation.vector.z.abs() < TOLERANCES.flat;
     let X_body = X * placed.pose;
     let world: Vec<Vec3> = points.iter().map(|p| X_body.transform_point(&(*p).into()).coords).collect();
     let top = world.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
-    let mut corners: Vec<Point> = world.iter().filter(|p| top - p.z < TOL_FLAT).map(on_paper).collect();
+    let mut corners: Vec<Point> =
+        world.iter().filter(|p| top - p.z < TOLERANCES.flat).map(on_paper).collect();
     if let ([a, b, c], 3) = (&kind.ports[..], corners.len()) {
         let [a, b, c] = [a, b, c].map(|port| (X * port.pose).translation.vector);
         corners = [a + b - c, b + c - a, c + a - b].iter().map(on_paper).collect();
@@ -223,7 +216,7 @@ fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) ->
         for (number, panel) in panels.iter().enumerate() {
             layer.words(centre(&panel.corners), text * 1.5, SOFT, &number.to_string());
         }
-        for fold in folds.iter().filter(|fold| fold.angle.abs() >= ANGLE_MIN) {
+        for fold in folds.iter().filter(|fold| fold.angle.abs() >= TOLERANCES.crease) {
             let degrees = libm::round(fold.angle.to_degrees() * 10.0) / 10.0;
             let words =
                 if fold.order == 0 { format!("{degrees}°") } else { format!("{}: {degrees}°", fold.order) };
@@ -252,9 +245,24 @@ struct FoldStyle {
 }
 
 const STYLES: [FoldStyle; 3] = [
-    FoldStyle { name: "mountain", colour: MOUNTAIN, dashes: [6.0, 3.0], belongs: |angle| angle >= ANGLE_MIN },
-    FoldStyle { name: "valley", colour: VALLEY, dashes: [1.0, 3.0], belongs: |angle| angle <= -ANGLE_MIN },
-    FoldStyle { name: "level", colour: SOFT, dashes: [2.0, 6.0], belongs: |angle| angle.abs() < ANGLE_MIN },
+    FoldStyle {
+        name: "mountain",
+        colour: MOUNTAIN,
+        dashes: [6.0, 3.0],
+        belongs: |angle| angle >= TOLERANCES.crease,
+    },
+    FoldStyle {
+        name: "valley",
+        colour: VALLEY,
+        dashes: [1.0, 3.0],
+        belongs: |angle| angle <= -TOLERANCES.crease,
+    },
+    FoldStyle {
+        name: "level",
+        colour: SOFT,
+        dashes: [2.0, 6.0],
+        belongs: |angle| angle.abs() < TOLERANCES.crease,
+    },
 ];
 
 /// The distance of a letter from its edge, as a fraction of the distance to the panel's centre.

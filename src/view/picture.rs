@@ -5,6 +5,7 @@ use super::bodies::{Drawn, drawn};
 use super::colour::Rgb;
 use super::input::RenderInput;
 use super::raster::{Camera, Canvas};
+use super::tolerances::TOLERANCES;
 use super::{findings, palette, surroundings};
 use crate::geometry::Vec3;
 
@@ -149,8 +150,11 @@ impl Scene {
     fn lit(&self, base: [f64; 3], p: Vec3, normal: Vec3) -> [f32; 3] {
         let n = normal.normalize();
         let facing = n.dot(&SUN).max(0.0);
-        let direct =
-            if facing > 0.0 { facing * self.sunlight(&(p + n * (0.004 * self.radius))) } else { 0.0 };
+        let direct = if facing > 0.0 {
+            facing * self.sunlight(&(p + n * (TOLERANCES.shadow * self.radius)))
+        } else {
+            0.0
+        };
         let sky = 0.5 + 0.5 * n.z;
         let away = (self.camera.at - p).normalize();
         let rim = 1.0 - n.dot(&away).max(0.0);
@@ -172,7 +176,7 @@ impl Scene {
     /// samples.
     fn sunlight(&self, p: &Vec3) -> f64 {
         let Some(spot) = self.sun.project(p, SHADOW_MAP_SIZE, SHADOW_MAP_SIZE) else { return 1.0 };
-        let slack = 0.006 * self.radius;
+        let slack = TOLERANCES.shadow_depth * self.radius;
         let mut seen = 0;
         for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
             let (x, y) = (spot.x.floor() as i64 + dx, spot.y.floor() as i64 + dy);
@@ -241,7 +245,7 @@ fn ball(bodies: &[Drawn]) -> (Vec3, f64) {
     let Some(first) = points().next() else { return (Vec3::zeros(), 1.0) };
     let bound = |pick: fn(f64, f64) -> f64| points().fold(*first, |m, p| m.zip_map(p, pick));
     let (low, high) = (bound(f64::min), bound(f64::max));
-    ((low + high) / 2.0, ((high - low).norm() / 2.0).max(1e-6))
+    ((low + high) / 2.0, ((high - low).norm() / 2.0).max(TOLERANCES.radius))
 }
 
 /// Returns red, green and blue of each pixel: the means of its samples.

@@ -99,6 +99,22 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
 ];
 
+/// Rooms whose tolerances stand in a file `tolerances.rs`, one for each family or planner: those that decide what
+/// passes. In `geometry`, `optimize`, `robot` and `units` a threshold belongs to one algorithm and stands beside
+/// it; other rooms read, print or write, and have a handful each.
+const ROOMS_OF_TOLERANCES: &[&str] = &["plan", "behavior", "planners", "elaborate", "view"];
+
+/// A number below this is taken for a tolerance.
+const SMALL: f64 = 0.01;
+
+/// Lines with small numbers that are no tolerances, each with its reason.
+const SMALL_NUMBERS: &[(&str, &str)] = &[
+    ("const DAMPING_FEWEST: f64", "a weight within an objective"),
+    ("const SLACKS: [f64; 4]", "the values that a search tries in turn"),
+    ("let (text, pen)", "the width of a pen, as a part of the drawing"),
+    ("Side::Top => Vec3::new", "a camera that is not quite above, so that up is up"),
+];
+
 /// Crates and parts of the standard library that belong to one room, or to a few.
 const OWNERS: &[(&str, &[&str])] = &[
     ("parry3d_f64", &["geometry"]),
@@ -191,6 +207,54 @@ fn crates_and_the_outside_stay_in_their_rooms() {
         }
     }
     fail_if_any("outside of their rooms", faults);
+}
+
+#[test]
+fn tolerances_stand_in_their_files() {
+    let mut faults = Vec::new();
+    for (file, text) in rust("src") {
+        let room = file.split('/').nth(1).expect("below src");
+        if !ROOMS_OF_TOLERANCES.contains(&room) || file.ends_with("/tolerances.rs") {
+            continue;
+        }
+        for (number, line) in code_lines(&text) {
+            if has_bare_small_number(line) && !SMALL_NUMBERS.iter().any(|(start, _)| line.contains(start)) {
+                faults.push(format!("{file}:{number}: {}", line.trim()));
+            }
+        }
+    }
+    fail_if_any("tolerances outside of `tolerances.rs` (a named field of settings may have one)", faults);
+}
+
+/// Returns whether a line has a small number that is not the value of a named field.
+fn has_bare_small_number(line: &str) -> bool {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+    let is_field = |before: &str| {
+        let name = before.trim_end().strip_suffix(':').unwrap_or("");
+        name.ends_with(|c: char| c.is_alphanumeric() || c == '_')
+    };
+    if line.split_once(": ").is_some_and(|(name, _)| name.trim_start().chars().all(is_part)) {
+        return false;
+    }
+    let joined = line.replace("e-", "e_");
+    let mut at = 0;
+    for word in joined.split(|c| !is_part(c)) {
+        let value = word.trim_end_matches("_f64").replace("e_", "e-").parse::<f64>();
+        if value.is_ok_and(|x| x > 0.0 && x < SMALL) && !is_field(&joined[..at]) {
+            return true;
+        }
+        at += word.len() + joined[at + word.len()..].chars().next().map_or(0, char::len_utf8);
+    }
+    false
+}
+
+#[test]
+fn small_numbers_are_found() {
+    let bare = ["const A: f64 = 1e-9;", "if x < 0.001 {", "y.max(2.5e-3)", "1.0 - 6e-4", "&[0.5, 0.002]"];
+    let fine =
+        ["tol: 1e-9,", "    springs: (3e-2, 1e-6),", "Plate { gap: 1e-4, motors: 0.018 }", "x * 0.5 + 0.0"];
+    let found: Vec<&str> = bare.into_iter().chain(fine).filter(|line| has_bare_small_number(line)).collect();
+    assert_eq!(found, bare);
 }
 
 #[test]

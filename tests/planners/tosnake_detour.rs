@@ -2,9 +2,9 @@
 
 use modl::planners::NoProgress;
 use modl::planners::random::SplitMix64;
+use modl::planners::tosnake::TOLERANCES;
 use modl::planners::tosnake::broad_phase;
 use modl::planners::tosnake::inverse_kinematics::Loop;
-use modl::planners::tosnake::motion_check::MIN_DISTANCE;
 use modl::planners::tosnake::random_configuration::random_configuration;
 use modl::planners::tosnake::robot::Dock;
 use modl::planners::tosnake::rrt_connect::RrtConnect;
@@ -39,8 +39,9 @@ fn hindered(seed: u64) -> Option<(State, Vec<JointRef>, Joints)> {
     joints.iter().for_each(|j| to[j.module][j.joint] = FRAC_PI_2 * rng.next_signed());
     let mut poses = Vec::new();
     state.tree.poses(&to, &mut poses);
-    let stands = broad_phase::least_distance(&state.tree, &state.docked, &poses, 1.1) > MIN_DISTANCE;
-    let blocked = least(&state, &state.robot.joints, &to) < MIN_DISTANCE;
+    let stands =
+        broad_phase::least_distance(&state.tree, &state.docked, &poses, 1.1) > TOLERANCES.min_distance;
+    let blocked = least(&state, &state.robot.joints, &to) < TOLERANCES.min_distance;
     (stands && blocked && joints.len() >= 9).then_some((state, joints, to))
 }
 
@@ -61,7 +62,7 @@ fn a_detour_goes_around_what_is_in_the_way() {
         let mut before = from;
         for stop in &stops {
             let distance = least(state, before, stop);
-            assert!(distance >= MIN_DISTANCE, "balls come as near as {distance}");
+            assert!(distance >= TOLERANCES.min_distance, "balls come as near as {distance}");
             for (module, (a, b)) in before.iter().zip(stop).enumerate() {
                 let turns = |k: usize| joints.iter().any(|j| (j.module, j.joint) == (module, k));
                 assert!((0..3).all(|k| a[k] == b[k] || turns(k)), "only these joints turn");

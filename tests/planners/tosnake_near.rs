@@ -3,8 +3,8 @@
 
 use modl::geometry::{RigidTransform, Vec3};
 use modl::planners::random::SplitMix64;
+use modl::planners::tosnake::TOLERANCES;
 use modl::planners::tosnake::broad_phase;
-use modl::planners::tosnake::motion_check::MIN_DISTANCE;
 use modl::planners::tosnake::neighbour_list::NeighbourList;
 use modl::planners::tosnake::random_configuration::random_configuration;
 use modl::planners::tosnake::state::State;
@@ -108,10 +108,10 @@ fn a_way_is_free_where_nothing_meets_at_any_instant() {
             }
         }
         let says = scene.is_free(from, &to, &mut 0);
-        if least < MIN_DISTANCE {
+        if least < TOLERANCES.min_distance {
             assert!(!says, "tangle {seed}: balls come as near as {least}");
             hindered += 1;
-        } else if least > MIN_DISTANCE + 5e-4 {
+        } else if least > TOLERANCES.min_distance + 5e-4 {
             assert!(says, "tangle {seed}: nothing is nearer than {least}");
             free += 1;
         }

@@ -5,10 +5,7 @@ use super::motion::{Keyframe, NodePaths};
 use crate::plan::cause::CauseId;
 use crate::plan::operation_error::OperationError;
 use crate::plan::time::tick_after;
-
-/// The most by which nodes may be apart where two plans meet, m, along each axis: what rounding explains and
-/// cannot be seen.
-pub const TOL_JOIN_NODE: f64 = 1e-6;
+use crate::plan::tolerances::TOLERANCES;
 
 /// Returns the first paths and then the second, whose causes come behind `causes` others.
 ///
@@ -24,7 +21,8 @@ pub(in crate::plan) fn joined(
     }
     let at = tick_after(a.duration());
     let (end, start) = (a.state(at), b.state(0.0));
-    let differ = |p: &[f64; 3], q: &[f64; 3]| p.iter().zip(q).any(|(x, y)| (x - y).abs() > TOL_JOIN_NODE);
+    let differ =
+        |p: &[f64; 3], q: &[f64; 3]| p.iter().zip(q).any(|(x, y)| (x - y).abs() > TOLERANCES.join_node);
     if let Some(node) = end.iter().zip(&start).position(|(p, q)| differ(p, q)) {
         return Err(OperationError::Trusses { node: Some(a.node_names[node].clone()) });
     }

@@ -9,7 +9,6 @@ mod reversal;
 mod slice;
 mod validation;
 
-pub use join::TOL_JOIN_NODE;
 pub(super) use join::joined;
 pub(super) use json::NodePathsJson;
 pub use limits::{LengthSum, Margins, Surroundings, TrussLimits};

@@ -2,16 +2,14 @@
 
 use super::motion::Stages;
 use crate::plan::operation_error::OperationError;
-
-/// The greatest distance of a cut from the border of a stage, s: rounding.
-const TOL_STAGE_BORDER: f64 = 1e-9;
+use crate::plan::tolerances::TOLERANCES;
 
 impl Stages {
     /// Returns the stages between two borders of stages: within a stage the cells move.
     pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> Result<Stages, OperationError> {
         let instants = self.instants();
         let border = |t: f64| {
-            let found = instants.iter().position(|i| (i - t).abs() <= TOL_STAGE_BORDER * (1.0 + t));
+            let found = instants.iter().position(|i| (i - t).abs() <= TOLERANCES.stage_border * (1.0 + t));
             found.ok_or(OperationError::InsideStage { time: t })
         };
         let (first, last) = (border(from)?, border(to)?);

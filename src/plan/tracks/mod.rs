@@ -11,7 +11,6 @@ mod slice;
 mod timeline;
 mod validation;
 
-pub use join::TOL_JOIN_JOINT;
 pub(super) use join::fitted;
 pub(super) use json::TracksJson;
 pub use motion::{Dock, DockKind, Segment, Track, Tracks};

@@ -4,12 +4,11 @@ use super::motion::{Dock, DockKind, Track, Tracks};
 use crate::plan::cause::CauseId;
 use crate::plan::fault::{PlanFault, TracksFault, need, need_finite, need_index};
 use crate::plan::polynomial::DEGREE_MAX;
+use crate::plan::tolerances::TOLERANCES;
 use crate::plan::validation::library::{ranges, rigid};
 use crate::robot::{Assembly, JointKind, JointOwner, PortRef};
 use std::collections::BTreeSet;
 
-/// The most by which a joint may jump between two segments, rad or m: rounding, where plans were joined.
-const TOL_JUMP: f64 = 1e-9;
 /// The furthest position of a joint, rad or m: what turns more often takes the judge for ever.
 const POSITION_MAX: f64 = 1e6;
 
@@ -47,7 +46,9 @@ impl Tracks {
             need(degree, || TracksFault::ControlPoints { time: start, count })?;
             let in_order = now <= start && start < end && end <= self.duration;
             need(in_order, || TracksFault::SegmentOrder { start, end })?;
-            need((segment.control[0] - at).abs() <= TOL_JUMP, || TracksFault::Jump { time: start })?;
+            need((segment.control[0] - at).abs() <= TOLERANCES.joint_jump, || TracksFault::Jump {
+                time: start,
+            })?;
             (now, at) = (end, segment.last());
         }
         Ok(())

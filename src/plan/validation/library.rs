@@ -2,11 +2,9 @@
 
 use crate::geometry::{Placed, Pose, soundness};
 use crate::plan::fault::{LibraryFault, PlanFault, need, need_index};
+use crate::plan::tolerances::TOLERANCES;
 use crate::robot::{Library, Link, ModuleType};
 use std::collections::BTreeSet;
-
-/// The most by which the norm of a direction or of a rotation may differ from 1: rounding.
-const TOL_UNIT: f64 = 1e-6;
 
 /// Checks that every index in a library points at something, and that the joints of every module carry
 /// its links as a tree.
@@ -71,7 +69,7 @@ fn module_ranges(module: &ModuleType) -> Result<(), PlanFault> {
     need(mass > 0.0, || LibraryFault::NoMass)?;
     for joint in &module.joints {
         let name = || joint.name.clone();
-        let unit = (joint.axis.norm() - 1.0).abs() < TOL_UNIT;
+        let unit = (joint.axis.norm() - 1.0).abs() < TOLERANCES.unit_norm;
         need(unit, || LibraryFault::AxisNorm { joint: name() })?;
         rigid(&joint.pose, &joint.name)?;
         let in_order = joint.limits.range.is_none_or(|(low, high)| low <= high);
@@ -105,5 +103,5 @@ fn solid(placed: &Placed, link: &str) -> Result<(), PlanFault> {
 /// Checks that the rotation of a pose is a unit quaternion.
 pub(in crate::plan) fn rigid(pose: &Pose, of: &str) -> Result<(), PlanFault> {
     let norm = pose.rotation.quaternion().norm();
-    need((norm - 1.0).abs() < TOL_UNIT, || LibraryFault::Pose { of: of.to_owned() })
+    need((norm - 1.0).abs() < TOLERANCES.unit_norm, || LibraryFault::Pose { of: of.to_owned() })
 }

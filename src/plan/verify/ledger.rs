@@ -1,13 +1,11 @@
 //! The record that the checks of all families write to: failures, excuses, notes, worst values.
 
+use crate::plan::tolerances::TOLERANCES;
 use crate::plan::verdict::WORST_VALUES;
 use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, Verdict, Worst};
 
 /// The greatest number of failures that are reported one by one; further ones are counted.
 const FAILURES_MAX: usize = 100;
-
-/// Threshold below which lengths (m), angles (rad) and fractions of a limit are reported as zero.
-const ROUNDING: f64 = 1e-9;
 
 /// Records failures, excuses, notes and worst values while a plan is judged, and makes the verdict of them.
 pub(super) struct Ledger<'a> {
@@ -99,7 +97,7 @@ impl<'a> Ledger<'a> {
     fn without_rounding(&mut self) {
         let verdict = &mut self.verdict;
         let round = |value: &mut f64| {
-            if value.abs() < ROUNDING {
+            if value.abs() < TOLERANCES.reported_zero {
                 *value = 0.0;
             }
         };

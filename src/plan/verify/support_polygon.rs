@@ -1,11 +1,10 @@
 //! Support polygons, the convex hulls of points on the ground, and the static stability margin: the distance
 //! of the centre of mass inside such a polygon (McGhee and Frank 1968).
 
+use crate::plan::tolerances::TOLERANCES;
+
 /// A point on the ground, m.
 pub(super) type Point = [f64; 2];
-
-/// Hulls narrower than this are lines, m.
-const WIDTH_MIN: f64 = 1e-6;
 
 /// The position of a point relative to a support polygon.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +72,7 @@ pub(super) fn margin(points: &[Point], at: Point) -> Option<Margin> {
             nearest = Some(Margin { distance: away, edge: (a, b), width: 0.0 });
         }
     }
-    let nearest = nearest.filter(|_| width > WIDTH_MIN)?;
+    let nearest = nearest.filter(|_| width > TOLERANCES.polygon_width)?;
     let distance = if inside { nearest.distance } else { -nearest.distance };
     Some(Margin { distance, width, ..nearest })
 }

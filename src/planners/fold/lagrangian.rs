@@ -28,12 +28,6 @@ const PATIENCE: usize = 30;
 /// The factor by which steps are shortened.
 const SHORTER: f64 = 0.7;
 
-/// The step length, as a part of the gap, at which an ascent ends.
-const STEP_MIN: f64 = 1e-3;
-
-/// The least progress of a round, as a part of the gap.
-const PROGRESS_MIN: f64 = 1e-4;
-
 /// Sums over the table of multipliers that take about as long as settling a face on a path.
 const SUMS: usize = 64;
 
@@ -158,7 +152,11 @@ impl<'t> Lagrangian<'t> {
                 best = f64::INFINITY;
                 break;
             };
-            stale = if bound > best + PROGRESS_MIN * (optimum_estimate - best).abs() { 0 } else { stale + 1 };
+            stale = if bound > best + TOLERANCES.ascent_progress * (optimum_estimate - best).abs() {
+                0
+            } else {
+                stale + 1
+            };
             if bound > best {
                 best = bound;
                 best_multipliers.clear();
@@ -179,7 +177,9 @@ impl<'t> Lagrangian<'t> {
             if stale > PATIENCE {
                 (length, stale) = (length * SHORTER, 0);
             }
-            if length < STEP_MIN || !self.step(root, length * (optimum_estimate - bound).abs(), &mut moved) {
+            if length < TOLERANCES.ascent_step
+                || !self.step(root, length * (optimum_estimate - bound).abs(), &mut moved)
+            {
                 break;
             }
         }

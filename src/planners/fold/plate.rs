@@ -10,15 +10,6 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// The coefficient of friction of a plate against the ground.
-const FRICTION: f64 = 0.5;
-
-/// The depth to which plates may enter each other, m.
-const TOUCH: f64 = 1e-4;
-
-/// The distance below which a plate touches the ground, m.
-const CONTACT: f64 = 1e-3;
-
 /// A uniform plate with motors in its edges. The edges are bevelled by 30° on both sides, so that two plates
 /// close up to 60° between them.
 #[derive(Clone, Copy, Debug)]
@@ -109,7 +100,7 @@ impl Plate {
             mass: body.mass,
             com: body.centre,
             inertia: [i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]],
-            friction: FRICTION,
+            friction: Link::FRICTION_DEFAULT,
         };
         let port = |k: usize| {
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
@@ -131,8 +122,8 @@ impl Plate {
             ports: (0..3).map(port).collect(),
             motors: Vec::new(),
             touching: Vec::new(),
-            touch: TOUCH,
-            contact: CONTACT,
+            touch: ModuleType::TOUCH_DEFAULT,
+            contact: ModuleType::CONTACT_DEFAULT,
         })
     }
 }

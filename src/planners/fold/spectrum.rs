@@ -3,9 +3,6 @@
 use super::tolerances::TOLERANCES;
 use std::collections::BTreeMap;
 
-/// The width of a counting bin, as a part of the unit.
-const GRAIN: f64 = 1e-11;
-
 /// The greatest number of bins; further energies are counted together.
 const DIFFERENT_MAX: usize = 4_000_000;
 
@@ -26,7 +23,7 @@ impl Spectrum {
 
     /// Counts an energy, in the unit of `unit`.
     pub fn add(&mut self, energy: f64) {
-        let key = (energy / (self.unit * GRAIN)).round() as u64;
+        let key = (energy / (self.unit * TOLERANCES.energy_grain)).round() as u64;
         if let Some(count) = self.counts.get_mut(&key) {
             *count += 1;
         } else if self.counts.len() < DIFFERENT_MAX {
@@ -38,13 +35,13 @@ impl Spectrum {
 
     /// Returns the energies with their multiplicities, in order; those nearer than a tie are one.
     pub fn levels(&self) -> Vec<(f64, u64)> {
-        let apart = (TOLERANCES.tie / GRAIN) as u64;
+        let apart = (TOLERANCES.tie / TOLERANCES.energy_grain) as u64;
         let mut levels: Vec<(f64, u64)> = Vec::new();
         let mut last = None;
         for (&key, &count) in &self.counts {
             match levels.last_mut() {
                 Some(level) if last.is_some_and(|l| key - l <= apart) => level.1 += count,
-                _ => levels.push((key as f64 * self.unit * GRAIN, count)),
+                _ => levels.push((key as f64 * self.unit * TOLERANCES.energy_grain, count)),
             }
             last = Some(key);
         }

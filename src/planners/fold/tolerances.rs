@@ -55,6 +55,14 @@ pub struct Tolerances {
     pub worth: f64,
     /// Corners nearer to the line of a hinge than this part of a side rest on the hinge itself.
     pub hinge_line: f64,
+    /// The step length, as a part of the gap between bound and goal, at which an ascent of multipliers ends:
+    /// shorter steps do not raise the bound any more.
+    pub ascent_step: f64,
+    /// The least progress of a round of ascent, as a part of the gap, that counts as any.
+    pub ascent_progress: f64,
+    /// Energies of layouts are counted in grains of this part of the unit of energy: finer than
+    /// [`Tolerances::tie`], so that ties are told from levels.
+    pub energy_grain: f64,
 }
 
 impl Tolerances {
@@ -88,4 +96,7 @@ pub const TOLERANCES: Tolerances = Tolerances {
     level: 1e-6,
     worth: 1e-6,
     hinge_line: 0.05,
+    ascent_step: 1e-3,
+    ascent_progress: 1e-4,
+    energy_grain: 1e-11,
 };

@@ -41,6 +41,7 @@ mod retime;
 mod selection;
 mod shape;
 mod shear;
+mod tolerances;
 mod unroll;
 
 pub use accordion::accordion;

@@ -4,6 +4,7 @@ use super::candidates::{Candidate, MELT_MAX, candidates};
 use super::motion::{Motion, PlanHeader, PlanLimits};
 use super::retime::retime;
 use super::shape::Shape;
+use super::tolerances::TOLERANCES;
 use super::{Method, ModelChoice, Norm, Problem, Refusal, Report, Settings};
 use crate::plan::lattice::{end_shapes, time_lower_bound};
 use crate::plan::{Body, CellLimits, Model, Ratio, Stages};
@@ -11,8 +12,6 @@ use crate::planners::{Progress, Solution};
 use crate::robot::Cell;
 use crate::units::{Dimension, quantity};
 
-/// The relative error to which limits are rounded, to the safe side, so that they are short rational numbers.
-const ROUNDING: f64 = 1e-12;
 /// Squared speeds beyond this, in units, are as good as none: no plan reaches them.
 const SPEED_SQUARED_MAX: f64 = 1e6;
 
@@ -61,8 +60,8 @@ impl Units {
     fn of(cell: &Cell, settings: &Settings) -> Result<Units, Refusal> {
         let time = libm::sqrt(cell.size * cell.mass / cell.force);
         let unit_speed = cell.size / time;
-        let above = |x: f64| Ratio::simplest(x, x * (1.0 + ROUNDING)).ok_or(Refusal::TooLarge);
-        let below = |x: f64| Ratio::simplest(x * (1.0 - ROUNDING), x).ok_or(Refusal::TooLarge);
+        let above = |x: f64| Ratio::simplest(x, x * (1.0 + TOLERANCES.limits)).ok_or(Refusal::TooLarge);
+        let below = |x: f64| Ratio::simplest(x * (1.0 - TOLERANCES.limits), x).ok_or(Refusal::TooLarge);
         let speed = cell.speed / unit_speed;
         let limits = CellLimits {
             smallest: above(cell.shrinks_to / cell.size)?,

@@ -2,14 +2,12 @@
 
 use super::refusal::NotRofi;
 use super::robot::{Bond, DOCKS, Dock, Robot};
+use super::tolerances::TOLERANCES;
 use crate::robot::rofi;
 use crate::robot::{Assembly, Kinematics, PortRef, State};
 
 /// The names of alpha, beta and gamma.
 pub const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
-
-/// Relative difference of two pitches that count as equal: rounding.
-const TOL_PITCH: f64 = 1e-9;
 
 /// Returns the configuration of a file, with joints in radians.
 pub fn from_world(world: &rofi::World) -> Robot {
@@ -70,7 +68,7 @@ pub(super) fn translated<'a>(assembly: &'a Assembly, state: &State) -> Result<Tr
             return Err(NotRofi::Kind(module));
         }
         let own = 2.0 * kind.ports[0].pose.translation.vector.norm();
-        if (own - *pitch.get_or_insert(own)).abs() > TOL_PITCH * own {
+        if (own - *pitch.get_or_insert(own)).abs() > TOLERANCES.pitch * own {
             return Err(NotRofi::Pitch(module));
         }
         joints.push([*alpha, *beta, *gamma].map(|joint| kinematics.joint(module, joint)));

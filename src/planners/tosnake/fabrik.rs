@@ -8,6 +8,7 @@
 use super::robot::{Dock, FACES, GAMMA, RED, across, mate};
 use super::segment::Segment;
 use super::state::{Joints, State};
+use super::tolerances::TOLERANCES;
 use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -183,7 +184,7 @@ fn fit_module(
                 along += (found - axis * axis.dot(&found)).dot(&want);
                 aside += axis.cross(&found).dot(&want);
             }
-            if libm::hypot(along, aside) > TOL_INDIFFERENT {
+            if libm::hypot(along, aside) > TOLERANCES.indifferent {
                 let to = q[joint] + libm::atan2(aside, along);
                 q[joint] = if joint == GAMMA { wrapped(to) } else { to.clamp(-FRAC_PI_2, FRAC_PI_2) };
             }
@@ -193,9 +194,6 @@ fn fit_module(
         }
     }
 }
-
-/// Sum of products of lengths, in squared pitches, below which nothing depends on a joint, and it stays.
-const TOL_INDIFFERENT: f64 = 1e-12;
 
 fn at(pose: &RigidTransform, point: &[f64; 3]) -> Vec3 {
     pose.rotation * Vec3::from(*point) + pose.translation
@@ -218,7 +216,7 @@ fn nearest_free_tilt(wanted: f64, here: &RigidTransform, obstacles: &[Vec3]) -> 
             .translation;
         let radius = libm::hypot(p.y, p.z);
         // The shoe itself, and balls on the axis: their distance does not depend on the tilt.
-        if p.norm() < SAME_BALL || radius < ON_AXIS {
+        if p.norm() < TOLERANCES.coincident || radius < TOLERANCES.on_axis {
             continue;
         }
         // distance² = p² + 1 - 2 · radius · cos(angle between)
@@ -234,7 +232,7 @@ fn nearest_free_tilt(wanted: f64, here: &RigidTransform, obstacles: &[Vec3]) -> 
         tilt.abs() <= FRAC_PI_2
             && forbidden.iter().all(|(low, high)| {
                 let off = wrapped(tilt - 0.5 * (low + high)).abs();
-                off >= 0.5 * (high - low) - TOL_INTERVAL
+                off >= 0.5 * (high - low) - TOLERANCES.interval
             })
     };
     if free(wanted) {
@@ -245,13 +243,6 @@ fn nearest_free_tilt(wanted: f64, here: &RigidTransform, obstacles: &[Vec3]) -> 
     let near = ends.filter(|end| free(*end)).min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs()));
     near.unwrap_or(wanted)
 }
-
-/// Distance of two centres, in pitches, below which they are one ball's.
-const SAME_BALL: f64 = 1e-6;
-/// Distance from an axis, in pitches, below which a ball is on it.
-const ON_AXIS: f64 = 1e-9;
-/// Angle by which a tilt may be inside a forbidden interval, rad: rounding.
-const TOL_INTERVAL: f64 = 1e-9;
 
 /// Distance of centres, in pitches, below which balls overlap for the paper's program, which rounds squared
 /// distances to three decimals.

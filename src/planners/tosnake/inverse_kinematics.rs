@@ -6,10 +6,11 @@
 //! balls apart (active set). The freedom that the constraints leave follows a secondary task, a repulsion of
 //! balls, by projection into their null space. All postures of the descent are kept.
 
-use super::motion_check::{MIN_DISTANCE, Scene};
+use super::motion_check::Scene;
 use super::neighbour_list::{NeighbourList, Neighbours};
 use super::robot::{Dock, GAMMA, RED, mate};
 use super::state::Joints;
+use super::tolerances::TOLERANCES;
 use super::tree::{JointRef, Tree};
 use crate::geometry::rigid_transform::rotation_vector;
 use crate::geometry::{RigidTransform, Vec3};
@@ -146,7 +147,7 @@ impl LoopClosure<'_> {
         // For an endpoint, overlapping and repelled balls matter; in a collision-free descent all that may
         // meet within one step.
         let reach = match mode {
-            IkMode::Endpoint => settings.repulsion_reach.max(MIN_DISTANCE),
+            IkMode::Endpoint => settings.repulsion_reach.max(TOLERANCES.min_distance),
             IkMode::CollisionFree => 1.0 + 2.0 * settings.ball_step_max * loop_scale,
         };
         let mut descent = Descent {
@@ -218,8 +219,6 @@ struct Descent<'a> {
 
 /// Number of rows that close the loop.
 const CLOSURE_ROWS: usize = 6;
-/// Violation of a distance constraint, in pitches, below which it stays out of the active set.
-const TOL_CONSTRAINT: f64 = 1e-3;
 /// Greatest rotation error that one step is to make good, rad.
 const ROTATION_STEP_MAX: f64 = 0.4;
 
@@ -233,7 +232,7 @@ impl IkProblem for Descent<'_> {
         let size = self.error.norm();
         self.neighbours = self.list.within(self.reach, &self.poses);
         let least = self.neighbours.iter().fold(f64::INFINITY, |least, n| least.min(n.distance));
-        let overlap = (MIN_DISTANCE - least).max(0.0);
+        let overlap = (TOLERANCES.min_distance - least).max(0.0);
         self.repulsion_gain = match mode {
             _ if size < settings.nearly_closed && overlap == 0.0 => 0.0,
             IkMode::Endpoint => settings.endpoint_repulsion_gain,
@@ -253,8 +252,13 @@ impl IkProblem for Descent<'_> {
         let LoopClosure { lp, .. } = self.closure;
         let error = &self.error;
         let (shift, turn) = (error.fixed_rows::<3>(0).norm(), error.fixed_rows::<3>(3).norm());
-        let scale =
-            f64::min(1.0, f64::min(self.loop_scale / shift.max(1e-30), ROTATION_STEP_MAX / turn.max(1e-30)));
+        let scale = f64::min(
+            1.0,
+            f64::min(
+                self.loop_scale / shift.max(TOLERANCES.divisor),
+                ROTATION_STEP_MAX / turn.max(TOLERANCES.divisor),
+            ),
+        );
         let tip = self.poses[lp.to].translation;
         let mut rows: Vec<Row> = (0..CLOSURE_ROWS)
             .map(|i| Row { terms: Vec::with_capacity(lp.joints.len()), goal: error[i] * scale })
@@ -297,10 +301,10 @@ impl IkProblem for Descent<'_> {
     fn shorten(&self, step: &mut [f64]) {
         let settings = self.closure.settings;
         let greatest = step.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
-        let mut scale = f64::min(1.0, settings.joint_step_max / greatest.max(1e-30));
+        let mut scale = f64::min(1.0, settings.joint_step_max / greatest.max(TOLERANCES.divisor));
         if self.closure.mode == IkMode::CollisionFree {
             let far = libm::sqrt(self.displacements(step).iter().map(Vec3::norm_squared).fold(0.0, f64::max));
-            scale = scale.min(settings.ball_step_max * self.loop_scale / far.max(1e-30));
+            scale = scale.min(settings.ball_step_max * self.loop_scale / far.max(TOLERANCES.divisor));
         }
         step.iter_mut().for_each(|s| *s *= scale);
     }
@@ -334,7 +338,7 @@ impl IkProblem for Descent<'_> {
                 let separation = pair.normal.dot(&(displacements[pair.b] - displacements[pair.a]));
                 (separation - self.least_separation(pair), number)
             })
-            .filter(|(slack, _)| *slack < -TOL_CONSTRAINT)
+            .filter(|(slack, _)| *slack < -TOLERANCES.constraint)
             .collect();
         violated.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         violated.into_iter().map(|(_, number)| number).collect()

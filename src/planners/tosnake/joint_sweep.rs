@@ -1,6 +1,7 @@
 //! Exact collision checking of a turn of one joint: every ball that moves does so on a circle about the axis,
 //! so the angle of first contact has a closed form.
 
+use super::tolerances::TOLERANCES;
 use super::tree::{JointRef, Tree};
 use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::TAU;
@@ -35,12 +36,13 @@ pub fn free_angle(
         Ball { height: p.dot(&axis), radius: libm::sqrt(x * x + y * y), x, y }
     };
     let subtree = joint.child..tree.end[joint.child];
-    let moving: Vec<Ball> = poses[subtree.clone()].iter().map(ball).filter(|b| b.radius > ON_AXIS).collect();
+    let moving: Vec<Ball> =
+        poses[subtree.clone()].iter().map(ball).filter(|b| b.radius > TOLERANCES.on_axis).collect();
     let fixed: Vec<Ball> = poses[..subtree.start]
         .iter()
         .chain(&poses[subtree.end..])
         .map(ball)
-        .filter(|b| b.radius > ON_AXIS)
+        .filter(|b| b.radius > TOLERANCES.on_axis)
         .collect();
     let mut left = angle.abs();
     for m in &moving {
@@ -72,17 +74,11 @@ fn contact_angle(moving: &Ball, fixed: &Ball, nearest: f64, min_distance: f64, l
         return left;
     }
     let (between, within) = (libm::atan2(sine, cosine), libm::acos(limit));
-    if between.abs() <= within + ROUNDING {
+    if between.abs() <= within + TOLERANCES.turn {
         // Near at once: a ball ahead blocks the turn; from one behind it parts, to meet it after a turn.
         let again = between - within + TAU;
-        return if between > -ROUNDING { 0.0 } else { again };
+        return if between > -TOLERANCES.turn { 0.0 } else { again };
     }
     let ahead = if between < 0.0 { between + TAU } else { between };
     (ahead - within).max(0.0)
 }
-
-/// Distance from the axis, in pitches, below which a ball does not move.
-const ON_AXIS: f64 = 1e-9;
-
-/// Angle that rounding may account for, rad.
-const ROUNDING: f64 = 1e-9;

@@ -6,6 +6,7 @@ use super::merging::Pair;
 use super::robot::{GAMMA, RED, across, mate};
 use super::segment::Segment;
 use super::state::{Joints, State};
+use super::tolerances::TOLERANCES;
 use crate::geometry::RigidTransform;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -14,10 +15,6 @@ pub(super) const LENGTH_MAX: usize = 3;
 
 /// Postures of a module at quarter turns: three of either tilt and four of gamma.
 const POSTURES: usize = 36;
-
-/// Greatest deviation of entries of two transforms that count as equal; different ones on the lattice deviate
-/// by half.
-const TOL_EQUAL: f64 = 1e-6;
 
 /// Returns the posture of quarter turns that brings a pair's docks together by a free straight motion; of
 /// several the one with the smallest joint travel. `work` counts forward kinematics.
@@ -57,7 +54,7 @@ impl Enumeration {
         crate::interrupt::checkpoint();
         let Some(segment) = self.segments.get(next).copied() else {
             let turn = (pose.rotation - self.goal.rotation).amax();
-            if turn.max((pose.translation - self.goal.translation).amax()) < TOL_EQUAL {
+            if turn.max((pose.translation - self.goal.translation).amax()) < TOLERANCES.equal_transforms {
                 self.closed.push(self.joints.clone());
             }
             return;

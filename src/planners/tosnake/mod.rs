@@ -41,6 +41,7 @@ mod shortcut;
 pub mod state;
 mod status;
 pub mod straighten;
+mod tolerances;
 pub mod validation;
 
 // The entry: assemblies in, plans out.
@@ -62,3 +63,4 @@ pub use search::{StepSequence, unwind};
 pub use settings::{BUDGET, Collisions, Settings};
 pub use state::Step;
 pub use status::SearchStatus;
+pub use tolerances::{TOLERANCES, Tolerances};

@@ -8,23 +8,15 @@
 use super::broad_phase::{self, always_touch};
 use super::gravity::{GravityModel, JointLoad};
 use super::robot::Robot;
+use super::tolerances::TOLERANCES;
 use super::tree::Tree;
 use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
 
-/// Least distance of the centres of two balls, in pitches. Balls touch at 1; the judge's limit is 0.999, and
-/// the difference is what this check, which is no proof, may be wrong by.
-pub const MIN_DISTANCE: f64 = 1.0 - 6e-4;
-
-/// Greatest deviation of a ball from a straight line in the middle of a step, in pitches: a part of the
-/// difference between [`MIN_DISTANCE`] and the judge's limit.
-const DEVIATION_MAX: f64 = 4e-4;
 /// Greatest displacement of a ball in a step, in pitches.
 const STEP_MAX: f64 = 0.4;
 /// The first step, as a fraction of the motion.
 const FIRST_STEP: f64 = 1.0 / 16.0;
-/// The shortest step, as a fraction of the motion; a motion that needs shorter ones is refused.
-const STEP_MIN: f64 = 1e-7;
 /// The neighbour list reaches this far beyond touching, in pitches (Verlet skin).
 const SKIN: f64 = 1.5;
 /// Instants checked before all others, as fractions of the motion: of the motions that are not free, about
@@ -52,10 +44,6 @@ pub struct LoadLimit<'a> {
     pub least_overload: &'a Cell<Option<JointLoad>>,
 }
 
-/// The fraction by which a load may grow between checked instants: an axis turns as far as a ball moves that
-/// is one pitch away, so `DEVIATION_MAX` bounds it, with a factor of five to spare.
-pub const LOAD_SPARE: f64 = 2e-3;
-
 /// Number of instants at which the greatest load of an overloaded motion is evaluated.
 const OVERLOAD_INSTANTS: u32 = 16;
 
@@ -63,7 +51,7 @@ impl LoadLimit<'_> {
     /// Returns true if all joints hold their loads in a posture.
     fn holds(&self, tree: &Tree, poses: &[RigidTransform]) -> bool {
         let load = self.gravity.greatest(tree, poses);
-        load.ratio <= self.share * (1.0 - LOAD_SPARE)
+        load.ratio <= self.share * (1.0 - TOLERANCES.load_spare)
     }
 }
 
@@ -131,7 +119,7 @@ impl Motion<'_> {
         PRECHECK_INSTANTS.iter().all(|&t| {
             self.poses_at(t, &mut poses);
             let mut apart = true;
-            broad_phase::pairs(&poses, MIN_DISTANCE, &mut |a, b, _| {
+            broad_phase::pairs(&poses, TOLERANCES.min_distance, &mut |a, b, _| {
                 apart &= !self.scene.may_meet(&self.parts, a, b);
             });
             apart
@@ -151,9 +139,9 @@ impl Motion<'_> {
             self.poses_at(0.5 * (t + until), &mut middle);
             self.poses_at(until, &mut there);
             let (deviation, far) = deviation(&self.carried, &here, &middle, &there);
-            if deviation > DEVIATION_MAX || far > STEP_MAX {
+            if deviation > TOLERANCES.deviation || far > STEP_MAX {
                 step = 0.5 * (until - t);
-                if step < STEP_MIN {
+                if step < TOLERANCES.step_min {
                     return false;
                 }
                 continue;
@@ -171,11 +159,11 @@ impl Motion<'_> {
                 return false;
             }
             // Two straight halves, with what they deviate by to spare.
-            let apart = MIN_DISTANCE + 0.75 * deviation;
+            let apart = TOLERANCES.min_distance + 0.75 * deviation;
             if overlap(&neighbours, &here, &middle, apart) || overlap(&neighbours, &middle, &there, apart) {
                 return false;
             }
-            if deviation < DEVIATION_MAX / 5.0 && far < STEP_MAX / 2.5 {
+            if deviation < TOLERANCES.deviation / 5.0 && far < STEP_MAX / 2.5 {
                 step *= 2.0;
             }
             t = until;

@@ -3,6 +3,7 @@
 
 use super::broad_phase;
 use super::motion_check::Scene;
+use super::tolerances::TOLERANCES;
 use crate::geometry::{RigidTransform, Vec3};
 
 /// Two balls that are near each other.
@@ -71,7 +72,7 @@ impl<'a> NeighbourList<'a> {
             if squared < reach * reach {
                 let distance = libm::sqrt(squared);
                 // Balls at one position are driven apart along an arbitrary axis.
-                let normal = if distance > COINCIDENT { apart / distance } else { Vec3::x() };
+                let normal = if distance > TOLERANCES.coincident { apart / distance } else { Vec3::x() };
                 all.push(Neighbours { a, b, distance, normal });
             }
         }
@@ -91,6 +92,3 @@ impl<'a> NeighbourList<'a> {
         listed.extend(poses.iter().map(|pose| pose.translation));
     }
 }
-
-/// Distance of two centres, in pitches, below which they have no normal.
-const COINCIDENT: f64 = 1e-6;

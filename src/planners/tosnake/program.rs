@@ -4,15 +4,13 @@
 use super::conversion::{JOINTS, Translated, port_name};
 use super::robot::{Bond, Dock};
 use super::state::Step;
+use super::tolerances::TOLERANCES;
 use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target};
 use crate::robot::{JointId, PortRef};
 use std::sync::Arc;
 
 /// Speed of a joint without a speed limit, rad/s.
 const UNLIMITED_SPEED: f64 = 1.0;
-
-/// Relative excess of a duration over the least, so that rounding does not break a limit.
-const DURATION_SPARE: f64 = 1e-9;
 
 /// Greatest speed of the smooth profile over its mean speed: 15/8 for the quintic.
 const SMOOTH_PEAK_SPEED: f64 = 15.0 / 8.0;
@@ -67,7 +65,7 @@ impl Translated<'_> {
         let by_speed = turn.abs() / limits.speed.unwrap_or(UNLIMITED_SPEED);
         let by_acceleration =
             limits.acceleration.map_or(0.0, |a| libm::sqrt(10.0 / libm::sqrt(3.0) * turn.abs() / a));
-        f64::max(SMOOTH_PEAK_SPEED * by_speed, by_acceleration) * (1.0 + DURATION_SPARE)
+        f64::max(SMOOTH_PEAK_SPEED * by_speed, by_acceleration) * (1.0 + TOLERANCES.duration_spare)
     }
 
     fn port(&self, dock: Dock) -> PortRef {

@@ -2,8 +2,8 @@
 
 use super::broad_phase;
 use super::joint_sweep;
-use super::motion_check::MIN_DISTANCE;
 use super::robot::{Bond, DOCKS, Dock, FACES, GAMMA, Robot, mate};
+use super::tolerances::TOLERANCES;
 use super::tree::{JointRef, Tree};
 use crate::geometry::{RigidTransform, Vec3};
 use crate::planners::random::SplitMix64;
@@ -14,10 +14,6 @@ const DOCKING_PERIOD: usize = 10;
 
 /// Greatest number of attempts for each action: a configuration that can do little is left as it is.
 const ATTEMPTS_MAX: usize = 100;
-
-/// Deviation of entries of two transforms that count as equal, in pitches or without unit, and tolerance of
-/// joint ranges, rad. On the lattice of quarter turns different ones deviate by half.
-const TOL_EQUAL: f64 = 1e-6;
 
 /// Returns a snake of `modules` modules after `actions` random actions: quarter turns of joints that are free
 /// of collisions, docking where docks meet, and undocking where the robot stays connected. All bonds in its
@@ -66,18 +62,18 @@ impl RandomWalk {
         let turn = if rng.below(2) == 0 { FRAC_PI_2 } else { -FRAC_PI_2 };
         let mut to = self.robot.joints[joint.module][joint.joint] + turn;
         if joint.joint == GAMMA {
-            to = if to > PI + TOL_EQUAL {
+            to = if to > PI + TOLERANCES.equal_transforms {
                 to - TAU
-            } else if to < -PI + TOL_EQUAL {
+            } else if to < -PI + TOLERANCES.equal_transforms {
                 to + TAU
             } else {
                 to
             };
-        } else if to.abs() > FRAC_PI_2 + TOL_EQUAL {
+        } else if to.abs() > FRAC_PI_2 + TOLERANCES.equal_transforms {
             return false;
         }
         if self.is_in_loop(joint.child)
-            || joint_sweep::free_angle(&self.tree, joint, &self.poses, turn, MIN_DISTANCE) != turn
+            || joint_sweep::free_angle(&self.tree, joint, &self.poses, turn, TOLERANCES.min_distance) != turn
         {
             return false;
         }
@@ -130,7 +126,7 @@ impl RandomWalk {
     fn bonds_possible(&self) -> Vec<Bond> {
         let at = self.robot.bond_at();
         let mut bonds = Vec::new();
-        broad_phase::pairs(&self.poses, 1.0 + TOL_EQUAL, &mut |p, q, _| {
+        broad_phase::pairs(&self.poses, 1.0 + TOLERANCES.equal_transforms, &mut |p, q, _| {
             let (a, b) = (self.tree.shoe[p], self.tree.shoe[q]);
             if a / 2 == b / 2 {
                 return;
@@ -155,7 +151,8 @@ impl RandomWalk {
         let wanted = self.poses[p].then(mated);
         let found = &self.poses[q];
         let apart: Vec3 = wanted.translation - found.translation;
-        apart.amax() < TOL_EQUAL && (wanted.rotation - found.rotation).amax() < TOL_EQUAL
+        apart.amax() < TOLERANCES.equal_transforms
+            && (wanted.rotation - found.rotation).amax() < TOLERANCES.equal_transforms
     }
 }
 

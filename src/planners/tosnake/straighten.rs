@@ -2,19 +2,12 @@
 //! none is, random turns perturb the robot so that it spreads.
 
 use super::joint_sweep;
-use super::motion_check::MIN_DISTANCE;
 use super::robot::GAMMA;
 use super::state::{State, spread};
+use super::tolerances::TOLERANCES;
 use super::tree::JointRef;
 use crate::planners::random::SplitMix64;
 use std::f64::consts::FRAC_PI_4;
-
-/// Least distance of balls during single turns, in pitches: a little more than the checks of whole
-/// motions ask for, so that such a motion may begin there.
-const TURN_MIN_DISTANCE: f64 = MIN_DISTANCE + 2e-4;
-
-/// Tilts below this count as zero, rad: what rounding leaves of a turn to zero.
-const TOL_TILT: f64 = 1e-12;
 
 /// Fewer joints than this turn one after the other.
 const TOGETHER_MIN: usize = 2;
@@ -67,7 +60,7 @@ fn straighten_together(state: &mut State, joints: &[JointRef]) {
 /// Returns the tilts that are not zero.
 fn tilted(state: &State) -> Vec<JointRef> {
     let tilted = |joint: &JointRef| {
-        joint.joint != GAMMA && state.robot.joints[joint.module][joint.joint].abs() > TOL_TILT
+        joint.joint != GAMMA && state.robot.joints[joint.module][joint.joint].abs() > TOLERANCES.tilt
     };
     state.tree.all_joints().into_iter().filter(tilted).collect()
 }
@@ -76,7 +69,7 @@ fn tilted(state: &State) -> Vec<JointRef> {
 fn is_free(state: &mut State, joint: JointRef, angle: f64) -> bool {
     crate::interrupt::checkpoint();
     state.work += 1;
-    joint_sweep::free_angle(&state.tree, joint, &state.poses, angle, TURN_MIN_DISTANCE) == angle
+    joint_sweep::free_angle(&state.tree, joint, &state.poses, angle, TOLERANCES.turn_min_distance) == angle
 }
 
 /// Returns true if no joint is overloaded while one of them turns to a position (rad).

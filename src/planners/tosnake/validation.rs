@@ -2,15 +2,11 @@
 //! some modules as connected by bonds that contradict each other; [`repair`] opens such bonds.
 
 use super::broad_phase;
-use super::motion_check::MIN_DISTANCE;
 use super::refusal::{InvalidStart, Refusal};
 use super::robot::Robot;
+use super::tolerances::TOLERANCES;
 use super::tree::Tree;
 use crate::geometry::RigidTransform;
-
-/// Greatest closure residual of a bond that holds: in pitches for positions, without unit for rotations.
-/// The limit of RoFI's own tools.
-pub const TOL_CLOSURE: f64 = 1e-3;
 
 /// Checks that all bonds meet, and that no two modules overlap.
 ///
@@ -23,7 +19,7 @@ pub(super) fn check(robot: &Robot) -> Result<(), Refusal> {
     tree.poses(&robot.joints, &mut poses);
     for &bond in &tree.closing {
         let residual = tree.residual(robot, bond, &poses);
-        if residual > TOL_CLOSURE {
+        if residual > TOLERANCES.closure {
             return Err(Refusal::OpenLoop { bond, residual });
         }
     }
@@ -86,7 +82,9 @@ impl Choice {
         let mut poses = Vec::new();
         tree.poses(&tried.joints, &mut poses);
         let mut open = avoided.to_vec();
-        open.extend(tree.closing.iter().filter(|&&bond| tree.residual(&tried, bond, &poses) > TOL_CLOSURE));
+        open.extend(
+            tree.closing.iter().filter(|&&bond| tree.residual(&tried, bond, &poses) > TOLERANCES.closure),
+        );
         open.sort_unstable();
         Ok(Choice { open, overlap: overlap(&tried, &tree, &poses) })
     }
@@ -96,7 +94,7 @@ impl Choice {
 fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<InvalidStart> {
     let docked = broad_phase::docked(robot, tree);
     let mut found = None;
-    broad_phase::pairs(poses, MIN_DISTANCE, &mut |a, b, squared| {
+    broad_phase::pairs(poses, TOLERANCES.min_distance, &mut |a, b, squared| {
         if found.is_none() && !broad_phase::always_touch(tree, a, b, &docked) {
             let (a, b) = (tree.shoe[a] / 2, tree.shoe[b] / 2);
             found =

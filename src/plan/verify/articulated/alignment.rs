@@ -4,15 +4,9 @@
 use super::contact::ContactPoint;
 use super::ground_features::{Feature, Mat3};
 use super::model::{Model, Posture};
+use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::{Vec3, pose::turned};
-
-/// Against degenerate sets of centres, the orientations of links count as much as this share of
-/// their mass at this distance (m²).
-const ORIENTATION_WEIGHT: f64 = 1e-3 * 0.04 * 0.04;
-
-/// Keeps a robot on one or two contacts from being turned about them, m².
-const TURN_WEIGHT: f64 = 1e-8;
 
 const TURN_ROUNDS: usize = 4;
 
@@ -29,7 +23,8 @@ pub(super) fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat
         let body = &model.bodies[link];
         let a = old.R[link] * body.com + old.p[link] - old.centre;
         let b = new.R[link] * body.com + new.p[link] - new.centre;
-        S += (a * b.transpose() + old.R[link] * new.R[link].transpose() * ORIENTATION_WEIGHT) * body.mass;
+        S += (a * b.transpose() + old.R[link] * new.R[link].transpose() * NUMERICS.orientation_weight)
+            * body.mass;
     }
     let svd = S.svd(true, true);
     let (Some(U), Some(Vt)) = (svd.u, svd.v_t) else { return Mat3::identity() };
@@ -48,7 +43,7 @@ pub(super) fn height_keeping_turn(
     let mut turn = Mat3::identity();
     for _ in 0..TURN_ROUNDS {
         let up = turn.transpose() * Vec3::z();
-        let mut normal = Mat3::from_diagonal(&Vec3::new(TURN_WEIGHT, TURN_WEIGHT, 0.0));
+        let mut normal = Mat3::from_diagonal(&Vec3::new(NUMERICS.turn_weight, NUMERICS.turn_weight, 0.0));
         let mut right = Vec3::zeros();
         for contact_point in contact_points.iter().filter(|t| t.load > tolerances.load_min) {
             let p = turn * features[contact_point.feature].point(contact_point.k, &up);

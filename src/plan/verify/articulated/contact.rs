@@ -2,6 +2,7 @@
 
 use super::ground_features::Feature;
 use super::model::Model;
+use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon::{self, Margin};
@@ -118,13 +119,9 @@ pub(super) fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     found
 }
 
-/// Proximal weight of the Lagrangian dual's solution, so that it exists whatever the contact points are.
-const PROXIMAL_WEIGHT: f64 = 1e-8;
 const PROXIMAL_ROUNDS: usize = 3;
 const NEWTON_ROUNDS_MAX: usize = 60;
 const HALVINGS_MAX: usize = 40;
-/// Gradient at which the dual is solved, in parts of the weight.
-const GRADIENT_MIN: f64 = 1e-14;
 
 /// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass and N ≥
 /// 0, where κ falls with the gap. Solved by its Lagrangian dual in three unknowns: `N = κ max(0, λ·g)` with
@@ -164,12 +161,12 @@ fn newton(springs: &[(f64, Vec3, usize)], before: Vec3) -> Vec3 {
     let value = |lambda: &Vec3| {
         let bent: f64 =
             springs.iter().map(|(k, g, _)| k * lambda.dot(g).max(0.0) * lambda.dot(g).max(0.0)).sum();
-        0.5 * bent - lambda.x + 0.5 * PROXIMAL_WEIGHT * (lambda - before).norm_squared()
+        0.5 * bent - lambda.x + 0.5 * NUMERICS.proximal_weight * (lambda - before).norm_squared()
     };
     let mut lambda = before;
     for _ in 0..NEWTON_ROUNDS_MAX {
-        let mut gradient = (lambda - before) * PROXIMAL_WEIGHT - Vec3::x();
-        let mut hessian = super::ground_features::Mat3::from_diagonal_element(PROXIMAL_WEIGHT);
+        let mut gradient = (lambda - before) * NUMERICS.proximal_weight - Vec3::x();
+        let mut hessian = super::ground_features::Mat3::from_diagonal_element(NUMERICS.proximal_weight);
         for (kappa, g, _) in springs {
             let pressed = lambda.dot(g);
             if pressed > 0.0 {
@@ -177,7 +174,7 @@ fn newton(springs: &[(f64, Vec3, usize)], before: Vec3) -> Vec3 {
                 hessian += g * g.transpose() * *kappa;
             }
         }
-        if gradient.norm() < GRADIENT_MIN {
+        if gradient.norm() < NUMERICS.dual_gradient {
             break;
         }
         let Some(step) = hessian.cholesky().map(|c| c.solve(&gradient)) else { break };

@@ -11,6 +11,7 @@ use super::contact_lp::ContactLp;
 use super::model::Model;
 use super::stance::Stance;
 use super::statics::{Section, Structure, Wrench};
+use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::optimize::solve_linear_program;
@@ -218,12 +219,12 @@ impl ContactQuery<'_> {
         let mut sizes = clipped;
         for _ in 0..3 {
             let mut missing = Vector6::new(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);
-            let mut normal = Matrix6::identity() * 1e-15;
+            let mut normal = Matrix6::identity() * NUMERICS.balance_ridge;
             for (balance, size) in balances.iter().zip(&sizes) {
                 missing -= balance * *size;
                 normal += balance * balance.transpose() * size.abs();
             }
-            if missing.norm() <= self.tolerances.balance * 1e-6 {
+            if missing.norm() <= self.tolerances.balance * NUMERICS.balance_spare {
                 break;
             }
             let multipliers = normal.cholesky()?.solve(&missing);

@@ -1,9 +1,7 @@
 //! Greatest values of polynomials in Bernstein form, to within a bound: proved, not sampled.
 
+use super::tolerances::NUMERICS;
 use crate::plan::polynomial::{hull, split};
-
-/// Relative precision of a greatest value.
-const PRECISION: f64 = 1e-12;
 
 /// Pieces examined before the bound is taken instead of the value.
 const PIECES_MAX: usize = 4096;
@@ -18,7 +16,7 @@ pub(super) fn greatest(control: &[f64]) -> (f64, f64) {
     let mut open = vec![(control.to_vec(), 0.0, 1.0)];
     for _ in 0..PIECES_MAX {
         let Some((points, from, to)) = open.pop() else { return best };
-        if hull(&points).1 <= best.0 + PRECISION * size {
+        if hull(&points).1 <= best.0 + NUMERICS.extremum * size {
             continue;
         }
         let middle = (from + to) / 2.0;

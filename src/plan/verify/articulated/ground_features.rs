@@ -3,6 +3,7 @@
 //! Wheels are exact circles. A polygon would make wells in which a chassis sticks; and a wheel's own
 //! spin changes no feature at all, which is what makes rolling cheap and exact.
 
+use super::tolerances::NUMERICS;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
 /// A 3×3 matrix, mostly a rotation.
@@ -11,9 +12,6 @@ pub(super) type Mat3 = nalgebra::Matrix3<f64>;
 /// Points that stand for a circle: the lowest, and others round it so that a disc lying flat is more
 /// than one point.
 pub(super) const CIRCLE_POINTS: u8 = 8;
-
-/// A circle whose plane is level within this (sine of the angle) has no lowest point of its own.
-const LEVEL: f64 = 1e-9;
 
 /// The greatest depth of nested unions that is examined; nobody declares deeper ones.
 const UNIONS_MAX: usize = 100_000;
@@ -120,7 +118,7 @@ const EIGHTHS: [(f64, f64); 8] = [
 fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     let e = axis * up.dot(axis) - up;
     let n = e.norm();
-    if n > LEVEL {
+    if n > NUMERICS.level_sine {
         return e / n;
     }
     let across = if axis.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };

@@ -9,6 +9,7 @@ use super::contact::ContactPatch;
 use super::ground_features::Mat3;
 use super::model::{Model, Posture};
 use super::stance::Stance;
+use super::tolerances::NUMERICS;
 use crate::geometry::Vec3;
 
 /// Position (m) and heading (rad) on the ground.
@@ -27,21 +28,18 @@ impl PlanarPose {
     pub fn moved(&self, shift: &Vec3) -> PlanarPose {
         let (s, c) = libm::sincos(shift.z);
         // sin(w)/w and (1 - cos w)/w, by their series where w is small.
-        let (a, b) =
-            if shift.z.abs() > 1e-6 { (s / shift.z, (1.0 - c) / shift.z) } else { (1.0, shift.z / 2.0) };
+        let (a, b) = if shift.z.abs() > NUMERICS.series_angle {
+            (s / shift.z, (1.0 - c) / shift.z)
+        } else {
+            (1.0, shift.z / 2.0)
+        };
         let (dx, dy) = (a * shift.x - b * shift.y, b * shift.x + a * shift.y);
         let (s, c) = libm::sincos(self.yaw);
         PlanarPose { x: self.x + c * dx - s * dy, y: self.y + s * dx + c * dy, yaw: self.yaw + shift.z }
     }
 }
 
-/// The least spread of a patch, m² (0.1 mm): a point resists spinning a little.
-const SPREAD_MIN: f64 = 1e-8;
-/// Slips shorter than this part of the greatest motion are smoothed.
-const SMOOTHED_PART: f64 = 1e-4;
 const ROUNDS_MAX: usize = 100;
-/// The rounds end when the displacement changes by less than this part of the greatest motion.
-const CHANGE_MIN: f64 = 1e-10;
 
 /// A patch with the motion by which the robot's own motion would drag it.
 struct SlidingPatch {
@@ -114,7 +112,7 @@ fn drag(
         friction_load: load * model.bodies[link].friction,
         x: patch.x,
         y: patch.y,
-        spread: patch.spread + SPREAD_MIN,
+        spread: patch.spread + NUMERICS.patch_spread,
         v: [motion.x, motion.y],
         spin: o.z,
     }
@@ -125,9 +123,13 @@ fn twist(R: &Mat3, t: &Vec3) -> (Vec3, Vec3) {
     let vee = Vec3::new(R[(2, 1)] - R[(1, 2)], R[(0, 2)] - R[(2, 0)], R[(1, 0)] - R[(0, 1)]) / 2.0;
     let (s, c) = (vee.norm(), (R.trace() - 1.0) / 2.0);
     let angle = libm::atan2(s, c);
-    let o = if s > 1e-12 { vee * (angle / s) } else { vee };
+    let o = if s > NUMERICS.no_rotation { vee * (angle / s) } else { vee };
     let squared = angle * angle;
-    let factor = if squared > 1e-6 { (1.0 - angle * s / (2.0 * (1.0 - c))) / squared } else { 1.0 / 12.0 };
+    let factor = if squared > NUMERICS.series_angle_squared {
+        (1.0 - angle * s / (2.0 * (1.0 - c))) / squared
+    } else {
+        1.0 / 12.0
+    };
     (o, t - o.cross(t) * 0.5 + o.cross(&o.cross(t)) * factor)
 }
 
@@ -138,7 +140,7 @@ fn least_power(patches: &[SlidingPatch]) -> Vec3 {
     if greatest == 0.0 {
         return zero;
     }
-    let smoothed = SMOOTHED_PART * greatest;
+    let smoothed = NUMERICS.smoothed_slip * greatest;
     let mut shift = zero;
     for round in 0..ROUNDS_MAX {
         let mut normal = Mat3::zeros();
@@ -159,7 +161,7 @@ fn least_power(patches: &[SlidingPatch]) -> Vec3 {
         let Some(next) = normal.cholesky().map(|c| c.solve(&right)) else { return shift };
         let change = (next - shift).norm();
         shift = next;
-        if change <= CHANGE_MIN * greatest {
+        if change <= NUMERICS.power_change * greatest {
             break;
         }
     }

@@ -7,6 +7,7 @@
 
 use super::alignment::rotation;
 use super::ground_features::{Feature, Mat3};
+use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
@@ -17,10 +18,6 @@ const STEP_MAX: f64 = 0.034_906_585_039_886_59;
 const ACCEPTED_PART: f64 = 0.1;
 /// Weight of long turns at the beginning, rad²/m, for robots of up to a metre.
 const REACH_START: f64 = 1e3;
-/// A plane is violated when it lies above the model by more than this, m.
-const VIOLATION: f64 = 1e-12;
-/// Rounding allowed in multipliers.
-const MULTIPLIER: f64 = 1e-10;
 /// Lowest points that a refused trial adds to the bundle, and how many it holds.
 const KEPT_POINTS: usize = 6;
 const BUNDLE_MAX: usize = 60;
@@ -141,7 +138,9 @@ fn lowest_bundle(planes: &[SupportPlane], tau: f64) -> Basis {
     for _ in 0..BASES_MAX {
         let worst =
             planes.iter().copied().reduce(|w, p| if p.at(&basis.omega) > w.at(&basis.omega) { p } else { w });
-        let Some(worst) = worst.filter(|w| w.at(&basis.omega) > basis.t + VIOLATION) else { break };
+        let Some(worst) = worst.filter(|w| w.at(&basis.omega) > basis.t + NUMERICS.plane_violation) else {
+            break;
+        };
         match exchanged(&basis, worst, tau).filter(|next| next.value > basis.value) {
             Some(next) => basis = next,
             None => break,
@@ -162,7 +161,7 @@ fn exchanged(basis: &Basis, plane: SupportPlane, tau: f64) -> Option<Basis> {
         chosen.extend(old.iter().enumerate().filter(|(i, _)| subset & (1 << i) != 0).map(|(_, p)| *p));
         let all = old.iter().chain([&plane]);
         let Some(next) = solved(&chosen, tau) else { continue };
-        let valid = all.clone().all(|p| p.at(&next.omega) <= next.t + VIOLATION);
+        let valid = all.clone().all(|p| p.at(&next.omega) <= next.t + NUMERICS.plane_violation);
         if valid && best.as_ref().is_none_or(|b| next.value > b.value) {
             best = Some(next);
         }
@@ -188,7 +187,7 @@ fn solved(planes: &[SupportPlane], tau: f64) -> Option<Basis> {
     matrix[(n, n)] = 0.0;
     right[n] = 1.0;
     let solution = matrix.lu().solve(&right)?;
-    if !(0..=n).all(|i| solution[i].is_finite()) || (0..n).any(|i| solution[i] < -MULTIPLIER) {
+    if !(0..=n).all(|i| solution[i].is_finite()) || (0..n).any(|i| solution[i] < -NUMERICS.multiplier) {
         return None;
     }
     let mut omega = [0.0; 2];

@@ -124,3 +124,67 @@ impl Default for Tolerances {
         }
     }
 }
+
+/// Thresholds of the numerical methods of the judgement: they end iterations and keep systems regular, and are
+/// far below every tolerance of [`Tolerances`]. Lengths in metres, angles in radians.
+pub(super) struct Numerics {
+    /// Weight of the orientation of a link in the alignment of two postures, m² beside its mass: a thousandth of
+    /// the mass at 4 cm, against degenerate sets of centres.
+    pub orientation_weight: f64,
+    /// Weight of a turn in the alignment on contacts, m²: it keeps a robot on one or two contacts from being
+    /// turned about them.
+    pub turn_weight: f64,
+    /// A circle whose plane is level within this (sine of the angle) has no lowest point of its own.
+    pub level_sine: f64,
+    /// A support plane is violated when it lies above the model of the bundle method by more than this, m.
+    pub plane_violation: f64,
+    /// Rounding allowed in the multipliers of the bundle method.
+    pub multiplier: f64,
+    /// Proximal weight of the dual of the normal forces, so that its solution exists whatever the contact points
+    /// are.
+    pub proximal_weight: f64,
+    /// Gradient at which the dual of the normal forces is solved, in parts of the weight.
+    pub dual_gradient: f64,
+    /// Relative precision of the greatest value of a polynomial.
+    pub extremum: f64,
+    /// The least spread of a sliding patch, m² (0.1 mm): a point resists spinning a little.
+    pub patch_spread: f64,
+    /// Slips shorter than this part of the greatest motion are smoothed.
+    pub smoothed_slip: f64,
+    /// The rounds of the displacement of least friction end when it changes by less than this part of the
+    /// greatest motion.
+    pub power_change: f64,
+    /// Weight that keeps the normal equations of a balance regular, in parts of the weight.
+    pub balance_ridge: f64,
+    /// The part of [`Tolerances::balance`] to which a balance is corrected.
+    pub balance_spare: f64,
+    /// The least size of a robot about its base, m, to which the moment of its weight is compared.
+    pub robot_size: f64,
+    /// Angle below which an arc is followed by the series of sine and cosine, rad.
+    pub series_angle: f64,
+    /// Square of the angle below which the logarithm of a displacement is taken by its series, rad².
+    pub series_angle_squared: f64,
+    /// Sine of the angle below which a rotation has no axis.
+    pub no_rotation: f64,
+}
+
+/// The thresholds with which every judgement computes.
+pub(super) const NUMERICS: Numerics = Numerics {
+    orientation_weight: 1e-3 * 0.04 * 0.04,
+    turn_weight: 1e-8,
+    level_sine: 1e-9,
+    plane_violation: 1e-12,
+    multiplier: 1e-10,
+    proximal_weight: 1e-8,
+    dual_gradient: 1e-14,
+    extremum: 1e-12,
+    patch_spread: 1e-8,
+    smoothed_slip: 1e-4,
+    power_change: 1e-10,
+    balance_ridge: 1e-15,
+    balance_spare: 1e-6,
+    robot_size: 1e-3,
+    series_angle: 1e-6,
+    series_angle_squared: 1e-6,
+    no_rotation: 1e-12,
+};

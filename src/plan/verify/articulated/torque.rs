@@ -10,6 +10,7 @@ use super::fixed_base::BetweenSamples;
 use super::model::Model;
 use super::rollout::{Rollout, Sample, bonds_at};
 use super::statics::{LoadKind, Section, Structure, Wrench, effects};
+use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
@@ -453,7 +454,7 @@ fn pushing<'s>(sample: &Sample<'s>) -> impl Iterator<Item = &'s ContactPoint> {
 fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerances: &Tolerances) -> Loads {
     let weight = sample.model.mass * sample.world.gravity;
     let mut wrenches = weights(sample);
-    let (mut x, mut y, mut size) = (0.0, 0.0, 1e-3_f64);
+    let (mut x, mut y, mut size) = (0.0, 0.0, NUMERICS.robot_size);
     for contact_point in pushing(sample).filter(|t| t.load > 0.0) {
         let f = Vec3::new(0.0, 0.0, contact_point.load * weight);
         wrenches.push(Wrench { link: contact_point.link, p: contact_point.p, f, m: Vec3::zeros() });

@@ -1,0 +1,20 @@
+//! The tolerances of scheduling, all in one place.
+
+/// The tolerances with which behaviours are scheduled and transformed; those that a caller may set are in
+/// [`Settings`](super::Settings).
+pub(super) struct Tolerances {
+    /// The difference of fits, rad, below which two turns are equally near: rounding must not choose.
+    pub turn_tie: f64,
+    /// The greatest distance of an image from a joint in a mirrored robot, m: parts are placed with less care
+    /// than this only by mistake, and the masses of the two halves of a module may differ a little.
+    pub image_place: f64,
+    /// The greatest sine of the angle between an axis and its image.
+    pub image_direction: f64,
+    /// The greatest difference of positions (rad or m) and times (s) of two schedules that count as the same:
+    /// rounding.
+    pub faithful: f64,
+}
+
+/// The tolerances with which every schedule is made.
+pub(super) const TOLERANCES: Tolerances =
+    Tolerances { turn_tie: 1e-9, image_place: 2e-3, image_direction: 1e-3, faithful: 1e-9 };

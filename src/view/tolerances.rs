@@ -1,0 +1,41 @@
+//! The tolerances of pictures, all in one place.
+
+/// The tolerances with which pictures and pages are made.
+pub(super) struct Tolerances {
+    /// The tolerance of a panel's corner above or below the sheet, m: rounding of poses.
+    pub flat: f64,
+    /// Two edges whose midpoints are nearer than this in the end coincide, m.
+    pub meet: f64,
+    /// Angles smaller than this are level creases, rad.
+    pub crease: f64,
+    /// A base pose is left out where interpolation between its neighbours is within this of it: m for positions,
+    /// 1 for quaternion components.
+    pub base: f64,
+    /// The tolerance within which a picture's time is that of a failure, s.
+    pub picture_time: f64,
+    /// The rounding step of lengths (m), angles (rad), directions and times (s) in a page: finer than any screen.
+    pub rounding: f64,
+    /// The least size, m, by which a drawing is scaled: smaller ones are points.
+    pub size: f64,
+    /// The least radius, m, of what a picture shows.
+    pub radius: f64,
+    /// The height above a surface, as a part of the radius, at which its shadow is asked for: it does not shade
+    /// itself.
+    pub shadow: f64,
+    /// The depth below what the shadow map shows, as a part of the radius, from which a point is in the shade.
+    pub shadow_depth: f64,
+}
+
+/// The tolerances with which every picture and page is made.
+pub(super) const TOLERANCES: Tolerances = Tolerances {
+    flat: 1e-6,
+    meet: 1e-5,
+    crease: 1e-6,
+    base: 1e-4,
+    picture_time: 1e-3,
+    rounding: 1e-7,
+    size: 1e-9,
+    radius: 1e-6,
+    shadow: 0.004,
+    shadow_depth: 0.006,
+};
