@@ -400,7 +400,8 @@ extern fn show(
 ///
 /// A robot of RoFI modules is a `.rofi` file, or a `.json` file in RoFI's newer format. A folding is a `.fold` file (FOLD 1.2): the flat net in
 /// millimetres with its mountains, valleys and fold angles, the step in which each hinge folds, the
-/// edges that meet in the end, and the folded form after every step as further frames.
+/// edges that meet in the end, and the folded form after every step as further frames. Another ending is
+/// an error.
 ///
 /// Example:
 /// ```modl

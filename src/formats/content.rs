@@ -9,9 +9,6 @@ pub struct Content {
     pub faces: Vec<Vec<usize>>,
 }
 
-/// The reason why a file is no mesh; where the format has lines, the line comes first.
-pub type Fault = String;
-
 /// Returns faces of more than three corners as fans of triangles.
 pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
     let place = |corner: usize| u32::try_from(corner).expect("a file has fewer than 2^32 vertices");

@@ -7,6 +7,7 @@
 //! and add its line to [`FOLDING_FORMATS`] or [`ROBOT_FORMATS`]; `save` and its messages follow.
 
 mod content;
+mod fault;
 mod fold;
 mod obj;
 mod off;
@@ -16,7 +17,8 @@ mod xyz;
 
 use crate::robot::{rofi, rofi_json};
 
-pub use content::{Content, Fault, triangles};
+pub use content::{Content, triangles};
+pub use fault::FormatFault;
 pub use fold::{Crease, CreasePattern};
 
 /// A file format.
@@ -26,7 +28,7 @@ pub struct Format {
     pub ending: &'static str,
     /// The name that messages give it.
     pub name: &'static str,
-    read: fn(&[u8]) -> Result<Content, Fault>,
+    read: fn(&[u8]) -> Result<Content, FormatFault>,
 }
 
 /// The formats of meshes.
@@ -55,7 +57,7 @@ pub struct ExportFormat<T> {
 pub const FOLDING_FORMATS: &[ExportFormat<CreasePattern>] =
     &[ExportFormat { ending: "fold", write: fold::write }];
 
-/// The export formats of robots of RoFI modules. A name with another ending gets the first of them.
+/// The export formats of robots of RoFI modules.
 pub const ROBOT_FORMATS: &[ExportFormat<rofi::World>] = &[
     ExportFormat { ending: "rofi", write: rofi::write },
     ExportFormat { ending: "json", write: rofi_json::write },
@@ -78,48 +80,48 @@ impl Format {
     /// Reads a mesh: at least one face, each of three corners or more, and finite coordinates.
     ///
     /// # Errors
-    /// The fault in words, with its line where the format has lines.
-    pub fn read_mesh(&self, bytes: &[u8]) -> Result<Content, Fault> {
+    /// A [`FormatFault`], with its line where the format has lines.
+    pub fn read_mesh(&self, bytes: &[u8]) -> Result<Content, FormatFault> {
         checked_mesh((self.read)(bytes)?)
     }
 
     /// Reads a cloud: at least one point, and finite coordinates.
     ///
     /// # Errors
-    /// The fault in words, with its line where the format has lines.
-    pub fn read_cloud(&self, bytes: &[u8]) -> Result<Content, Fault> {
+    /// A [`FormatFault`], with its line where the format has lines.
+    pub fn read_cloud(&self, bytes: &[u8]) -> Result<Content, FormatFault> {
         checked_cloud((self.read)(bytes)?)
     }
 }
 
-fn checked_cloud(read: Content) -> Result<Content, Fault> {
+fn checked_cloud(read: Content) -> Result<Content, FormatFault> {
     if read.vertices.is_empty() {
-        return Err("it holds no points".into());
+        return Err(FormatFault::Nothing { what: "points" });
     }
     finite(&read)?;
     Ok(read)
 }
 
-fn finite(read: &Content) -> Result<(), Fault> {
+fn finite(read: &Content) -> Result<(), FormatFault> {
     match read.vertices.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        Some(vertex) => Err(format!("a coordinate of vertex {vertex} is no finite number")),
+        Some(vertex) => Err(FormatFault::NotFinite { vertex }),
         None => Ok(()),
     }
 }
 
 /// Checks what holds for a mesh of any format.
-fn checked_mesh(read: Content) -> Result<Content, Fault> {
+fn checked_mesh(read: Content) -> Result<Content, FormatFault> {
     if read.faces.is_empty() {
-        return Err("it holds no faces".into());
+        return Err(FormatFault::Nothing { what: "faces" });
     }
     finite(&read)?;
-    for (number, face) in read.faces.iter().enumerate() {
-        if face.len() < 3 {
-            return Err(format!("face {number} has fewer than three corners"));
+    for (number, corners) in read.faces.iter().enumerate() {
+        if corners.len() < 3 {
+            return Err(FormatFault::FewCorners { face: number });
         }
-        if let Some(corner) = face.iter().find(|corner| **corner >= read.vertices.len()) {
+        if let Some(&corner) = corners.iter().find(|corner| **corner >= read.vertices.len()) {
             let count = read.vertices.len();
-            return Err(format!("face {number} names vertex {corner}; there are {count}"));
+            return Err(FormatFault::NoVertex { face: number, corner, count });
         }
     }
     Ok(read)

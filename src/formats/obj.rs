@@ -4,14 +4,15 @@
 //! out before the crate sees it: so its numbers are never looked up, and the file is one object whose
 //! vertices are shared.
 
-use super::content::{Content, Fault, line_of};
+use super::content::{Content, line_of};
+use super::fault::FormatFault;
 use tobj::{LoadError, LoadOptions};
 
 /// Reads a file.
 ///
 /// # Errors
-/// The fault in words.
-pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
+/// A [`FormatFault`].
+pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let plain = plain(bytes);
     let mut rest: &[u8] = &plain;
     let options = LoadOptions { ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
@@ -20,9 +21,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
         // The reader finds the fault of a line before it reads the next, and other faults at the end.
         let line = line_of(&plain, rest) - 1;
         match error {
-            LoadError::FaceVertexOutOfBounds => "a face names a vertex that there isn't".into(),
-            LoadError::ReadError => format!("line {}: no text", line + 1),
-            other => format!("line {line}: {other}"),
+            LoadError::FaceVertexOutOfBounds => FormatFault::NoSuchVertex,
+            LoadError::ReadError => FormatFault::LineNotText { line: line + 1 },
+            other => FormatFault::Reader(format!("line {line}: {other}")),
         }
     })?;
     let mut read = Content::default();

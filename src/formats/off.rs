@@ -3,7 +3,8 @@
 //! A reader of our own, for no crate reads the format and says where it fails. Colours and normals
 //! that follow on a line are left out.
 
-use super::content::{Content, Fault};
+use super::content::Content;
+use super::fault::FormatFault;
 
 /// First words of the variants that are read: plain, and with colours or normals behind the vertices.
 const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
@@ -11,33 +12,33 @@ const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
 /// Reads a file.
 ///
 /// # Errors
-/// The fault in words.
-pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_string())?;
+/// A [`FormatFault`].
+pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
+    let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.split('#').next().unwrap_or("")));
     let mut lines = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
-    let Some(&(number, first)) = lines.peek() else { return Err("it is empty".into()) };
+    let Some(&(number, first)) = lines.peek() else { return Err(FormatFault::Empty) };
     let mut words = first.split_whitespace();
     let kind = words.next().unwrap_or("");
     let counts = if kind.starts_with(|c: char| c.is_ascii_digit()) {
         // The first word may be left out.
         lines.next().expect("it was seen")
     } else if !KINDS.contains(&kind) {
-        return Err(format!("line {number}: `OFF` is wanted, not `{}`", shown(kind)));
+        return Err(FormatFault::NotOff { line: number, found: shown(kind) });
     } else {
         lines.next();
         match words.next() {
-            Some("BINARY") => return Err(format!("line {number}: binary OFF is not read")),
+            Some("BINARY") => return Err(FormatFault::BinaryOff { line: number }),
             Some(_) => (number, first.trim_start().strip_prefix(kind).unwrap_or(first)),
-            None => lines.next().ok_or("the counts are missing")?,
+            None => lines.next().ok_or(FormatFault::NoCounts)?,
         }
     };
-    let (number, counts) = counts;
+    let (line, counts) = counts;
     let mut counts = counts.split_whitespace();
-    let mut count = |what: &str| -> Result<usize, Fault> {
-        let word = counts.next().ok_or_else(|| format!("line {number}: the number of {what} is missing"))?;
-        word.parse().map_err(|_| format!("line {number}: `{}` is no number of {what}", shown(word)))
+    let mut count = |what: &'static str| -> Result<usize, FormatFault> {
+        let word = counts.next().ok_or(FormatFault::NoCount { line, what })?;
+        word.parse().map_err(|_| FormatFault::BadCount { line, what, found: shown(word) })
     };
     let (vertices, faces) = (count("vertices")?, count("faces")?);
     let mut read = Content::default();
@@ -46,11 +47,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
             lines.next().ok_or_else(|| missing("vertices", read.vertices.len(), vertices))?;
         let numbers: Vec<f64> = line.split_whitespace().take(3).filter_map(|w| w.parse().ok()).collect();
         let vertex = <[f64; 3]>::try_from(numbers);
-        read.vertices.push(vertex.map_err(|_| format!("line {number} is no vertex"))?);
+        read.vertices.push(vertex.map_err(|_| FormatFault::BadLine { line: number, what: "vertex" })?);
     }
     for _ in 0..faces {
         let (number, line) = lines.next().ok_or_else(|| missing("faces", read.faces.len(), faces))?;
-        read.faces.push(face(line).ok_or_else(|| format!("line {number} is no face"))?);
+        read.faces.push(face(line).ok_or(FormatFault::BadLine { line: number, what: "face" })?);
     }
     Ok(read)
 }
@@ -63,8 +64,8 @@ fn face(line: &str) -> Option<Vec<usize>> {
     corners.filter(|corners| corners.len() == size)
 }
 
-fn missing(what: &str, found: usize, wanted: usize) -> Fault {
-    format!("it ends after {found} of {wanted} {what}")
+fn missing(what: &'static str, found: usize, wanted: usize) -> FormatFault {
+    FormatFault::Ends { what, found, wanted }
 }
 
 /// Returns a word short enough for a message.

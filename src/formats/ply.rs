@@ -1,6 +1,7 @@
 //! Meshes from PLY files, in text and binary.
 
-use super::content::{Content, Fault};
+use super::content::Content;
+use super::fault::FormatFault;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 
@@ -10,8 +11,8 @@ const SHOWN: usize = 120;
 /// Reads a file.
 ///
 /// # Errors
-/// The fault in words.
-pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
+/// A [`FormatFault`].
+pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let mut reader = Reader::new(bytes);
     let parser = Parser::<Row>::new();
     let header = parser.read_header(&mut reader).map_err(|error| said(&error))?;
@@ -20,8 +21,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
         // A row takes a byte at least, or a short file could ask for any number of them.
         let left = reader.get_ref().len();
         if element.count > left || element.properties.is_empty() && element.count > 0 {
-            let (name, count) = (shown(&element.name), element.count);
-            return Err(format!("its header announces {count} of `{name}`, which it does not hold"));
+            let (element, count) = (shown(&element.name), element.count);
+            return Err(FormatFault::Announced { element, count });
         }
         let rows = parser.read_payload_for_element(&mut reader, element, &header);
         let rows = rows.map_err(|error| said(&error))?;
@@ -29,15 +30,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
             "vertex" => {
                 let place = |(index, row): (usize, &Row)| match row.place {
                     [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
-                    _ => Err(format!("vertex {index} has no numbers `x`, `y` and `z`")),
+                    _ => Err(FormatFault::NoCoordinates { vertex: index }),
                 };
-                read.vertices = rows.iter().enumerate().map(place).collect::<Result<_, Fault>>()?;
+                read.vertices = rows.iter().enumerate().map(place).collect::<Result<_, FormatFault>>()?;
             }
             "face" => {
-                let corners = |(index, row): (usize, Row)| {
-                    row.corners.ok_or_else(|| format!("face {index} has no list `vertex_indices`"))
-                };
-                read.faces = rows.into_iter().enumerate().map(corners).collect::<Result<_, Fault>>()?;
+                let corners =
+                    |(index, row): (usize, Row)| row.corners.ok_or(FormatFault::NoCornerList { face: index });
+                read.faces = rows.into_iter().enumerate().map(corners).collect::<Result<_, FormatFault>>()?;
             }
             _ => {}
         }
@@ -45,13 +45,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
     Ok(read)
 }
 
-fn said(error: &ParseError) -> Fault {
+fn said(error: &ParseError) -> FormatFault {
     let whole = error.to_string();
     let words: Vec<&str> = whole.split_whitespace().collect();
     // The crate counts lines in the same way, but begins a sentence with them.
     let text = words.join(" ");
     let text = text.strip_prefix("Line ").map_or_else(|| text.clone(), |rest| format!("line {rest}"));
-    shown(&text)
+    FormatFault::Reader(shown(&text))
 }
 
 fn shown(text: &str) -> String {

@@ -3,25 +3,26 @@
 //! A reader of our own: the kept crate takes every file that begins with `solid` for text, which many
 //! binary files do, reads the first solid only, and doesn't say in which line it stopped.
 
-use super::content::{Content, Fault};
+use super::content::Content;
+use super::fault::FormatFault;
 use std::collections::HashMap;
 
 /// Bytes of the header of a binary file, and of one triangle.
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
-/// Corners at one position are one vertex. Reads a file.
+/// Reads a file. Corners at one position are one vertex.
 ///
 /// # Errors
-/// The fault in words.
-pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
+/// A [`FormatFault`].
+pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let count = bytes.get(80..HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let corners = match count {
         Some(count) if bytes.len() == HEADER + TRIANGLE * count => binary(&bytes[HEADER..]),
         _ => text(bytes)?,
     };
     if corners.is_empty() {
-        return Err("it holds no triangles".into());
+        return Err(FormatFault::Nothing { what: "triangles" });
     }
     Ok(shared(&corners))
 }
@@ -32,8 +33,8 @@ fn binary(body: &[u8]) -> Vec<[[f32; 3]; 3]> {
     body.chunks_exact(TRIANGLE).map(|b| [0, 1, 2].map(|k| corner(b, k))).collect()
 }
 
-fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, Fault> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "its length does not fit its triangles".to_string())?;
+fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, FormatFault> {
+    let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::StlLength)?;
     let mut corners = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace();
@@ -42,10 +43,10 @@ fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, Fault> {
         }
         let numbers: Vec<f32> = words.filter_map(|w| w.parse().ok()).collect();
         let corner = <[f32; 3]>::try_from(numbers);
-        corners.push(corner.map_err(|_| format!("line {} is no vertex", index + 1))?);
+        corners.push(corner.map_err(|_| FormatFault::BadLine { line: index + 1, what: "vertex" })?);
     }
     if corners.len() % 3 != 0 {
-        return Err("its last triangle is not complete".into());
+        return Err(FormatFault::IncompleteTriangle);
     }
     Ok(corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
 }

@@ -3,14 +3,15 @@
 //! A reader of our own, for the format is no more than that. Other numbers of a line, a colour or a normal, are
 //! left out; so is the rest of a line from a `#` on.
 
-use super::content::{Content, Fault};
+use super::content::Content;
+use super::fault::FormatFault;
 
 /// Reads a file.
 ///
 /// # Errors
-/// The fault in words.
-pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_string())?;
+/// A [`FormatFault`].
+pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
+    let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut read = Content::default();
     for (i, line) in text.lines().enumerate() {
@@ -24,7 +25,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, Fault> {
         }
         let number = |k: usize| words.get(k).and_then(|word| word.parse::<f64>().ok());
         let (Some(x), Some(y), Some(z)) = (number(0), number(1), number(2)) else {
-            return Err(format!("line {}: three numbers are wanted", i + 1));
+            return Err(FormatFault::NotThreeNumbers { line: i + 1 });
         };
         read.vertices.push([x, y, z]);
     }

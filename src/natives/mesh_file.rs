@@ -1,6 +1,6 @@
 //! Meshes and clouds of points from files of the project, by the ends of their names.
 
-use crate::formats::{CLOUD_FORMATS, Content, Fault, Format, MESH_FORMATS};
+use crate::formats::{CLOUD_FORMATS, Content, Format, FormatFault, MESH_FORMATS};
 use crate::geometry::Vec3;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -39,7 +39,7 @@ fn read_as(
     name: &str,
     what: &str,
     formats: &[Format],
-    read: fn(&Format, &[u8]) -> Result<Content, Fault>,
+    read: fn(&Format, &[u8]) -> Result<Content, FormatFault>,
 ) -> Eval<(String, Content)> {
     let file: &str = call.get(name)?;
     let ending = file.rsplit_once('.').map_or_else(String::new, |(_, end)| end.to_ascii_lowercase());
@@ -53,9 +53,9 @@ fn read_as(
             .into());
     };
     let (path, bytes) = interpreter.project_file(call, name)?;
-    let content = read(format, &bytes).map_err(|why: Fault| {
+    let content = read(format, &bytes).map_err(|why| {
         let message = format!("`{path}` can't be read as {}: {why}", format.name);
-        fault(code::CANNOT_READ, call.at(name), message, why)
+        fault(code::CANNOT_READ, call.at(name), message, why.to_string())
     })?;
     interpreter.check_list(content.faces.len().max(content.vertices.len()), call.at(name))?;
     Ok((path, content))

@@ -44,10 +44,13 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             };
             (format.write)(&creases(planned, folded))
         }
-        _ => match rofi::world_of(interpreter, call)? {
-            Some(world) => (robot.unwrap_or(&ROBOT_FORMATS[0]).write)(&world),
-            None => return Ok(Value::Unknown),
-        },
+        _ => {
+            let Some(format) = robot else {
+                return Err(call.refuse("file", format!("the name of a robot's file ends in {robots}")));
+            };
+            let Some(world) = rofi::world_of(interpreter, call)? else { return Ok(Value::Unknown) };
+            (format.write)(&world)
+        }
     };
     write_output(interpreter, call.at("file"), &path, text.into_bytes())?;
     Ok(Value::Nothing)

@@ -269,6 +269,8 @@ fn a_pattern_has_a_layer_for_each_kind_of_line() {
 fn what_is_no_folding_has_no_fold_file() {
     let cases = [
         ("save(Mori(), \"a.fold\")", "`.rofi`"),
+        ("save(Mori(), \"a.txt\")", "`.rofi` or `.json`"),
+        ("save(Mori(), \"a\")", "`.rofi` or `.json`"),
         ("save(tetra, \"a.rofi\")", "`.fold`"),
         ("save(tetra, \"a.txt\")", "`.fold`"),
         ("save(tetra, \"../a.fold\")", "output"),

@@ -1,0 +1,162 @@
+//! The reasons why a file is no mesh and no cloud.
+
+use std::fmt;
+
+/// The reason why a file can't be read. Lines count from 1, vertices and faces from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FormatFault {
+    /// The bytes of a text format are not UTF-8.
+    NotText,
+    /// The file has no line that says anything.
+    Empty,
+    /// The file can be read, and holds none of what is wanted.
+    Nothing {
+        /// The things wanted: points, faces, triangles.
+        what: &'static str,
+    },
+    /// A coordinate is infinite or not a number.
+    NotFinite {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A face has one corner or two.
+    FewCorners {
+        /// The face.
+        face: usize,
+    },
+    /// A corner of a face is no vertex of the file.
+    NoVertex {
+        /// The face.
+        face: usize,
+        /// The vertex that it names.
+        corner: usize,
+        /// The number of vertices.
+        count: usize,
+    },
+    /// A corner of some face is no vertex of the file.
+    NoSuchVertex,
+    /// The first word of an OFF file is another.
+    NotOff {
+        /// The line.
+        line: usize,
+        /// The word that stands there.
+        found: String,
+    },
+    /// The file is a binary OFF file.
+    BinaryOff {
+        /// The line that says so.
+        line: usize,
+    },
+    /// The line with the numbers of vertices and faces is missing.
+    NoCounts,
+    /// A number of vertices or faces is missing.
+    NoCount {
+        /// The line.
+        line: usize,
+        /// The things counted.
+        what: &'static str,
+    },
+    /// A number of vertices or faces is none.
+    BadCount {
+        /// The line.
+        line: usize,
+        /// The things counted.
+        what: &'static str,
+        /// The word that stands there.
+        found: String,
+    },
+    /// The file ends before all that it announces.
+    Ends {
+        /// The things counted.
+        what: &'static str,
+        /// The number found.
+        found: usize,
+        /// The number announced.
+        wanted: usize,
+    },
+    /// A line is not what it has to be.
+    BadLine {
+        /// The line.
+        line: usize,
+        /// The thing wanted: a vertex, a face.
+        what: &'static str,
+    },
+    /// A line of a cloud has fewer than three numbers.
+    NotThreeNumbers {
+        /// The line.
+        line: usize,
+    },
+    /// A line is not UTF-8.
+    LineNotText {
+        /// The line.
+        line: usize,
+    },
+    /// A file is neither a binary STL file of its length nor a text.
+    StlLength,
+    /// The corners of an STL file end within a triangle.
+    IncompleteTriangle,
+    /// The header of a PLY file announces more rows than the file has bytes.
+    Announced {
+        /// The name of the rows.
+        element: String,
+        /// The number announced.
+        count: usize,
+    },
+    /// A vertex of a PLY file lacks a coordinate.
+    NoCoordinates {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A face of a PLY file has no corners.
+    NoCornerList {
+        /// The face.
+        face: usize,
+    },
+    /// The reader of a crate says why, with the line if it has one.
+    Reader(String),
+}
+
+impl fmt::Display for FormatFault {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            FormatFault::NotText => f.write_str("it is no text"),
+            FormatFault::Empty => f.write_str("it is empty"),
+            FormatFault::Nothing { what } => write!(f, "it holds no {what}"),
+            FormatFault::NotFinite { vertex } => {
+                write!(f, "a coordinate of vertex {vertex} is no finite number")
+            }
+            FormatFault::FewCorners { face } => write!(f, "face {face} has fewer than three corners"),
+            FormatFault::NoVertex { face, corner, count } => {
+                write!(f, "face {face} names vertex {corner}; there are {count}")
+            }
+            FormatFault::NoSuchVertex => f.write_str("a face names a vertex that there isn't"),
+            FormatFault::NotOff { line, found } => write!(f, "line {line}: `OFF` is wanted, not `{found}`"),
+            FormatFault::BinaryOff { line } => write!(f, "line {line}: binary OFF is not read"),
+            FormatFault::NoCounts => f.write_str("the counts are missing"),
+            FormatFault::NoCount { line, what } => {
+                write!(f, "line {line}: the number of {what} is missing")
+            }
+            FormatFault::BadCount { line, what, found } => {
+                write!(f, "line {line}: `{found}` is no number of {what}")
+            }
+            FormatFault::Ends { what, found, wanted } => {
+                write!(f, "it ends after {found} of {wanted} {what}")
+            }
+            FormatFault::BadLine { line, what } => write!(f, "line {line} is no {what}"),
+            FormatFault::NotThreeNumbers { line } => write!(f, "line {line}: three numbers are wanted"),
+            FormatFault::LineNotText { line } => write!(f, "line {line}: no text"),
+            FormatFault::StlLength => f.write_str("its length does not fit its triangles"),
+            FormatFault::IncompleteTriangle => f.write_str("its last triangle is not complete"),
+            FormatFault::Announced { element, count } => {
+                write!(f, "its header announces {count} of `{element}`, which it does not hold")
+            }
+            FormatFault::NoCoordinates { vertex } => {
+                write!(f, "vertex {vertex} has no numbers `x`, `y` and `z`")
+            }
+            FormatFault::NoCornerList { face } => write!(f, "face {face} has no list `vertex_indices`"),
+            FormatFault::Reader(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for FormatFault {}
