@@ -4,9 +4,10 @@
 //! signature (from its text), its members, and its typed body. Only a typed body can need another body,
 //! through inferred types; a cycle of those is an error.
 
+use super::family::Family;
 use super::load::{ImportTarget, Loaded};
 use super::typed::{self, DefId, DefKind, MemberId, Program};
-use super::types::{Family, Type};
+use super::types::Type;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, FileId, Sources, Span, Symbol, code};
 use crate::syntax::ast;
@@ -37,8 +38,7 @@ pub(super) enum DefItem<'a> {
     Record(&'a ast::ExternType),
     Connector(&'a ast::Connector),
     Module(&'a ast::Module),
-    Cell(&'a ast::Facts),
-    Strut(&'a ast::Facts),
+    Facts(&'a ast::Facts),
     Config(&'a ast::Config),
     Lattice(&'a ast::Lattice),
     Truss(&'a ast::Truss),
@@ -361,8 +361,7 @@ impl<'a> Checker<'a> {
             K::ExternType(x) => (x.name, DefItem::Record(x)),
             K::Connector(x) => (x.name, DefItem::Connector(x)),
             K::Module(x) => (x.name, DefItem::Module(x)),
-            K::Cell(x) => (x.name, DefItem::Cell(x)),
-            K::Strut(x) => (x.name, DefItem::Strut(x)),
+            K::Facts(x) => (x.name, DefItem::Facts(x)),
             K::Config(x) => (x.name, DefItem::Config(x)),
             K::Lattice(x) => (x.name, DefItem::Lattice(x)),
             K::Truss(x) => (x.name, DefItem::Truss(x)),
@@ -488,8 +487,7 @@ impl<'a> Checker<'a> {
         Some(match self.def(id).item {
             DefItem::Module(_) => Family::Module,
             DefItem::Config(_) => Family::Config,
-            DefItem::Cell(_) => Family::Cell,
-            DefItem::Strut(_) => Family::Strut,
+            DefItem::Facts(x) => x.family.into(),
             DefItem::Lattice(_) => Family::Lattice,
             DefItem::Truss(_) => Family::Truss,
             _ => return None,

@@ -2,12 +2,13 @@
 
 use super::checker::{Checker, Entity};
 use super::expr::Role;
+use super::family::Family;
 use super::scope::Scope;
 use super::typed::{
     BehaviorDef, ConfigClause, ConfigDef, DefId, DefKind, Exemption, ExemptionKind, Expr, MemberKind,
     PartCount, PartDef,
 };
-use super::types::{Family, Type};
+use super::types::Type;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, code};
 use crate::syntax::ast::{self, ConfigClauseKind};
@@ -98,11 +99,12 @@ impl<'a> Checker<'a> {
             Some(Entity::Def(id)) if self.is_part_type(id) => return Some(id),
             Some(Entity::Error) => return None,
             Some(Entity::Def(id)) => {
-                let what = match self.family(id) {
-                    Some(Family::Cell) => "a cell: it goes into a `lattice`",
-                    Some(Family::Strut) => "a strut: it goes into a `truss`",
-                    Some(_) => "of another family of robots",
-                    None => "no module or configuration",
+                let what = match self.family(id).map(|family| (family, family.container())) {
+                    Some((family, Some(container))) => {
+                        format!("a {}: it goes into a `{}`", family.word(), container.word())
+                    }
+                    Some((_, None)) => "of another family of robots".to_owned(),
+                    None => "no module or configuration".to_owned(),
                 };
                 self.report(
                     Diagnostic::error(code::NOT_A_TYPE, format!("`{}` is {what}", last.text))

@@ -2,7 +2,7 @@
 
 use super::checker::Checker;
 use super::typed::{DefId, Program};
-use super::types::{Family, Type};
+use super::types::Type;
 use crate::source::Symbol;
 use crate::units::{Dimension, base_units, usual_unit};
 
@@ -109,20 +109,8 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
         Type::Cloud => "Cloud".into(),
         Type::Terrain => "Terrain".into(),
         Type::Instance(id) | Type::Record(id) => def_name(*id).to_string(),
-        Type::AnyOf(family) => family_name(*family).into(),
+        Type::AnyOf(family) => family.name().into(),
         Type::Param(_) => "any type".into(),
         Type::QuantityParam { .. } => "Quantity".into(),
-    }
-}
-
-/// Returns the name of the supertype of a family.
-pub(super) fn family_name(family: Family) -> &'static str {
-    match family {
-        Family::Module => "Module",
-        Family::Config => "Config",
-        Family::Cell => "Cell",
-        Family::Strut => "Strut",
-        Family::Lattice => "Lattice",
-        Family::Truss => "Truss",
     }
 }

@@ -2,10 +2,11 @@
 
 use super::checker::Checker;
 use super::describe::{dimension_with_unit, dimension_words};
+use super::family::Family;
 use super::literals::direction;
 use super::scope::Scope;
 use super::typed::{BinaryOp, Expr, ExprKind, StmtKind};
-use super::types::{Family, FnType, Type};
+use super::types::{FnType, Type};
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast;
 use crate::units::Dimension;

@@ -1,48 +1,29 @@
 //! Cells and struts, lattices and trusses.
 
 use super::checker::{Checker, Entity, MemberInfoKind};
-use super::describe::family_name;
 use super::expr::{Role, error_expr};
+use super::family::{FactForm, Family};
 use super::scope::Scope;
 use super::typed::{DefId, DefKind, Expr, FactsDef, LatticeDef, NodeRef, TrussBody, TrussClause, TrussDef};
-use super::types::{Family, Type};
+use super::types::Type;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, code};
 use crate::syntax::ast::{self, PathStep, TrussClauseKind};
 use crate::units::Dimension;
 use std::sync::Arc;
 
-/// The facts of a `cell`, in the order of [`FactsDef::facts`].
-const CELL_FACTS: [(&str, Dimension); 5] = [
-    ("size", Dimension::LENGTH),
-    ("shrinks_to", Dimension::LENGTH),
-    ("mass", Dimension::MASS),
-    ("max_force", Dimension::FORCE),
-    ("max_speed", Dimension::SPEED),
-];
-
-/// The facts of a `strut`; its length is a range.
-const STRUT_FACTS: [(&str, Dimension); 5] = [
-    ("length", Dimension::LENGTH),
-    ("max_speed", Dimension::SPEED),
-    ("max_force", Dimension::FORCE),
-    ("mass", Dimension::MASS),
-    ("clearance", Dimension::LENGTH),
-];
-
 impl<'a> Checker<'a> {
     /// Checks a `cell` or `strut`.
     pub(super) fn check_facts(&mut self, id: DefId, facts: &'a ast::Facts) -> DefKind {
-        let strut = self.family(id) == Some(Family::Strut);
-        let known = if strut { STRUT_FACTS } else { CELL_FACTS };
+        let known = Family::from(facts.family).facts();
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, Some(id));
         let params = self.typed_params(&mut scope, &facts.params, &signature.params, false);
         let members = self.typed_members(id);
         let mut values: Vec<Option<Expr>> = vec![None; known.len()];
         for (name, value) in &facts.facts {
-            let Some(index) = known.iter().position(|(n, _)| *n == name.text.as_str()) else {
-                let names = known.map(|(n, _)| n);
+            let Some(index) = known.iter().position(|fact| fact.name == name.text.as_str()) else {
+                let names: Vec<&str> = known.iter().map(|fact| fact.name).collect();
                 let mut d = Diagnostic::error(code::UNKNOWN_MEMBER, format!("no fact `{}` here", name.text))
                     .label(name.span, format!("one of {} is wanted", names.join(", ")));
                 if let Some(near) = suggest(name.text.as_str(), names) {
@@ -57,12 +38,15 @@ impl<'a> Checker<'a> {
                         .label(name.span, "given again here"),
                 );
             }
-            let quantity = Type::Quantity(known[index].1);
-            let want = if known[index].0 == "length" { Type::Range(Arc::new(quantity)) } else { quantity };
+            let quantity = Type::Quantity(known[index].dimension);
+            let want = match known[index].form {
+                FactForm::Positive => quantity,
+                FactForm::PositiveRange => Type::Range(Arc::new(quantity)),
+            };
             values[index] = Some(self.expect(&mut scope, value, &want, Role::Param(name.text)));
         }
         let missing: Vec<&str> =
-            known.iter().zip(&values).filter(|(_, v)| v.is_none()).map(|((n, _), _)| *n).collect();
+            known.iter().zip(&values).filter(|(_, v)| v.is_none()).map(|(fact, _)| fact.name).collect();
         if !missing.is_empty() {
             let (name, span) = (self.def(id).name, self.def(id).span);
             self.report(
@@ -73,14 +57,20 @@ impl<'a> Checker<'a> {
                 .label(span, "facts are missing"),
             );
         }
-        DefKind::from_facts(FactsDef { params, members, facts: values, frame: scope.frame() }, strut)
+        DefKind::Facts(FactsDef {
+            family: facts.family,
+            params,
+            members,
+            facts: values,
+            frame: scope.frame(),
+        })
     }
 
     /// Returns the declaration behind `of`; reports one that is not of the family.
     fn of(&mut self, file: usize, path: &[ast::Name], family: Family) -> Option<DefId> {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);
-        let wanted = family_name(family).to_lowercase();
+        let wanted = family.word();
         match self.path_entity(file, path) {
             Some(Entity::Def(id)) if self.family(id) == Some(family) => return Some(id),
             Some(Entity::Error) => return None,
@@ -237,12 +227,5 @@ impl<'a> Checker<'a> {
             }
         };
         Some(NodeRef { member, index, span: path.span })
-    }
-}
-
-impl DefKind {
-    /// Returns the body of a `cell` or `strut`.
-    fn from_facts(facts: FactsDef, strut: bool) -> DefKind {
-        if strut { DefKind::Strut(facts) } else { DefKind::Cell(facts) }
     }
 }

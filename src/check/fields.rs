@@ -2,9 +2,10 @@
 
 use super::checker::{Checker, DefItem, Entity, MemberInfoKind};
 use super::expr::{error_expr, expr_of};
+use super::family::Family;
 use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind, MemberId};
-use super::types::{Family, FnType, Type};
+use super::types::{FnType, Type};
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Span, Symbol, code, foreign};
 use crate::syntax::ast::{self, ExprKind as K};

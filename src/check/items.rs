@@ -2,12 +2,13 @@
 
 use super::checker::{Bound, Checker, DefItem, ParamInfo, Signature, TypeParam};
 use super::expr::{Role, error_expr};
+use super::family::Family;
 use super::scope::Scope;
 use super::typed::{
     Body, DefId, DefKind, Expr, FnDef, LetDef, MemberId, NativeDef, Param, RecordDef, RecordField, Stmt,
     StmtKind, Test,
 };
-use super::types::{Family, Type};
+use super::types::Type;
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast;
 use std::rc::Rc;
@@ -39,7 +40,7 @@ impl<'a> Checker<'a> {
             item => {
                 let params: &'a [ast::Param] = match item {
                     DefItem::Module(x) => &x.params,
-                    DefItem::Cell(x) | DefItem::Strut(x) => &x.params,
+                    DefItem::Facts(x) => &x.params,
                     DefItem::Config(x) => &x.params,
                     DefItem::Lattice(x) => &x.params,
                     DefItem::Truss(x) => &x.params,
@@ -207,8 +208,7 @@ impl<'a> Checker<'a> {
             DefItem::Record(x) => self.check_record(id, x),
             DefItem::Connector(x) => self.check_connector(id, x),
             DefItem::Module(x) => self.check_module(id, x),
-            DefItem::Cell(x) => self.check_facts(id, x),
-            DefItem::Strut(x) => self.check_facts(id, x),
+            DefItem::Facts(x) => self.check_facts(id, x),
             DefItem::Config(x) => self.check_config(id, x),
             DefItem::Lattice(x) => self.check_lattice(id, x),
             DefItem::Truss(x) => self.check_truss(id, x),

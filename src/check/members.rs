@@ -4,9 +4,10 @@ use super::checker::{
     BehaviorInfo, Checker, DefItem, Entity, JointInfo, MemberInfo, MemberInfoKind, Members, PortInfo,
 };
 use super::expr::error_expr;
+use super::family::Family;
 use super::scope::Scope;
 use super::typed::{DefId, Expr, MemberId};
-use super::types::{Family, Type};
+use super::types::Type;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast::{self, ConfigClauseKind, ExprKind as K, ModuleClauseKind, TrussClauseKind};
@@ -40,7 +41,7 @@ impl<'a> Checker<'a> {
         let mut members = Members::default();
         let params: &'a [ast::Param] = match self.def(id).item {
             DefItem::Module(x) => &x.params,
-            DefItem::Cell(x) | DefItem::Strut(x) => &x.params,
+            DefItem::Facts(x) => &x.params,
             DefItem::Config(x) => &x.params,
             DefItem::Lattice(x) => &x.params,
             DefItem::Truss(x) => &x.params,

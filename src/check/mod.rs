@@ -13,6 +13,7 @@ mod config;
 mod describe;
 mod expr;
 mod families;
+pub mod family;
 mod fields;
 mod items;
 mod lint;

@@ -71,13 +71,7 @@ pub(crate) fn word(kind: &DefKind) -> &'static str {
         DefKind::Fn(_) | DefKind::Native(_) => "fn",
         DefKind::Record(_) => "type",
         DefKind::Connector(_) => "connector",
-        DefKind::Module(_) => "module",
-        DefKind::Cell(_) => "cell",
-        DefKind::Strut(_) => "strut",
-        DefKind::Config(_) => "config",
-        DefKind::Lattice(_) => "lattice",
-        DefKind::Truss(_) => "truss",
-        DefKind::Error => "",
+        kind => kind.instantiable().map_or("", |instantiable| instantiable.family.word()),
     }
 }
 
@@ -105,12 +99,7 @@ pub(crate) fn params_of(program: &Program, id: DefId) -> &[Param] {
     match &program.def(id).kind {
         DefKind::Fn(function) => &function.params,
         DefKind::Native(native) => &native.params,
-        DefKind::Module(d) => &d.params,
-        DefKind::Cell(d) | DefKind::Strut(d) => &d.params,
-        DefKind::Config(d) => &d.params,
-        DefKind::Lattice(d) => &d.params,
-        DefKind::Truss(d) => &d.params,
-        _ => &[],
+        kind => kind.instantiable().map_or(&[], |instantiable| instantiable.params),
     }
 }
 
@@ -188,7 +177,7 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
         }
         DefKind::Fn(f) => of_params(&f.params),
         DefKind::Native(f) => of_params(&f.params),
-        DefKind::Cell(d) | DefKind::Strut(d) => of_params(&d.params),
+        DefKind::Facts(d) => of_params(&d.params),
         DefKind::Lattice(d) => of_params(&d.params).into_iter().chain(of_members(&d.members)).collect(),
         DefKind::Truss(d) => of_params(&d.params).into_iter().chain(of_members(&d.members)).collect(),
         _ => Vec::new(),

@@ -1,9 +1,10 @@
 //! Types as they are written, and the subtype relation.
 
 use super::checker::{Bound, Checker, DefItem, Entity};
+use super::family::Family;
 use super::scope::Scope;
 use super::typed::DefId;
-use super::types::{Choice, Family, FnType, Type};
+use super::types::{Choice, FnType, Type};
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Symbol, code};
 use crate::source::{foreign, library};
@@ -11,7 +12,7 @@ use crate::syntax::ast::{self, TypeKind};
 use crate::units::{self, Dimension, NAMED};
 use std::sync::Arc;
 
-/// The built-in type names without arguments, named dimensions apart.
+/// The built-in type names without arguments, named dimensions and supertypes of families apart.
 const PLAIN: &[(&str, Type)] = &[
     ("Any", Type::Any),
     ("Int", Type::Int),
@@ -27,13 +28,14 @@ const PLAIN: &[(&str, Type)] = &[
     ("Mesh", Type::Mesh),
     ("Cloud", Type::Cloud),
     ("Terrain", Type::Terrain),
-    ("Module", Type::AnyOf(Family::Module)),
-    ("Config", Type::AnyOf(Family::Config)),
-    ("Cell", Type::AnyOf(Family::Cell)),
-    ("Strut", Type::AnyOf(Family::Strut)),
-    ("Lattice", Type::AnyOf(Family::Lattice)),
-    ("Truss", Type::AnyOf(Family::Truss)),
 ];
+
+/// Returns the built-in type of a name without arguments: one of [`PLAIN`], or the supertype of a family.
+fn plain(name: &str) -> Option<Type> {
+    let listed = PLAIN.iter().find(|(n, _)| *n == name).map(|(_, ty)| ty.clone());
+    let family = || Family::ALL.into_iter().find(|family| family.name() == name).map(Type::AnyOf);
+    listed.or_else(family)
+}
 
 /// The built-in type names with an argument.
 const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
@@ -73,7 +75,7 @@ impl<'a> Checker<'a> {
         let [name] = path.as_slice() else { return None };
         let text = name.text.as_str();
         let known = scope.type_params.iter().any(|p| p.name == name.text)
-            || PLAIN.iter().any(|(n, _)| *n == text)
+            || plain(text).is_some()
             || Dimension::named(text).is_some()
             || matches!(self.entity(scope.file, name.text), Some(Entity::Def(id)) if self.is_type(id));
         (args.is_empty() && !known).then_some(name.text)
@@ -144,8 +146,8 @@ impl<'a> Checker<'a> {
                     _ => Type::Param(index as u8),
                 };
             }
-            if let Some((_, ty)) = PLAIN.iter().find(|(n, _)| *n == name.text.as_str()) {
-                return ty.clone();
+            if let Some(ty) = plain(name.text.as_str()) {
+                return ty;
             }
             if let Some(d) = Dimension::named(name.text.as_str()) {
                 return Type::Quantity(d);
@@ -169,6 +171,7 @@ impl<'a> Checker<'a> {
         let span = path[0].span.to(last.span);
         let mut known: Vec<&str> = self.visible_names(scope.file);
         known.extend(PLAIN.iter().map(|(n, _)| *n));
+        known.extend(Family::ALL.map(Family::name));
         known.extend(NAMED.iter().map(|(n, _)| *n));
         known.extend(WITH_ARGUMENT);
         let types = known.into_iter().filter(|n| n.starts_with(|c: char| c.is_ascii_uppercase()));

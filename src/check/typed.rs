@@ -5,6 +5,7 @@
 //! used as instances are instantiations. An `Error` node marks what has been reported: the interpreter
 //! evaluates it to an unknown value and reports nothing that follows from it.
 
+use super::family::FactsFamily;
 use super::types::Type;
 use crate::source::{FileId, Span, Symbol};
 use crate::units::Dimension;
@@ -76,10 +77,8 @@ pub enum DefKind {
     Connector(ConnectorDef),
     /// A module: `module`.
     Module(ModuleDef),
-    /// A cell of a lattice: `cell`.
-    Cell(FactsDef),
-    /// A strut of a truss: `strut`.
-    Strut(FactsDef),
+    /// A cell of a lattice or a strut of a truss: `cell`, `strut`.
+    Facts(FactsDef),
     /// A configuration: `config`.
     Config(ConfigDef),
     /// A lattice: `lattice`.
@@ -400,12 +399,14 @@ pub struct Require {
 /// The body of a `cell` or a `strut`.
 #[derive(Clone, Debug)]
 pub struct FactsDef {
+    /// The family.
+    pub family: FactsFamily,
     /// The parameters.
     pub params: Vec<Param>,
     /// The parameters and `let`s.
     pub members: Vec<Member>,
-    /// The facts of the family, in this order, `None` where one is missing. cell: size, shrinks_to,
-    /// mass, max_force, max_speed. strut: length (a range), max_speed, max_force, mass, clearance.
+    /// The values of [`Family::facts`](super::family::Family::facts), in their order; `None` where one is
+    /// missing.
     pub facts: Vec<Option<Expr>>,
     /// The number of slots of its frame.
     pub frame: usize,

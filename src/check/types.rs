@@ -1,5 +1,6 @@
 //! Types of the language, as the checker and messages use them.
 
+use super::family::Family;
 use super::typed::DefId;
 use crate::source::Symbol;
 use crate::units::Dimension;
@@ -69,23 +70,6 @@ pub enum Type {
     Param(u8),
     /// A quantity in a dimension parameter raised to a power: `Quantity<D>`, `Quantity<D^2>`.
     QuantityParam { param: u8, power: i8 },
-}
-
-/// A family of declarations with instances.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    /// Modules, declared by `module`.
-    Module,
-    /// Configurations, declared by `config`.
-    Config,
-    /// Cells of lattices, declared by `cell`.
-    Cell,
-    /// Struts of trusses, declared by `strut`.
-    Strut,
-    /// Lattices, declared by `lattice`.
-    Lattice,
-    /// Trusses, declared by `truss`.
-    Truss,
 }
 
 /// The type of a function value.

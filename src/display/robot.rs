@@ -4,7 +4,7 @@ use super::pretty::{Branch, counted, listed};
 use super::shape;
 use super::truss;
 use crate::check::typed::{DefId, DefKind};
-use crate::elaborate::connect::free_ports;
+use crate::elaborate::free_ports;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance, ModuleDesign};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::Eval;
@@ -153,13 +153,7 @@ impl Interpreter<'_> {
                 return Ok(format!("fn {name}({}) -> {result}", params.join(", ")));
             }
             DefKind::Connector(_) => "connector",
-            DefKind::Module(_) => "module",
-            DefKind::Cell(_) => "cell",
-            DefKind::Strut(_) => "strut",
-            DefKind::Config(_) => "config",
-            DefKind::Lattice(_) => "lattice",
-            DefKind::Truss(_) => "truss",
-            _ => "declared",
+            kind => kind.instantiable().map_or("declared", |body| body.family.word()),
         };
         let facts = self.default_design(def)?.map(|design| match &design.kind {
             DesignKind::Module(module) => {

@@ -2,7 +2,6 @@
 
 use crate::check::typed::{DefId, DefKind, MemberId, MemberKind};
 use crate::interpret::design::Design;
-use crate::interpret::eval::members_of;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
@@ -34,11 +33,9 @@ impl Interpreter<'_> {
     /// Evaluates the lets, ports and behaviours of a body that nothing may have needed yet.
     fn check_members(&mut self, design: &Rc<Design>) -> Eval<()> {
         let program = self.shared.program;
-        let Some((members, _)) = members_of(&program.def(design.def).kind) else {
-            return Ok(());
-        };
+        let body = program.def(design.def).kind.instantiable().expect("only such declarations have designs");
         let whole = self.whole(design);
-        for (index, member) in members.iter().enumerate() {
+        for (index, member) in body.members.iter().enumerate() {
             if matches!(member.kind, MemberKind::Let(_) | MemberKind::Port { .. }) {
                 let id = MemberId(index as u32);
                 let value = self.member(&whole, id, member.span);

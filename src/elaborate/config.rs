@@ -15,7 +15,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
 /// A requirement with the variables of its scope: it is checked when the body is complete.
-pub struct Deferred<'d> {
+pub(super) struct Deferred<'d> {
     /// The clause.
     pub require: &'d Require,
     /// The variables of the body.
@@ -341,13 +341,13 @@ fn inherited(part: &str, inside: &str) -> Rc<str> {
 }
 
 /// Returns the message that a joint can't be at a position (rad or m), with its range.
-pub fn outside(joint: &str, position: f64, (low, high): (f64, f64), dimension: Dimension) -> String {
+pub(crate) fn outside(joint: &str, position: f64, (low, high): (f64, f64), dimension: Dimension) -> String {
     let [position, low, high] = [position, low, high].map(|x| quantity(x, dimension));
     format!("{joint} can't be at {position}: its range is {low} to {high}")
 }
 
 /// Returns the fault of a start position that the joint does not reach.
-pub fn out_of_range(
+pub(super) fn out_of_range(
     joint: &str,
     position: f64,
     (low, high): (f64, f64),

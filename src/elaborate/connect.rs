@@ -267,7 +267,7 @@ fn path_between(config: &ConfigDesign, from: usize, to: usize) -> Option<Vec<usi
 }
 
 /// Returns the names of the free ports of a module.
-pub fn free_ports<'c>(
+pub(crate) fn free_ports<'c>(
     config: &'c ConfigDesign,
     robot: &Rc<Design>,
     module: usize,

@@ -1,101 +1,119 @@
 //! Cells and struts: the facts that the families of expanding cubes and linear actuators ask for.
 
-use crate::check::typed::{DefId, FactsDef};
+use crate::check::family::{Fact, FactForm, FactsFamily, Family};
+use crate::check::typed::{Expr, FactsDef};
 use crate::interpret::design::{DesignKind, Instance};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::Value;
 use crate::robot::{Cell, Strut};
-use crate::source::code;
+use crate::source::{Span, code};
 use std::rc::Rc;
 
-const CELL_FACTS: [&str; 5] = ["size", "shrinks_to", "mass", "max_force", "max_speed"];
-const STRUT_FACTS: [&str; 5] = ["length", "max_speed", "max_force", "mass", "clearance"];
+/// The facts that a declaration states, each by its name.
+struct Stated {
+    facts: Vec<(&'static Fact, (f64, f64), Span)>,
+}
+
+impl Stated {
+    fn of(&self, name: &str) -> &(&'static Fact, (f64, f64), Span) {
+        self.facts.iter().find(|(fact, ..)| fact.name == name).expect("the family lists the fact")
+    }
+
+    /// Returns a range, SI.
+    fn range(&self, name: &str) -> (f64, f64) {
+        self.of(name).1
+    }
+
+    /// Returns a quantity, SI.
+    fn quantity(&self, name: &str) -> f64 {
+        self.of(name).1.0
+    }
+
+    /// Returns the span of a value.
+    fn span(&self, name: &str) -> Span {
+        self.of(name).2
+    }
+
+    /// Returns the cell with these facts.
+    fn cell(&self, name: String) -> Cell {
+        Cell {
+            name,
+            size: self.quantity("size"),
+            shrinks_to: self.quantity("shrinks_to"),
+            mass: self.quantity("mass"),
+            force: self.quantity("max_force"),
+            speed: self.quantity("max_speed"),
+        }
+    }
+
+    /// Returns the strut with these facts.
+    fn strut(&self, name: String) -> Strut {
+        Strut {
+            name,
+            length: self.range("length"),
+            speed: self.quantity("max_speed"),
+            force: self.quantity("max_force"),
+            mass: self.quantity("mass"),
+            clearance: self.quantity("clearance"),
+        }
+    }
+}
 
 impl Interpreter<'_> {
-    pub(super) fn elaborate_cell(
+    /// Elaborates a cell or a strut; `None` where a fact is out of range, which is reported.
+    pub(super) fn elaborate_facts(
         &mut self,
-        facts: &FactsDef,
-        def: DefId,
+        def: &FactsDef,
         this: &Rc<Instance>,
         title: &str,
     ) -> Eval<Option<DesignKind>> {
-        let mut frame = Frame::new(facts.frame, Some(this.clone()));
+        let mut frame = Frame::new(def.frame, Some(this.clone()));
         let mark = self.reported.errors;
-        let values = self.positive_facts(facts, def, &CELL_FACTS, &mut frame)?;
-        let [size, shrinks_to, mass, force, speed] = values[..] else { return Ok(None) };
-        if shrinks_to >= size {
-            let span = facts.facts[1].as_ref().map_or(self.shared.program.def(def).span, |e| e.span);
-            let message = "`shrinks_to` must be less than `size`";
-            return self.attempt(|_| Err(fault(code::BAD_MODULE, span, message, "no smaller than the cell")));
+        let mut facts = Vec::new();
+        for (fact, value) in Family::from(def.family).facts().iter().zip(&def.facts) {
+            // `check` reports a fact that is missing.
+            let Some(value) = value else { return Ok(None) };
+            let read = self.attempt(|this| this.fact(fact, value, &mut frame))?.flatten();
+            facts.extend(read.map(|read| (fact, read, value.span)));
         }
-        let cell = Cell { name: title.to_string(), size, shrinks_to, mass, force, speed };
-        Ok((!self.failed_since(mark)).then_some(DesignKind::Cell(cell)))
-    }
-
-    pub(super) fn elaborate_strut(
-        &mut self,
-        facts: &FactsDef,
-        def: DefId,
-        this: &Rc<Instance>,
-        title: &str,
-    ) -> Eval<Option<DesignKind>> {
-        let mut frame = Frame::new(facts.frame, Some(this.clone()));
-        let mark = self.reported.errors;
-        let span = self.shared.program.def(def).span;
-        let length = match facts.facts.first() {
-            Some(Some(length)) => match self.eval(length, &mut frame)? {
-                Value::Range(ends) => ends.0.as_number().zip(ends.1.as_number()),
-                _ => None,
-            },
-            _ => {
-                let message = format!("the strut `{title}` has no `length`");
-                return self.attempt(|_| Err(fault(code::BAD_MODULE, span, message, "lacks `length`")));
-            }
-        };
-        let values = self.positive_facts(facts, def, &STRUT_FACTS, &mut frame)?;
-        let ([speed, force, mass, clearance], Some((low, high))) = (&values[..], length) else {
+        // A fact that can't be read was reported, or is unknown.
+        if facts.len() < def.facts.len() || self.failed_since(mark) {
             return Ok(None);
-        };
-        if !(low > 0.0 && low < high) {
-            let span = facts.facts[0].as_ref().map_or(span, |e| e.span);
-            let message = "the length of a strut is a range from a positive length to a larger one";
-            return self.attempt(|_| Err(fault(code::BAD_MODULE, span, message, "no such range")));
         }
-        let strut = Strut {
-            name: title.to_string(),
-            length: (low, high),
-            speed: *speed,
-            force: *force,
-            mass: *mass,
-            clearance: *clearance,
-        };
-        Ok((!self.failed_since(mark)).then_some(DesignKind::Strut(strut)))
+        let (stated, title) = (Stated { facts }, title.to_string());
+        match def.family {
+            FactsFamily::Cell => {
+                let cell = stated.cell(title);
+                if cell.shrinks_to >= cell.size {
+                    let (span, message) =
+                        (stated.span("shrinks_to"), "`shrinks_to` must be less than `size`");
+                    let label = "no smaller than the cell";
+                    return self.attempt(|_| Err(fault(code::BAD_MODULE, span, message, label)));
+                }
+                Ok(Some(DesignKind::Cell(cell)))
+            }
+            FactsFamily::Strut => Ok(Some(DesignKind::Strut(stated.strut(title)))),
+        }
     }
 
-    /// Returns the facts that are positive quantities, in order, passing over ranges; fewer where one is
-    /// missing, which is reported. Only `clearance` may be left out.
-    fn positive_facts(
-        &mut self,
-        facts: &FactsDef,
-        def: DefId,
-        names: &[&str],
-        frame: &mut Frame,
-    ) -> Eval<Vec<f64>> {
-        let declared = self.shared.program.def(def);
-        let mut values = Vec::new();
-        for (index, name) in names.iter().enumerate().filter(|(_, name)| **name != "length") {
-            let value = match facts.facts.get(index) {
-                Some(Some(expr)) => self.attempt(|this| this.positive(expr, &format!("`{name}`"), frame))?,
-                _ if *name == "clearance" => Some(0.0),
-                _ => self.attempt(|_| {
-                    let message = format!("`{}` has no `{name}`", declared.name);
-                    Err(fault(code::BAD_MODULE, declared.span, message, format!("lacks `{name}`")))
-                })?,
-            };
-            values.extend(value);
+    /// Reads the value of a fact, SI; the two ends of a quantity are equal. `None` where it is unknown.
+    fn fact(&mut self, fact: &Fact, value: &Expr, frame: &mut Frame) -> Eval<Option<(f64, f64)>> {
+        match fact.form {
+            FactForm::Positive => {
+                let quantity = self.positive(value, &format!("`{}`", fact.name), frame)?;
+                Ok(Some((quantity, quantity)))
+            }
+            FactForm::PositiveRange => {
+                let Value::Range(ends) = self.eval(value, frame)? else { return Ok(None) };
+                let Some((low, high)) = ends.0.as_number().zip(ends.1.as_number()) else { return Ok(None) };
+                if !(low > 0.0 && low < high) {
+                    let message = "the length of a strut is a range from a positive length to a larger one";
+                    return Err(fault(code::BAD_MODULE, value.span, message, "no such range"));
+                }
+                Ok(Some((low, high)))
+            }
         }
-        Ok(values)
     }
 }

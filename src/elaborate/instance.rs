@@ -1,5 +1,6 @@
 //! Instances: a declaration and its arguments, elaborated once and shared.
 
+use crate::check::family::Instantiable;
 use crate::check::typed::{DefId, DefKind, Expr, Param};
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance};
 use crate::interpret::eval::Frame;
@@ -29,8 +30,8 @@ impl Interpreter<'_> {
         if self.shared.faulty[def.0 as usize] {
             return Ok(None);
         }
-        let Some(params) = params_of(&self.shared.program.def(def).kind) else { return Ok(None) };
-        let Some((args, shown)) = self.fill_params(def, params, args)? else { return Ok(None) };
+        let Some(body) = self.shared.program.def(def).kind.instantiable() else { return Ok(None) };
+        let Some((args, shown)) = self.fill_params(def, body.params, args)? else { return Ok(None) };
         let known = self.memory.designs[def.0 as usize].iter().find(|d| same_args(&d.args, &args)).cloned();
         match known {
             Some(design) => self.check_complete(&design, span).map(|()| Some(design)),
@@ -151,8 +152,7 @@ impl Interpreter<'_> {
     ) -> Eval<Option<DesignKind>> {
         match kind {
             DefKind::Module(module) => self.elaborate_module(module, def, shell, title),
-            DefKind::Cell(facts) => self.elaborate_cell(facts, def, shell, title),
-            DefKind::Strut(facts) => self.elaborate_strut(facts, def, shell, title),
+            DefKind::Facts(facts) => self.elaborate_facts(facts, shell, title),
             DefKind::Lattice(lattice) => self.elaborate_lattice(lattice, def, shell),
             DefKind::Truss(truss) => self.elaborate_truss(truss, def, shell),
             _ => Ok(None),
@@ -168,7 +168,7 @@ impl Interpreter<'_> {
     /// Returns the design of a declaration with its defaults; `None` where a parameter has none.
     pub fn default_design(&mut self, def: DefId) -> Eval<Option<Rc<Design>>> {
         let declared = self.shared.program.def(def);
-        let Some(params) = params_of(&declared.kind) else { return Ok(None) };
+        let Some(Instantiable { params, .. }) = declared.kind.instantiable() else { return Ok(None) };
         if params.iter().any(|p| p.default.is_none()) {
             return Ok(None);
         }
@@ -178,16 +178,4 @@ impl Interpreter<'_> {
 
 fn same_args(a: &[Value], b: &[Value]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.same(y) == Some(true))
-}
-
-/// Returns the parameters of a declaration that has instances.
-pub fn params_of(kind: &DefKind) -> Option<&[Param]> {
-    Some(match kind {
-        DefKind::Module(d) => &d.params,
-        DefKind::Cell(d) | DefKind::Strut(d) => &d.params,
-        DefKind::Config(d) => &d.params,
-        DefKind::Lattice(d) => &d.params,
-        DefKind::Truss(d) => &d.params,
-        _ => return None,
-    })
 }

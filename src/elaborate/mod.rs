@@ -1,23 +1,26 @@
 //! Declarations to designs and robots.
 //!
-//! A declaration with its arguments is elaborated once to a design ([`instance`]): modules with their links,
-//! joints and ports ([`module`]), configurations of modules ([`config`], [`connect`]), lattices of cells
-//! ([`lattice`], [`facts`]), trusses ([`truss`]). The back end (robotics) gets them as robots
-//! ([`robot_of`](mod@robot_of)).
+//! A declaration with its arguments is elaborated once to a design (`instance`): modules with their links,
+//! joints and ports (`module`), configurations of modules (`config`, `connect`), lattices of cells
+//! (`lattice`, `facts`), trusses (`truss`). The back end (robotics) gets them as robots
+//! (`robot_of`).
 
 mod check;
-pub mod config;
-pub mod connect;
-pub mod connector;
-pub mod facts;
-pub mod hinge;
-pub mod instance;
-pub mod lattice;
-pub mod module;
-pub mod robot_of;
-pub mod sweep;
+mod config;
+mod connect;
+mod connector;
+mod facts;
+mod hinge;
+mod instance;
+mod lattice;
+mod module;
+mod robot_of;
+mod sweep;
 mod tolerances;
-pub mod truss;
+mod truss;
+
+pub(crate) use config::outside;
+pub(crate) use connect::free_ports;
 
 use crate::check::typed::DefId;
 use crate::interpret::design::Design;

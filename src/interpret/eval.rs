@@ -4,6 +4,7 @@ use super::design::{DesignKind, Instance};
 use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Callable, Lazy, Value};
+use crate::check::family::Instantiable;
 use crate::check::typed::{Clause, DefId, DefKind, Expr, ExprKind, Local, MemberId};
 use crate::source::{Diagnostic, Span, code};
 use std::rc::Rc;
@@ -379,10 +380,9 @@ impl Interpreter<'_> {
     pub fn member(&mut self, instance: &Rc<Instance>, member: MemberId, span: Span) -> Eval<Value> {
         use crate::check::typed::MemberKind;
         let program = self.shared.program;
-        let Some((members, frame)) = members_of(&program.def(instance.design.def).kind) else {
-            return Ok(Value::Unknown);
-        };
-        let Some(declared) = members.get(member.0 as usize) else { return Ok(Value::Unknown) };
+        let body = program.def(instance.design.def).kind.instantiable();
+        let Instantiable { members, frame, .. } = body.expect("only such declarations have designs");
+        let declared = &members[member.0 as usize];
         match &declared.kind {
             MemberKind::Param(index) => {
                 Ok(instance.design.args.get(*index).cloned().unwrap_or(Value::Unknown))
@@ -495,19 +495,6 @@ impl Interpreter<'_> {
     fn too_large(&mut self, span: Span, what: String) -> Eval<()> {
         Err(fault(code::SIZE_LIMIT, span, format!("{what} is not allowed"), what.clone()))
     }
-}
-
-/// Returns the members of a declaration with a body, and the number of slots that their expressions need;
-/// `None` for other declarations.
-pub fn members_of(kind: &DefKind) -> Option<(&[crate::check::typed::Member], usize)> {
-    Some(match kind {
-        DefKind::Module(d) => (&d.members, d.frame),
-        DefKind::Cell(d) | DefKind::Strut(d) => (&d.members, d.frame),
-        DefKind::Config(d) => (&d.members, d.frame),
-        DefKind::Lattice(d) => (&d.members, d.frame),
-        DefKind::Truss(d) => (&d.members, d.frame),
-        _ => return None,
-    })
 }
 
 /// Returns the answer of an instance to a question; unknown where there is no instance.

@@ -1,7 +1,6 @@
 //! The panels that the faces of a shape are made of: all alike, or made to measure.
 
 use super::fold_surface::unfoldable;
-use crate::elaborate::instance::params_of;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, FlatModule, Instance};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -48,7 +47,13 @@ impl<'c> Supply<'c> {
     ) -> Eval<Supply<'c>> {
         let design = instance.design.clone();
         let panel = panel_of(interpreter, call, module, &design)?;
-        let params = params_of(&interpreter.shared.program.def(design.def).kind).unwrap_or_default();
+        let params = interpreter
+            .shared
+            .program
+            .def(design.def)
+            .kind
+            .instantiable()
+            .map_or(&[][..], |body| body.params);
         let sides = params.iter().position(|param| param.name.as_str() == SIDES);
         let mut supply = Supply { call, module, design, sides, made: Vec::new() };
         match sides {

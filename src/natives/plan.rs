@@ -3,9 +3,9 @@
 use super::Native;
 use super::show::Form;
 use crate::behavior::{self, Problem};
+use crate::interpret::WriteError;
 use crate::interpret::argument::{Choice, Off, Positive, WordOr, parameters};
 use crate::interpret::design::Instance;
-use crate::interpret::host::WriteError;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::PlanValue;

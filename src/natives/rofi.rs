@@ -2,7 +2,7 @@
 
 use super::Native;
 use crate::check::typed::DefId;
-use crate::elaborate::config::outside;
+use crate::elaborate::outside;
 use crate::interpret::argument::parameters;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
 use crate::interpret::interpreter::Interpreter;

@@ -143,21 +143,7 @@ pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) 
 
 /// Returns true if an item declares a name.
 fn is_named(item: &ast::Item, name: &str) -> bool {
-    use ast::ItemKind as K;
-    let declared = match &item.kind {
-        K::Let(x) => x.name,
-        K::Fn(x) => x.name,
-        K::Connector(x) => x.name,
-        K::Module(x) => x.name,
-        K::Cell(x) | K::Strut(x) => x.name,
-        K::Config(x) => x.name,
-        K::Lattice(x) => x.name,
-        K::Truss(x) => x.name,
-        K::ExternFn(x) => x.name,
-        K::ExternType(x) => x.name,
-        _ => return false,
-    };
-    declared.text == name
+    item.kind.name().is_some_and(|declared| declared.text == name)
 }
 
 /// Returns the declaration of which the value of a `let` is an instance.

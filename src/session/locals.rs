@@ -1,6 +1,8 @@
 //! The local names that an unfinished text declares: parameters, parts, lets, binders and other names in a
 //! body. The text need not be valid.
 
+use crate::syntax::DECLARING;
+
 /// A local name of an unfinished text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct LocalName {
@@ -25,29 +27,13 @@ pub(super) enum Origin {
     Word(String),
 }
 
-/// The words behind which a name is declared.
-const DECLARING: &[&str] = &[
-    "let",
-    "part",
-    "port",
-    "link",
-    "joint",
-    "motor",
-    "behavior",
-    "node",
-    "for",
-    "fn",
-    "config",
-    "module",
-    "lattice",
-    "truss",
-    "cell",
-    "strut",
-    "connector",
-];
-
 /// The words that begin a clause and declare nothing.
 const CLAUSES: &[&str] = &["connect", "set", "base", "require", "expect", "touching", "alias"];
+
+/// Returns whether a name is declared behind this word; a loop declares its binder.
+fn declares(word: &str) -> bool {
+    word == "for" || DECLARING.contains(&word)
+}
 
 /// Returns the names that a text declares, the latest last.
 pub(super) fn locals(text: &str) -> Vec<LocalName> {
@@ -55,13 +41,13 @@ pub(super) fn locals(text: &str) -> Vec<LocalName> {
     let mut rest = text;
     while let Some((word, after)) = next_word(rest) {
         rest = after;
-        if !DECLARING.contains(&word) {
+        if !declares(word) {
             continue;
         }
         let Some((name, behind)) = next_word(after).filter(|_| after.starts_with([' ', '\t', '\n'])) else {
             continue;
         };
-        if DECLARING.contains(&name) || after.len() - behind.len() > name.len() + blanks(after) {
+        if declares(name) || after.len() - behind.len() > name.len() + blanks(after) {
             continue;
         }
         found.extend(
@@ -149,7 +135,7 @@ fn up_to_clause(line: &str) -> String {
         let closed =
             line[..*at].matches(['(', '[', '{']).count() == line[..*at].matches([')', ']', '}']).count();
         let word = next_word(&line[*at..]).map_or("", |(word, _)| word);
-        closed && line[..*at].ends_with([' ', '\t']) && CLAUSES.iter().chain(DECLARING).any(|w| *w == word)
+        closed && line[..*at].ends_with([' ', '\t']) && (CLAUSES.contains(&word) || declares(word))
     };
     let end = line.char_indices().map(|(at, _)| at).find(begins).unwrap_or(line.len());
     line[..end].trim().to_owned()

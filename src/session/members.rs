@@ -72,7 +72,7 @@ fn of_instance(program: &Program, id: DefId) -> Vec<Named> {
             );
             &config.members
         }
-        DefKind::Cell(facts) | DefKind::Strut(facts) => &facts.members,
+        DefKind::Facts(facts) => &facts.members,
         DefKind::Lattice(lattice) => &lattice.members,
         DefKind::Truss(truss) => &truss.members,
         _ => &[],

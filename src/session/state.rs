@@ -9,7 +9,7 @@ use crate::check::{self, Checked, Entry, Type};
 use crate::interpret::session::{Entered, Evaluator, Shown, Task, UNDO_MAX, Work};
 use crate::interpret::{Host, Options};
 use crate::source::{Diagnostic, FileId, Files, Symbol, code};
-use crate::syntax::{self, ast};
+use crate::syntax;
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -446,8 +446,13 @@ fn load_entry(files: &dyn Files, path: &str) -> Result<Entry, String> {
     let bytes = files.read(path).map_err(|error| check::why_unreadable(path, &error))?;
     let text = String::from_utf8_lossy(&bytes);
     let parsed = syntax::parse(FileId(0), &text);
-    let names =
-        parsed.file.items.iter().filter_map(declared_name).filter(|name| !name.as_str().starts_with('_'));
+    let names = parsed
+        .file
+        .items
+        .iter()
+        .filter_map(|item| item.kind.name())
+        .map(|name| name.text)
+        .filter(|name| !name.as_str().starts_with('_'));
     let names: Vec<&str> = names.map(|name| name.as_str()).collect();
     let text = if names.is_empty() && parsed.diagnostics.iter().any(Diagnostic::is_error) {
         // An import of an unknown name, so that the errors of the file are reported.
@@ -458,22 +463,6 @@ fn load_entry(files: &dyn Files, path: &str) -> Result<Entry, String> {
         format!("use \"{path}\".{{{}}}", names.join(", "))
     };
     Ok(Entry { name: format!("{LOAD}{path}>"), text, first_line: 1, value: None, last: None })
-}
-
-/// Returns the name that an item declares.
-fn declared_name(item: &ast::Item) -> Option<Symbol> {
-    use ast::ItemKind as K;
-    Some(match &item.kind {
-        K::Let(x) => x.name.text,
-        K::Fn(x) => x.name.text,
-        K::Connector(x) => x.name.text,
-        K::Module(x) => x.name.text,
-        K::Cell(x) | K::Strut(x) => x.name.text,
-        K::Config(x) => x.name.text,
-        K::Lattice(x) => x.name.text,
-        K::Truss(x) => x.name.text,
-        _ => return None,
-    })
 }
 
 /// Returns the project's own visible declarations with instances.

@@ -81,10 +81,8 @@ pub enum ItemKind {
     Connector(Connector),
     /// A module: `module`.
     Module(Module),
-    /// A cell of a lattice: `cell`.
-    Cell(Facts),
-    /// A strut of a truss: `strut`.
-    Strut(Facts),
+    /// A cell of a lattice or a strut of a truss: `cell`, `strut`.
+    Facts(Facts),
     /// A configuration: `config`.
     Config(Config),
     /// A lattice: `lattice`.
@@ -97,6 +95,25 @@ pub enum ItemKind {
     Statement(Stmt),
     /// An item that could not be parsed.
     Error,
+}
+
+impl ItemKind {
+    /// Returns the name that the item declares; `None` for an import, a test, a statement.
+    pub fn name(&self) -> Option<Name> {
+        Some(match self {
+            ItemKind::Let(x) => x.name,
+            ItemKind::Fn(x) => x.name,
+            ItemKind::ExternFn(x) => x.name,
+            ItemKind::ExternType(x) => x.name,
+            ItemKind::Connector(x) => x.name,
+            ItemKind::Module(x) => x.name,
+            ItemKind::Facts(x) => x.name,
+            ItemKind::Config(x) => x.name,
+            ItemKind::Lattice(x) => x.name,
+            ItemKind::Truss(x) => x.name,
+            ItemKind::Use(_) | ItemKind::Test(_) | ItemKind::Statement(_) | ItemKind::Error => return None,
+        })
+    }
 }
 
 /// An import: `use std.smores.{Smores, Chain3 as Chain}`, `use "parts/claw.mod".{Claw}`, `use std.gaits`.
@@ -362,9 +379,30 @@ pub struct Placement {
     pub turned: Vec<Vec<Arg>>,
 }
 
+/// The families whose declarations state facts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FactsFamily {
+    /// `cell`
+    Cell,
+    /// `strut`
+    Strut,
+}
+
+impl FactsFamily {
+    /// Returns the keyword: `cell`.
+    pub fn word(self) -> &'static str {
+        match self {
+            FactsFamily::Cell => "cell",
+            FactsFamily::Strut => "strut",
+        }
+    }
+}
+
 /// The body of a `cell` or a `strut`: `size 100mm  shrinks_to 50mm`.
 #[derive(Clone, Debug)]
 pub struct Facts {
+    /// Its family.
+    pub family: FactsFamily,
     /// Its name.
     pub name: Name,
     /// The parameters.

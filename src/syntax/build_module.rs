@@ -35,7 +35,7 @@ impl Builder<'_> {
     }
 
     /// Builds a `cell` or `strut`.
-    pub(super) fn facts(&mut self, node: Node) -> Facts {
+    pub(super) fn facts(&mut self, family: FactsFamily, node: Node) -> Facts {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
         let params = self.params_if(&mut nodes);
@@ -43,7 +43,7 @@ impl Builder<'_> {
             let mut nodes = node.into_inner();
             (this.word(next(&mut nodes)), this.expr(next(&mut nodes)))
         };
-        Facts { name, params, facts: nodes.map(|node| fact(node, self)).collect() }
+        Facts { family, name, params, facts: nodes.map(|node| fact(node, self)).collect() }
     }
 
     /// Builds a `module`.

@@ -19,31 +19,11 @@ pub(super) enum BodyKind {
     Truss,
 }
 
-/// The words that begin an item or a statement of a file.
-const ITEMS_AND_STATEMENTS: &[&str] = &[
-    "use",
-    "let",
-    "fn",
-    "extern",
-    "connector",
-    "module",
-    "cell",
-    "strut",
-    "config",
-    "lattice",
-    "truss",
-    "test",
-    "expect",
-    "require",
-    "if",
-    "for",
-];
-
 impl BodyKind {
     /// Returns the words that begin a piece in this kind of body.
     pub(super) fn keywords(self) -> &'static [&'static str] {
         match self {
-            BodyKind::Items => ITEMS_AND_STATEMENTS,
+            BodyKind::Items => words::ITEMS_AND_STATEMENTS,
             BodyKind::Statements => words::STATEMENTS,
             BodyKind::Module => words::MODULE,
             BodyKind::Config => words::CONFIG,
@@ -288,36 +268,12 @@ impl Mistake<'_> {
     /// Explains a reserved word used as a name.
     fn reserved_name(&self) -> Option<Diagnostic> {
         let found = self.found();
-        let declares = matches!(
-            self.before(),
-            "let"
-                | "fn"
-                | "part"
-                | "port"
-                | "joint"
-                | "link"
-                | "motor"
-                | "alias"
-                | "module"
-                | "config"
-                | "connector"
-                | "cell"
-                | "strut"
-                | "lattice"
-                | "truss"
-                | "behavior"
-                | "node"
-                | "base"
-                | "set"
-                | "connect"
-                | "--"
-                | "->"
-                | "for"
-                | "on"
-                | "of"
-                | "as"
-                | ":"
+        let before = self.before();
+        let behind = matches!(
+            before,
+            "alias" | "base" | "set" | "connect" | "--" | "->" | "for" | "on" | "of" | "as" | ":"
         );
+        let declares = behind || words::DECLARING.contains(&before);
         (words::is_reserved(found) && declares && !self.wants_expression()).then(|| {
             self.error(format!("`{found}` is a reserved word and cannot be a name"))
                 .expect("an error was made")
@@ -439,10 +395,8 @@ impl Mistake<'_> {
 
     /// Explains a parameter without its type.
     fn missing_type(&self) -> Option<Diagnostic> {
-        let declares = matches!(
-            self.token_text(0),
-            "fn" | "extern" | "behavior" | "config" | "module" | "cell" | "strut" | "lattice" | "truss"
-        );
+        let first = self.token_text(0);
+        let declares = matches!(first, "fn" | "extern" | "behavior") || words::FAMILIES.contains(&first);
         let ends = matches!(self.found(), "," | ")" | "=");
         let before = self.found.checked_sub(1)?;
         if !declares || !ends || !self.wants(":") || self.kind_of(before) != Some(TokenKind::Word) {

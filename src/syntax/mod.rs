@@ -25,4 +25,4 @@ mod words;
 pub use lex::{Token, TokenKind};
 pub use outline::{Chunk, Outline, Role, Skeleton, skeleton};
 pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, breaks_off, parse};
-pub use words::{CONFIG, ITEMS, MODULE, RESERVED, STATEMENTS, TRUSS};
+pub use words::{CONFIG, DECLARING, ITEMS, MODULE, RESERVED, STATEMENTS, TRUSS};

@@ -8,28 +8,9 @@ use super::lex::{Token, TokenKind};
 use super::parse::{DIAGNOSTICS_MAX, Node, Rule, failure, nodes};
 use super::scan::{Fault, Scan};
 use super::split::{bodies, split, tokens};
+use super::words;
 use crate::source::Span;
 use std::ops::Range;
-
-/// The words behind which a name is declared.
-const DECLARING: &[&str] = &[
-    "behavior",
-    "cell",
-    "config",
-    "connector",
-    "fn",
-    "joint",
-    "lattice",
-    "let",
-    "link",
-    "module",
-    "motor",
-    "node",
-    "part",
-    "port",
-    "strut",
-    "truss",
-];
 
 /// The deepest level of bodies that are searched for faulty pieces; each level costs a parse of its text.
 const BODIES_MAX: usize = 12;
@@ -378,7 +359,9 @@ impl<'t> Parser<'t> {
         let begins_line = |token: &Token| text[..token.start].trim_end_matches([' ', '\t']).ends_with('\n');
         let import = words.first().is_some_and(|first| is(first, &["use"]));
         let declared = words.windows(2).filter(|pair| {
-            import || is(&pair[0], DECLARING) && (begins_line(&pair[0]) || pair[0].start == words[0].start)
+            import
+                || is(&pair[0], words::DECLARING)
+                    && (begins_line(&pair[0]) || pair[0].start == words[0].start)
         });
         let names: Vec<Span> = declared.map(|pair| self.span(&(pair[1].start..pair[1].end))).collect();
         for name in names {

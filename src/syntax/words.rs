@@ -22,8 +22,43 @@ pub const ITEMS: &[&str] = &[
     "test",
 ];
 
+/// The words that begin a declaration with instances.
+pub(super) const FAMILIES: &[&str] = &["module", "cell", "strut", "config", "lattice", "truss"];
+
+/// The words behind which a name is declared.
+pub const DECLARING: &[&str] = &[
+    "behavior",
+    "cell",
+    "config",
+    "connector",
+    "fn",
+    "joint",
+    "lattice",
+    "let",
+    "link",
+    "module",
+    "motor",
+    "node",
+    "part",
+    "port",
+    "strut",
+    "truss",
+];
+
 /// The words that begin a statement, besides expressions.
 pub const STATEMENTS: &[&str] = &["let", "expect", "require", "if", "for"];
+
+/// The words that begin an item or a statement of a file.
+pub(super) const ITEMS_AND_STATEMENTS: &[&str] = &{
+    // Both lists have `let`, the first of the statements.
+    let mut all = [""; ITEMS.len() + STATEMENTS.len() - 1];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = if i < ITEMS.len() { ITEMS[i] } else { STATEMENTS[i - ITEMS.len() + 1] };
+        i += 1;
+    }
+    all
+};
 
 /// The words that begin a clause of a module.
 pub const MODULE: &[&str] = &[

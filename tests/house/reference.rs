@@ -68,7 +68,7 @@ fn page(source: &Source) -> String {
             }
             ItemKind::ExternType(t) => extern_type(&mut page, source, t, doc),
             ItemKind::Connector(c) => entry(&mut page, c.name.text.as_str(), &source.head(start, end), doc),
-            ItemKind::Cell(f) | ItemKind::Strut(f) => {
+            ItemKind::Facts(f) => {
                 entry(&mut page, f.name.text.as_str(), &source.head(start, end), doc);
             }
             ItemKind::Module(m) => {
@@ -239,7 +239,7 @@ fn public(file: &File) -> Vec<(String, Option<&str>, bool)> {
             ItemKind::ExternType(t) => (t.name, false),
             ItemKind::Module(m) => (m.name, false),
             ItemKind::Connector(c) => (c.name, false),
-            ItemKind::Cell(f) | ItemKind::Strut(f) => (f.name, false),
+            ItemKind::Facts(f) => (f.name, false),
             ItemKind::Config(c) => (c.name, false),
             ItemKind::Let(l) => (l.name, false),
             ItemKind::Lattice(l) => (l.name, false),

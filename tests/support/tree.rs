@@ -21,8 +21,7 @@ fn item(item: &Item) -> String {
         ItemKind::Module(m) => {
             format!("(module {}{}{})", m.name.text, params(&m.params), each(&m.clauses, module_clause))
         }
-        ItemKind::Cell(f) => format!("(cell {})", facts(f)),
-        ItemKind::Strut(f) => format!("(strut {})", facts(f)),
+        ItemKind::Facts(f) => format!("({} {})", f.family.word(), facts(f)),
         ItemKind::Config(c) => config(c),
         ItemKind::Lattice(l) => {
             format!("(lattice {}{} of {} {})", l.name.text, params(&l.params), names(&l.of), expr(&l.value))

@@ -1,0 +1,154 @@
+//! The families of declarations with instances, and the facts that cells and struts state.
+
+use super::typed::{DefKind, Member, Param};
+pub use crate::syntax::ast::FactsFamily;
+use crate::units::Dimension;
+
+/// A family of declarations with instances.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// `module` declarations.
+    Module,
+    /// `config` declarations.
+    Config,
+    /// `cell` declarations.
+    Cell,
+    /// `strut` declarations.
+    Strut,
+    /// `lattice` declarations.
+    Lattice,
+    /// `truss` declarations.
+    Truss,
+}
+
+/// A fact that every declaration of a family states: none may be left out.
+#[derive(Debug)]
+pub struct Fact {
+    /// The word in the declaration.
+    pub name: &'static str,
+    /// The dimension of its value.
+    pub dimension: Dimension,
+    /// The form of its value.
+    pub form: FactForm,
+}
+
+/// The forms of the value of a fact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FactForm {
+    /// A quantity above zero.
+    Positive,
+    /// A range from a quantity above zero to a larger one.
+    PositiveRange,
+}
+
+const fn positive(name: &'static str, dimension: Dimension) -> Fact {
+    Fact { name, dimension, form: FactForm::Positive }
+}
+
+/// The facts of a cell.
+const CELL: &[Fact] = &[
+    positive("size", Dimension::LENGTH),
+    positive("shrinks_to", Dimension::LENGTH),
+    positive("mass", Dimension::MASS),
+    positive("max_force", Dimension::FORCE),
+    positive("max_speed", Dimension::SPEED),
+];
+
+/// The facts of a strut.
+const STRUT: &[Fact] = &[
+    Fact { name: "length", dimension: Dimension::LENGTH, form: FactForm::PositiveRange },
+    positive("max_speed", Dimension::SPEED),
+    positive("max_force", Dimension::FORCE),
+    positive("mass", Dimension::MASS),
+    positive("clearance", Dimension::LENGTH),
+];
+
+impl Family {
+    /// All families.
+    pub const ALL: [Family; 6] =
+        [Family::Module, Family::Config, Family::Cell, Family::Strut, Family::Lattice, Family::Truss];
+
+    /// Returns the name of the supertype of its declarations: `Module`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Family::Module => "Module",
+            Family::Config => "Config",
+            Family::Cell => "Cell",
+            Family::Strut => "Strut",
+            Family::Lattice => "Lattice",
+            Family::Truss => "Truss",
+        }
+    }
+
+    /// Returns the keyword of its declarations: `module`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Family::Module => "module",
+            Family::Config => "config",
+            Family::Cell => FactsFamily::Cell.word(),
+            Family::Strut => FactsFamily::Strut.word(),
+            Family::Lattice => "lattice",
+            Family::Truss => "truss",
+        }
+    }
+
+    /// Returns the family whose robots are made of these; `None` for those that stand alone or are parts of a
+    /// configuration.
+    pub fn container(self) -> Option<Family> {
+        match self {
+            Family::Cell => Some(Family::Lattice),
+            Family::Strut => Some(Family::Truss),
+            Family::Module | Family::Config | Family::Lattice | Family::Truss => None,
+        }
+    }
+
+    /// Returns the facts that its declarations state; none for families with a body of clauses.
+    pub fn facts(self) -> &'static [Fact] {
+        match self {
+            Family::Cell => CELL,
+            Family::Strut => STRUT,
+            Family::Module | Family::Config | Family::Lattice | Family::Truss => &[],
+        }
+    }
+}
+
+impl From<FactsFamily> for Family {
+    fn from(family: FactsFamily) -> Family {
+        match family {
+            FactsFamily::Cell => Family::Cell,
+            FactsFamily::Strut => Family::Strut,
+        }
+    }
+}
+
+/// The parts that the declarations of all families have.
+pub struct Instantiable<'p> {
+    /// The family.
+    pub family: Family,
+    /// The parameters.
+    pub params: &'p [Param],
+    /// The parameters, and what the body names.
+    pub members: &'p [Member],
+    /// The number of slots that the expressions of the members need.
+    pub frame: usize,
+}
+
+impl DefKind {
+    /// Returns the parts that the declarations of all families have; `None` for a declaration without instances.
+    pub fn instantiable(&self) -> Option<Instantiable<'_>> {
+        let (family, params, members, frame) = match self {
+            DefKind::Module(d) => (Family::Module, &d.params, &d.members, d.frame),
+            DefKind::Config(d) => (Family::Config, &d.params, &d.members, d.frame),
+            DefKind::Facts(d) => (d.family.into(), &d.params, &d.members, d.frame),
+            DefKind::Lattice(d) => (Family::Lattice, &d.params, &d.members, d.frame),
+            DefKind::Truss(d) => (Family::Truss, &d.params, &d.members, d.frame),
+            DefKind::Let(_)
+            | DefKind::Fn(_)
+            | DefKind::Native(_)
+            | DefKind::Record(_)
+            | DefKind::Connector(_)
+            | DefKind::Error => return None,
+        };
+        Some(Instantiable { family, params, members, frame })
+    }
+}
