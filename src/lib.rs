@@ -9,33 +9,28 @@
 
 pub mod interrupt;
 pub mod source;
-#[warn(missing_docs)]
 pub mod units;
 
+// The fields of the variants of a tree say nothing that their names beside the grammar do not.
+#[allow(missing_docs)]
 pub mod syntax;
 
 pub mod format;
 
+// As the trees of `syntax`.
+#[allow(missing_docs)]
 pub mod check;
 
-#[warn(missing_docs)]
 pub mod behavior;
-#[warn(missing_docs)]
 pub mod geometry;
-#[warn(missing_docs)]
 pub mod optimize;
-#[warn(missing_docs)]
 pub mod plan;
-#[warn(missing_docs)]
 pub mod planners;
-#[warn(missing_docs)]
 pub mod robot;
-#[warn(missing_docs)]
 pub mod view;
 
 pub mod interpret;
 
-#[warn(missing_docs)]
 pub mod formats;
 
 pub mod elaborate;

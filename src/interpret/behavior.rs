@@ -193,7 +193,7 @@ impl Interpreter<'_> {
 }
 
 /// Returns `action else b`; `None` where `action` is no single action with a timeout.
-pub fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
+pub(super) fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
     let Node::Action(action) = action else { return None };
     let mut action = action.clone();
     action.timeout?;
@@ -223,12 +223,12 @@ impl Interpreter<'_> {
 }
 
 /// Returns a label with the instance that the cause is about.
-pub fn with_instance(label: String, record: &CauseRecord) -> String {
+pub(super) fn with_instance(label: String, record: &CauseRecord) -> String {
     if label.contains(&*record.instance) { label } else { format!("{label} [{}]", record.instance) }
 }
 
 /// Labels, behind the user's own line, the one in the library.
-pub fn in_library(diagnostic: Diagnostic, record: &CauseRecord) -> Diagnostic {
+pub(super) fn in_library(diagnostic: Diagnostic, record: &CauseRecord) -> Diagnostic {
     match record.caller {
         Some(_) => diagnostic.label(record.span, "the command itself, in the library"),
         None => diagnostic,

@@ -7,7 +7,7 @@
 //! built-ins ([`crate::natives`]) are the only bridge between the front end (the language) and the back end
 //! (robotics).
 
-pub mod host;
+mod host;
 
 pub mod evaluator_thread;
 pub mod stop;
@@ -15,29 +15,29 @@ pub mod value;
 
 pub mod eval;
 pub mod interpreter;
-pub mod operators;
+mod operators;
 
 pub mod argument;
-pub mod call;
+mod call;
 pub mod native;
-pub mod statements;
+mod statements;
 
 pub mod design;
 pub mod robot;
 
 pub mod cells;
 
-pub mod behavior;
+mod behavior;
 pub mod causes;
 pub mod fields;
-pub mod joining;
+mod joining;
 pub mod plan_value;
 pub mod planning;
 pub mod record;
 pub mod verdicts;
 
 pub mod routines;
-pub mod run;
+mod run;
 
 pub mod session;
 

@@ -41,7 +41,12 @@ pub enum Work {
     Undo,
     /// Texts changed: elaborate declarations with their defaults, and forget values that do not hold any
     /// more. Earlier entries can't be taken back.
-    Reload { check: Vec<DefId>, stale: Vec<DefId> },
+    Reload {
+        /// The declarations to elaborate.
+        check: Vec<DefId>,
+        /// The declarations whose values do not hold any more.
+        stale: Vec<DefId>,
+    },
     /// Forget all values; earlier entries can't be taken back.
     Forget,
 }

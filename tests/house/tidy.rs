@@ -11,93 +11,66 @@ const LINES_MAX: usize = 600;
 const LONG_FILES: &[(&str, &str)] =
     &[("src/syntax/ast.rs", "one type for each form of the grammar, and nothing else")];
 
-/// Each room with the rooms that it may know.
-const ROOMS: &[(&str, &[&str])] = &[
-    ("interrupt", &[]),
-    ("source", &[]),
-    ("units", &[]),
-    ("syntax", &["source"]),
-    ("format", &["source", "syntax"]),
-    ("check", &["source", "units", "syntax"]),
-    ("geometry", &["units"]),
-    ("optimize", &["interrupt"]),
-    ("robot", &["interrupt", "units", "geometry", "optimize"]),
-    ("plan", &["interrupt", "units", "geometry", "optimize", "robot"]),
-    ("behavior", &["interrupt", "units", "geometry", "robot", "plan"]),
-    ("planners", &["interrupt", "units", "geometry", "optimize", "robot", "plan", "behavior"]),
-    ("view", &["units", "geometry", "robot", "plan"]),
-    (
-        "interpret",
-        &[
-            "interrupt",
-            "source",
-            "units",
-            "syntax",
-            "check",
-            "geometry",
-            "robot",
-            "plan",
-            "behavior",
-            "planners",
-        ],
-    ),
-    ("formats", &["robot"]),
-    ("elaborate", &["interrupt", "source", "units", "check", "geometry", "robot", "interpret"]),
-    (
-        "natives",
-        &[
-            "interrupt",
-            "source",
-            "units",
-            "syntax",
-            "check",
-            "geometry",
-            "robot",
-            "plan",
-            "behavior",
-            "planners",
-            "view",
-            "formats",
-            "interpret",
-            "elaborate",
-        ],
-    ),
-    (
-        "display",
-        &[
-            "source",
-            "units",
-            "check",
-            "geometry",
-            "robot",
-            "plan",
-            "planners",
-            "interpret",
-            "elaborate",
-            "natives",
-        ],
-    ),
-    ("execute", &["interrupt", "source", "check", "interpret", "elaborate", "natives", "display"]),
-    ("document", &["interrupt", "source", "syntax", "check", "interpret", "execute"]),
-    ("session", &["source", "units", "syntax", "format", "check", "interpret", "execute"]),
-    (
-        "cli",
-        &[
-            "interrupt",
-            "source",
-            "units",
-            "format",
-            "check",
-            "plan",
-            "behavior",
-            "view",
-            "interpret",
-            "execute",
-            "document",
-            "session",
-        ],
-    ),
+/// A room with the rooms that it is built on. It may know those, and those that they may know, but for `not`.
+struct Room {
+    name: &'static str,
+    on: &'static [&'static str],
+    not: &'static [&'static str],
+}
+
+const fn room(name: &'static str, on: &'static [&'static str], not: &'static [&'static str]) -> Room {
+    Room { name, on, not }
+}
+
+/// The rooms from the ground up: each is built on rooms before it.
+const ROOMS: &[Room] = &[
+    room("interrupt", &[], &[]),
+    room("source", &[], &[]),
+    room("units", &[], &[]),
+    room("syntax", &["source"], &[]),
+    room("format", &["syntax"], &[]),
+    room("check", &["units", "syntax"], &[]),
+    room("geometry", &["units"], &[]),
+    room("optimize", &["interrupt"], &[]),
+    room("robot", &["geometry", "optimize"], &[]),
+    room("plan", &["robot"], &[]),
+    room("behavior", &["plan"], &["optimize"]),
+    room("planners", &["behavior", "optimize"], &[]),
+    room("view", &["plan"], &["interrupt", "optimize"]),
+    room("interpret", &["check", "planners"], &["optimize"]),
+    room("formats", &["robot"], &["interrupt", "units", "geometry", "optimize"]),
+    room("elaborate", &["interpret"], &["syntax", "plan", "behavior", "planners"]),
+    room("natives", &["interpret", "elaborate", "view", "formats"], &[]),
+    room("display", &["natives"], &["interrupt", "syntax", "behavior", "view", "formats"]),
+    room("execute", &["display", "interrupt"], &["units", "geometry", "robot", "plan", "planners"]),
+    room("document", &["execute", "syntax"], &["elaborate", "natives", "display"]),
+    room("session", &["execute", "format", "units"], &["interrupt", "elaborate", "natives", "display"]),
+    room("cli", &["session", "document", "view", "behavior"], &["syntax", "geometry", "robot"]),
 ];
+
+/// Returns the rooms that a room may know.
+fn known(name: &str) -> BTreeSet<&'static str> {
+    let room = ROOMS.iter().find(|room| room.name == name).expect("rooms are built on rooms of the list");
+    let mut all: BTreeSet<&str> = room.on.iter().flat_map(|below| known(below)).collect();
+    all.extend(room.on);
+    all.retain(|below| !room.not.contains(below));
+    all
+}
+
+#[test]
+fn rooms_are_built_on_rooms_before_them() {
+    let mut before = BTreeSet::new();
+    for room in ROOMS {
+        assert!(room.on.iter().all(|below| before.contains(below)), "`{}` stands too early", room.name);
+        let below: BTreeSet<&str> = room.on.iter().flat_map(|below| known(below)).collect();
+        assert!(
+            room.not.iter().all(|not| below.contains(not)),
+            "`{}` excludes what it can't know",
+            room.name
+        );
+        before.insert(room.name);
+    }
+}
 
 /// Rooms whose tolerances stand in a file `tolerances.rs`, one for each family or planner: those that decide what
 /// passes. In `geometry`, `optimize`, `robot` and `units` a threshold belongs to one algorithm and stands beside
@@ -172,14 +145,15 @@ fn rooms_know_only_the_rooms_above_them() {
     for (file, text) in rust("src") {
         let parts: Vec<&str> = file.split('/').collect();
         let [_, room, _, ..] = parts[..] else { continue };
-        let Some((_, known)) = ROOMS.iter().find(|(name, _)| *name == room) else {
+        if !ROOMS.iter().any(|known| known.name == room) {
             faults.push(format!("{file}: the room `{room}` is not on the list"));
             continue;
-        };
+        }
+        let known = known(room);
         for (number, line) in code_lines(&text) {
             for other in names_after(line, "crate::") {
-                let is_room = ROOMS.iter().any(|(name, _)| *name == other);
-                if is_room && other != room && !known.contains(&other) {
+                let is_room = ROOMS.iter().any(|room| room.name == other);
+                if is_room && other != room && !known.contains(other) {
                     faults.push(format!("{file}:{number}: `{room}` may not know `{other}`"));
                 }
             }
