@@ -1,7 +1,7 @@
 //! A verdict as text: every check with its status, worst values, failures and their causes.
 
 use crate::plan::{
-    Cause, Exemption, ExemptionKind, Failure, Ground, Measure, Plan, Stability, Status, Verdict,
+    self, Cause, Exemption, ExemptionKind, Failure, Ground, Measure, Plan, Stability, Status, Verdict,
 };
 use crate::units::Dimension;
 use crate::units::{number, quantity};
@@ -9,7 +9,8 @@ use std::fmt::Write;
 
 /// Returns the verdict on a plan as text of several lines.
 pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
-    let mut out = format!("{name}: {}\n", if verdict.ok() { "verified" } else { "NOT verified" });
+    let headline = if verdict.ok() { plan::headline(plan, verdict) } else { "NOT verified".to_owned() };
+    let mut out = format!("{name}: {headline}\n");
     line(&mut out, &summary(verdict));
     for world in &plan.worlds {
         let ground = match world.world.ground {

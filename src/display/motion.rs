@@ -8,7 +8,7 @@ use crate::interpret::robot::Robot;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Behavior;
 use crate::interpret::verdicts::failure_line;
-use crate::plan::{Action, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
+use crate::plan::{self, Action, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner};
 use crate::source::{FileId, Span};
 use crate::units::{Dimension, quantity};
@@ -71,7 +71,8 @@ impl Interpreter<'_> {
         let duration = planned.plan.body.duration();
         let settings = self.judge_settings();
         let verdict = self.judge(planned, settings, None);
-        let mark = if verdict.ok() { "verified" } else { "NOT VERIFIED" };
+        let mark =
+            if verdict.ok() { plan::headline(&planned.plan, &verdict) } else { "NOT VERIFIED".to_owned() };
         let long = quantity(duration, Dimension::TIME);
         let mut lines = vec![format!("a plan of {long} of {}, {mark}", planned.robot.name)];
         let rows = rows(planned, duration);

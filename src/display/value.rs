@@ -69,7 +69,7 @@ impl Interpreter<'_> {
                 quantity(planned.plan.body.duration(), Dimension::TIME),
                 planned.actions()
             ),
-            Record::Report(verdict) => verdicts::in_words(verdict),
+            Record::Report(verdict, headline) => verdicts::in_words(verdict, headline),
             Record::State(state) => format!("a state of {}", state.robot.name),
             Record::World(world) => format!(
                 "ground {:?}, gravity {}, friction {}",

@@ -29,7 +29,7 @@ impl Interpreter<'_> {
             },
             Value::Record(record) => Ok(match &**record {
                 Record::Plan(planned) => return self.plan_field(planned, field, span),
-                Record::Report(verdict) => read_field(REPORT, verdict, field),
+                Record::Report(verdict, _) => read_field(REPORT, verdict, field),
                 Record::State(state) => read_field(STATE, state, field),
                 Record::World(world) => read_field(WORLD, world, field),
                 Record::Frame(..) => read_field(FRAME, record.as_ref(), field),

@@ -18,8 +18,9 @@ pub enum Record {
     /// A `Plan`, or what a planner makes of it.
     Plan(Rc<PlanValue>),
     /// A `Report` of the judge.
-    Report(Rc<Verdict>),
-    /// A state of a robot, `State`.
+    /// A verdict, and its headline.
+    Report(Rc<Verdict>, String),
+    /// A `State`.
     State(StateValue),
     /// The assumptions about the surroundings, `World`.
     World(World),

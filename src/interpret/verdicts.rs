@@ -45,11 +45,10 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
 }
 
 /// Returns a verdict in words, as `print` shows it.
-pub fn in_words(verdict: &Verdict) -> String {
+pub fn in_words(verdict: &Verdict, headline: &str) -> String {
     let [x, y, _] = verdict.travel;
     let travel = quantity(libm::hypot(x, y), Dimension::LENGTH);
-    let head = if verdict.ok() { "verified" } else { "not verified" };
-    let mut lines = vec![format!("{head}: {}, travels {travel}", seconds(verdict.duration))];
+    let mut lines = vec![format!("{headline}: {}, travels {travel}", seconds(verdict.duration))];
     lines.extend(verdict.failures.iter().take(FAILURES_SHOWN).map(|f| format!("failed {}", failure_line(f))));
     lines.extend(worst_lines(verdict));
     if let Some(dynamics) = &verdict.dynamics {

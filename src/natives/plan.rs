@@ -191,7 +191,8 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = plan_argument(interpreter, call, "what")? else { return Ok(Value::Unknown) };
     let verdict = interpreter.judge(&planned, settings, call.get("world")?);
     interpreter.note_exemptions(&planned, &verdict);
-    Ok(Value::Record(Rc::new(Record::Report(verdict))))
+    let headline = plan::headline(&planned.plan, &verdict);
+    Ok(Value::Record(Rc::new(Record::Report(verdict, headline))))
 }
 
 fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

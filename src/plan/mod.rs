@@ -24,6 +24,7 @@ mod tracks;
 mod body;
 mod motion_plan;
 
+mod exceptions;
 mod fault;
 mod finite;
 mod operation_error;
@@ -37,6 +38,7 @@ pub mod verify;
 
 pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
+pub use exceptions::headline;
 pub use fault::{LibraryFault, NodePathsFault, PlanFault, StagesFault, TracksFault};
 pub use finite::Unwritable;
 pub use motion_plan::Plan;

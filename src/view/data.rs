@@ -5,7 +5,7 @@ use super::number::number;
 use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
 use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
-use crate::plan::{Body, Ground, ObjectiveValue, Plan, file};
+use crate::plan::{Body, Bound, Ground, Plan, file, headline};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
@@ -91,7 +91,7 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts.extend(made.reached.map(|reached| ("folding energy", torque(reached))));
     facts.extend(made.bound.map(|bound| ("lower bound", format!("no folding is below {}", torque(bound)))));
     if let Some(verdict) = &plan.verdict {
-        facts.push(("verdict", if verdict.ok() { "verified".into() } else { "not verified".into() }));
+        facts.push(("verdict", headline(plan, verdict)));
         facts.push(("energy", format!("{}J", units::number(libm::round(verdict.energy * 1e3) / 1e3))));
         facts.push(("samples", verdict.samples.to_string()));
         facts.extend(verdict.dynamics.iter().flat_map(|d| d.in_words(plan.body.duration())));

@@ -5,7 +5,7 @@ use super::number::{number, vector};
 use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
-use crate::plan::{Cause, CheckKind, Failure, Measure, Plan, Verdict, Worst, WorstKind};
+use crate::plan::{Cause, CheckKind, Failure, Measure, Plan, Verdict, Worst, WorstKind, headline};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
@@ -18,16 +18,25 @@ pub(super) fn end(plan: &Plan) -> f64 {
     failures.map(|failure| failure.time).fold(duration, f64::min).clamp(0.0, duration.max(0.0))
 }
 
-/// Returns the verdict as JSON: stamp, checks, worst values, failures, notes and events.
+/// Returns the verdict as JSON: stamp and headline, checks, worst values, failures, notes and events, and the
+/// greatest part of a joint's limit that the judge found to be needed.
 pub(super) fn verdict(plan: &Plan) -> Value {
     let Some(verdict) = &plan.verdict else {
         return json!({
-            "stamp": "not judged", "checks": [], "worst": [], "failures": [], "notes": [], "events": [],
+            "stamp": "not judged", "headline": "not judged", "checks": [], "worst": [], "failures": [], "notes": [], "events": [],
         });
     };
     let events = verdict.events.iter().map(|(time, words)| json!([number(*time), words]));
+    let headline = headline(plan, verdict);
+    let stamp = match (verdict.ok(), headline == "verified") {
+        (true, true) => "verified",
+        (true, false) => "excepted",
+        (false, _) => "failed",
+    };
     json!({
-        "stamp": if verdict.ok() { "verified" } else { "failed" },
+        "stamp": stamp,
+        "headline": headline,
+        "load": verdict.torque_margin.as_ref().map(|worst| number(1.0 - worst.value)),
         "checks": verdict.checks.iter().map(|c| [c.kind.name().to_owned(), c.status.to_string()]).collect::<Vec<_>>(),
         "worst": worst(verdict),
         "failures": verdict.failures.iter().map(|f| failure(f, plan)).collect::<Vec<_>>(),

@@ -396,3 +396,52 @@ fn clearances_are_told_of_robots_of_any_size() {
     let first = |page: &Value| page["clearance"][0][1].as_f64().expect("a number");
     assert!((first(&page) - first(&data(&shown("short", &short)))).abs() < 0.05);
 }
+
+/// A joint that can't hold its module up, and says so.
+const WEAK: &str = "connector Face { mates Face }
+module Arm {
+  mass 11kg
+  link base = box(200mm, 200mm, 50mm, mass: 10kg)
+  link tip = box(400mm, 40mm, 40mm, mass: 1kg) at [300mm, 0mm, 0mm]
+  joint bend : base -> tip = revolute(axis: Y, range: -90deg..90deg, max_speed: 60deg/s, max_torque: 0.5N*m) at [100mm, 0mm, 0mm]
+  port back : Face on base at [-100mm, 0mm, 0mm] facing -X up +Z
+}
+config Weak {
+  part a: Arm
+  behavior hold allows overload = move(a.bend, to: -90deg)
+  behavior up = Sc(hold())
+}
+print(verify(Weak().up()))
+emit(Weak().up(), \"weak.plan.json\")
+show(Weak().up(), \"weak.html\")
+";
+
+#[test]
+fn a_verdict_with_exemptions_says_so_wherever_it_is_shown() {
+    let sandbox = Sandbox::new(&[("weak.mod", WEAK.as_bytes())]);
+    let ran = sandbox.run(&["run", "weak.mod"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    let headline = "verified, except torque (allowed at line 11)";
+    assert!(ran.out.starts_with(&format!("{headline}: ")), "{}", ran.out);
+    let verified = sandbox.run(&["verify", "out/weak.plan.json"]);
+    assert!(
+        verified.code == 0 && verified.out.contains(&format!("weak.plan.json: {headline}\n")),
+        "{}",
+        verified.out
+    );
+    let page = std::fs::read_to_string(sandbox.path("out/weak.html")).expect("written");
+    let data = data(&page);
+    assert_eq!(
+        (&data["verdict"]["stamp"], &data["verdict"]["headline"]),
+        (&"excepted".into(), &headline.into())
+    );
+    assert!(data["verdict"]["load"].as_f64().is_some_and(|load| load > 1.0), "{}", data["verdict"]["load"]);
+    let listed = data["data"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .any(|fact| fact[0] == "verdict" && fact[1] == headline);
+    assert!(listed, "{}", data["data"]);
+    let session = sandbox.run_with_input(&["repl", "weak.mod"], b"plan(Weak().up())\n");
+    assert!(session.out.contains(&format!("of Weak, {headline}: Plan")), "{}", session.out);
+}

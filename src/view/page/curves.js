@@ -32,7 +32,9 @@ function curvesOf(plan, motion, seek) {
     };
     row("clearance", "", plan.clearance, " mm", 0);
     row("stability margin", "", plan.stand.map(s => [s[0], s[4]]).filter(p => p[1] !== null).map(([t, m]) => [t, m * 1000]), " mm", 0);
-    row("greatest joint load, forces spread evenly", "", plan.loads && plan.loads.moments.map(([t, ratios]) => [t, 100 * Math.max(...ratios)]), " %", 100);
+    // No limit is drawn: the judge seeks the forces of the ground that load the joints least, and these are other ones.
+    const judged = plan.verdict.load === undefined || plan.verdict.load === null ? "" : "; judged: at most " + (100 * plan.verdict.load).toFixed(1) + " %";
+    row("greatest joint load, were the ground's forces spread evenly" + judged, "", plan.loads && plan.loads.moments.map(([t, ratios]) => [t, 100 * Math.max(...ratios)]), " %");
     canvas.setAttribute("aria-label", "Curves over time: " + rows.map(row => visible(row.title)).join(", "));
     return rows.length > 0;
   }

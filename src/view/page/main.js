@@ -126,9 +126,9 @@ function main() {
 
   function showHead() {
     document.querySelector("#head h1").textContent = visible(plan.title);
-    const { stamp } = plan.verdict;
-    $("stamp").className = stamp === "verified" ? "good" : stamp === "failed" ? "bad" : "";
-    $("stamp").append(el("b", {}, stamp === "failed" ? "not verified" : stamp), visible(plan.summary));
+    const { stamp, headline } = plan.verdict;
+    $("stamp").className = { verified: "good", excepted: "part", failed: "bad" }[stamp] || "";
+    $("stamp").append(el("b", {}, visible(headline)), visible(plan.summary));
     const first = plan.verdict.failures[0];
     $("why").textContent = first ? visible("at " + seconds(first.time) + ": " + first.message) : "";
   }

@@ -36,7 +36,7 @@ function colouringsOf(plan, motion) {
   if (groups.some(Boolean)) plain("part", "Part", ofGroup, groups);
   if (plan.loads) {
     const loads = loadsOf(plan, motion);
-    all.push({ name: "load", title: "Joint load", colour: (b, X, t) => loads(motion.moduleOf[b], t), legend: [["ramp", "joint load, none to its limit, the ground's forces spread evenly"]] });
+    all.push({ name: "load", title: "Joint load", colour: (b, X, t) => loads(motion.moduleOf[b], t), legend: [["ramp", "joint load, none to its limit, were the ground's forces spread evenly"]] });
   }
   plain("type", "Type", ofType, types);
   return all;

@@ -1,0 +1,66 @@
+//! The headline of a verdict, with what it excuses.
+
+use super::cause::Cause;
+use super::motion_plan::Plan;
+use super::verdict::{CheckKind, Verdict};
+use super::world::ExemptionKind;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The beginning of the name of a file of the standard library.
+const LIBRARY: &str = "std/";
+
+/// Returns the headline of a verdict on a plan: `verified`, `not verified`, or what was excused and where the
+/// source says so, `verified, except torque (allowed at line 40)`.
+pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
+    if !verdict.ok() {
+        return "not verified".to_owned();
+    }
+    let excused = excused(plan, verdict);
+    if excused.is_empty() { "verified".to_owned() } else { format!("verified, except {}", listed(&excused)) }
+}
+
+/// Returns each check of which a verdict needed an exemption, with the places that allow it.
+fn excused(plan: &Plan, verdict: &Verdict) -> Vec<String> {
+    let mut places: BTreeMap<CheckKind, BTreeSet<(&str, usize)>> = BTreeMap::new();
+    for (index, exemption) in plan.exemptions.iter().enumerate() {
+        if !verdict.unneeded_exemptions.contains(&index) {
+            let cause = plan.causes.get(exemption.cause.0 as usize);
+            places.entry(check(&exemption.kind)).or_default().extend(cause.map(place));
+        }
+    }
+    let files: BTreeSet<&str> = places.values().flatten().map(|(file, _)| *file).collect();
+    let own = if files.len() == 1 { files.first().filter(|file| !file.starts_with(LIBRARY)) } else { None };
+    let words = |(check, places): (&CheckKind, &BTreeSet<(&str, usize)>)| {
+        let lines: Vec<String> =
+            places.iter().map(|(file, line)| line_of(file, *line, own.is_none())).collect();
+        let allowed =
+            if lines.is_empty() { "allowed".to_owned() } else { format!("allowed at {}", listed(&lines)) };
+        format!("{} ({allowed})", check.name())
+    };
+    places.iter().map(words).collect()
+}
+
+/// Returns the check that an exemption excuses.
+fn check(kind: &ExemptionKind) -> CheckKind {
+    match kind {
+        ExemptionKind::Unstable => CheckKind::Stability,
+        ExemptionKind::Slip => CheckKind::Slip,
+        ExemptionKind::Collision(_) => CheckKind::Collision,
+        ExemptionKind::Overload(_) => CheckKind::Torque,
+    }
+}
+
+fn place(cause: &Cause) -> (&str, usize) {
+    (&cause.file, cause.line)
+}
+
+fn line_of(file: &str, line: usize, named: bool) -> String {
+    if named { format!("line {line} of {file}") } else { format!("line {line}") }
+}
+
+fn listed(words: &[String]) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => words.concat(),
+    }
+}
