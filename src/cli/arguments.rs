@@ -33,7 +33,8 @@ Examples:
   modl repl rover/main.mod         ask and try things out
   modl -e '4 * 90deg'              a question at once
 
-Exit codes: 0 fine, 1 the program is wrong, 2 the call is wrong, 130 interrupted.";
+Exit codes: 0 fine, 1 the program is wrong, 2 the call is wrong or standard output can't be written,
+130 interrupted.";
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {

@@ -3,7 +3,7 @@
 use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, STDIN_NAME, system_words};
 use super::report::{self, Report};
-use super::terminal::{print, print_error};
+use super::terminal::{print, print_error, print_exact};
 use super::{CallError, Ending, output};
 use crate::format::format;
 use crate::source::{Diagnostic, Sources, code};
@@ -94,7 +94,7 @@ fn one(program: &Program, check: bool, report: &mut Report, globals: &Globals) -
         if globals.json {
             report.printed = Some(formatted.text.lines().map(str::to_owned).collect());
         } else {
-            print(&formatted.text);
+            print_exact(&formatted.text);
         }
         return Ok(sound);
     }

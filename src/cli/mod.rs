@@ -25,6 +25,7 @@ mod watch;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
+use std::io::Write;
 use std::process::ExitCode;
 
 /// The outcome of a command.
@@ -43,16 +44,54 @@ enum Ending {
 struct CallError(String);
 
 /// Parses the command line, runs the command, and returns the exit code: 0 if all is fine, 1 if the program
-/// is wrong, 2 if the call is wrong, 130 after Ctrl-C.
+/// is wrong, 2 if the call is wrong or standard output can't be written, 130 after Ctrl-C.
+///
+/// The command has a thread of its own, because the stack of the first one may be small.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match run(&arguments) {
-        Ok(Ending::Fine) => ExitCode::SUCCESS,
-        Ok(Ending::Wrong) => ExitCode::from(1),
-        Ok(Ending::Cancelled) => ExitCode::from(130),
+    let command = std::thread::Builder::new().name("command".into()).stack_size(STACK_BYTES).spawn(command);
+    match command.map(std::thread::JoinHandle::join) {
+        Ok(Ok(code)) => code,
+        Ok(Err(panic)) => std::panic::resume_unwind(panic),
+        Err(e) => {
+            let why = disk::system_words(&e);
+            terminal::print_error(&format!("modl: the system gives no memory for the command: {why}\n"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The stack of the command, which reads and checks programs: they nest, up to a limit. Pages that are never
+/// touched cost nothing.
+const STACK_BYTES: usize = 32 << 20;
+
+/// Carries out the command line.
+fn command() -> ExitCode {
+    let code = match Arguments::try_parse() {
+        Ok(arguments) => carry_out(&arguments),
+        // Help and version come this way, too.
+        Err(told) => {
+            terminal::note_output(told.print().and_then(|()| std::io::stdout().flush()));
+            u8::try_from(told.exit_code()).unwrap_or(2)
+        }
+    };
+    match terminal::output_failure() {
+        Some(why) => {
+            terminal::print_error(&format!("modl: standard output can't be written: {why}\n"));
+            ExitCode::from(2)
+        }
+        None => ExitCode::from(code),
+    }
+}
+
+/// Runs the command and reports a wrong call; returns the exit code.
+fn carry_out(arguments: &Arguments) -> u8 {
+    match run(arguments) {
+        Ok(Ending::Fine) => 0,
+        Ok(Ending::Wrong) => 1,
+        Ok(Ending::Cancelled) => 130,
         Err(CallError(message)) => {
             report::call_error(&arguments.globals, &message);
-            ExitCode::from(2)
+            2
         }
     }
 }
@@ -88,7 +127,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Arguments::command(), "modl", &mut script);
-            terminal::print(&String::from_utf8_lossy(&script));
+            terminal::print_exact(&String::from_utf8_lossy(&script));
             Ok(Ending::Fine)
         }
     }

@@ -2,7 +2,7 @@
 
 use super::arguments::Globals;
 use super::disk::system_words;
-use super::terminal::print;
+use super::terminal::{print, print_json};
 use super::{CallError, Ending};
 use std::fs;
 use std::path::Path;
@@ -28,7 +28,7 @@ pub(super) fn run(name: &Path, globals: &Globals) -> Result<Ending, CallError> {
     fs::write(&program, PROGRAM).map_err(cannot)?;
     fs::write(name.join(".gitignore"), "/out\n").map_err(cannot)?;
     if globals.json {
-        print(&format!("{:#}\n", serde_json::json!({ "ok": true, "written": [program] })));
+        print_json(&format!("{:#}", serde_json::json!({ "ok": true, "written": [program] })));
     } else {
         let program = program.display();
         print(&format!("made {program}; now try\n  modl run {program}\n  modl test {program}\n"));

@@ -86,7 +86,24 @@ fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Writes the bytes and renames the file.
 fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
-    file.persist(target).map(drop).map_err(|e| e.error)
+    file.as_file().sync_all()?;
+    file.persist(target).map_err(|e| e.error)?;
+    sync_folder(target.parent().unwrap_or(Path::new(".")))
+}
+
+/// Waits until the entries of a folder are on the disk. File systems that know no such thing are not waited for.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    match fs::File::open(folder)?.sync_all() {
+        Err(e) if matches!(e.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        synced => synced,
+    }
+}
+
+/// Elsewhere a folder can't be opened as a file.
+#[cfg(not(unix))]
+fn sync_folder(_: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 fn failed(e: io::Error) -> WriteError {

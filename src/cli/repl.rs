@@ -4,7 +4,8 @@ use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, Project};
 use super::editor::{Lines, Typed};
 use super::terminal::{
-    Terminal, begin_work, idle, listen_for_cancel, listen_for_interrupt, print, print_error, settled,
+    Terminal, begin_work, idle, listen_for_cancel, listen_for_interrupt, print, print_error, print_styled,
+    settled,
 };
 use super::{CallError, Ending, output, program, report, show};
 use crate::check::Checked;
@@ -224,7 +225,7 @@ impl<'g> Repl<'g> {
     /// Prints diagnostics.
     fn show(&self, checked: &Checked, diagnostics: &[Diagnostic]) {
         for diagnostic in sorted(diagnostics).into_iter().take(self.style.shown_max) {
-            print_error(&format!("{}\n", render_one(&checked.sources, diagnostic, &self.style)));
+            print_styled(&format!("{}\n", render_one(&checked.sources, diagnostic, &self.style)));
         }
     }
 

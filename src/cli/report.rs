@@ -1,7 +1,7 @@
 //! The report of a command, as text or as one JSON object (`docs/json.md`).
 
 use super::arguments::{Color, Globals};
-use super::terminal::{print, print_error};
+use super::terminal::{print_error, print_json, print_styled};
 use crate::plan::Verdict;
 use crate::source::json::{JsonDiagnostic, to_json};
 use crate::source::render::{Style, render_one, sorted};
@@ -95,7 +95,7 @@ impl Report {
                     self.omitted += 1;
                 }
             } else if self.seen.len() <= style.shown_max {
-                print_error(&format!("{}\n", render_one(sources, diagnostic, style)));
+                print_styled(&format!("{}\n", render_one(sources, diagnostic, style)));
             } else {
                 hidden += 1;
             }
@@ -110,7 +110,7 @@ impl Report {
         self.ok = ok;
         if globals.json {
             let text = serde_json::to_string_pretty(self).expect("a report is plain data");
-            print(&format!("{text}\n"));
+            print_json(&text);
         } else if self.errors + self.warnings > 0 {
             let parts =
                 [(self.errors, "error"), (self.warnings, "warning")].map(|(n, word)| counted(n, word));
@@ -129,7 +129,7 @@ fn counted(n: usize, word: &str) -> Option<String> {
 pub(super) fn call_error(globals: &Globals, message: &str) {
     if globals.json {
         let object = serde_json::json!({ "ok": false, "call_error": message });
-        print(&format!("{object:#}\n"));
+        print_json(&format!("{object:#}"));
     } else {
         print_error(&format!("modl: {message}\n"));
     }

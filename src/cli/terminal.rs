@@ -1,10 +1,12 @@
 //! The terminal: printed lines, progress reports, and cancellation by Ctrl-C.
 
 use super::arguments::Globals;
+use super::disk::system_words;
 use super::output;
 use super::watch::Watched;
 use crate::interpret::{Host, WriteError};
 use crate::interrupt::CancelState;
+use crate::source::escape::{escaped, escaped_json};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -133,14 +135,48 @@ pub(super) fn cancelled() -> bool {
     CANCELLED.load(Ordering::Relaxed)
 }
 
-/// Writes to standard output. A closed output is not an error: `modl ... | head` is quiet.
+/// The first failure to write to standard output.
+static OUTPUT_FAILURE: Mutex<Option<String>> = Mutex::new(None);
+
+/// Writes to standard output, with characters that control a terminal shown as escapes.
 pub(super) fn print(text: &str) {
-    let mut out = io::stdout().lock();
-    drop(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
+    print_exact(&escaped(text));
 }
 
-/// Writes to standard error, ignoring failures.
+/// Writes a JSON object and a line end to standard output.
+pub(super) fn print_json(json: &str) {
+    print_exact(&format!("{}\n", escaped_json(json)));
+}
+
+/// Writes to standard output what must stay as it is. A failure is kept for [`output_failure`]; a closed
+/// output is none: `modl ... | head` is quiet.
+pub(super) fn print_exact(text: &str) {
+    let mut out = io::stdout().lock();
+    note_output(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
+}
+
+/// Keeps the first failure to write to standard output.
+pub(super) fn note_output(written: io::Result<()>) {
+    if let Err(e) = written
+        && e.kind() != io::ErrorKind::BrokenPipe
+    {
+        let mut failure = OUTPUT_FAILURE.lock().unwrap_or_else(PoisonError::into_inner);
+        failure.get_or_insert_with(|| system_words(&e));
+    }
+}
+
+/// Returns why standard output could not be written, in the system's words; `None` if it could.
+pub(super) fn output_failure() -> Option<String> {
+    OUTPUT_FAILURE.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
+/// Writes to standard error, with characters that control a terminal shown as escapes. Failures are ignored.
 pub(super) fn print_error(text: &str) {
+    print_styled(&escaped(text));
+}
+
+/// Writes text with escape sequences of our own to standard error. What it quotes has been escaped.
+pub(super) fn print_styled(text: &str) {
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }
 
@@ -177,7 +213,7 @@ impl Terminal {
     /// Clears the progress line before something else is printed.
     pub(super) fn clear_progress(&mut self) {
         if std::mem::take(&mut self.progress_shown) {
-            print_error("\r\x1b[K");
+            print_styled("\r\x1b[K");
         }
     }
 }
@@ -199,8 +235,8 @@ impl Host for Terminal {
         if self.shows_progress {
             // A line that wraps could not be cleared.
             let wide = super::report::width().saturating_sub(1);
-            let shown: String = line.chars().take(wide).collect();
-            print_error(&format!("\r{shown}\x1b[K"));
+            let shown: String = escaped(line).chars().take(wide).collect();
+            print_styled(&format!("\r{shown}\x1b[K"));
             self.progress_shown = true;
         }
     }

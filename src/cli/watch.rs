@@ -2,7 +2,7 @@
 
 use super::arguments::Globals;
 use super::program::{self, Task};
-use super::terminal::{cancel_state, cancelled, print_error};
+use super::terminal::{cancel_state, cancelled, print_error, print_styled};
 use super::{CallError, Ending, report};
 use std::collections::BTreeMap;
 use std::fs;
@@ -116,7 +116,7 @@ fn told(ending: Ending, watched: &Watched, globals: &Globals) {
 /// Clears the screen of messages about an older text.
 fn clear(globals: &Globals) {
     if stderr().is_terminal() && !globals.json {
-        print_error("\x1b[2J\x1b[3J\x1b[H");
+        print_styled("\x1b[2J\x1b[3J\x1b[H");
     } else if !globals.json {
         print_error("--- changed\n");
     }

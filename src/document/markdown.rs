@@ -36,15 +36,19 @@ fn bare(reference: &str) -> &str {
     reference.trim_matches('`')
 }
 
-/// Resolves inline links: `[text](Name)`, `[text](file.md)`, `[text](https://...)`.
+/// Resolves links: `[text](Name)`, `[text](file.md)`, `[text](https://...)`, and so by reference. Images are files
+/// of the project.
 fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> Event<'e> {
     match event {
-        Event::Start(Tag::Link { link_type: link_type @ LinkType::Inline, dest_url, title, id }) => {
-            let dest_url = found(dest_url, targets, lost);
+        Event::Start(Tag::Link { link_type, dest_url, title, id }) if !is_resolved(link_type) => {
+            let address =
+                if leads_out(&dest_url) { Some(dest_url.to_string()) } else { within(&dest_url, targets) };
+            let dest_url = found(dest_url, address, lost);
             Event::Start(Tag::Link { link_type, dest_url, title, id })
         }
-        Event::Start(Tag::Image { link_type: link_type @ LinkType::Inline, dest_url, title, id }) => {
-            let dest_url = found(dest_url, targets, lost);
+        Event::Start(Tag::Image { link_type, dest_url, title, id }) => {
+            let address = within(&dest_url, targets);
+            let dest_url = found(dest_url, address, lost);
             Event::Start(Tag::Image { link_type, dest_url, title, id })
         }
         // Markup in the documentation is shown as text.
@@ -53,22 +57,34 @@ fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>)
     }
 }
 
-/// Returns the address of a link; records a broken one.
-fn found<'e>(to: CowStr<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> CowStr<'e> {
-    match destination(&to, targets) {
+/// Returns whether a link leads where a name of a declaration was found, or to a mail address, which is no
+/// address of a page.
+fn is_resolved(link_type: LinkType) -> bool {
+    matches!(
+        link_type,
+        LinkType::ReferenceUnknown | LinkType::CollapsedUnknown | LinkType::ShortcutUnknown | LinkType::Email
+    )
+}
+
+/// Returns the address of a link. A broken one is recorded and leads nowhere: what is no address that is known
+/// (`javascript:`, `data:`, `file:`, ...) does not get into the site.
+fn found<'e>(to: CowStr<'e>, address: Option<String>, lost: &mut Vec<String>) -> CowStr<'e> {
+    match address {
         Some(address) => CowStr::from(address),
         None => {
             lost.push(to.to_string());
-            to
+            CowStr::from("#")
         }
     }
 }
 
-/// Returns the address of a link target, if it exists.
-fn destination(to: &str, targets: &dyn Targets) -> Option<String> {
-    if to.starts_with("https://") || to.starts_with("http://") || to.starts_with("mailto:") {
-        return Some(to.to_owned());
-    }
+/// Returns whether a link leads out of the site in a way that it may.
+fn leads_out(to: &str) -> bool {
+    ["https://", "http://", "mailto:"].iter().any(|scheme| to.starts_with(scheme))
+}
+
+/// Returns the address in the site of a declaration or a file, if it exists.
+fn within(to: &str, targets: &dyn Targets) -> Option<String> {
     if let Some(address) = targets.address(bare(to.trim_start_matches('#'))) {
         return Some(address);
     }

@@ -4,6 +4,7 @@
 
 pub mod code;
 mod diagnostic;
+pub(crate) mod escape;
 mod excerpt;
 pub mod files;
 pub(crate) mod foreign;

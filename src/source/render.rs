@@ -78,7 +78,7 @@ pub fn render_one(sources: &Sources, diagnostic: &Diagnostic, style: &Style) -> 
     let excerpt = excerpt(sources, &diagnostic.labels, width - gutter);
     let names = excerpt.blocks.iter().map(|block| {
         let file = sources.file(block.file);
-        style.name(&file.name, file.library)
+        shown(&style.name(&file.name, file.library))
     });
     let report = Report { diagnostic, names: names.collect(), excerpt, label_width: width - gutter };
     let theme = if style.color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };

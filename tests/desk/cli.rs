@@ -499,3 +499,46 @@ fn watch_checks_again_when_a_file_changes_that_was_read_or_missed() {
     limit.join().expect("it only waits");
     child.wait().expect("it ended");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_output_that_takes_nothing_is_an_error() {
+    let s = Sandbox::new(&[("a.mod", b"print(1)\n")]);
+    for arguments in [&["run", "a.mod"][..], &["check", "--json", "a.mod"], &["--help"], &["-e", "1"], &["explain"]] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("a device that is full");
+        let ran = ran(s.command(arguments).stdout(full).stderr(Stdio::piped()).output().expect("it runs"));
+        assert_eq!(ran.code, 2, "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains("standard output can't be written: No space left"), "{}", ran.err);
+        // Who closes a pipe has read enough.
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let ran = self::ran(s.command(arguments).stdout(writer).output().expect("it runs"));
+        assert_eq!(ran.code, 0, "{arguments:?}: {}", ran.err);
+    }
+}
+
+/// A plan file whose module has a name that colours the terminal and reverses the reading.
+const HOSTILE: &str = "use std.smores.Smores
+config C { part m: Smores
+  behavior b = move(m.tilt, to: 10deg) }
+emit(C().b(), \"c.plan.json\")
+";
+
+#[test]
+fn names_of_others_do_not_command_the_terminal() {
+    let s = Sandbox::new(&[("c.mod", HOSTILE.as_bytes())]);
+    assert_eq!(s.run(&["run", "c.mod"]).code, 0);
+    let path = s.path("out/c.plan.json");
+    let plan = fs::read_to_string(&path).expect("a plan").replace("\"m\"", "\"\\u001b[31mm\\u009b2J\\u202e\"");
+    fs::write(&path, plan).expect("it can be written");
+    let said = s.run(&["verify", "out/c.plan.json"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    let json = s.run(&["verify", "--json", "out/c.plan.json"]);
+    for (text, escape) in [(&said.out, "\\u{1b}[31mm\\u{9b}2J\\u{202e}"), (&json.out, "\\u001b[31mm\\u009b2J\\u202e")] {
+        assert!(text.contains(escape), "{text}");
+        assert!(!text.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{text}");
+    }
+    // What a program prints is no different.
+    let printed = s.run(&["-e", "print(\"\\u{1b}[2J\\tdone\")"]);
+    assert_eq!(printed.out, "\\u{1b}[2J\tdone\n");
+}

@@ -145,3 +145,44 @@ fn examples_in_documentation_are_tests() {
     let ran = sandbox.run(&["test", "hinge.mod"]);
     assert_eq!((ran.code, ran.out.as_str()), (0, "0 passed, 0 failed\n"));
 }
+
+/// Links that run scripts or leave the project, in every way that Markdown knows.
+const HOSTILE: &str = "/// [a](javascript:alert(1)) [b](JaVaScRiPt:alert(2)) [c][c] [d] [e][] <javascript:alert(6)>
+/// [f](data:text/html;base64,PHNjcmlwdD4=) [g](file:///etc/passwd) [h](vbscript:x) [i](//elsewhere.org/x)
+/// ![j](https://elsewhere.org/j.png) ![k](data:image/png;base64,AAAA) ![l](file:///l.png) ![m][m] ![n](//elsewhere.org/n.png)
+/// [fine](https://example.org/a) <https://example.org/b> <someone@example.org> [mail](mailto:a@example.org)
+///
+/// [c]: javascript:alert(3)
+/// [d]: data:text/html,4
+/// [e]: file:///5
+/// [m]: https://elsewhere.org/m.png
+let a = 1
+";
+
+#[test]
+fn documentation_leads_to_no_script_and_loads_nothing_from_elsewhere() {
+    let sandbox = Sandbox::new(&[("a.mod", HOSTILE.as_bytes())]);
+    let ran = sandbox.run(&["doc", "--only"]);
+    assert_eq!(ran.code, 1);
+    for (file, text) in ["a-mod.html", "guide.html", "index.html"]
+        .map(|name| (name, fs::read_to_string(sandbox.path(&format!("out/doc/{name}"))).expect("a page")))
+    {
+        let addresses = ["href=\"", "src=\""].iter().flat_map(|start| text.split(start).skip(1));
+        for address in addresses.filter_map(|rest| rest.split('"').next()) {
+            let scheme = address.split_once(':').map(|(scheme, _)| scheme);
+            assert!(matches!(scheme, None | Some("https" | "mailto")), "{file}: {address}");
+            assert!(!address.starts_with("//") && !address.contains("elsewhere"), "{file}: {address}");
+        }
+    }
+    let page = fs::read_to_string(sandbox.path("out/doc/a-mod.html")).expect("a page");
+    for kept in [
+        "https://example.org/a",
+        "https://example.org/b",
+        "mailto:someone@example.org",
+        "mailto:a@example.org",
+    ] {
+        assert!(page.contains(&format!("href=\"{kept}\"")), "{kept} in\n{page}");
+    }
+    let lost = ran.err.lines().filter(|line| line.contains("leads nowhere")).count();
+    assert_eq!(lost, 15, "{}", ran.err);
+}
