@@ -22,6 +22,9 @@ const COMPLETION_TIMEOUT: Duration = Duration::from_millis(50);
 /// The most entries in the history.
 const HISTORY_MAX: usize = 10_000;
 
+/// The longest text that is coloured and hinted at, in bytes: both read and draw all of it again at each key.
+const COLOURED_MAX: usize = 2000;
+
 /// The prompt of the first line of an entry.
 const PROMPT: &str = "modl> ";
 
@@ -31,6 +34,8 @@ pub(super) enum Typed {
     Entry(String),
     /// Ctrl-C: the text typed so far is discarded.
     Nothing,
+    /// Bytes that are not UTF-8 text: what was typed so far is discarded.
+    NoText,
     /// Ctrl-D, or the terminal is gone.
     End,
 }
@@ -75,6 +80,7 @@ impl Lines {
             }
             Err(ReadlineError::Interrupted) => Ok(Typed::Nothing),
             Err(ReadlineError::Eof) => Ok(Typed::End),
+            Err(ReadlineError::Io(e)) if e.kind() == std::io::ErrorKind::InvalidData => Ok(Typed::NoText),
             Err(e) => Err(CallError(format!("the terminal can't be read: {e}"))),
         }
     }
@@ -152,14 +158,14 @@ impl Hinter for CompletionHelper {
     type Hint = String;
 
     fn hint(&self, line: &str, at: usize, _: &Context<'_>) -> Option<String> {
-        let knowledge = self.knowledge.as_ref().filter(|_| at == line.len())?;
+        let knowledge = self.knowledge.as_ref().filter(|_| at == line.len() && at <= COLOURED_MAX)?;
         complete::hint(knowledge, line)
     }
 }
 
 impl Highlighter for CompletionHelper {
     fn highlight<'l>(&self, line: &'l str, _: usize) -> Cow<'l, str> {
-        if !self.color {
+        if !self.color || line.len() > COLOURED_MAX {
             return Cow::Borrowed(line);
         }
         let mut out = String::new();
@@ -181,8 +187,8 @@ impl Highlighter for CompletionHelper {
         if self.color { Cow::Owned(format!("\x1b[1m{prompt}\x1b[0m")) } else { Cow::Borrowed(prompt) }
     }
 
-    fn highlight_char(&self, _: &str, _: usize, kind: CmdKind) -> bool {
-        self.color && kind != CmdKind::MoveCursor
+    fn highlight_char(&self, line: &str, _: usize, kind: CmdKind) -> bool {
+        self.color && line.len() <= COLOURED_MAX && kind != CmdKind::MoveCursor
     }
 }
 

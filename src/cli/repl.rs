@@ -130,6 +130,7 @@ impl<'g> Repl<'g> {
                         return Ok(Ending::Fine);
                     }
                     typed += text.lines().count();
+                Typed::NoText => print_error("this is not UTF-8 text, and was discarded\n"),
                 }
             }
         }

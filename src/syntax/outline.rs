@@ -48,13 +48,16 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Returns the outline of a text; `None` if the text is longer than [`TEXT_MAX`].
+    /// Returns the outline of a text; `None` if the text is longer than [`TEXT_MAX`] or nests too deeply.
     pub fn of(text: &str) -> Option<Outline> {
         if text.len() > TEXT_MAX {
             return None;
         }
         // Only offsets are used, so any file identity will do.
         let scan = scan(FileId(0), text);
+        if scan.too_deep {
+            return None;
+        }
         let mut found = Found::default();
         let mut chunks = Vec::new();
         for range in scan.ranges() {

@@ -4,7 +4,7 @@
 use super::ast::*;
 use super::build::{Builder, whole_characters};
 use super::failure::{BodyKind, explain};
-use super::lex::{Token, TokenKind};
+use super::lex::{Lexer, Token, TokenKind};
 use super::parse::{DIAGNOSTICS_MAX, Node, Rule, failure, nodes};
 use super::scan::{Fault, Scan};
 use super::split::{bodies, split, tokens};
@@ -353,8 +353,8 @@ impl<'t> Parser<'t> {
     /// line, or all names of an import.
     fn note_unread(&mut self, range: &Range<usize>) {
         let text = &self.scan.text;
-        let words: Vec<Token> =
-            tokens(text, range.clone()).into_iter().filter(|t| t.kind == TokenKind::Word).collect();
+        let within = Lexer::new(&text[..range.end], range.start);
+        let words: Vec<Token> = within.filter(|token| token.kind == TokenKind::Word).collect();
         let is = |token: &Token, list: &[&str]| list.contains(&&text[token.start..token.end]);
         let begins_line = |token: &Token| text[..token.start].trim_end_matches([' ', '\t']).ends_with('\n');
         let import = words.first().is_some_and(|first| is(first, &["use"]));

@@ -32,6 +32,8 @@ pub(super) struct Scan<'t> {
     pub(super) faults: Vec<Fault>,
     /// The offsets of opening brackets that are never closed, in order.
     pub(super) unclosed: Vec<usize>,
+    /// True if brackets nest too deeply somewhere.
+    pub(super) too_deep: bool,
 }
 
 /// A mistake that has been reported.
@@ -77,6 +79,8 @@ struct Scanner<'t> {
     open: Vec<usize>,
     /// The number of open `(`, `[` and `{`.
     open_of_kind: [usize; 3],
+    /// The number of open brackets beyond those in `open`, which are as many as may be.
+    too_deep_by: usize,
     /// The text for the grammar, once it differs from what was written.
     masked: Option<Vec<u8>>,
     scan: Scan<'t>,
@@ -101,6 +105,7 @@ impl<'t> Scanner<'t> {
             diagnostics: Vec::new(),
             faults: Vec::new(),
             unclosed: Vec::new(),
+            too_deep: false,
         };
         Scanner {
             file,
@@ -108,6 +113,7 @@ impl<'t> Scanner<'t> {
             resync,
             open: Vec::new(),
             open_of_kind: [0; 3],
+            too_deep_by: 0,
             masked: None,
             scan,
             deep_reported: false,
@@ -235,8 +241,12 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// Records an opening bracket; reports deep nesting.
+    /// Records an opening bracket; reports deep nesting. What opens deeper than the limit is only counted.
     fn open(&mut self, at: usize) {
+        if self.open.len() > NESTING_MAX {
+            self.too_deep_by += 1;
+            return;
+        }
         self.open.push(at);
         self.open_of_kind[self.kind(at)] += 1;
         if self.open.len() > NESTING_MAX {
@@ -264,6 +274,7 @@ impl<'t> Scanner<'t> {
 
     /// Reports deep nesting, once for each chunk.
     fn too_deep(&mut self, at: usize, end: usize) {
+        self.scan.too_deep = true;
         self.scan.faults.push(Fault { at, fatal: true });
         if !std::mem::replace(&mut self.deep_reported, true) {
             let span = self.span(at, end);
@@ -273,6 +284,10 @@ impl<'t> Scanner<'t> {
 
     /// Matches a closing bracket with an open one.
     fn close(&mut self, at: usize) {
+        if self.too_deep_by > 0 {
+            self.too_deep_by -= 1;
+            return;
+        }
         let kind = self.kind(at);
         if self.open_of_kind[kind] == 0 {
             return self.stray_closer(at);
@@ -307,6 +322,7 @@ impl<'t> Scanner<'t> {
     /// Reports all open brackets at the end of the file, or at an item that begins although brackets are
     /// open.
     fn close_all(&mut self, at: usize) {
+        self.too_deep_by = 0;
         let open = self.pop_from(0);
         self.unclosed(&open, at);
     }
