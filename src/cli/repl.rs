@@ -31,6 +31,11 @@ enum Next {
     Quit,
 }
 
+/// The system gives no memory for a session.
+fn no_memory(why: &str) -> CallError {
+    CallError(format!("the system gives no memory for a session: {why}"))
+}
+
 /// A session with its terminal.
 struct Repl<'g> {
     session: Session,
@@ -54,7 +59,7 @@ pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, Call
         }
         None => (Project::of_folder(globals.root.as_deref(), stdlib)?, None),
     };
-    let mut repl = Repl::new(project, globals);
+    let mut repl = Repl::new(project, globals)?;
     if io::stdin().is_terminal() {
         listen_for_interrupt();
         print(&format!("modl {}; `:help` tells what there is\n", env!("CARGO_PKG_VERSION")));
@@ -79,7 +84,7 @@ pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, Call
 pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallError> {
     let project = Project::of_folder(globals.root.as_deref(), globals.stdlib.as_deref())?;
     listen_for_cancel();
-    let mut repl = Repl::new(project, globals);
+    let mut repl = Repl::new(project, globals)?;
     for text in texts {
         let input = Input { text, name: "<-e>", first_line: 1, shown: Shown::Values, keep: true };
         repl.enter(&input);
@@ -91,7 +96,8 @@ pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending,
 }
 
 impl<'g> Repl<'g> {
-    fn new(project: Project, globals: &'g Globals) -> Repl<'g> {
+    /// Returns a session without entries. Fails if there is no memory for it.
+    fn new(project: Project, globals: &'g Globals) -> Result<Repl<'g>, CallError> {
         let terminal = Terminal::new(globals);
         let style = report::style(globals, &project.folder);
         let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
@@ -102,8 +108,8 @@ impl<'g> Repl<'g> {
             threads: program::threads(globals),
             ..Options::default()
         };
-        let session = Session::new(Arc::new(project), options, &terminal);
-        Repl { session, terminal, style, globals, wrong: false, interrupted: false }
+        let session = Session::new(Arc::new(project), options, &terminal).map_err(|e| no_memory(&e))?;
+        Ok(Repl { session, terminal, style, globals, wrong: false, interrupted: false })
     }
 
     /// Returns the outcome of the session.
@@ -124,13 +130,13 @@ impl<'g> Repl<'g> {
             match idle(|| lines.read(knowledge))? {
                 Typed::End => return Ok(Ending::Fine),
                 Typed::Nothing => {}
+                Typed::NoText => print_error("this is not UTF-8 text, and was discarded\n"),
                 Typed::Entry(text) => {
                     self.style.width = report::style(self.globals, "").width;
                     if self.act(&text, typed + 1) == Next::Quit {
                         return Ok(Ending::Fine);
                     }
                     typed += text.lines().count();
-                Typed::NoText => print_error("this is not UTF-8 text, and was discarded\n"),
                 }
             }
         }
@@ -181,8 +187,12 @@ impl<'g> Repl<'g> {
 
     /// Runs work that Ctrl-C cancels.
     fn cancellable<T>(&mut self, work: impl FnOnce(&mut Session, &mut Terminal) -> T) -> T {
-        if self.session.is_abandoned() && !settled(|| self.session.wait_for_abandoned()) {
-            self.session.renew(&self.terminal);
+        if self.session.is_left() && !settled(|| self.session.settle()) {
+            if let Err(e) = self.session.renew(&self.terminal) {
+                // The work that does not end keeps the old evaluator, and there is no other.
+                report::call_error(self.globals, &no_memory(&e).0);
+                std::process::exit(2);
+            }
             print("what was interrupted does not end; values are worked out again when they are needed\n");
         }
         begin_work();

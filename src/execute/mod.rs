@@ -38,6 +38,9 @@ pub fn run(
 }
 
 /// Starts the evaluator of a session, which keeps the values of earlier entries.
-pub fn evaluator(cancel_state: CancelState) -> Evaluator {
+///
+/// # Errors
+/// The system's words where it gives no memory for the thread.
+pub fn evaluator(cancel_state: CancelState) -> Result<Evaluator, String> {
     Evaluator::new(&ROUTINES, cancel_state)
 }

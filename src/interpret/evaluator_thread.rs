@@ -8,9 +8,25 @@ use crate::interrupt::{self, CancelState};
 use crate::source::{Files, ReadError};
 use std::cell::Cell;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::Builder;
 
-/// The size of the evaluator's stack; pages that are never touched cost nothing.
-const STACK_BYTES: usize = 1 << 30;
+/// Evaluations within evaluations that a program may reach, where the system gives the whole stack.
+const NESTING_MAX: usize = 40_000;
+
+/// The stack that one level of evaluation takes at most, in bytes, several times what was measured. Without
+/// optimisation it takes more.
+const LEVEL_BYTES: usize = if cfg!(debug_assertions) { 24 << 10 } else { 6 << 10 };
+
+/// Room for what is no evaluation: elaborating, planning, judging, and dropping what was made.
+const REST_BYTES: usize = 16 << 20;
+
+/// The stack that is asked for; pages that are never touched cost nothing.
+const STACK_BYTES: usize = NESTING_MAX * LEVEL_BYTES + REST_BYTES;
+
+/// The least stack to work with. Where memory is so short, programs may nest less deeply, and no result
+/// differs but for the refusal to nest deeper.
+const STACK_BYTES_MIN: usize = REST_BYTES + (4 << 20);
 
 /// The greatest number of requests that wait to be served; an evaluator that prints faster than the terminal
 /// takes it is blocked.
@@ -40,6 +56,8 @@ pub struct HostProxy {
     requests: SyncSender<Request>,
     /// The cancellation state of the run.
     pub cancel_state: CancelState,
+    /// Evaluations within evaluations that the stack bears.
+    pub nesting_max: usize,
 }
 
 impl HostProxy {
@@ -103,27 +121,55 @@ impl HostProxy {
     }
 }
 
-/// Runs `evaluate` on a thread of its own and serves its requests here until it ends. Panics of the evaluator
-/// are resumed here.
+/// Starts a thread with as large a stack as the system gives: `start` is called with the name and size of the
+/// stack and the nesting that it bears, again and again with half the size.
+///
+/// # Errors
+/// The system's words where not even the least stack can be had.
+fn with_stack<T, E: ToString>(mut start: impl FnMut(Builder, usize) -> Result<T, E>) -> Result<T, String> {
+    let mut bytes = STACK_BYTES;
+    loop {
+        let nesting_max = (bytes - REST_BYTES) / LEVEL_BYTES;
+        match start(Builder::new().name("evaluator".into()).stack_size(bytes), nesting_max) {
+            Err(_) if bytes > STACK_BYTES_MIN => bytes = (bytes / 2).max(STACK_BYTES_MIN),
+            started => return started.map_err(|why| why.to_string()),
+        }
+    }
+}
+
+/// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
+///
+/// # Errors
+/// The system's words where it gives no memory for the thread.
 pub fn run<T: Send>(
     files: &dyn Files,
     host: &mut dyn Host,
     evaluate: impl FnOnce(HostProxy) -> T + Send,
-) -> T {
+) -> Result<T, String> {
     let (sender, requests) = sync_channel(WAITING_MAX);
-    let proxy = HostProxy { requests: sender, cancel_state: host.cancel_state() };
+    let cancel_state = host.cancel_state();
+    // A thread that does not start takes its closure along, so the work waits outside of it.
+    let work = Mutex::new(Some((evaluate, sender)));
     std::thread::scope(|scope| {
-        let evaluator = std::thread::Builder::new()
-            .name("evaluator".into())
-            .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, move || evaluate(proxy))
-            .expect("the system can start a thread");
+        let evaluator = with_stack(|builder, nesting_max| {
+            let (work, cancel_state) = (&work, cancel_state.clone());
+            builder.spawn_scoped(scope, move || {
+                let (evaluate, requests) = taken(work);
+                evaluate(HostProxy { requests, cancel_state, nesting_max })
+            })
+        })?;
         requests.iter().for_each(|request| answer(request, files, host));
-        evaluator.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        Ok(evaluator.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
 }
 
-/// An evaluator thread that stays from job to job, with its memory.
+/// Takes the work that one thread does.
+fn taken<W>(work: &Mutex<Option<W>>) -> W {
+    let taken = work.lock().unwrap_or_else(PoisonError::into_inner).take();
+    taken.expect("of the threads that were tried one started")
+}
+
+/// An evaluator that stays, with what it keeps from job to job.
 pub struct EvaluatorThread<J, R> {
     jobs: Sender<J>,
     requests: Receiver<Request>,
@@ -141,16 +187,17 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
     pub fn new<W: FnMut(J) -> R>(
         cancel_state: CancelState,
         begin: impl FnOnce(HostProxy) -> W + Send + 'static,
-    ) -> EvaluatorThread<J, R> {
+    ) -> Result<EvaluatorThread<J, R>, String> {
         let (jobs, to_do) = channel::<J>();
         let (requests, asked) = sync_channel(WAITING_MAX);
         let (done, results) = channel();
-        let (waker, obeyed) = (requests.clone(), cancel_state.clone());
-        std::thread::Builder::new()
-            .name("evaluator".into())
-            .stack_size(STACK_BYTES)
-            .spawn(move || {
-                let mut work = begin(HostProxy { requests: requests.clone(), cancel_state: obeyed });
+        let waker = requests.clone();
+        let parts = Arc::new(Mutex::new(Some((begin, to_do, requests, done))));
+        with_stack(|builder, nesting_max| {
+            let (parts, cancel_state) = (parts.clone(), cancel_state.clone());
+            builder.spawn(move || {
+                let (begin, to_do, requests, done) = taken(&parts);
+                let mut work = begin(HostProxy { requests: requests.clone(), cancel_state, nesting_max });
                 for job in to_do {
                     let result = work(job);
                     // A caller that does not wait for the result any more has dropped the receiver.
@@ -159,8 +206,8 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
                     }
                 }
             })
-            .expect("the system can start a thread");
-        EvaluatorThread { jobs, requests: asked, results, cancel_state, waker, abandoned: Cell::new(false) }
+        })?;
+        Ok(EvaluatorThread { jobs, requests: asked, results, cancel_state, waker, left: Cell::new(false) })
     }
 
     /// Runs a job and serves its requests here until it is done. Returns `None` if the user abandons it

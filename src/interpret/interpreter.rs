@@ -22,7 +22,6 @@ const REPORTS_MAX: usize = 200;
 const CALLS_SHOWN: usize = 4;
 /// The greatest depth of evaluations within evaluations. The stack of [`super::evaluator_thread`] is made for
 /// this many.
-const NESTING_MAX: usize = 40_000;
 
 /// The state of a run: its inputs, its findings, its memory, and the position of evaluation.
 pub struct Interpreter<'a> {
@@ -196,11 +195,11 @@ impl<'a> Interpreter<'a> {
     /// # Errors
     /// [`Stop::Halt`] where the stack would not bear it, besides the errors of `body`.
     pub fn with_depth<T>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<T> {
-        if self.stack.depth >= NESTING_MAX {
-            return self.halt(
-                Diagnostic::error(code::RECURSION_LIMIT, "evaluation is nested too deeply")
-                    .label(span, "evaluation was here"),
-            );
+        let limit = self.shared.host.nesting_max;
+        if self.stack.depth >= limit {
+            let message = format!("evaluation is nested more than {limit} levels deep, which is the limit");
+            return self
+                .halt(Diagnostic::error(code::RECURSION_LIMIT, message).label(span, "evaluation was here"));
         }
         self.stack.depth += 1;
         let result = body(self);

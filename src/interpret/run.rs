@@ -8,7 +8,7 @@ use super::stop::Eval;
 use crate::check::Checked;
 use crate::check::typed::DefKind;
 use crate::interrupt;
-use crate::source::{Files, Severity};
+use crate::source::{Diagnostic, Files, Severity, code};
 
 /// Runs a checked program. Faults that `check` reported are not repeated; parts that it could not understand
 /// are passed over in silence.
@@ -20,12 +20,13 @@ pub fn run(
     host: &mut dyn Host,
     options: &Options,
 ) -> Outcome {
-    evaluator_thread::run(files, host, |host| {
+    let ran = evaluator_thread::run(files, host, |host| {
         let mut interpreter = Interpreter::new(routines, checked, mode, options, host);
-        // The error that halts a run has been reported, and a run that the user halts needs no error.
         let cancel_state = interpreter.shared.host.cancel_state.clone();
         let progress_sink = interpreter.shared.host.progress_sink();
-        let _ = interrupt::catch(&cancel_state, progress_sink, || interpreter.drive());
+        let ended = interrupt::catch(&cancel_state, progress_sink, || interpreter.drive());
+        interpreter.report_end(ended);
+        interpreter.report_lost();
         interpreter.report_unneeded();
         Outcome {
             diagnostics: in_order(std::mem::take(&mut interpreter.reported.reports)),
@@ -33,11 +34,18 @@ pub fn run(
             written: std::mem::take(&mut interpreter.reported.written),
             cancelled: interpreter.shared.host.cancelled(),
         }
-    })
+    });
+    ran.unwrap_or_else(|why| Outcome { diagnostics: vec![no_memory(&why)], ..Outcome::default() })
+}
+
+/// The system gives no memory for the evaluator.
+fn no_memory(why: &str) -> Diagnostic {
+    let message = format!("the system gives no memory to evaluate the program: {why}");
+    Diagnostic::error(code::NO_MEMORY, message).hint("end other programs, or raise the limit of this one")
 }
 
 /// Errors before warnings before notes; else as they were found.
-fn in_order(mut reports: Vec<crate::source::Diagnostic>) -> Vec<crate::source::Diagnostic> {
+fn in_order(mut reports: Vec<Diagnostic>) -> Vec<Diagnostic> {
     reports.sort_by_key(|d| match d.severity {
         Severity::Error => 0,
         Severity::Warning => 1,

@@ -95,8 +95,11 @@ pub struct Answer {
 
 impl Evaluator {
     /// Starts an evaluator on a thread of its own.
-    pub fn new(routines: &'static Routines, cancel_state: CancelState) -> Evaluator {
-        Evaluator(EvaluatorThread::new(cancel_state, move |proxy| {
+    ///
+    /// # Errors
+    /// That of the system where it gives no memory for the thread.
+    pub fn new(routines: &'static Routines, cancel_state: CancelState) -> std::io::Result<Evaluator> {
+        let thread = EvaluatorThread::new(cancel_state, move |proxy| {
             let (mut memory, mut before) = (Memory::default(), Vec::new());
             move |task| work(routines, &task, &proxy, &mut memory, &mut before)
         }))

@@ -106,21 +106,21 @@ impl Reply {
 
 impl Session {
     /// Returns an empty session in a project. Only the cancellation token of `host` is used.
-    pub fn new(project: Project, options: Options, host: &dyn Host) -> Session {
-        let files = Arc::new(FileSnapshot::new(project));
+    pub fn new(project: Project, options: Options, host: &dyn Host) -> Result<Session, String> {
+        let files = Arc::new(Kept::new(project));
         let checked = Arc::new(check::check_session(&*files, &[]));
-        Session {
+        Ok(Session {
             files,
             entries: Vec::new(),
             checked,
             last: None,
             loaded: Vec::new(),
-            evaluator: crate::execute::evaluator(host.cancel_state()),
+            evaluator: crate::execute::evaluator(host.cancel_state())?,
             options,
             before: Vec::new(),
             count: 0,
             to_take_back: Cell::new(false),
-        }
+        })
     }
 
     /// Returns the checked program of all entries.
@@ -144,9 +144,13 @@ impl Session {
 
     /// Leaves work that does not end, and starts a new evaluator with the current cancellation token of
     /// `host`. All values are computed again when they are needed.
-    pub fn renew(&mut self, host: &dyn Host) {
-        self.evaluator = crate::execute::evaluator(host.cancel_state());
+    ///
+    /// # Errors
+    /// The system's words where it gives no memory for the evaluator.
+    pub fn renew(&mut self, host: &dyn Host) -> Result<(), String> {
+        self.evaluator = crate::execute::evaluator(host.cancel_state())?;
         self.to_take_back.set(false);
+        Ok(())
     }
 
     /// Checks and evaluates a text. A new declaration replaces an earlier one of its name. If the entry

@@ -86,6 +86,8 @@ codes! {
     BAD_VALUE = "E0506", "a value that the function cannot take";
     EXPECTATION = "E0507", "an expectation that does not hold";
     // E06xx: verification.
+    LOST_VALUE = "E0508", "a value that was lost: a defect of modl";
+    NO_MEMORY = "E0509", "too little memory to evaluate";
     COLLISION = "E0601", "two modules meet";
     FALL = "E0602", "the robot falls";
     OVERLOAD = "E0603", "a joint that would have to hold more than it can";
