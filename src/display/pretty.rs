@@ -12,9 +12,22 @@ use std::any::Any;
 /// Lines of a display; what is beyond is counted.
 pub(super) const LINES_MAX: usize = 40;
 
+/// Bytes of a display.
+const BYTES_MAX: usize = 1 << 16;
+
 impl Interpreter<'_> {
     /// Returns a value over as many lines as it needs, the first of which can stand alone.
     pub(super) fn display_value(&mut self, value: &Value) -> Eval<String> {
+        let mut shown = self.display_whole(value)?;
+        if shown.len() > BYTES_MAX {
+            let end = (0..=BYTES_MAX).rev().find(|&at| shown.is_char_boundary(at)).unwrap_or(0);
+            shown.truncate(end);
+            shown.push_str(" ...");
+        }
+        Ok(shown)
+    }
+
+    fn display_whole(&mut self, value: &Value) -> Eval<String> {
         Ok(match value {
             Value::Text(text) => quoted(text),
             Value::Instance(instance) => self.display_instance(instance)?,

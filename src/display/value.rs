@@ -28,7 +28,11 @@ impl Interpreter<'_> {
             Value::Quantity(x, d) => quantity(*x, without_radians(*d)),
             Value::Text(text) => text.to_string(),
             Value::Word(word) => word.to_string(),
-            Value::List(elements) => self.show_list(elements),
+            Value::List(_) => {
+                let mut text = String::new();
+                self.write_nested(value, &mut text);
+                text
+            }
             Value::Vec3(v, d) => show_vector(v, *d),
             Value::Pose(pose) => show_pose(pose),
             Value::Range(ends) => format!("{}..{}", self.show_value(&ends.0), self.show_value(&ends.1)),
@@ -53,13 +57,22 @@ impl Interpreter<'_> {
         }
     }
 
-    fn show_list(&self, elements: &[Value]) -> String {
-        let mut shown: Vec<String> =
-            elements.iter().take(ELEMENTS_SHOWN).map(|e| self.show_value(e)).collect();
-        if elements.len() > ELEMENTS_SHOWN {
-            shown.push(format!("and {} more", elements.len() - ELEMENTS_SHOWN));
+    /// Writes a list. Lists may share their elements over and over, so writing stops behind the limit of a
+    /// text, which whoever prints it refuses.
+    fn write_nested(&self, value: &Value, text: &mut String) {
+        let Value::List(elements) = value else { return text.push_str(&self.show_value(value)) };
+        text.push('[');
+        for (index, element) in elements.iter().take(ELEMENTS_SHOWN).enumerate() {
+            if text.len() > self.limits().text {
+                return;
+            }
+            text.push_str(if index > 0 { ", " } else { "" });
+            self.write_nested(element, text);
         }
-        format!("[{}]", shown.join(", "))
+        if elements.len() > ELEMENTS_SHOWN {
+            text.push_str(&format!(", and {} more", elements.len() - ELEMENTS_SHOWN));
+        }
+        text.push(']');
     }
 
     fn show_record(&self, record: &Record) -> String {

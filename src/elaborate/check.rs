@@ -43,13 +43,11 @@ impl Interpreter<'_> {
             }
         }
         let DefKind::Config(config) = &program.def(design.def).kind else { return Ok(()) };
-        for behavior in &config.behaviors {
-            match self.default_behavior(&whole, behavior) {
-                Ok(Some(Value::Behavior(behavior))) => drop(self.check_behavior(&behavior)?),
-                Ok(_) => {}
-                Err(Stop::Fault(diagnostic)) => self.report(*diagnostic),
-                Err(Stop::Halt) => return Err(Stop::Halt),
-            }
+        for declared in &config.behaviors {
+            self.attempt(|this| match this.default_behavior(&whole, declared)? {
+                Some(Value::Behavior(behavior)) => this.check_behavior(&behavior, declared.span).map(drop),
+                _ => Ok(()),
+            })?;
         }
         Ok(())
     }

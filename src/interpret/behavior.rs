@@ -10,6 +10,7 @@ use super::stop::{Eval, Stop, fault};
 use super::value::{Behavior, ConditionValue, JointValue, Value};
 use crate::behavior::{self, Conflict, Issue, IssueKind, Part};
 use crate::check::typed::{Exemption, ExemptionKind};
+use crate::plan::visit::extent;
 use crate::plan::{self, Action, CauseId, Condition, Node, Otherwise};
 use crate::source::{Code, Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
@@ -125,9 +126,28 @@ impl Interpreter<'_> {
         Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))
     }
 
-    /// Reports what is wrong with a behaviour before any run: commands in conflict, limits of the joints.
-    /// Returns true if nothing is.
-    pub fn check_behavior(&mut self, behavior: &Behavior) -> Eval<bool> {
+    /// Refuses a behaviour that takes more actions than may be carried out, before anything walks them.
+    ///
+    /// # Errors
+    /// A fault at `span`.
+    pub fn check_extent(&self, behavior: &Behavior, span: Span) -> Eval<()> {
+        let settings = behavior::Settings::default();
+        let extent = extent(&behavior.node);
+        let (limit, what) = if extent.actions > settings.actions_max {
+            (settings.actions_max, "actions")
+        } else if extent.steps > settings.steps_max {
+            (settings.steps_max, "steps")
+        } else {
+            return Ok(());
+        };
+        let message = format!("this behaviour takes more than {limit} {what}, which is the limit");
+        Err(fault(code::SIZE_LIMIT, span, message, format!("too many {what}")))
+    }
+
+    /// Reports what is wrong with a behaviour before any run: too many actions, commands in conflict, limits
+    /// of the joints; gives whether nothing is. `span` wants the behaviour.
+    pub fn check_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<bool> {
+        self.check_extent(behavior, span)?;
         let Some(design) = &behavior.robot else { return Ok(true) };
         let Some(robot) = self.robot_of_checked(design)? else { return Ok(false) };
         let mark = self.reported.errors;

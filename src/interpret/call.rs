@@ -7,8 +7,9 @@ use super::host::Mode;
 use super::interpreter::Interpreter;
 use super::native::{Call, Effect};
 use super::routines::Args;
+use super::recalled::BehaviorCall;
 use super::stop::{Eval, fault};
-use super::value::{Behavior, Callable, Value};
+use super::value::{Behavior, BehaviorCall, Callable, Value};
 use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param};
 use crate::source::{Span, Symbol, code};
 use std::rc::Rc;
@@ -120,8 +121,9 @@ impl Interpreter<'_> {
         let values = &frame.slots[..native.params.len()];
         let entry = (self.shared.routines.native)(native.key).expect("a test holds bodies to declarations");
         if self.shared.mode == Mode::Check && entry.effect == Effect::OnRun {
-            self.check_arguments(values)?;
+            self.check_arguments(values, span)?;
             return Ok(Value::Unknown);
+        self.stack.effects += u64::from(entry.effect == Effect::OnRun);
         }
         if values.iter().any(Value::is_unknown) {
             return Ok(Value::Unknown);
@@ -130,10 +132,10 @@ impl Interpreter<'_> {
     }
 
     /// Checks behaviours that a statement hands on, as far as that is possible without a run.
-    fn check_arguments(&mut self, values: &[Value]) -> Eval<()> {
+    fn check_arguments(&mut self, values: &[Value], span: Span) -> Eval<()> {
         for value in values {
             if let Value::Behavior(behavior) = value {
-                self.check_behavior(behavior)?;
+                self.check_behavior(behavior, span)?;
             }
         }
         Ok(())
@@ -164,7 +166,33 @@ impl Interpreter<'_> {
             return Ok(Value::Unknown);
         };
         let Some(declared) = config.behaviors.get(behavior) else { return Ok(Value::Unknown) };
-        self.with_call(span, declared.name, |this| this.run_behavior(declared, object, args))
+        let name = declared.name;
+        self.with_call(span, name, |this| this.recall_behavior(declared, behavior, object, args))
+    }
+
+    /// Gives what the same call gave before, or makes the behaviour. What prints, or fails, is done anew.
+    fn recall_behavior(
+        &mut self,
+        declared: &BehaviorDef,
+        behavior: usize,
+        object: &Rc<Instance>,
+        args: Args,
+    ) -> Eval<Value> {
+        let in_library = self.is_library(declared.span);
+        let caller = if in_library { self.user_call().map(|call| call.span) } else { None };
+        let call = BehaviorCall { object: object.clone(), behavior, args: args.values.clone(), caller };
+        if let Some(known) = self.memory.recalled.find(call.place(), |other| call.is_same(other)) {
+            return Ok(Value::Behavior(known));
+        }
+        let (errors, effects, steps) = (self.reported.errors, self.stack.effects, self.stack.steps);
+        let value = self.run_behavior(declared, object, args)?;
+        let clean = errors == self.reported.errors && effects == self.stack.effects;
+        if let Value::Behavior(made) = &value
+            && clean
+        {
+            self.memory.recalled.keep(call.place(), call, made.clone(), self.stack.steps - steps);
+        }
+        Ok(value)
     }
 
     fn run_behavior(&mut self, declared: &BehaviorDef, object: &Rc<Instance>, args: Args) -> Eval<Value> {

@@ -5,6 +5,7 @@ use super::design::{ConnectorDesign, Design, Instance};
 use super::evaluator_thread::HostProxy;
 use super::host::{Limits, Mode, Options, TestResult};
 use super::plan_value::PlanValue;
+use super::recalled::Recalled;
 use super::routines::Routines;
 use super::stop::{Eval, Stop};
 use super::value::{Lazy, Value};
@@ -82,7 +83,9 @@ pub struct Memory {
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
     /// The last plans of behaviours.
     pub plans: Vec<Rc<PlanValue>>,
-    /// The finished searches of `tosnake`.
+    /// Behaviours by call.
+    pub recalled: Recalled,
+    /// Searches of `tosnake` that were done.
     pub search_cache: SearchCache,
     /// The causes of commands, with their source lines.
     pub causes: Causes,
@@ -106,7 +109,10 @@ pub struct Stack {
     pub calls: Vec<CallSite>,
     /// The loop variables with their values, outermost first.
     pub binders: Vec<Binder>,
-    steps: u64,
+    /// Evaluation steps so far.
+    pub steps: u64,
+    /// Calls so far that have an effect, as printing has.
+    pub effects: u64,
     depth: usize,
 }
 

@@ -37,6 +37,7 @@ pub mod record;
 pub mod verdicts;
 
 pub mod routines;
+pub mod recalled;
 mod run;
 
 pub mod session;

@@ -10,6 +10,7 @@ use super::stop::{Eval, Stop, fault};
 use super::value::{Behavior, Value};
 use crate::behavior::{self, Problem, Scheduled};
 use crate::geometry::Vec3;
+use crate::plan::visit::equal;
 use crate::plan::{
     Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
 };
@@ -63,21 +64,22 @@ impl Interpreter<'_> {
         span: Span,
     ) -> Eval<Option<Rc<PlanValue>>> {
         if self.shared.mode == super::host::Mode::Check {
-            self.check_behavior(behavior)?;
+            self.check_behavior(behavior, span)?;
             return Ok(None);
         }
         let Some(design) = behavior.robot.clone() else {
             let message = "this behaviour moves no robot, so there is nothing to plan";
             return Err(fault(code::BAD_ACTION, span, message, "no action names a joint or a port"));
         };
-        let Some(robot) = self.robot_of(&design)? else { return Ok(None) };
+        let Some(robot) = self.robot_of(&design, span)? else { return Ok(None) };
+        self.check_extent(behavior, span)?;
         let mut causes = PlanCauses::default();
         let program = causes.renumber(&behavior.node);
         let start = beginning.start.unwrap_or_else(|| robot.start.clone());
         if let Some(kept) = self.kept_plan(&design, &program, &start, &beginning.world, &causes.ids) {
             return Ok(Some(kept));
         }
-        if !self.check_behavior(behavior)? {
+        if !self.check_behavior(behavior, span)? {
             return Ok(None);
         }
         let set = self.start_causes(&design, &robot, &mut causes);
@@ -175,7 +177,7 @@ impl Interpreter<'_> {
                 && planned.causes.starts_with(causes)
                 && first_world(plan) == *world
                 && tracks.start == *start
-                && plan.program.as_ref().is_some_and(|p| p.root == *program)
+                && plan.program.as_ref().is_some_and(|p| equal(&p.root, program))
         };
         self.memory.plans.iter().find(same).cloned()
     }

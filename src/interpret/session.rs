@@ -7,6 +7,7 @@ use super::eval::Frame;
 use super::evaluator_thread::{EvaluatorThread, HostProxy};
 use super::host::{Host, Mode, Options};
 use super::interpreter::{Interpreter, Memory};
+use super::recalled::Recalled;
 use super::routines::Routines;
 use super::stop::Eval;
 use super::value::{Lazy, Value};
@@ -219,6 +220,9 @@ impl<'a> Interpreter<'a> {
             self.memory.globals[def] = Lazy::Waiting;
             self.memory.designs[def].clear();
             self.memory.connectors[def] = None;
+        }
+        if !stale.is_empty() {
+            self.memory.recalled = Recalled::default();
         }
     }
 

@@ -10,10 +10,11 @@ use crate::check::typed::{DefId, Expr, Local};
 use crate::geometry::{HeightField, Placed, Pose, Vec3};
 use crate::plan;
 use crate::robot::{JointKind, JointOwner, Limits};
-use crate::source::Symbol;
+use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use num_bigint::BigInt;
 use std::rc::Rc;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// A value of a running program.
@@ -145,6 +146,38 @@ pub struct Behavior {
     pub node: Arc<plan::Node>,
 }
 
+/// A call of a behaviour, to tell whether another gives the same.
+#[derive(Clone, Debug)]
+pub struct BehaviorCall {
+    /// The object that it is called of.
+    pub object: Rc<Instance>,
+    /// The index of the behaviour in the declaration.
+    pub behavior: usize,
+    /// The arguments; `None` where the default is wanted.
+    pub args: Vec<Option<Value>>,
+    /// The user's call that led into the library, where the behaviour stands there: causes name it.
+    pub caller: Option<Span>,
+}
+
+impl BehaviorCall {
+    /// Returns the object, by its address, and the behaviour.
+    pub fn place(&self) -> (usize, usize) {
+        (Rc::as_ptr(&self.object).addr(), self.behavior)
+    }
+
+    /// Returns true if two calls of one behaviour of one object are alike, as far as that can be told at a
+    /// glance.
+    pub fn is_same(&self, other: &BehaviorCall) -> bool {
+        let same = |a: &Option<Value>, b: &Option<Value>| match (a, b) {
+            (Some(a), Some(b)) => a.identical(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        self.caller == other.caller
+            && self.args.len() == other.args.len()
+            && self.args.iter().zip(&other.args).all(|(a, b)| same(a, b))
+    }
+}
+
 /// A signal, with the robot that gives it.
 #[derive(Debug)]
 pub struct SignalValue {
@@ -274,6 +307,24 @@ impl Value {
         }
     }
 
+    /// Returns true if two values are the same to every question, as far as that can be told at a glance.
+    fn identical(&self, other: &Value) -> bool {
+        use Value::*;
+        match (self, other) {
+            (Missing, Missing) => true,
+            (Bool(a), Bool(b)) => a == b,
+            (Int(a), Int(b)) => a == b,
+            (Quantity(a, d), Quantity(b, e)) => a.to_bits() == b.to_bits() && d == e,
+            (Text(a), Text(b)) => a == b,
+            (Word(a), Word(b)) => a == b,
+            (List(a), List(b)) => Rc::ptr_eq(a, b),
+            (Fn(a), Fn(b)) => Rc::ptr_eq(a, b),
+            (Instance(a), Instance(b)) => Rc::ptr_eq(a, b),
+            (Behavior(a), Behavior(b)) => Rc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+
     /// Returns true if two values are equal, as `==` says; `None` where that is not defined.
     pub fn same(&self, other: &Value) -> Option<bool> {
         use Value::*;
@@ -292,6 +343,31 @@ impl Value {
             (List(a), List(b)) => {
                 a.len() == b.len() && a.iter().zip(b.iter()).all(|(x, y)| x.same(y) == Some(true))
             }
+        Comparison::default().same(self, other)
+    }
+}
+
+/// A comparison of two values. Lists may share their elements over and over, so each pair of lists is compared
+/// once.
+#[derive(Default)]
+struct Comparison {
+    equal: HashSet<(*const Vec<Value>, *const Vec<Value>)>,
+}
+
+impl Comparison {
+    fn lists(&mut self, a: &Rc<Vec<Value>>, b: &Rc<Vec<Value>>) -> bool {
+        let pair = (Rc::as_ptr(a), Rc::as_ptr(b));
+        if a.len() != b.len() || self.equal.contains(&pair) {
+            return a.len() == b.len();
+        }
+        let equal = a.iter().zip(b.iter()).all(|(x, y)| self.same(x, y) == Some(true));
+        if equal {
+            self.equal.insert(pair);
+        }
+        equal
+    }
+
+    fn same(&mut self, a: &Value, b: &Value) -> Option<bool> {
             (Range(a), Range(b)) => a.0.same(&b.0)? && a.1.same(&b.1)?,
             (Fn(a), Fn(b)) => {
                 Rc::ptr_eq(a, b) || matches!((&**a, &**b), (Callable::Def(x), Callable::Def(y)) if x == y)
@@ -299,9 +375,11 @@ impl Value {
             (Instance(a), Instance(b)) => {
                 Rc::ptr_eq(&a.design, &b.design) && Rc::ptr_eq(&a.robot, &b.robot) && a.offset == b.offset
             }
-            (Joint(a), Joint(b)) => Rc::ptr_eq(&a.robot, &b.robot) && a.owner == b.owner,
-            (Port(a), Port(b)) => Rc::ptr_eq(&a.robot, &b.robot) && (a.module, a.port) == (b.module, b.port),
-            (Behavior(a), Behavior(b)) => Rc::ptr_eq(a, b) || a.node == b.node,
+            (Joint(a), Joint(b)) => Rc::ptr_eq(&*a.robot, &*b.robot) && a.owner == b.owner,
+            (Port(a), Port(b)) => {
+                Rc::ptr_eq(&*a.robot, &*b.robot) && (a.module, a.port) == (b.module, b.port)
+            }
+            (Behavior(a), Behavior(b)) => Rc::ptr_eq(a, b) || plan::visit::equal(&a.node, &b.node),
             (Cells(a), Cells(b)) => a == b,
             (Shape(a), Shape(b)) => a.parts == b.parts,
             (Mesh(a), Mesh(b)) => a.vertices == b.vertices && a.faces == b.faces,

@@ -1,7 +1,7 @@
 //! Programs as graphs: every node once, however often it is used.
 
 use super::program::{Action, Node, Otherwise};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// The distinct nodes under a root, children before parents, found by address.
@@ -49,6 +49,91 @@ impl<'a> Graph<'a> {
             _ => None,
         })
     }
+}
+
+/// The size of a program as it is carried out; counts saturate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// Actions that begin, repetitions included; `else` branches are not.
+    pub actions: u64,
+    /// Nodes that are entered.
+    pub steps: u64,
+}
+
+/// Returns the extent of a program, or of the largest cyclic behaviour in it, which is carried out by itself.
+/// The work is linear in the distinct nodes, however often each is carried out.
+pub fn extent(root: &Arc<Node>) -> Extent {
+    let graph = Graph::of(root);
+    let mut extents: Vec<Extent> = Vec::with_capacity(graph.nodes.len());
+    let mut largest = Extent::default();
+    for node in &graph.nodes {
+        let of = |child: &Arc<Node>| extents[graph.position(child)];
+        let extent = match &***node {
+            Node::Action(_) => Extent { actions: 1, steps: 1 },
+            Node::Series(list) | Node::Parallel(list) => {
+                list.iter().map(of).fold(Extent { actions: 0, steps: 1 }, Extent::plus)
+            }
+            Node::Repeat { body, times } => {
+                let Extent { actions, steps } = of(body);
+                let steps = steps.saturating_mul(*times).saturating_add(1);
+                Extent { actions: actions.saturating_mul(*times), steps }
+            }
+            Node::Exempt { body, .. } => Extent { actions: 0, steps: 1 }.plus(of(body)),
+            Node::Phase { body, .. } | Node::Approach { body, .. } | Node::Stretch { body, .. } => {
+                largest = largest.max(of(body));
+                Extent { actions: 0, steps: 1 }
+            }
+        };
+        extents.push(extent);
+    }
+    largest.max(extents.pop().expect("a graph has its root"))
+}
+
+impl Extent {
+    fn plus(self, other: Extent) -> Extent {
+        let actions = self.actions.saturating_add(other.actions);
+        Extent { actions, steps: self.steps.saturating_add(other.steps) }
+    }
+
+    fn max(self, other: Extent) -> Extent {
+        Extent { actions: self.actions.max(other.actions), steps: self.steps.max(other.steps) }
+    }
+}
+
+/// Returns whether two programs are equal. Each pair of nodes is compared once, however often it occurs.
+pub fn equal(a: &Arc<Node>, b: &Arc<Node>) -> bool {
+    let mut seen = HashSet::new();
+    let mut stack = vec![(a, b)];
+    while let Some((a, b)) = stack.pop() {
+        if Arc::ptr_eq(a, b) || !seen.insert((Arc::as_ptr(a), Arc::as_ptr(b))) {
+            continue;
+        }
+        if !alike(a, b) || children(a).count() != children(b).count() {
+            return false;
+        }
+        stack.extend(children(a).zip(children(b)));
+    }
+    true
+}
+
+/// Returns whether two nodes are equal but for their children.
+fn alike(a: &Node, b: &Node) -> bool {
+    let leaf = Arc::new(Node::Series(Vec::new()));
+    let bare = |node: &Node| match node {
+        Node::Action(action) => Node::Action(Action {
+            otherwise: match &action.otherwise {
+                Otherwise::Node(_) => Otherwise::Node(leaf.clone()),
+                other => other.clone(),
+            },
+            command: action.command.clone(),
+            until: action.until.clone(),
+            ..*action
+        }),
+        Node::Series(_) => Node::Series(Vec::new()),
+        Node::Parallel(_) => Node::Parallel(Vec::new()),
+        other => with_children(other, |_| leaf.clone()),
+    };
+    bare(a) == bare(b)
 }
 
 /// Returns the nodes directly under a node: an action has its `else` branch.
