@@ -32,7 +32,7 @@ const TOL_INSTANT: f64 = 1e-9;
 impl Interpreter<'_> {
     /// Returns the tree of a behaviour with its times, as far as it can be planned from the start pose.
     pub(super) fn display_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
-        let Some(design) = behavior.robot.clone() else {
+        let Some(design) = behavior.robot.as_ref().map(|robot| robot.design.clone()) else {
             return Ok("a behaviour that moves no robot".to_owned());
         };
         let planned = self.quietly(|this| this.plan_behavior(behavior, Span::new(FileId(0), 0, 0)))?;

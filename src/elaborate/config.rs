@@ -224,7 +224,7 @@ impl Interpreter<'_> {
             }
             ConfigClause::Set { joint, value, span } => self.set(config, joint, value, *span, frame),
             ConfigClause::Let { local, value } => {
-                let value = self.eval(value, frame)?;
+                let value = self.eval_bound(value, frame)?;
                 frame.set(*local, value);
                 Ok(())
             }

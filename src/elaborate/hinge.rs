@@ -1,7 +1,7 @@
 //! Joints that live in connections: the hinges of connectors such as Mori's edges.
 
 use crate::interpret::design::ConnectorDesign;
-use crate::interpret::design::Design;
+use crate::interpret::design::{Design, Subject};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::{JointValue, PortValue, Value};
@@ -43,6 +43,6 @@ impl Interpreter<'_> {
     /// Returns the connector whose hinge a connection has: that of its first port, as in an assembly.
     fn connector_of(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Option<Rc<ConnectorDesign>>> {
         let (module, port) = robot.bond(bond).a;
-        self.connector_at(&PortValue { robot: robot.clone(), module, port })
+        self.connector_at(&PortValue { robot: Subject::new(robot.clone()), module, port })
     }
 }

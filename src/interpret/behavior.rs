@@ -1,9 +1,9 @@
 //! Behaviours: the robot that they move, what excuses them, and what is wrong with them before any run.
 
 use super::causes::CauseRecord;
-use super::design::Design;
-use super::design::port_ref;
+use super::design::{Design, Subject, port_ref};
 use super::eval::Frame;
+use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::robot::Robot;
 use super::stop::{Eval, Stop, fault};
@@ -34,11 +34,27 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the robot of a joint, for an action; `None` where something is wrong with it, which has been
-    /// reported.
+    /// The one robot that parts of a behaviour move or look at. Equal robots are one; but where the program
+    /// holds them under two names, it means two.
     ///
     /// # Errors
-    /// A fault at `span` where the robot is a configuration whose clauses still run.
+    /// A fault where there are two robots, or two names.
+    pub fn common_subject(
+        &self,
+        a: Option<&Subject>,
+        b: Option<&Subject>,
+        span: Span,
+    ) -> Eval<Option<Subject>> {
+        self.common_robot(a.map(|a| &**a), b.map(|b| &**b), span)?;
+        let (Some(a), Some(b)) = (a, b) else { return Ok(a.or(b).cloned()) };
+        if let Some(names) = a.identity.apart(&b.identity) {
+            return Err(two_names(&a.design, names, span));
+        }
+        let identity = a.identity.clone().better_known(&b.identity);
+        Ok(Some(Subject { design: a.design.clone(), identity }))
+    }
+
+    /// The robot of a joint, for an action; `None` where something is wrong with it.
     pub fn robot_at(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let running = design.config().is_some_and(|config| !config.complete.get());
         if running {
@@ -98,7 +114,7 @@ impl Interpreter<'_> {
                 let parts = (self.eval(a, frame)?, self.eval(b, frame)?);
                 let (Value::Instance(x), Value::Instance(y)) = parts else { return Ok(None) };
                 for (part, expr) in [(&x, a), (&y, b)] {
-                    self.common_robot(behavior.robot.as_ref(), Some(&part.robot), expr.span)?;
+                    self.common_subject(behavior.robot.as_ref(), Some(&part.robot), expr.span)?;
                     if part.design.module().is_none() {
                         let message = "`collision` names two modules, or none";
                         return Err(fault(code::BAD_ACTION, expr.span, message, "not a single module"));
@@ -108,7 +124,7 @@ impl Interpreter<'_> {
             }
             ExemptionKind::Overload(Some(joint)) => {
                 let Value::Joint(value) = self.eval(joint, frame)? else { return Ok(None) };
-                self.common_robot(behavior.robot.as_ref(), Some(&value.robot), joint.span)?;
+                self.common_subject(behavior.robot.as_ref(), Some(&value.robot), joint.span)?;
                 let Some(robot) = self.robot_at(&value.robot, joint.span)? else { return Ok(None) };
                 plan::ExemptionKind::Overload(Some(robot.joint(&value).0))
             }
@@ -121,7 +137,7 @@ impl Interpreter<'_> {
     /// A fault at `span` where the ports belong to two robots.
     pub fn mated_condition(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Value> {
         let (Value::Port(a), Value::Port(b)) = (a, b) else { return Ok(Value::Unknown) };
-        let robot = self.common_robot(Some(&a.robot), Some(&b.robot), span)?;
+        let robot = self.common_subject(Some(&a.robot), Some(&b.robot), span)?;
         let condition = Condition::Mated(port_ref(a), port_ref(b));
         Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))
     }
@@ -310,5 +326,23 @@ fn other_robot(a: &Rc<Design>, b: &Rc<Design>, span: Span) -> Stop {
     Diagnostic::error(code::OTHER_ROBOT, message)
         .label(span, "one behaviour moves one robot")
         .hint("make both parts of one configuration")
+        .into()
+}
+
+/// Equal robots under two names: the places where they got these names come after the place that mixes them.
+fn two_names(robot: &Rc<Design>, (a, b): (Name, Name), span: Span) -> Stop {
+    let place = |name: Name| name.index.map_or_else(String::new, |i| format!(", element {i}"));
+    let message = format!("one behaviour reaches {} under two names, and both are one robot", robot.name);
+    let diagnostic = Diagnostic::error(code::OTHER_ROBOT, message)
+        .label(span, "one behaviour moves one robot")
+        .label(a.span, format!("one name is bound here{}", place(a)));
+    let diagnostic = if a.span == b.span {
+        diagnostic.hint(format!("the other is element {} of the same list", b.index.unwrap_or(0)))
+    } else {
+        diagnostic.label(b.span, format!("and the other here{}", place(b)))
+    };
+    diagnostic
+        .hint("configurations are values, and equal ones are one robot: bind it once and use that name")
+        .hint("for two robots, make them parts of one configuration")
         .into()
 }

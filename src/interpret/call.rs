@@ -4,6 +4,7 @@ use super::behavior::with_otherwise;
 use super::design::Instance;
 use super::eval::Frame;
 use super::host::Mode;
+use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::native::{Call, Effect};
 use super::routines::Args;
@@ -61,6 +62,7 @@ impl Interpreter<'_> {
             Callable::Lambda { body, captured, frame, this } => {
                 let mut inner = Frame::new(*frame, this.clone());
                 for (slot, value) in values.into_iter().enumerate() {
+                    value.bind(Name { span: body.span, index: Some(slot) });
                     inner.set_slot(slot, value);
                 }
                 for (slot, value) in captured {
@@ -100,6 +102,7 @@ impl Interpreter<'_> {
                 Some(value) => value,
                 None => self.default(param, frame)?,
             };
+            value.bind(Name { span: param.span, index: None });
             frame.set_slot(slot, value);
         }
         Ok(())
@@ -222,7 +225,7 @@ impl Interpreter<'_> {
         let (Value::Behavior(action), Value::Behavior(otherwise)) = (action, otherwise) else {
             return Ok(Value::Unknown);
         };
-        let robot = self.common_robot(action.robot.as_ref(), otherwise.robot.as_ref(), span)?;
+        let robot = self.common_subject(action.robot.as_ref(), otherwise.robot.as_ref(), span)?;
         let node = with_otherwise(&action.node, &otherwise.node).ok_or_else(|| {
             fault(code::BAD_ACTION, span, "only an action with a timeout has an `else`", "no single action")
         })?;

@@ -5,6 +5,7 @@
 //! the whole.
 
 use super::cells::Cells;
+use super::identity::{Identity, Name};
 use super::robot::Robot;
 use super::value::{JointValue, Lazy, PortValue, Value};
 use crate::check::typed::DefId;
@@ -371,13 +372,43 @@ impl std::fmt::Debug for Design {
     }
 }
 
-/// A design as a part of a robot, or as the whole.
+/// The robot that a value belongs to: the outermost design, and which of the robots that are equal to it.
+#[derive(Clone)]
+pub struct Subject {
+    /// The outermost design.
+    pub design: Rc<Design>,
+    /// The robot among its equals.
+    pub identity: Identity,
+}
+
+impl Subject {
+    /// Returns a robot that has no name yet.
+    pub fn new(design: Rc<Design>) -> Subject {
+        Subject { design, identity: Identity::default() }
+    }
+}
+
+impl std::ops::Deref for Subject {
+    type Target = Rc<Design>;
+
+    fn deref(&self) -> &Rc<Design> {
+        &self.design
+    }
+}
+
+impl std::fmt::Debug for Subject {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.design.fmt(f)
+    }
+}
+
+/// A design at a place of a robot.
 pub struct Instance {
     /// The elaborated declaration.
     pub design: Rc<Design>,
-    /// The outermost design.
-    pub robot: Rc<Design>,
-    /// The index of its first module among the robot's.
+    /// The robot that it is a part of.
+    pub robot: Subject,
+    /// Index of its first module among the robot's.
     pub offset: usize,
     /// The path name within the robot; empty for the whole.
     pub path: Rc<str>,
@@ -390,7 +421,7 @@ pub struct Instance {
 impl Instance {
     /// Returns the instance that is the whole of a design.
     pub fn whole(design: Rc<Design>) -> Rc<Instance> {
-        let robot = design.clone();
+        let robot = Subject::new(design.clone());
         Rc::new(Instance {
             design,
             robot,
@@ -401,7 +432,14 @@ impl Instance {
         })
     }
 
-    /// Returns the parts of a configuration as values: an instance or a list of instances for each group.
+    /// Gives a robot a name; parts go by the names of their robot.
+    pub fn bind(&self, name: Name) {
+        if self.path.is_empty() {
+            self.robot.identity.bind(name);
+        }
+    }
+
+    /// The parts of a configuration as values: an instance or a list of instances for each group.
     /// `None` while they are being elaborated.
     pub fn parts(&self) -> Option<&[Value]> {
         let config = self.design.config()?;

@@ -1,6 +1,7 @@
 //! The evaluation of expressions to values.
 
 use super::design::{DesignKind, Instance};
+use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Callable, Lazy, Value};
@@ -52,7 +53,18 @@ impl Interpreter<'_> {
     pub fn eval(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
         self.step(expr.span)?;
         let result = self.with_depth(expr.span, |this| this.eval_kind(expr, frame));
-        self.recover(result)
+        let value = self.recover(result)?;
+        if value.is_unknown() {
+            self.reported.unknown_at.get_or_insert(expr.span);
+        }
+        Ok(value)
+    }
+
+    /// The value of a `let`, which gives a robot a name.
+    pub fn eval_bound(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
+        let value = self.eval(expr, frame)?;
+        value.bind(Name { span: expr.span, index: None });
+        Ok(value)
     }
 
     /// Returns the value of an expression that may be left out.
@@ -274,14 +286,15 @@ impl Interpreter<'_> {
         mut body: impl FnMut(&mut Self, &mut Frame) -> Eval<()>,
     ) -> Eval<bool> {
         let name = self.binder_name(span);
-        let mut once = |this: &mut Self, frame: &mut Frame, value: Value| {
+        let mut once = |this: &mut Self, frame: &mut Frame, value: Value, index: Option<usize>| {
+            value.bind(Name { span, index });
             frame.set(binder, value.clone());
             this.with_binding(name, &value, |this| body(this, frame))
         };
         match values {
             Value::List(elements) => {
-                for value in elements.iter() {
-                    once(self, frame, value.clone())?;
+                for (index, value) in elements.iter().enumerate() {
+                    once(self, frame, value.clone(), Some(index))?;
                 }
             }
             Value::Range(ends) => {
@@ -295,7 +308,7 @@ impl Interpreter<'_> {
                 };
                 for i in *from..*to {
                     self.step(span)?;
-                    once(self, frame, Value::Int(i))?;
+                    once(self, frame, Value::Int(i), None)?;
                 }
             }
             _ => return Ok(false),
@@ -359,8 +372,9 @@ impl Interpreter<'_> {
         let DefKind::Let(binding) = &program.def(def).kind else { return Ok(Value::Unknown) };
         self.memory.globals[index] = Lazy::Running;
         let name = self.name(def);
-        let result = self
-            .with_call(span, name, |this| this.eval(&binding.value, &mut Frame::new(binding.frame, None)));
+        let result = self.with_call(span, name, |this| {
+            this.eval_bound(&binding.value, &mut Frame::new(binding.frame, None))
+        });
         self.memory.globals[index] = Lazy::Done(result.as_ref().map_or(Value::Unknown, Value::clone));
         result
     }
@@ -401,7 +415,7 @@ impl Interpreter<'_> {
                 )),
             },
             MemberKind::Let(value) => self.lazy_member(instance, member, span, |this| {
-                this.eval(value, &mut Frame::new(frame, Some(instance.clone())))
+                this.eval_bound(value, &mut Frame::new(frame, Some(instance.clone())))
             }),
             MemberKind::Port { count, value } => self.lazy_member(instance, member, span, |this| {
                 let mut frame = Frame::new(frame, Some(instance.clone()));

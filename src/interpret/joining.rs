@@ -20,7 +20,8 @@ impl Interpreter<'_> {
         let Some(first) = self.plan_of(a, span)? else { return Ok(Value::Unknown) };
         let second = match b {
             Value::Behavior(behavior) => {
-                let same = behavior.robot.as_ref().is_some_and(|robot| Rc::ptr_eq(robot, &first.robot));
+                let same =
+                    behavior.robot.as_ref().is_some_and(|robot| Rc::ptr_eq(&robot.design, &first.robot));
                 let mut beginning = Beginning::default();
                 if same && let Some(tracks) = first.plan.body.tracks() {
                     beginning.start = Some(tracks.end());

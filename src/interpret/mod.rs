@@ -23,6 +23,7 @@ pub mod native;
 mod statements;
 
 pub mod design;
+pub mod identity;
 pub mod robot;
 
 pub mod cells;
@@ -36,8 +37,8 @@ pub mod planning;
 pub mod record;
 pub mod verdicts;
 
-pub mod routines;
 pub mod recalled;
+pub mod routines;
 mod run;
 
 pub mod session;

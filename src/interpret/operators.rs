@@ -95,7 +95,7 @@ impl Interpreter<'_> {
             // The left side did not decide, so the right one does.
             (Value::Bool(_), Value::Bool(b)) => Ok(Value::Bool(*b)),
             (Value::Condition(a), Value::Condition(b)) => {
-                let robot = self.common_robot(a.robot.as_ref(), b.robot.as_ref(), span)?;
+                let robot = self.common_subject(a.robot.as_ref(), b.robot.as_ref(), span)?;
                 let (x, y) = (Box::new(a.condition.clone()), Box::new(b.condition.clone()));
                 let condition = if op == BinaryOp::And { Condition::And(x, y) } else { Condition::Or(x, y) };
                 Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))

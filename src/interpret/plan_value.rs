@@ -1,12 +1,12 @@
 //! A plan as a value of the language, and what its planner reports of it.
 
-use super::design::Design;
+use super::design::{Design, Instance};
 use super::interpreter::Interpreter;
 use super::robot::Robot;
 use super::value::Value;
 use crate::plan::{CauseId, Plan, Settings, Verdict, WorldFrom};
 use std::any::Any;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
 /// A plan with what the language knows about it.
@@ -23,7 +23,9 @@ pub struct PlanValue {
     pub actions: u64,
     /// The planner's report; `None` for plans that no planner made.
     report: Option<Rc<dyn PlannerReport>>,
-    /// The verdicts so far.
+    /// The robot as a value, once it was asked for: one and the same at each time.
+    instance: OnceCell<Rc<Instance>>,
+    /// Verdicts so far.
     pub(super) judged: RefCell<Vec<Judged>>,
 }
 
@@ -79,7 +81,21 @@ impl PlanValue {
         causes: Vec<CauseId>,
         actions: u64,
     ) -> PlanValue {
-        PlanValue { robot, body, plan, causes, actions, report: None, judged: RefCell::default() }
+        PlanValue {
+            robot,
+            body,
+            plan,
+            causes,
+            actions,
+            report: None,
+            instance: OnceCell::new(),
+            judged: RefCell::default(),
+        }
+    }
+
+    /// Returns the robot as a value.
+    pub fn instance(&self) -> Rc<Instance> {
+        self.instance.get_or_init(|| Instance::whole(self.robot.clone())).clone()
     }
 
     /// Returns the plan with the report of the planner that made it.

@@ -67,7 +67,7 @@ impl Interpreter<'_> {
             self.check_behavior(behavior, span)?;
             return Ok(None);
         }
-        let Some(design) = behavior.robot.clone() else {
+        let Some(design) = behavior.robot.as_ref().map(|robot| robot.design.clone()) else {
             let message = "this behaviour moves no robot, so there is nothing to plan";
             return Err(fault(code::BAD_ACTION, span, message, "no action names a joint or a port"));
         };

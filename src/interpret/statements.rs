@@ -23,7 +23,7 @@ impl Interpreter<'_> {
     pub fn execute(&mut self, statement: &Stmt, frame: &mut Frame) -> Eval<()> {
         match &statement.kind {
             StmtKind::Let { local, value } => {
-                let value = self.eval(value, frame)?;
+                let value = self.eval_bound(value, frame)?;
                 frame.set(*local, value);
             }
             StmtKind::Expr(expr) => {

@@ -4,7 +4,8 @@
 //! Values are immutable and shared; a copy costs a pointer.
 
 use super::cells::Cells;
-use super::design::{Design, Instance};
+use super::design::{Instance, Subject};
+use super::identity::Name;
 use super::record::Record;
 use crate::check::typed::{DefId, Expr, Local};
 use crate::geometry::{HeightField, Placed, Pose, Vec3};
@@ -13,8 +14,8 @@ use crate::robot::{JointKind, JointOwner, Limits};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use num_bigint::BigInt;
-use std::rc::Rc;
 use std::collections::HashSet;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// A value of a running program.
@@ -118,8 +119,8 @@ pub enum Callable {
 /// the whole.
 #[derive(Clone, Debug)]
 pub struct JointValue {
-    /// The outermost design.
-    pub robot: Rc<Design>,
+    /// The robot that has it.
+    pub robot: Subject,
     /// The module or the connection that has the joint.
     pub owner: JointOwner,
     /// The dimension of its position.
@@ -129,8 +130,8 @@ pub struct JointValue {
 /// A port of a robot, the outermost one.
 #[derive(Clone, Debug)]
 pub struct PortValue {
-    /// The outermost design.
-    pub robot: Rc<Design>,
+    /// The robot that has it.
+    pub robot: Subject,
     /// The index of the module in the robot.
     pub module: usize,
     /// The index of the port in the module.
@@ -141,7 +142,7 @@ pub struct PortValue {
 #[derive(Debug)]
 pub struct Behavior {
     /// The robot; `None` where nothing names one.
-    pub robot: Option<Rc<Design>>,
+    pub robot: Option<Subject>,
     /// The series-parallel graph of actions.
     pub node: Arc<plan::Node>,
 }
@@ -182,7 +183,7 @@ impl BehaviorCall {
 #[derive(Debug)]
 pub struct SignalValue {
     /// The robot; `None` where nothing names one.
-    pub robot: Option<Rc<Design>>,
+    pub robot: Option<Subject>,
     /// The signal.
     pub signal: plan::Signal,
 }
@@ -191,7 +192,7 @@ pub struct SignalValue {
 #[derive(Debug)]
 pub struct ConditionValue {
     /// The robot; `None` where nothing names one.
-    pub robot: Option<Rc<Design>>,
+    pub robot: Option<Subject>,
     /// The condition.
     pub condition: plan::Condition,
 }
@@ -269,7 +270,22 @@ impl Value {
         i64::try_from(&n).map_or_else(|_| Value::Big(Rc::new(n)), Value::Int)
     }
 
-    /// Returns a value, or the missing value for `None`.
+    /// Gives a name to a robot, and to each robot of a list its own.
+    pub fn bind(&self, name: Name) {
+        match self {
+            Value::Instance(instance) => instance.bind(name),
+            Value::List(elements) if name.index.is_none() => {
+                for (index, element) in elements.iter().enumerate() {
+                    // Elements of a list are of one type.
+                    let Value::Instance(instance) = element else { break };
+                    instance.bind(Name { index: Some(index), ..name });
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Returns a value, or the missing value.
     pub fn optional(value: Option<Value>) -> Value {
         value.unwrap_or(Value::Missing)
     }
@@ -327,22 +343,6 @@ impl Value {
 
     /// Returns true if two values are equal, as `==` says; `None` where that is not defined.
     pub fn same(&self, other: &Value) -> Option<bool> {
-        use Value::*;
-        Some(match (self, other) {
-            (Unknown, _) | (_, Unknown) => return None,
-            (Nothing, Nothing) | (Missing, Missing) => true,
-            (Missing, _) | (_, Missing) => false,
-            (Bool(a), Bool(b)) => a == b,
-            (Int(a), Int(b)) => a == b,
-            (Big(a), Big(b)) => a == b,
-            (Int(_), Big(_)) | (Big(_), Int(_)) => false,
-            (Text(a), Text(b)) => a == b,
-            (Word(a), Word(b)) => a == b,
-            (Vec3(a, _), Vec3(b, _)) => a == b,
-            (Pose(a), Pose(b)) => a == b,
-            (List(a), List(b)) => {
-                a.len() == b.len() && a.iter().zip(b.iter()).all(|(x, y)| x.same(y) == Some(true))
-            }
         Comparison::default().same(self, other)
     }
 }
@@ -368,12 +368,26 @@ impl Comparison {
     }
 
     fn same(&mut self, a: &Value, b: &Value) -> Option<bool> {
-            (Range(a), Range(b)) => a.0.same(&b.0)? && a.1.same(&b.1)?,
+        use Value::*;
+        Some(match (a, b) {
+            (Unknown, _) | (_, Unknown) => return None,
+            (Nothing, Nothing) | (Missing, Missing) => true,
+            (Missing, _) | (_, Missing) => false,
+            (Bool(a), Bool(b)) => a == b,
+            (Int(a), Int(b)) => a == b,
+            (Big(a), Big(b)) => a == b,
+            (Int(_), Big(_)) | (Big(_), Int(_)) => false,
+            (Text(a), Text(b)) => a == b,
+            (Word(a), Word(b)) => a == b,
+            (Vec3(a, _), Vec3(b, _)) => a == b,
+            (Pose(a), Pose(b)) => a == b,
+            (List(a), List(b)) => self.lists(a, b),
+            (Range(a), Range(b)) => self.same(&a.0, &b.0)? && self.same(&a.1, &b.1)?,
             (Fn(a), Fn(b)) => {
                 Rc::ptr_eq(a, b) || matches!((&**a, &**b), (Callable::Def(x), Callable::Def(y)) if x == y)
             }
             (Instance(a), Instance(b)) => {
-                Rc::ptr_eq(&a.design, &b.design) && Rc::ptr_eq(&a.robot, &b.robot) && a.offset == b.offset
+                Rc::ptr_eq(&a.design, &b.design) && Rc::ptr_eq(&*a.robot, &*b.robot) && a.offset == b.offset
             }
             (Joint(a), Joint(b)) => Rc::ptr_eq(&*a.robot, &*b.robot) && a.owner == b.owner,
             (Port(a), Port(b)) => {

@@ -4,8 +4,7 @@ use super::Native;
 use crate::behavior::mirror::{Plane, mirrored};
 use crate::behavior::{Part, gait};
 use crate::interpret::argument::{Choice, Positive, parameters};
-use crate::interpret::design::Design;
-use crate::interpret::design::port_ref;
+use crate::interpret::design::{Subject, port_ref};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, fault};
@@ -95,7 +94,7 @@ impl AngleUnit {
     }
 }
 
-fn behavior(robot: Option<Rc<Design>>, node: Node) -> Value {
+fn behavior(robot: Option<Subject>, node: Node) -> Value {
     Value::Behavior(Rc::new(Behavior { robot, node: Arc::new(node) }))
 }
 
@@ -108,10 +107,10 @@ struct Extras {
 
 impl Extras {
     /// Reads `until` and `timeout`; the condition must be about the same robot.
-    fn read(interpreter: &Interpreter, call: &Call, robot: Option<&Rc<Design>>) -> Eval<Extras> {
+    fn read(interpreter: &Interpreter, call: &Call, robot: Option<&Subject>) -> Eval<Extras> {
         let condition: Option<&ConditionValue> = call.get("until")?;
         if let Some(condition) = condition {
-            interpreter.common_robot(robot, condition.robot.as_ref(), call.at("until"))?;
+            interpreter.common_subject(robot, condition.robot.as_ref(), call.at("until"))?;
         }
         let until = condition.map(|condition| condition.condition.clone());
         let parts = vec![(Part::Until, call.at("until")), (Part::Timeout, call.at("timeout"))];
@@ -269,7 +268,7 @@ fn wait(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 fn dock(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (a, b) = (call.get::<&PortValue>("a")?, call.get::<&PortValue>("b")?);
-    let robot = interpreter.common_robot(Some(&a.robot), Some(&b.robot), call.span)?;
+    let robot = interpreter.common_subject(Some(&a.robot), Some(&b.robot), call.span)?;
     let command = Command::Dock { a: port_ref(a), b: port_ref(b) };
     let subject = format!("{} -- {}", a.name(), b.name());
     let parts = vec![(Part::Ports, call.span)];
@@ -297,7 +296,7 @@ fn abort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(behavior(None, Node::Action(action)))
 }
 
-fn signal_value(robot: Option<Rc<Design>>, signal: Signal) -> Value {
+fn signal_value(robot: Option<Subject>, signal: Signal) -> Value {
     Value::Signal(Rc::new(SignalValue { robot, signal }))
 }
 
@@ -322,7 +321,7 @@ fn compose(interpreter: &mut Interpreter, call: &Call, make: fn(Vec<Arc<Node>>) 
         let Value::Behavior(part) = part else {
             return Err(call.refuse("behaviors", "behaviours are wanted"));
         };
-        robot = interpreter.common_robot(robot.as_ref(), part.robot.as_ref(), call.span)?;
+        robot = interpreter.common_subject(robot.as_ref(), part.robot.as_ref(), call.span)?;
         nodes.push(part.node.clone());
     }
     Ok(behavior(robot, make(nodes)))
@@ -365,7 +364,7 @@ fn cycle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         let (Value::Behavior(body), Some(shift)) = (body, phase.as_number()) else {
             return Err(call.refuse("behaviors", "behaviours and their phases are wanted"));
         };
-        robot = interpreter.common_robot(robot.as_ref(), body.robot.as_ref(), call.at("behaviors"))?;
+        robot = interpreter.common_subject(robot.as_ref(), body.robot.as_ref(), call.at("behaviors"))?;
         parts.push((body.node.clone(), shift - libm::floor(shift)));
     }
     Ok(behavior(robot, gait::cycle(&parts, duration, times, cause)))
@@ -411,7 +410,7 @@ fn table(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
                 Command::Move { joint, target, duration: Some(step), profile: Profile::Smooth }
             })?;
             let Value::Behavior(action) = action else { return Ok(Value::Unknown) };
-            robot = interpreter.common_robot(robot.as_ref(), action.robot.as_ref(), call.at("joints"))?;
+            robot = interpreter.common_subject(robot.as_ref(), action.robot.as_ref(), call.at("joints"))?;
             actions.push(action.node.clone());
         }
         rows.push(Arc::new(Node::Parallel(actions)));

@@ -1,6 +1,5 @@
 //! The records of folding: the fields of a `Folding` beside those of a plan, `Layout` and `OrderSample`.
 
-use crate::interpret::design::Instance;
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
 use crate::interpret::record::{Field, NativeRecord, Record, field_names, read_field};
 use crate::interpret::value::{JointValue, Value};
@@ -31,7 +30,7 @@ impl ReportFields for Report {
         ("lifting", |_, _, report| Value::Quantity(report.lifting, ENERGY)),
         ("lifting_bound", |_, _, report| Value::Quantity(report.lifting_bound, ENERGY)),
         ("too_thick", |_, _, report| numbers(&report.too_thick)),
-        ("robot", |_, plan, _| Value::Instance(Instance::whole(plan.robot.clone()))),
+        ("robot", |_, plan, _| Value::Instance(plan.instance())),
         ("hinges", |_, plan, report| hinges(plan, report)),
     ];
 }
@@ -46,7 +45,8 @@ fn hinges(plan: &PlanValue, report: &Report) -> Value {
     // The bonds of the robot stand in the order of their faces, behind the root.
     let bond = |hinge| layout.order[1..].iter().position(|face| layout.hinge[*face] == Some(hinge));
     let owners = layout.hinges().into_iter().filter_map(bond).map(JointOwner::Bond);
-    let joint = |owner| JointValue { robot: plan.robot.clone(), owner, dimension: Dimension::ANGLE };
+    let robot = plan.instance().robot.clone();
+    let joint = |owner| JointValue { robot: robot.clone(), owner, dimension: Dimension::ANGLE };
     Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
 }
 

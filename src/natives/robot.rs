@@ -141,11 +141,11 @@ fn place(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<
     match call.arg(name) {
         Value::Port(port) => {
             let Some(robot) = interpreter.robot_at(&port.robot, call.at(name))? else { return Ok(None) };
-            Ok(Some((port.robot.clone(), robot.port_pose(port))))
+            Ok(Some((port.robot.design.clone(), robot.port_pose(port))))
         }
         Value::Instance(module) if module.design.module().is_some() => {
             let Some(robot) = interpreter.robot_at(&module.robot, call.at(name))? else { return Ok(None) };
-            Ok(Some((module.robot.clone(), robot.kinematics.module_pose(module.offset, &robot.poses))))
+            Ok(Some((module.robot.design.clone(), robot.kinematics.module_pose(module.offset, &robot.poses))))
         }
         _ => Err(call.refuse(name, "a port or a module is wanted")),
     }

@@ -1,0 +1,51 @@
+//! The names under which a program holds a robot.
+//!
+//! Configurations are values: two that are equal are one robot. A program that makes equal ones and gives them
+//! two names means two robots, which one behaviour can't move. Names are told apart by where they are bound,
+//! so that a function may bind an equal robot at each call.
+
+use crate::source::Span;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Most names that are remembered of one robot; a program that binds it more often means one.
+const NAMES_MAX: usize = 64;
+
+/// A name of a robot: where it is bound, and the place in the list where it is bound as one of several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The value of a `let`, the declaration of a parameter, or the list that a loop goes through.
+    pub span: Span,
+    /// The place in the list.
+    pub index: Option<usize>,
+}
+
+/// One of the robots that a program makes, with its names. Copies are the same robot.
+#[derive(Clone, Debug, Default)]
+pub struct Identity(Rc<RefCell<Vec<Name>>>);
+
+impl Identity {
+    /// Adds a name.
+    pub fn bind(&self, name: Name) {
+        let mut names = self.0.borrow_mut();
+        if names.len() < NAMES_MAX && !names.contains(&name) {
+            names.push(name);
+        }
+    }
+
+    /// Returns a name of each of two robots that the other lacks; `None` where the program may mean one robot,
+    /// because all names of one are names of the other, as where it has none.
+    pub fn apart(&self, other: &Identity) -> Option<(Name, Name)> {
+        if Rc::ptr_eq(&self.0, &other.0) {
+            return None;
+        }
+        let (ours, theirs) = (self.0.borrow(), other.0.borrow());
+        let lacking = |of: &[Name], in_those: &[Name]| of.iter().find(|n| !in_those.contains(n)).copied();
+        Some((lacking(&ours, &theirs)?, lacking(&theirs, &ours)?))
+    }
+
+    /// Returns the robot of two that may be one whose names tell more.
+    pub fn better_known(self, other: &Identity) -> Identity {
+        if other.0.borrow().len() > self.0.borrow().len() { other.clone() } else { self }
+    }
+}
