@@ -38,7 +38,7 @@ impl Interpreter<'_> {
         let planned = self.quietly(|this| this.plan_behavior(behavior, Span::new(FileId(0), 0, 0)))?;
         let robot = match &planned {
             Some(planned) => planned.body.clone(),
-            None => self.quietly(|this| this.robot_of(&design))?,
+            None => self.quietly(|this| this.robot_of(&design, Span::new(FileId(0), 0, 0)))?,
         };
         let Some(robot) = robot else { return Ok(format!("a behaviour of {}", design.name)) };
         let program = planned.as_ref().and_then(|planned| planned.plan.program.as_ref());
@@ -56,9 +56,8 @@ impl Interpreter<'_> {
 
     /// Asks without telling what is wrong.
     fn quietly<T>(&mut self, ask: impl FnOnce(&mut Self) -> Eval<Option<T>>) -> Eval<Option<T>> {
-        let (reports, errors) = (self.reported.reports.len(), self.reported.errors);
-        let found = ask(self);
-        self.reported.reports.truncate(reports);
+        let errors = self.reported.errors;
+        let (found, _) = self.capture_diagnostics(ask);
         self.reported.errors = errors;
         match found {
             Err(Stop::Fault(_)) => Ok(None),

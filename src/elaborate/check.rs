@@ -3,7 +3,7 @@
 use crate::check::typed::{DefId, DefKind, MemberId, MemberKind};
 use crate::interpret::design::Design;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::stop::{Eval, Stop};
+use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use std::rc::Rc;
 

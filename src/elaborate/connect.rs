@@ -187,10 +187,10 @@ impl Interpreter<'_> {
     /// Checks that the loops that are declared close.
     pub(super) fn check_closure(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let Some(closed) = def.closed else { return Ok(()) };
-        if design.broken.get() {
+        if design.broken.get() || design.module_count() == 0 {
             return Ok(());
         }
-        let Some(robot) = self.robot_of(design)? else { return Ok(()) };
+        let Some(robot) = self.robot_of(design, closed)? else { return Ok(()) };
         for residual in robot.residuals() {
             if residual.distance <= TOLERANCES.closure_distance && residual.angle <= TOLERANCES.closure_angle
             {

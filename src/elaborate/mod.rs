@@ -40,12 +40,12 @@ pub fn instantiate(interpreter: &mut Interpreter, def: DefId, args: Args, span: 
     interpreter.make_instance(def, args, span)
 }
 
-/// Returns the robot of a design that is complete; `None` where it is broken or no robot.
+/// Returns the robot of a design that is complete, asked for at `span`; `None` where it is broken or no robot.
 ///
 /// # Errors
-/// A halt, or a fault of a declaration that the robot needs.
-pub fn robot_of(interpreter: &mut Interpreter, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
-    interpreter.assemble_robot(design)
+/// A halt, a configuration without modules, or a fault of a declaration that the robot needs.
+pub fn robot_of(interpreter: &mut Interpreter, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
+    interpreter.assemble_robot(design, span)
 }
 
 /// Returns the joint of the connection at a port.

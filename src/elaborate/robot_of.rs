@@ -7,14 +7,15 @@ use crate::geometry::{Pose, Vec3};
 use crate::interpret::design::{Design, DesignKind, PartElement};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::robot::{Robot, joint_index};
-use crate::interpret::stop::Eval;
+use crate::interpret::stop::{Eval, Stop};
 use crate::robot::{Assembly, Bond, Kinematics, Library, ModuleInstance, PortRef, State};
+use crate::source::{Diagnostic, Span, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
 impl Interpreter<'_> {
     /// Returns the robot of a design that is complete; `None` where it is broken or no robot.
-    pub(super) fn assemble_robot(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
+    pub(super) fn assemble_robot(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let cell = match &design.kind {
             DesignKind::Module(module) => &module.robot,
             DesignKind::Config(config) if config.complete.get() && !design.broken.get() => &config.robot,
@@ -23,15 +24,27 @@ impl Interpreter<'_> {
         if let Some(robot) = cell.get() {
             return Ok(robot.clone());
         }
+        if design.module_count() == 0 {
+            return Err(self.no_modules(design, span));
+        }
         let robot = self.build_robot(design)?.map(Rc::new);
         // Building does not come back here, so the cell is still empty.
         Ok(cell.get_or_init(|| robot).clone())
     }
 
+    fn no_modules(&self, design: &Rc<Design>, span: Span) -> Stop {
+        let declared = self.shared.program.def(design.def).span;
+        let message = format!("`{}` has no modules, so there is no robot", design.name);
+        let diagnostic = Diagnostic::error(code::NO_MODULES, message).label(span, "a robot is wanted here");
+        let diagnostic = if span == declared {
+            diagnostic
+        } else {
+            diagnostic.label(declared, "declared without modules")
+        };
+        diagnostic.hint("a `part` of a module, or of a configuration with modules, is missing").into()
+    }
+
     fn build_robot(&mut self, design: &Rc<Design>) -> Eval<Option<Robot>> {
-        if design.module_count() == 0 {
-            return Ok(None);
-        }
         let Some((library, kinds)) = self.library_of(design)? else { return Ok(None) };
         let modules = kinds
             .iter()
@@ -84,7 +97,9 @@ impl Interpreter<'_> {
         let mut candidates = Vec::new();
         let heavy = elements.iter().zip(&masses).filter(|(_, mass)| **mass >= heaviest);
         for (part, _) in heavy.filter(|(part, _)| part.design.module_count() > 0) {
-            let base = self.assemble_robot(&part.design)?.map_or(0, |robot| robot.assembly.base);
+            let base = self
+                .assemble_robot(&part.design, self.shared.program.def(design.def).span)?
+                .map_or(0, |robot| robot.assembly.base);
             candidates.push(part.offset + base);
         }
         Ok(candidates)

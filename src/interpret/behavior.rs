@@ -66,13 +66,13 @@ impl Interpreter<'_> {
                 "asked before all connections are made",
             ));
         }
-        self.robot_of_checked(design)
+        self.robot_of_checked(design, span)
     }
 
     /// Returns the robot even of a configuration with mistakes, so that its behaviours can be checked.
-    fn robot_of_checked(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
+    fn robot_of_checked(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let broken = design.broken.replace(false);
-        let robot = self.robot_of(design);
+        let robot = self.robot_of(design, span);
         design.broken.set(broken);
         robot
     }
@@ -165,7 +165,8 @@ impl Interpreter<'_> {
     pub fn check_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<bool> {
         self.check_extent(behavior, span)?;
         let Some(design) = &behavior.robot else { return Ok(true) };
-        let Some(robot) = self.robot_of_checked(design)? else { return Ok(false) };
+        let declared = self.shared.program.def(design.def).span;
+        let Some(robot) = self.robot_of_checked(design, declared)? else { return Ok(false) };
         let mark = self.reported.errors;
         let assembly = &robot.assembly;
         let tol = behavior::Settings::default().tol_duration;

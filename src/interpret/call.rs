@@ -7,8 +7,8 @@ use super::host::Mode;
 use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::native::{Call, Effect};
-use super::routines::Args;
 use super::recalled::BehaviorCall;
+use super::routines::Args;
 use super::stop::{Eval, fault};
 use super::value::{Behavior, BehaviorCall, Callable, Value};
 use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param};
@@ -123,10 +123,10 @@ impl Interpreter<'_> {
         self.fill(&native.params, args, &mut frame)?;
         let values = &frame.slots[..native.params.len()];
         let entry = (self.shared.routines.native)(native.key).expect("a test holds bodies to declarations");
+        self.stack.effects += u64::from(entry.effect == Effect::OnRun);
         if self.shared.mode == Mode::Check && entry.effect == Effect::OnRun {
             self.check_arguments(values, span)?;
             return Ok(Value::Unknown);
-        self.stack.effects += u64::from(entry.effect == Effect::OnRun);
         }
         if values.iter().any(Value::is_unknown) {
             return Ok(Value::Unknown);

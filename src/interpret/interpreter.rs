@@ -8,7 +8,7 @@ use super::plan_value::PlanValue;
 use super::recalled::Recalled;
 use super::routines::Routines;
 use super::stop::{Eval, Stop};
-use super::value::{Lazy, Value};
+use super::value::{Behavior, BehaviorCall, Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{DefId, Program};
 use crate::interrupt;
@@ -70,6 +70,8 @@ pub struct Reported {
     pub tests: Vec<TestResult>,
     /// True if something could not be judged because of an error reported before.
     pub unjudged: bool,
+    /// The first expression whose value was unknown.
+    pub unknown_at: Option<Span>,
 }
 
 /// The computed values that stay: for the rest of the run, and in a session for the next entries.
@@ -81,10 +83,10 @@ pub struct Memory {
     pub designs: Vec<Vec<Rc<Design>>>,
     /// The connectors, by declaration; `Some(None)` for those that are broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
+    /// Behaviours by call.
+    pub recalled: Recalled<BehaviorCall, Rc<Behavior>>,
     /// The last plans of behaviours.
     pub plans: Vec<Rc<PlanValue>>,
-    /// Behaviours by call.
-    pub recalled: Recalled,
     /// Searches of `tosnake` that were done.
     pub search_cache: SearchCache,
     /// The causes of commands, with their source lines.
@@ -281,12 +283,41 @@ impl<'a> Interpreter<'a> {
         // The judge's findings differ from robot to robot, at one and the same line.
         let judged = diagnostic.code.0.starts_with("E06").then(|| diagnostic.message.clone());
         let key = (diagnostic.code, diagnostic.span(), judged);
-        if self.reported.reports.len() < REPORTS_MAX && self.reported.known.insert(key) {
+        // Many warnings leave no error unsaid.
+        let alike = self.reported.reports.iter().filter(|d| d.is_error() == diagnostic.is_error()).count();
+        if alike < REPORTS_MAX && self.reported.known.insert(key) {
             self.reported.reports.push(diagnostic);
         }
     }
 
-    /// Runs `body` and returns its findings instead of reporting them.
+    /// Reports a fault that ended a run because nothing took it.
+    pub fn report_end(&mut self, ended: Option<Eval<()>>) {
+        if let Some(Err(Stop::Fault(diagnostic))) = ended {
+            self.report(*diagnostic);
+        }
+    }
+
+    /// Returns the first expression that is unknown although no error says why. `check` leaves values unknown
+    /// that only a run computes.
+    pub fn lost_value(&self) -> Option<Span> {
+        let told = self.reported.reports.iter().any(Diagnostic::is_error);
+        let expected = self.shared.mode == Mode::Check || self.shared.host.cancelled();
+        self.reported.unknown_at.filter(|_| !told && !expected)
+    }
+
+    /// Reports a value that is unknown although no error says why, which no program may bring about.
+    pub fn report_lost(&mut self) {
+        if let Some(span) = self.lost_value() {
+            let message = "this has no value, and no error says why: that is a defect of modl";
+            self.add_report(
+                Diagnostic::error(code::LOST_VALUE, message)
+                    .label(span, "lost here")
+                    .hint("please report it with this program"),
+            );
+        }
+    }
+
+    /// Runs `body` and hands back its findings instead of reporting them.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
         let value = body(self);

@@ -234,8 +234,13 @@ impl Interpreter<'_> {
 
     /// Returns the start pose of a robot as a plan of duration 0; `None` where its design is broken or no
     /// robot.
-    pub fn plan_pose(&mut self, design: &Rc<Design>, world: World) -> Eval<Option<Rc<PlanValue>>> {
-        let Some(robot) = self.robot_of(design)? else { return Ok(None) };
+    pub fn plan_pose(
+        &mut self,
+        design: &Rc<Design>,
+        world: World,
+        span: Span,
+    ) -> Eval<Option<Rc<PlanValue>>> {
+        let Some(robot) = self.robot_of(design, span)? else { return Ok(None) };
         let mut causes = PlanCauses::default();
         let set = self.start_causes(design, &robot, &mut causes);
         let still = Tracks::at_rest(robot.assembly.as_ref().clone(), robot.start.clone());
@@ -300,7 +305,7 @@ impl Interpreter<'_> {
                 Record::Native(record) => Ok(record.plan().cloned()),
                 _ => Ok(None),
             },
-            Value::Instance(instance) => self.plan_pose(&instance.robot, World::default()),
+            Value::Instance(instance) => self.plan_pose(&instance.robot, World::default(), span),
             _ => Ok(None),
         }
     }

@@ -40,7 +40,7 @@ pub struct Routines {
     /// Elaborates a declaration with arguments to an instance.
     pub instantiate: fn(&mut Interpreter, DefId, Args, Span) -> Eval<Value>,
     /// Assembles the robot of a design.
-    pub robot_of: fn(&mut Interpreter, &Rc<Design>) -> Assembled,
+    pub robot_of: fn(&mut Interpreter, &Rc<Design>, Span) -> Assembled,
     /// Finds the joint of the connection at a port.
     pub hinge_of: fn(&mut Interpreter, &PortValue, Span) -> Eval<Value>,
     /// Elaborates a declaration with its defaults and checks all that its body declares.
@@ -56,12 +56,13 @@ pub struct Routines {
 }
 
 impl Interpreter<'_> {
-    /// Returns the robot of a design that is complete; `None` where it is broken or no robot.
+    /// Returns the robot of a design that is complete, asked for at `span`; `None` where it is broken or no
+    /// robot.
     ///
     /// # Errors
-    /// A halt, or a fault of a declaration that the robot needs.
-    pub fn robot_of(&mut self, design: &Rc<Design>) -> Eval<Option<Rc<Robot>>> {
-        (self.shared.routines.robot_of)(self, design)
+    /// A halt, a configuration without modules, or a fault of a declaration that the robot needs.
+    pub fn robot_of(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
+        (self.shared.routines.robot_of)(self, design, span)
     }
 
     /// Returns a value on one line, as it could be written in a program, with units that suit its size.

@@ -98,12 +98,13 @@ impl Evaluator {
     /// Starts an evaluator on a thread of its own.
     ///
     /// # Errors
-    /// That of the system where it gives no memory for the thread.
-    pub fn new(routines: &'static Routines, cancel_state: CancelState) -> std::io::Result<Evaluator> {
+    /// The system's words where it gives no memory for the thread.
+    pub fn new(routines: &'static Routines, cancel_state: CancelState) -> Result<Evaluator, String> {
         let thread = EvaluatorThread::new(cancel_state, move |proxy| {
             let (mut memory, mut before) = (Memory::default(), Vec::new());
             move |task| work(routines, &task, &proxy, &mut memory, &mut before)
-        }))
+        });
+        thread.map(Evaluator)
     }
 
     /// Runs a task and returns its result. An abandoned task counts as interrupted. Panics if an abandoned
@@ -182,7 +183,15 @@ fn evaluate(
     let defect = caught.is_err();
     let ended = caught.ok().flatten();
     let interrupted = !defect && (ended.is_none() || proxy.cancel_state.is_cancelled());
-    let ok = !interrupted && ended.is_some_and(|ended| ended.is_ok()) && interpreter.reported.errors == 0;
+    let finished = ended.as_ref().is_some_and(Result::is_ok);
+    if !defect {
+        interpreter.report_end(ended);
+        // What stays of earlier entries may be unknown, and they said why.
+        if let Some(span) = interpreter.lost_value() {
+            interpreter.check_known(&Value::Unknown, span);
+        }
+    }
+    let ok = !interrupted && finished && interpreter.reported.errors == 0;
     if !ok {
         interpreter.forget_failed();
     }
@@ -212,6 +221,9 @@ impl<'a> Interpreter<'a> {
         let count = self.shared.program.defs.len();
         self.memory = memory;
         self.memory.resize(count);
+        if !stale.is_empty() {
+            self.memory.recalled = Recalled::default();
+        }
         if stale.len() == count {
             let Memory { plans, causes, exemptions, .. } = &mut self.memory;
             (*plans, *causes, *exemptions) = Default::default();
@@ -220,9 +232,6 @@ impl<'a> Interpreter<'a> {
             self.memory.globals[def] = Lazy::Waiting;
             self.memory.designs[def].clear();
             self.memory.connectors[def] = None;
-        }
-        if !stale.is_empty() {
-            self.memory.recalled = Recalled::default();
         }
     }
 

@@ -183,7 +183,7 @@ fn panel_of(
     if design.module().is_none() {
         return Err(no_panel("a module is wanted"));
     }
-    let Some(robot) = interpreter.robot_of(design)? else {
+    let Some(robot) = interpreter.robot_of(design, call.at(key))? else {
         return Err(no_panel("its module is not sound"));
     };
     let panel = Panel::of(&robot.assembly.library, 0).map_err(|why| no_panel(&why.to_string()))?;

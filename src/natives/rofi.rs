@@ -210,7 +210,7 @@ fn open_loops(
     call: &Call,
     path: &str,
 ) -> Eval<Vec<Residual>> {
-    let Some(robot) = interpreter.robot_of(design)? else { return Ok(Vec::new()) };
+    let Some(robot) = interpreter.robot_of(design, origin(call))? else { return Ok(Vec::new()) };
     if let Some(&loose) = robot.kinematics.tree.loose.first() {
         let Module { id, line, .. } = &world.modules[loose];
         let what = format!("module {id} does not hang together with module {}", world.modules[0].id);

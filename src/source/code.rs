@@ -66,6 +66,7 @@ codes! {
     BAD_LATTICE = "E0313", "a lattice that is empty, disconnected or malformed";
     BAD_SHAPE = "E0314", "a shape that is not sound";
     NO_HINGE = "E0315", "a connection that has no joint";
+    NO_MODULES = "E0316", "a configuration without modules";
     // E04xx: behaviours.
     CONFLICT = "E0401", "two commands to one joint at one time";
     TOO_FAST = "E0402", "a speed that the joint cannot reach";
@@ -85,9 +86,9 @@ codes! {
     SIZE_LIMIT = "E0505", "a value larger than the limit";
     BAD_VALUE = "E0506", "a value that the function cannot take";
     EXPECTATION = "E0507", "an expectation that does not hold";
-    // E06xx: verification.
     LOST_VALUE = "E0508", "a value that was lost: a defect of modl";
     NO_MEMORY = "E0509", "too little memory to evaluate";
+    // E06xx: verification.
     COLLISION = "E0601", "two modules meet";
     FALL = "E0602", "the robot falls";
     OVERLOAD = "E0603", "a joint that would have to hold more than it can";

@@ -16,6 +16,8 @@ const NOT_BY_TEXT: &[Code] = &[
     code::PENETRATION,
     code::UNSTABLE,
     code::NOT_VERIFIED,
+    code::LOST_VALUE,
+    code::NO_MEMORY,
     code::CANNOT_WRITE,
     code::CANNOT_READ,
     code::BAD_PLAN_FILE,

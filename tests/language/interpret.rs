@@ -4,6 +4,10 @@ use crate::support::suite::{MapFiles, Observed};
 use modl::check::typed::DefKind;
 use modl::check::{Choice, Program, Type};
 use modl::interpret::argument::Kind;
+use modl::interpret::native::Call;
+use modl::interpret::routines::Routines;
+use modl::interpret::stop::Eval;
+use modl::interpret::value::Value;
 use modl::interpret::{Host, Mode, Options, Outcome, WriteError};
 use modl::natives::Native;
 use modl::source::{FileId, Sources};
@@ -239,4 +243,50 @@ fn a_snake_of_three_hundred_modules_is_elaborated_at_once() {
     options.limits.steps = 20_000;
     let ran = ran(&MapFiles::of(program), "main.mod", Mode::Run, &options);
     assert_eq!(ran.host.printed, ["300 2"], "{:?}", ran.outcome.diagnostics);
+}
+
+/// A built-in that forgets to say what is wrong.
+fn silent(_: &mut modl::interpret::interpreter::Interpreter, _: &Call) -> Eval<Value> {
+    Ok(Value::Unknown)
+}
+
+#[test]
+fn a_value_that_is_lost_without_a_word_is_reported() {
+    static SILENT: Native = Native::pure("len", &[], silent);
+    let routines = Routines {
+        native: |key| if key.as_str() == "len" { Some(&SILENT) } else { modl::natives::find(key) },
+        instantiate: modl::elaborate::instantiate,
+        robot_of: modl::elaborate::robot_of,
+        hinge_of: modl::elaborate::hinge_of,
+        check_declaration: modl::elaborate::check_declaration,
+        show: modl::display::show,
+        display: modl::display::display,
+        describe_declaration: modl::display::describe_declaration,
+        draw_declared: modl::natives::draw_declared,
+    };
+    let ended = |text: &str| {
+        let files = MapFiles::of(text);
+        let checked = modl::check::check(&files, "main.mod");
+        assert!(!checked.has_errors(), "{:?}", checked.diagnostics);
+        let options = Options::default();
+        let outcome =
+            modl::interpret::run(&routines, &checked, Mode::Run, &files, &mut Buffer::default(), &options);
+        let found =
+            outcome.diagnostics.iter().map(|d| (d.code.0, checked.sources.text(d.span().expect("a place"))));
+        found.map(|(code, text)| (code, text.to_string())).collect::<Vec<_>>()
+    };
+    assert_eq!(ended("let n = len([1])\nprint(n + 1)\n"), [("E0508", "len([1])".to_string())]);
+    // An error that was told is reason enough.
+    assert_eq!(ended("let n = [1][1]\nprint(len([n]))\n"), [("E0501", "[1][1]".to_string())]);
+}
+
+#[test]
+fn many_warnings_leave_no_error_unsaid() {
+    let twice = "Pc(move(m.tilt, to: 1deg), move(m.tilt, to: 1deg))";
+    let bodies: String = (0..210).map(|i| format!("  behavior b{i} = {twice}\n")).collect();
+    let plans: String = (0..210).map(|i| format!("print(plan(C().b{i}()).duration > 0s)\n")).collect();
+    let text =
+        format!("use std.smores.Smores\nconfig C {{\n  part m: Smores\n{bodies}}}\n{plans}print([1][1])\n");
+    let found: Vec<&str> = run_text(&text, Mode::Run).outcome.diagnostics.iter().map(|d| d.code.0).collect();
+    assert!(found.len() > 200 && found.contains(&"E0501"), "{found:?}");
 }

@@ -120,3 +120,79 @@ config Slides { part s: Slide
 //                     ^^^^^^ E0403 s.back follows other joints
 }
 print(plan(Slides().go()).duration)
+
+--- a configuration without modules is no robot
+use std.smores.Smores
+config Empty {}
+//     ~~~~~ declared without modules
+config Still { behavior rest = wait(1s) }
+config Row(n: Int) {
+  part m[n]: Smores
+  for i in 0..n - 1 { connect m[i].top -- m[i + 1].bottom }
+}
+print(verify(Empty()))
+//           ^^^^^^^ E0316 `Empty` has no modules
+show(Empty(), "empty.html")
+//   ^^^^^^^ E0316 a robot is wanted here
+emit(Still().rest(), "still.plan.json")
+//   ^^^^^^^^^^^^^^ E0316 `Still` has no modules
+print(com(Row(0)))
+//        ^^^^^^ E0316 `Row(n: 0)` has no modules
+print(count(Empty()), verify(Row(1)).ok)
+//> 0 true
+
+--- equal robots under two names are one, and no behaviour reaches both
+use std.smores.Smores
+config Nod {
+  part m: Smores
+  behavior nod = Sc(move(m.tilt, to: 30deg), move(m.tilt, to: 0deg))
+}
+let a = Nod()
+//      ~~~~~ one name is bound here
+let b = Nod()
+//      ~~~~~ and the other here
+print(Sc(a.nod(), b.nod()).duration > 0s)
+//    ^^^^^^^^^^^^^^^^^^^^ E0406 one behaviour reaches Nod under two names
+print(Sc(move(a.m.tilt, to: 3deg), move(b.m.tilt, to: 5deg)).duration > 0s)
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0406
+print(move(a.m.tilt, to: 3deg, until: angle(b.m.tilt) > 2deg).duration > 0s)
+//                                    ^^^^^^^^^^^^^^^^^^^^^^ E0406
+let row = [Nod(), Nod()]
+print(Pc([n.nod() for n in row]).duration > 0s)
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^ E0406 the other is element 1 of the same list
+fn both(x: Nod, y: Nod) = Sc(x.nod(), y.nod())
+//                        ^^^^^^^^^^^^^^^^^^^^ E0406
+print(both(Nod(), Nod()).duration > 0s)
+//    ~~~~~~~~~~~~~~~~~~ called from here
+fn made() -> Nod = {
+  let n = Nod()
+  n
+}
+let c = made()
+let d = made()
+print(Sc(c.nod(), d.nod()).duration > 0s)
+//    ^^^^^^^^^^^^^^^^^^^^ E0406
+
+--- one robot may have many names, and a call may bind its own
+use std.smores.Smores
+config Nod {
+  part m: Smores
+  behavior nod = Sc(move(m.tilt, to: 30deg), move(m.tilt, to: 0deg))
+}
+let a = Nod()
+let same = a
+fn both(x: Nod, y: Nod) = Sc(x.nod(), y.nod())
+fn often(n: Int) -> Behavior = {
+  let own = Nod()
+  repeat(own.nod(), n)
+}
+let times = Sc(a.nod(), same.nod()).duration / a.nod().duration
+expect Sc(a.nod(), same.nod()).duration == both(a, same).duration
+expect both(a, same).duration == Sc([n.nod() for n in [a, same]]).duration
+expect both(a, same).duration == Sc(Nod().nod(), Nod().nod()).duration
+expect both(a, same).duration == Sc(a.nod(), Nod().nod()).duration
+expect both(a, same).duration == Sc([Nod().nod() for i in 0..2]).duration
+expect both(a, same).duration == Sc(often(1), often(1)).duration
+expect both(a, same).duration == (plan(a.nod()) ++ Nod().nod()).duration
+print(times > 1.9)
+//> true
