@@ -83,7 +83,8 @@ fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
     filled(builder.tempfile_in(parent)?, target, bytes)
 }
 
-/// Writes the bytes and renames the file.
+/// Writes the bytes and renames the file. Bytes and name are on the disk when it returns: after a failure of
+/// the machine the file is whole, or as it was.
 fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
@@ -100,7 +101,7 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Elsewhere a folder can't be opened as a file.
+/// Does nothing: elsewhere a folder can't be opened as a file.
 #[cfg(not(unix))]
 fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())

@@ -31,7 +31,7 @@ enum Next {
     Quit,
 }
 
-/// The system gives no memory for a session.
+/// Returns the error of a system that gives no memory for a session.
 fn no_memory(why: &str) -> CallError {
     CallError(format!("the system gives no memory for a session: {why}"))
 }
@@ -187,7 +187,7 @@ impl<'g> Repl<'g> {
 
     /// Runs work that Ctrl-C cancels.
     fn cancellable<T>(&mut self, work: impl FnOnce(&mut Session, &mut Terminal) -> T) -> T {
-        if self.session.is_left() && !settled(|| self.session.settle()) {
+        if self.session.is_abandoned() && !settled(|| self.session.wait_for_abandoned()) {
             if let Err(e) = self.session.renew(&self.terminal) {
                 // The work that does not end keeps the old evaluator, and there is no other.
                 report::call_error(self.globals, &no_memory(&e).0);

@@ -175,7 +175,7 @@ pub(super) fn print_error(text: &str) {
     print_styled(&escaped(text));
 }
 
-/// Writes text with escape sequences of our own to standard error. What it quotes has been escaped.
+/// Writes text with escape sequences of our own to standard error. Its quotations have been escaped.
 pub(super) fn print_styled(text: &str) {
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }

@@ -16,7 +16,8 @@ pub(super) const LINES_MAX: usize = 40;
 const BYTES_MAX: usize = 1 << 16;
 
 impl Interpreter<'_> {
-    /// Returns a value over as many lines as it needs, the first of which can stand alone.
+    /// Returns a value over as many lines as it needs, the first of which can stand alone; what is too long for
+    /// any reader is cut.
     pub(super) fn display_value(&mut self, value: &Value) -> Eval<String> {
         let mut shown = self.display_whole(value)?;
         if shown.len() > BYTES_MAX {

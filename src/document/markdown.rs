@@ -57,7 +57,7 @@ fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>)
     }
 }
 
-/// Returns whether a link leads where a name of a declaration was found, or to a mail address, which is no
+/// Returns true if a link leads to the place of a declaration that was found, or to a mail address, which is no
 /// address of a page.
 fn is_resolved(link_type: LinkType) -> bool {
     matches!(
@@ -78,7 +78,7 @@ fn found<'e>(to: CowStr<'e>, address: Option<String>, lost: &mut Vec<String>) ->
     }
 }
 
-/// Returns whether a link leads out of the site in a way that it may.
+/// Returns true if a link leads out of the site in a way that it may.
 fn leads_out(to: &str) -> bool {
     ["https://", "http://", "mailto:"].iter().any(|scheme| to.starts_with(scheme))
 }

@@ -14,7 +14,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Interpreter<'_> {
-    /// Returns the robot of a design that is complete; `None` where it is broken or no robot.
+    /// Returns the robot of a design that is complete, asked for at `span`; `None` where it is broken or no
+    /// robot.
     pub(super) fn assemble_robot(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let cell = match &design.kind {
             DesignKind::Module(module) => &module.robot,

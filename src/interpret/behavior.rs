@@ -34,8 +34,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The one robot that parts of a behaviour move or look at. Equal robots are one; but where the program
-    /// holds them under two names, it means two.
+    /// Returns the one robot that parts of a behaviour move or sense. Equal robots are one; but where the
+    /// program holds them under two names, it means two.
     ///
     /// # Errors
     /// A fault where there are two robots, or two names.
@@ -54,7 +54,11 @@ impl Interpreter<'_> {
         Ok(Some(Subject { design: a.design.clone(), identity }))
     }
 
-    /// The robot of a joint, for an action; `None` where something is wrong with it.
+    /// Returns the robot of a joint, for an action; `None` where something is wrong with it, which has been
+    /// reported.
+    ///
+    /// # Errors
+    /// A fault at `span` where the robot is a configuration whose clauses still run.
     pub fn robot_at(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let running = design.config().is_some_and(|config| !config.complete.get());
         if running {
@@ -161,7 +165,7 @@ impl Interpreter<'_> {
     }
 
     /// Reports what is wrong with a behaviour before any run: too many actions, commands in conflict, limits
-    /// of the joints; gives whether nothing is. `span` wants the behaviour.
+    /// of the joints. Returns true if nothing is. `span` is the place that wants the behaviour.
     pub fn check_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<bool> {
         self.check_extent(behavior, span)?;
         let Some(design) = &behavior.robot else { return Ok(true) };
@@ -330,7 +334,7 @@ fn other_robot(a: &Rc<Design>, b: &Rc<Design>, span: Span) -> Stop {
         .into()
 }
 
-/// Equal robots under two names: the places where they got these names come after the place that mixes them.
+/// Returns the fault of equal robots under two names, with the places where they got these names.
 fn two_names(robot: &Rc<Design>, (a, b): (Name, Name), span: Span) -> Stop {
     let place = |name: Name| name.index.map_or_else(String::new, |i| format!(", element {i}"));
     let message = format!("one behaviour reaches {} under two names, and both are one robot", robot.name);

@@ -7,7 +7,6 @@ use super::host::Mode;
 use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::native::{Call, Effect};
-use super::recalled::BehaviorCall;
 use super::routines::Args;
 use super::stop::{Eval, fault};
 use super::value::{Behavior, BehaviorCall, Callable, Value};
@@ -173,7 +172,8 @@ impl Interpreter<'_> {
         self.with_call(span, name, |this| this.recall_behavior(declared, behavior, object, args))
     }
 
-    /// Gives what the same call gave before, or makes the behaviour. What prints, or fails, is done anew.
+    /// Returns the behaviour that the same call gave before, or makes it. A call that prints, or fails, is made
+    /// anew.
     fn recall_behavior(
         &mut self,
         declared: &BehaviorDef,

@@ -402,13 +402,13 @@ impl std::fmt::Debug for Subject {
     }
 }
 
-/// A design at a place of a robot.
+/// A design as a part of a robot, or as the whole.
 pub struct Instance {
     /// The elaborated declaration.
     pub design: Rc<Design>,
     /// The robot that it is a part of.
     pub robot: Subject,
-    /// Index of its first module among the robot's.
+    /// The index of its first module among the robot's.
     pub offset: usize,
     /// The path name within the robot; empty for the whole.
     pub path: Rc<str>,
@@ -439,7 +439,7 @@ impl Instance {
         }
     }
 
-    /// The parts of a configuration as values: an instance or a list of instances for each group.
+    /// Returns the parts of a configuration as values: an instance or a list of instances for each group.
     /// `None` while they are being elaborated.
     pub fn parts(&self) -> Option<&[Value]> {
         let config = self.design.config()?;

@@ -60,7 +60,7 @@ impl Interpreter<'_> {
         Ok(value)
     }
 
-    /// The value of a `let`, which gives a robot a name.
+    /// Returns the value of a `let`, which gives a robot a name.
     pub fn eval_bound(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
         let value = self.eval(expr, frame)?;
         value.bind(Name { span: expr.span, index: None });

@@ -11,20 +11,20 @@ use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::Builder;
 
-/// Evaluations within evaluations that a program may reach, where the system gives the whole stack.
+/// The greatest depth of evaluations within evaluations, where the system gives the whole stack.
 const NESTING_MAX: usize = 40_000;
 
-/// The stack that one level of evaluation takes at most, in bytes, several times what was measured. Without
-/// optimisation it takes more.
+/// The size of the stack for one level of evaluation, in bytes: several times what was measured. Without
+/// optimisation a level takes more.
 const LEVEL_BYTES: usize = if cfg!(debug_assertions) { 24 << 10 } else { 6 << 10 };
 
-/// Room for what is no evaluation: elaborating, planning, judging, and dropping what was made.
+/// The size of the stack for what is no evaluation: elaborating, planning, judging, and dropping values.
 const REST_BYTES: usize = 16 << 20;
 
-/// The stack that is asked for; pages that are never touched cost nothing.
+/// The size of the stack that is asked for; pages that are never touched cost nothing.
 const STACK_BYTES: usize = NESTING_MAX * LEVEL_BYTES + REST_BYTES;
 
-/// The least stack to work with. Where memory is so short, programs may nest less deeply, and no result
+/// The least size of the stack to work with. With so little memory programs may nest less deeply, and no result
 /// differs but for the refusal to nest deeper.
 const STACK_BYTES_MIN: usize = REST_BYTES + (4 << 20);
 
@@ -137,7 +137,8 @@ fn with_stack<T, E: ToString>(mut start: impl FnMut(Builder, usize) -> Result<T,
     }
 }
 
-/// Runs `evaluate` on a thread of its own and serves its requests here until it ends.
+/// Runs `evaluate` on a thread of its own and serves its requests here until it ends. Panics of the evaluator
+/// are resumed here.
 ///
 /// # Errors
 /// The system's words where it gives no memory for the thread.
@@ -169,7 +170,7 @@ fn taken<W>(work: &Mutex<Option<W>>) -> W {
     taken.expect("of the threads that were tried one started")
 }
 
-/// An evaluator that stays, with what it keeps from job to job.
+/// An evaluator thread that stays from job to job, with its memory.
 pub struct EvaluatorThread<J, R> {
     jobs: Sender<J>,
     requests: Receiver<Request>,
@@ -184,6 +185,9 @@ pub struct EvaluatorThread<J, R> {
 impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
     /// Starts the thread. `begin` is called on it; the function that `begin` returns does the jobs, one by
     /// one.
+    ///
+    /// # Errors
+    /// The system's words where it gives no memory for the thread.
     pub fn new<W: FnMut(J) -> R>(
         cancel_state: CancelState,
         begin: impl FnOnce(HostProxy) -> W + Send + 'static,
@@ -207,7 +211,14 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
                 }
             })
         })?;
-        Ok(EvaluatorThread { jobs, requests: asked, results, cancel_state, waker, left: Cell::new(false) })
+        Ok(EvaluatorThread {
+            jobs,
+            requests: asked,
+            results,
+            cancel_state,
+            waker,
+            abandoned: Cell::new(false),
+        })
     }
 
     /// Runs a job and serves its requests here until it is done. Returns `None` if the user abandons it

@@ -17,12 +17,10 @@ use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
-/// The greatest number of findings of one run; more help nobody.
+/// The greatest number of errors of one run, and of its other findings; more help nobody.
 const REPORTS_MAX: usize = 200;
 /// The greatest number of calls that a message shows.
 const CALLS_SHOWN: usize = 4;
-/// The greatest depth of evaluations within evaluations. The stack of [`super::evaluator_thread`] is made for
-/// this many.
 
 /// The state of a run: its inputs, its findings, its memory, and the position of evaluation.
 pub struct Interpreter<'a> {
@@ -83,11 +81,11 @@ pub struct Memory {
     pub designs: Vec<Vec<Rc<Design>>>,
     /// The connectors, by declaration; `Some(None)` for those that are broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
-    /// Behaviours by call.
+    /// The behaviours that calls gave.
     pub recalled: Recalled<BehaviorCall, Rc<Behavior>>,
     /// The last plans of behaviours.
     pub plans: Vec<Rc<PlanValue>>,
-    /// Searches of `tosnake` that were done.
+    /// The finished searches of `tosnake`.
     pub search_cache: SearchCache,
     /// The causes of commands, with their source lines.
     pub causes: Causes,
@@ -317,7 +315,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs `body` and hands back its findings instead of reporting them.
+    /// Runs `body` and returns its findings instead of reporting them.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
         let value = body(self);

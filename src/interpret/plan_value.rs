@@ -25,7 +25,7 @@ pub struct PlanValue {
     report: Option<Rc<dyn PlannerReport>>,
     /// The robot as a value, once it was asked for: one and the same at each time.
     instance: OnceCell<Rc<Instance>>,
-    /// Verdicts so far.
+    /// The verdicts so far.
     pub(super) judged: RefCell<Vec<Judged>>,
 }
 

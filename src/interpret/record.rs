@@ -18,9 +18,8 @@ pub enum Record {
     /// A `Plan`, or what a planner makes of it.
     Plan(Rc<PlanValue>),
     /// A `Report` of the judge.
-    /// A verdict, and its headline.
     Report(Rc<Verdict>, String),
-    /// A `State`.
+    /// A state of a robot, `State`.
     State(StateValue),
     /// The assumptions about the surroundings, `World`.
     World(World),

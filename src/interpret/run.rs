@@ -38,7 +38,7 @@ pub fn run(
     ran.unwrap_or_else(|why| Outcome { diagnostics: vec![no_memory(&why)], ..Outcome::default() })
 }
 
-/// The system gives no memory for the evaluator.
+/// Returns the error of a system that gives no memory for the evaluator.
 fn no_memory(why: &str) -> Diagnostic {
     let message = format!("the system gives no memory to evaluate the program: {why}");
     Diagnostic::error(code::NO_MEMORY, message).hint("end other programs, or raise the limit of this one")

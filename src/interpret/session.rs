@@ -186,7 +186,7 @@ fn evaluate(
     let finished = ended.as_ref().is_some_and(Result::is_ok);
     if !defect {
         interpreter.report_end(ended);
-        // What stays of earlier entries may be unknown, and they said why.
+        // Values of earlier entries may be unknown, and those entries said why.
         if let Some(span) = interpreter.lost_value() {
             interpreter.check_known(&Value::Unknown, span);
         }

@@ -285,7 +285,7 @@ impl Value {
         }
     }
 
-    /// Returns a value, or the missing value.
+    /// Returns a value, or the missing value for `None`.
     pub fn optional(value: Option<Value>) -> Value {
         value.unwrap_or(Value::Missing)
     }

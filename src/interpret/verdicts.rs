@@ -44,7 +44,7 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     verdict.worst_values().map(line).collect()
 }
 
-/// Returns a verdict in words, as `print` shows it.
+/// Returns a verdict in words, as `print` shows it, below its headline.
 pub fn in_words(verdict: &Verdict, headline: &str) -> String {
     let [x, y, _] = verdict.travel;
     let travel = quantity(libm::hypot(x, y), Dimension::LENGTH);

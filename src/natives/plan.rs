@@ -91,11 +91,7 @@ fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let behavior = call.get::<&Rc<Behavior>>("behavior")?.clone();
     let mut beginning = Beginning::default();
     if let Some(state) = call.get::<Option<&StateValue>>("from")? {
-        interpreter.common_robot(
-            behavior.robot.as_ref().map(|robot| &**robot),
-            Some(&state.robot),
-            call.at("from"),
-        )?;
+        interpreter.common_robot(behavior.robot.as_deref(), Some(&state.robot), call.at("from"))?;
         beginning.start = Some(state.state.clone());
     }
     if let Some(world) = call.get("world")? {

@@ -100,7 +100,7 @@ impl Extent {
     }
 }
 
-/// Returns whether two programs are equal. Each pair of nodes is compared once, however often it occurs.
+/// Returns true if two programs are equal. Each pair of nodes is compared once, however often it occurs.
 pub fn equal(a: &Arc<Node>, b: &Arc<Node>) -> bool {
     let mut seen = HashSet::new();
     let mut stack = vec![(a, b)];
@@ -116,7 +116,7 @@ pub fn equal(a: &Arc<Node>, b: &Arc<Node>) -> bool {
     true
 }
 
-/// Returns whether two nodes are equal but for their children.
+/// Returns true if two nodes are equal but for their children.
 fn alike(a: &Node, b: &Node) -> bool {
     let leaf = Arc::new(Node::Series(Vec::new()));
     let bare = |node: &Node| match node {

@@ -107,7 +107,7 @@ impl Reply {
 impl Session {
     /// Returns an empty session in a project. Only the cancellation token of `host` is used.
     pub fn new(project: Project, options: Options, host: &dyn Host) -> Result<Session, String> {
-        let files = Arc::new(Kept::new(project));
+        let files = Arc::new(FileSnapshot::new(project));
         let checked = Arc::new(check::check_session(&*files, &[]));
         Ok(Session {
             files,

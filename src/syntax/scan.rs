@@ -241,7 +241,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// Records an opening bracket; reports deep nesting. What opens deeper than the limit is only counted.
+    /// Records an opening bracket; reports deep nesting. Brackets deeper than the limit are only counted.
     fn open(&mut self, at: usize) {
         if self.open.len() > NESTING_MAX {
             self.too_deep_by += 1;

@@ -5,7 +5,7 @@ use super::number::number;
 use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
 use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
-use crate::plan::{Body, Bound, Ground, Plan, file, headline};
+use crate::plan::{Body, Ground, ObjectiveValue, Plan, file, headline};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 

@@ -4,7 +4,8 @@
 
 use crate::desk::cli::Sandbox;
 use crate::support::terminal::{PROMPT, Terminal};
-use std::time::Duration;
+use std::process::Command;
+use std::time::{Duration, Instant};
 
 /// What a person does not notice.
 const AT_ONCE: Duration = Duration::from_millis(100);
@@ -77,4 +78,69 @@ fn who_reads_no_terminal_hears_nothing_of_progress() {
     let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
     let ran = sandbox.run(&["-e", "use \"worm.mod\".{Worm}", "-e", "verify(Worm(2).crawl(2)).ok"]);
     assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "true\n", ""));
+}
+
+/// A session whose process is known: it says its number first.
+#[cfg(target_os = "linux")]
+fn begin_known(sandbox: &Sandbox, arguments: &str) -> (Terminal, String) {
+    let mut command = Command::new("sh");
+    let line = format!("echo pid $$.; exec {} {arguments}", env!("CARGO_BIN_EXE_modl"));
+    command.args(["-c", &line]).current_dir(sandbox.path(""));
+    command.env("MODL_HISTORY", sandbox.path("history"));
+    let mut terminal = Terminal::begin(command);
+    terminal.sees("pid ");
+    let process = terminal.sees(".");
+    terminal.sees(PROMPT);
+    (terminal, process)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_to_terminate_ends_a_session_that_works() {
+    let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
+    let (mut terminal, process) = begin_known(&sandbox, "repl worm.mod");
+    terminal.types("for i in 0..40000000 { let x = i }\r");
+    terminal.sees("evaluating: ");
+    let sent = Command::new("kill").args(["-TERM", &process]).status().expect("a signal can be sent");
+    assert!(sent.success());
+    let begin = Instant::now();
+    // Nobody waits for the process, so it may stay as a zombie.
+    let lives = || {
+        let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+        stat.rsplit_once(") ").is_some_and(|(_, rest)| !rest.starts_with(['Z', 'X']))
+    };
+    while lives() {
+        assert!(begin.elapsed() < Duration::from_secs(5), "the session goes on");
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn bytes_that_are_no_text_do_not_end_a_session() {
+    let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
+    let mut terminal = begin(&sandbox);
+    for bytes in [&b"1 + \xff\xfe"[..], b"\x1b[200~let a = \"\xc3\x28\"\x1b[201~", b"\xe4\xf6"] {
+        terminal.types_bytes(bytes);
+        terminal.sees("this is not UTF-8 text, and was discarded");
+        terminal.sees(PROMPT);
+        // The rest of the bytes is a line of its own.
+        terminal.types("\x03");
+        terminal.sees(PROMPT);
+    }
+    terminal.ask("kept + 1", "3: Int");
+}
+
+#[test]
+fn a_long_line_is_not_drawn_again_at_each_key() {
+    let sandbox = Sandbox::new(&[("worm.mod", WORM.as_bytes())]);
+    let mut command = sandbox.command(&["repl", "worm.mod", "--color", "always"]);
+    command.env("MODL_HISTORY", sandbox.path("history"));
+    let mut terminal = Terminal::begin(command);
+    terminal.sees(PROMPT);
+    let long = format!("len([{}])", vec!["1"; 4000].join(","));
+    // Keys that come together are taken as they come, not as one paste.
+    terminal.types(&long);
+    terminal.types("\r");
+    let echoed = terminal.sees("4000").len();
+    assert!(echoed < 25_000_000, "{echoed} bytes for {} keys", long.len());
 }

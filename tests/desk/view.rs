@@ -402,7 +402,7 @@ const WEAK: &str = "connector Face { mates Face }
 module Arm {
   mass 11kg
   link base = box(200mm, 200mm, 50mm, mass: 10kg)
-  link tip = box(400mm, 40mm, 40mm, mass: 1kg) at [300mm, 0mm, 0mm]
+  link tip = box(400mm, 40mm, 40mm, mass: 1kg) at [340mm, 0mm, 0mm]
   joint bend : base -> tip = revolute(axis: Y, range: -90deg..90deg, max_speed: 60deg/s, max_torque: 0.5N*m) at [100mm, 0mm, 0mm]
   port back : Face on base at [-100mm, 0mm, 0mm] facing -X up +Z
 }

@@ -290,3 +290,70 @@ fn many_warnings_leave_no_error_unsaid() {
     let found: Vec<&str> = run_text(&text, Mode::Run).outcome.diagnostics.iter().map(|d| d.code.0).collect();
     assert!(found.len() > 200 && found.contains(&"E0501"), "{found:?}");
 }
+
+/// Sixty lists, each of which holds the one before twice.
+fn shared_lists(name: &str) -> String {
+    let lists = (1..=60).map(|i| format!("let {name}{i} = [{name}{}, {name}{}]\n", i - 1, i - 1));
+    format!("let {name}0 = [1]\n{}", lists.collect::<String>())
+}
+
+#[test]
+fn lists_that_share_their_elements_are_compared_and_printed_within_limits() {
+    let lists = shared_lists("x") + &shared_lists("y");
+    let ran = run_text(
+        &format!("{lists}print(x60 == y60, x60 == [y59, x59], contains([y60], x60))\nprint(x4)\n"),
+        Mode::Run,
+    );
+    assert_eq!(ran.host.printed[0], "true true true", "{:?}", ran.outcome.diagnostics);
+    for text in ["print(x60)", "print(\"{x60}\")", "let t = \"{[x60]}\"\nprint(t)"] {
+        let ran = run_text(&format!("{lists}{text}\n"), Mode::Run);
+        let codes: Vec<&str> = ran.outcome.diagnostics.iter().map(|d| d.code.0).collect();
+        assert_eq!(codes, ["E0505"], "{text}");
+    }
+}
+
+/// Behaviours of ten of the one before, level by level: as declared behaviours, and as values.
+fn nested_behaviors(levels: usize) -> [String; 2] {
+    let ten = |name: String| vec![name; 10].join(", ");
+    let declared = |i: usize| format!("  behavior b{i} = Sc({})\n", ten(format!("b{}()", i - 1)));
+    let valued = |i: usize| format!("let c{i} = Sc({})\n", ten(format!("c{}", i - 1)));
+    let head = "use std.smores.Smores\nconfig C {\n  part m: Smores\n  behavior b0 = wait(1ms)\n";
+    let first: String = (1..=levels).map(declared).collect();
+    let second: String = (1..=levels).map(valued).collect();
+    [
+        format!("{head}{first}}}\nprint(C().b{levels}().duration)\n"),
+        format!("{head}}}\nlet c0 = C().b0()\n{second}print(c{levels}.duration)\n"),
+    ]
+}
+
+#[test]
+fn actions_are_counted_before_anything_walks_them() {
+    for text in nested_behaviors(3) {
+        let ran = run_text(&text, Mode::Run);
+        assert_eq!(ran.host.printed, ["1s"], "{:?}", ran.outcome.diagnostics);
+    }
+    // Of the deepest, all numbers of actions are beyond what a machine word holds.
+    for levels in [7, 30] {
+        for text in nested_behaviors(levels) {
+            let found: Vec<&str> =
+                run_text(&text, Mode::Run).outcome.diagnostics.iter().map(|d| d.code.0).collect();
+            assert_eq!(found, ["E0505"], "{levels}");
+        }
+        let [declared, _] = nested_behaviors(levels);
+        let checked = run_text(&declared, Mode::Check).outcome.diagnostics;
+        assert!(
+            checked.iter().any(|d| d.code.0 == "E0505" && d.message.contains("5000000 actions")),
+            "{checked:?}"
+        );
+    }
+    let often = "use std.smores.Smores\nconfig C {\n  part m: Smores\n  behavior b = repeat(repeat(wait(1ms), 5000000), 5000000)\n}\n";
+    let checked = run_text(often, Mode::Check).outcome.diagnostics;
+    assert!(matches!(checked.as_slice(), [d] if d.code.0 == "E0505"), "{checked:?}");
+}
+
+#[test]
+fn a_behavior_that_prints_does_so_at_each_call() {
+    let text = "use std.smores.Smores\nconfig C {\n  part m: Smores\n  behavior b = {\n    print(\"made\")\n    move(m.tilt, to: 1deg)\n  }\n}\nlet c = C()\nlet twice = Sc(c.b(), c.b())\nprint(twice.duration > 0s)\n";
+    let ran = run_text(text, Mode::Run);
+    assert_eq!(ran.host.printed, ["made", "made", "true"], "{:?}", ran.outcome.diagnostics);
+}

@@ -213,3 +213,17 @@ fn comments_are_kept_with_their_places() {
     assert_eq!(shown, expected);
     assert_eq!(parsed(text).file.doc.as_deref(), Some("file"));
 }
+
+/// What is deeper than the limit is counted, not kept: five million brackets cost what five million blanks do.
+#[test]
+fn millions_of_brackets_are_told_once() {
+    for open in ["(", "[", "{", "f(", "[1, "] {
+        let text = format!("let a = {}\nlet b = 2\n", open.repeat(5_000_000 / open.len()));
+        assert_eq!(codes(&text), [code::TOO_DEEP], "{open}");
+        let formatted = modl::format::format(FileId(0), &text).expect("it is left as it is");
+        assert_eq!(formatted.diagnostics.len(), 1, "{open}");
+        assert!(formatted.text == text, "{open}");
+    }
+    let closed = format!("let a = {}1{}\nlet b = a c\n", "(".repeat(1000), ")".repeat(1000));
+    assert_eq!(codes(&closed), [code::TOO_DEEP, code::SYNTAX]);
+}

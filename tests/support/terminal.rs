@@ -40,7 +40,11 @@ impl Terminal {
     }
 
     pub fn types(&mut self, keys: &str) {
-        self.keys.write_all(keys.as_bytes()).expect("the session takes keys");
+        self.types_bytes(keys.as_bytes());
+    }
+
+    pub fn types_bytes(&mut self, keys: &[u8]) {
+        self.keys.write_all(keys).expect("the session takes keys");
     }
 
     /// Reads on until the words have come; gives what came before them.
