@@ -7,17 +7,17 @@ install_rust_tools() {
   done
 }
 
-# pinocchio, a second opinion on kinematics (tests/robots/urdf.rs, benches/kinematics.rs). Where it can't be
-# installed, what asks for it says so and is skipped.
+# pinocchio and coal, a second opinion on kinematics (tests/robots/urdf.rs, benches/kinematics.rs) and on collisions
+# (tests/judge/oracle.rs). Where they can't be installed, what asks for them says so and is skipped.
 install_python() {
   local venv="$PWD/target/python"
   if [ ! -x "$venv/bin/python" ]; then
     python3 -m venv "$venv" || echo "no Python: the test against another library will be skipped"
   fi
   if [ -x "$venv/bin/python" ]; then
-    "$venv/bin/python" -c 'import pinocchio' 2>/dev/null \
-      || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check pin \
-      || echo "no pinocchio: the test against another library will be skipped"
+    "$venv/bin/python" -c 'import pinocchio, coal' 2>/dev/null \
+      || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check pin coal \
+      || echo "no pinocchio or coal: the tests against other libraries will be skipped"
     export MODL_PYTHON="$venv/bin/python"
   fi
 }

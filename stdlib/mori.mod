@@ -3,18 +3,20 @@
 /// An edge of a panel. The joint lives in the bond: two panels turn about the edge that they share.
 ///
 /// A positive angle folds towards the back of the panels, as the faces of a convex shape do whose
-/// outside is the panels' front.
+/// outside is the panels' front. The range is that of equations 1 and 2 of the origami-folding paper: panels of
+/// thickness d on a hinge of radius r come no nearer than the angle a with sin(a / 2) = d / (2 * r). With
+/// r = d that is 60 degrees between them, 120 degrees from flat.
 connector Edge {
   mates Edge
   turns 1
-  hinge(axis: Y, range: -180deg..180deg, max_speed: 90deg/s, max_torque: 0.1N*m)
+  hinge(axis: Y, range: -120deg..120deg, max_speed: 90deg/s, max_torque: 0.1N*m)
 }
 
 /// A triangular panel of side `side`, drawn flat with its front up and its first edge towards -y.
 ///
 /// Side, thickness and mass are those of the origami-folding paper, whose passive panels weigh 8 g; speed and torque of the edges
-/// are round figures, for the paper states none. The edges are bevelled on both sides, so that two
-/// panels close up to 60 degrees between them: the paper's hinges leave as much room.
+/// are round figures, for the paper states none. The edges are bevelled by 30 degrees on both sides, so that two
+/// panels close up to 60 degrees between them, as on the paper's hinges whose radius is the thickness.
 module Mori(side: Length = 80mm, thickness: Length = 6mm, weight: Mass = 26g) {
   let apothem = side / (2 * sqrt(3))
 

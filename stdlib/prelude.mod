@@ -1390,7 +1390,7 @@ extern type Report {
   samples: Int
   /// What failed, in words, in order of time.
   failures: List<Text>
-  /// Every check with its status: proved, sampled, not checked (why), no limit stated, failed.
+  /// Every check with its status: proved, within tolerance, sampled, not checked (why), no limit stated, failed.
   checks: List<Text>
   /// The worst values with their times and modules.
   worst: List<Text>

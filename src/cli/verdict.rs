@@ -96,6 +96,7 @@ fn settings(plan: &Plan) -> String {
 fn status(status: &Status) -> String {
     match status {
         Status::Proved => "proved".to_owned(),
+        Status::WithinTolerance => "within tolerance".to_owned(),
         Status::Sampled(n) => format!("holds at {n} samples"),
         Status::NotChecked(why) => format!("NOT CHECKED: {why}"),
         Status::NoLimit => "no limit stated".to_owned(),

@@ -24,6 +24,7 @@ impl Interpreter<'_> {
                 if let Some(design) = self.attempt(|this| this.default_design(def))?.flatten() {
                     self.check_members(&design)?;
                     self.check_sweep(def, &design)?;
+                    self.check_thickness(def, &design)?;
                 }
             }
         }

@@ -16,6 +16,7 @@ mod lattice;
 mod module;
 mod robot_of;
 mod sweep;
+mod thickness;
 mod tolerances;
 mod truss;
 

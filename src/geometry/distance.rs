@@ -59,11 +59,12 @@ pub(super) fn distance_apart(
 
 /// Returns the penetration of parts whose cores overlap: the least depth that two methods find, each of which has its
 /// blind spots: the expansion of a polytope where bodies touch, the nearest points of shrunk bodies where they are deep
-/// in each other.
+/// in each other. Where even shrunk bodies overlap, about one centre, directions are searched.
 fn penetration(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     let expanded = expanding_polytope(a, b, X_AB);
-    let found = [expanded, shrunk(a, b, X_AB)].into_iter().flatten().map(|n| refined(a, b, X_AB, n));
-    found.max_by(|x, y| x.distance.total_cmp(&y.distance)).unwrap_or_else(|| direction_search(a, b, X_AB))
+    let deep = shrunk(a, b, X_AB).or_else(|| Some(direction_search(a, b, X_AB)));
+    let found = [expanded, deep].into_iter().flatten().map(|n| refined(a, b, X_AB, n));
+    found.max_by(|x, y| x.distance.total_cmp(&y.distance)).expect("directions are searched")
 }
 
 /// Returns the separation along the direction between the parts when shrunk until they are apart.
@@ -149,7 +150,7 @@ fn encloses_part(a: &Solid, b: &Solid, X_AB: &Pose) -> bool {
     b.parts.iter().any(|q| a.encloses(&X_AB.transform_point(&q.centre.into()).coords))
 }
 
-/// Returns a penetration where the other methods found none (parry gives up on some deep overlaps): the best of the
+/// Returns the penetration of parts about one centre (on which parry's expansion gives up, or takes the first direction): the best of the
 /// directions of a cube's faces, edges and corners, refined by pattern search with steps that shrink by halves.
 fn direction_search(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     const FIRST_STEP: f64 = 0.5;

@@ -1,6 +1,7 @@
 //! The shapes that links are made of, as declared. Lengths in metres; the shape's own frame is at
 //! its centre (a hull's and a mesh's where their points say).
 
+use super::hull::extents;
 use super::pose::{Pose, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -61,6 +62,23 @@ pub enum Shape {
         /// The solids with their poses.
         parts: Vec<Placed>,
     },
+}
+
+impl Shape {
+    /// Returns the least extent of the shape, m: of a union that of its thinnest part, and 0 of points in one plane.
+    pub fn thickness(&self) -> f64 {
+        match self {
+            Shape::Box { size } => size.min(),
+            Shape::Cylinder { radius, length, .. } => f64::min(2.0 * radius, *length),
+            Shape::Sphere { radius } | Shape::Capsule { radius, .. } => 2.0 * radius,
+            Shape::Hull { points } | Shape::Mesh { vertices: points, .. } => {
+                extents(points, 0.0).map_or(0.0, |[.., height]| height.norm())
+            }
+            Shape::Union { parts } => {
+                parts.iter().map(|part| part.shape.thickness()).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
 }
 
 /// A shape at a pose in the frame of what it belongs to (`X_LS`, link to shape).

@@ -1,5 +1,6 @@
 //! Solids: shapes compiled into convex parts.
 
+use super::distance::signed_distance;
 use super::hull;
 use super::part::Part;
 use super::pose::{Pose, Vec3};
@@ -56,6 +57,14 @@ impl Solid {
             let angle: f64 = shell.iter().map(|t| solid_angle(&t.map(|corner| corner - point))).sum();
             angle > std::f64::consts::TAU
         })
+    }
+
+    /// Returns how deep a point (m) is in the parts of the solid, by the nearest way out of the one it is deepest in, m; 0
+    /// outside of all of them.
+    pub fn depth_of(&self, point: &Vec3) -> f64 {
+        let point = Part::sphere(*point, 0.0);
+        let depth = |part: &Part| -signed_distance(part, &point, &Pose::identity()).distance;
+        self.parts.iter().map(depth).fold(0.0, f64::max)
     }
 
     fn add(&mut self, placed: &Placed, X_LS: &Pose) -> Result<(), Unsound> {

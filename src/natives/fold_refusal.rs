@@ -32,7 +32,7 @@ pub(super) fn diagnostic(
             .label(call.at(if *is_root_given { ROOT } else { TARGET }), "can't lie on the ground so")
             .hint("`gravity: off` folds where there is no ground")
             .into(),
-        Refusal::Interpenetrating { .. } | Refusal::ClosedRing { .. } => error(code::UNFOLDABLE)
+        Refusal::Interpenetrating { .. } => error(code::UNFOLDABLE)
             .label(call.at(TARGET), "does not fold")
             .label(call.at(MODULE), "too thick")
             .hint("thinner panels, or larger faces, leave room")

@@ -38,7 +38,7 @@ pub enum CheckKind {
     Stability,
     /// Loaded links do not slip over the ground.
     Slip,
-    /// The robot is at rest at the start and at the end.
+    /// Joints or cells are at rest at the start and at the end.
     Rest,
     /// A lattice needs no external force or moment.
     Momentum,
@@ -128,6 +128,8 @@ pub const WORST_VALUES: [WorstKind; 8] = [
 pub enum Status {
     /// Holds at every instant.
     Proved,
+    /// Holds at every instant up to a stated tolerance, which was needed: links penetrate by no more than `touch`.
+    WithinTolerance,
     /// Holds at this many samples; between them nothing is proved.
     Sampled(usize),
     /// It was not judged, for this reason.
@@ -144,6 +146,7 @@ impl std::fmt::Display for Status {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Status::Proved => f.write_str("proved"),
+            Status::WithinTolerance => f.write_str("within tolerance"),
             Status::Sampled(n) => write!(f, "sampled({n})"),
             Status::NotChecked(why) => write!(f, "not checked: {why}"),
             Status::NoLimit => f.write_str("no limit stated"),

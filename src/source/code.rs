@@ -118,5 +118,6 @@ codes! {
     OPEN_LOOP = "W0006", "a connection in a file whose docks do not meet";
     SHORT_OF_GOAL = "W0007", "a plan that ends short of its goal";
     COMMENT_DIVIDES = "W0008", "a comment where a quotient may be meant";
+    THIN_LINK = "W0009", "a link thinner than what counts as a touch";
     START_SETTLES = "N0001", "the robot settles at the start";
 }

@@ -166,7 +166,6 @@ impl Task<'_> {
             target: self.target,
             weights: &self.objective.weights,
             solids: &self.panels.solids,
-            required: &self.required,
             roots: &self.roots,
             cheap: &found.layouts,
             seed: self.settings.seed,

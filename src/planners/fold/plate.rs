@@ -10,6 +10,10 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// The fold angle up to which the bevels of 30° leave room, rad: by equation 1 of the origami paper that of hinges
+/// whose radius is the thickness.
+const FOLD_MAX: f64 = 2.0 * PI / 3.0;
+
 /// A uniform plate with motors in its edges. The edges are bevelled by 30° on both sides, so that two plates
 /// close up to 60° between them.
 #[derive(Clone, Copy, Debug)]
@@ -28,10 +32,14 @@ pub struct Plate {
 
 impl Default for Plate {
     /// Returns the plate of the origami paper: 6 mm thick, 18 g of motors, 8 g of plate for an equilateral
-    /// triangle with sides of 80 mm; hinges with 90°/s and 0.1 N·m.
+    /// triangle with sides of 80 mm; hinges with 120° to both sides, 90°/s and 0.1 N·m.
     fn default() -> Plate {
-        let limits =
-            Limits { range: Some((-PI, PI)), speed: Some(PI / 2.0), acceleration: None, effort: Some(0.1) };
+        let limits = Limits {
+            range: Some((-FOLD_MAX, FOLD_MAX)),
+            speed: Some(PI / 2.0),
+            acceleration: None,
+            effort: Some(0.1),
+        };
         Plate { thickness: 0.006, gap: 1e-4, motors: 0.018, density: 2.886_751_345_948_129, limits }
     }
 }

@@ -35,15 +35,12 @@ pub enum Refusal {
     SequenceUnderGravity,
     /// The order of least energy is searched in trees up to a height only.
     SequenceTooHigh,
-    /// Two panels that share no edge penetrate each other in the folded shape.
+    /// Two panels penetrate each other in the folded shape.
     Interpenetrating {
         /// The two panels.
         faces: [usize; 2],
-    },
-    /// Edges that only hinges close run around a ring of panels.
-    ClosedRing {
-        /// The last two panels of the ring.
-        faces: [usize; 2],
+        /// The angle between them at their common edge, rad; `None` where they have none.
+        opening: Option<f64>,
     },
     /// The pattern of every layout overlaps itself in the plane.
     AllOverlap,
@@ -178,14 +175,17 @@ impl fmt::Display for Refusal {
                 let limit = energy_order::HEIGHT_MAX;
                 write!(f, "this order is sought in layouts of at most {limit} hinges on a path")
             }
-            Refusal::Interpenetrating { faces: [a, b] } => {
+            Refusal::Interpenetrating { faces: [a, b], opening: None } => {
                 write!(f, "in the folded shape panels {a} and {b} are in each other")
             }
-            Refusal::ClosedRing { faces: [a, b] } => write!(
-                f,
-                "around a ring of panels, {a} and {b} of it, edges close farther than the thickness leaves \
-                 room: only hinges do, and one edge of a ring is none"
-            ),
+            Refusal::Interpenetrating { faces: [a, b], opening: Some(opening) } => {
+                let opening = quantity(*opening, Dimension::ANGLE);
+                write!(
+                    f,
+                    "in the folded shape panels {a} and {b} are in each other: at their common edge they close to \
+                     {opening}, farther than their thickness leaves room"
+                )
+            }
             Refusal::AllOverlap => f.write_str("every flat pattern of this shape overlaps itself"),
             Refusal::NothingFlat => {
                 f.write_str("the budget ended before any pattern was found that does not overlap")

@@ -76,8 +76,6 @@ pub struct StripSearch<'t> {
     pub weights: &'t Weights,
     /// The panels with their thickness.
     pub solids: &'t Solids,
-    /// The hinges without which panels penetrate each other in the target; no cycle.
-    pub required: &'t [usize],
     /// The faces that may be the root.
     pub roots: &'t [usize],
     /// Cheap layouts, which may fold without collisions.
@@ -156,13 +154,8 @@ impl StripSearch<'_> {
         ];
         let mut trees = Vec::new();
         for worth in worths {
-            let worth = |(index, hinge): (usize, &Hinge)| match self.required.contains(&index) {
-                true => LEVEL * self.target.faces.len() as f64,
-                false => worth(hinge),
-            };
             let worths: Vec<f64> = hinges
                 .iter()
-                .enumerate()
                 .map(|hinge| (worth(hinge) / TOLERANCES.worth).round() * TOLERANCES.worth)
                 .collect();
             let tree = heaviest_tree(self.target, &worths);
@@ -248,10 +241,7 @@ impl StripSearch<'_> {
                 break;
             }
             let Some([a, b]) = parting.one_of(&pairs) else { return Some(now) };
-            let between: Vec<usize> = edge_exchange::path(&now, a, b)
-                .into_iter()
-                .filter(|hinge| !self.required.contains(hinge))
-                .collect();
+            let between = edge_exchange::path(&now, a, b);
             if between.is_empty() {
                 continue;
             }
@@ -276,10 +266,10 @@ impl StripSearch<'_> {
 
     /// Improves a layout by exchanges that keep it collision-free, as long as more than `kept` of the budget is left.
     fn cheaper(&mut self, layout: Layout, kept: usize) -> Layout {
-        let (target, weights, required) = (self.target, self.weights, self.required);
+        let (target, weights) = (self.target, self.weights);
         let this = RefCell::new(self);
         let rules = Rules {
-            fits: &|_, [dropped, _]| !required.contains(&dropped),
+            fits: &|_, _| true,
             allowed: &|layout| {
                 let mut this = this.borrow_mut();
                 this.states_left > kept && this.conflicts(layout, Some(&Conflicts::NONE)).0.is_clear()
@@ -291,19 +281,19 @@ impl StripSearch<'_> {
 }
 
 /// Connected components of faces (union-find).
-pub struct Components(
+struct Components(
     /// The least face that each face is joined to.
     Vec<usize>,
 );
 
 impl Components {
     /// Makes one component of each face.
-    pub fn new(faces: usize) -> Components {
+    fn new(faces: usize) -> Components {
         Components((0..faces).collect())
     }
 
     /// Joins the components of two faces; returns true if they were distinct.
-    pub fn join(&mut self, faces: [usize; 2]) -> bool {
+    fn join(&mut self, faces: [usize; 2]) -> bool {
         let [a, b] = faces.map(|face| self.0[face]);
         self.0.iter_mut().filter(|piece| **piece == a.max(b)).for_each(|piece| *piece = a.min(b));
         a != b

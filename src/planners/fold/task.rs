@@ -13,7 +13,6 @@ use super::refusal::Refusal;
 use super::settings::{Method, Problem, Sequence, Settings};
 use super::sheet::Sheet;
 use super::steps;
-use super::strip_layouts::Components;
 use super::sweep_collision;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
@@ -44,8 +43,6 @@ pub(super) struct Task<'p> {
     pub roots: Vec<usize>,
     /// The quantity that is minimised.
     pub objective: Objective<'p>,
-    /// The hinges without which panels penetrate each other in the target; no cycle.
-    pub required: Vec<usize>,
 }
 
 /// A layout with an order that the judge lets through.
@@ -72,9 +69,9 @@ impl<'p> Task<'p> {
         let conventions = settings.conventions(problem);
         let roots = roots(problem)?;
         compatible(problem, settings, &conventions)?;
-        let required = required_hinges(target, panels)?;
+        check_interpenetration(target, panels)?;
         let objective = Objective::new(target, panels.masses.clone(), conventions, settings.minimise);
-        Ok(Task { problem, settings, observer, target, panels, conventions, roots, objective, required })
+        Ok(Task { problem, settings, observer, target, panels, conventions, roots, objective })
     }
 
     /// Returns the weight of each face under standard gravity, N.
@@ -201,20 +198,19 @@ fn compatible(problem: &Problem, settings: &Settings, conventions: &Conventions)
     Ok(())
 }
 
-/// Returns the hinges without which panels penetrate each other in the target, since they close farther than
-/// their thickness leaves room.
+/// Checks that panels of their thickness do not penetrate each other in the target. Those with a common edge do where
+/// they close farther than their bevels leave room, whether a hinge joins them or not.
 ///
 /// # Errors
-/// Panels that share no edge penetrate each other, or the hinges close a ring, so that no layout has them all.
-fn required_hinges(target: &Target, panels: &Panels) -> Result<Vec<usize>, Refusal> {
-    let mut hinges = Vec::new();
-    let mut components = Components::new(target.faces.len());
-    for faces @ [a, b] in sweep_collision::target_collisions(target, &panels.solids) {
-        let hinge = target.hinge_between(a, b).ok_or(Refusal::Interpenetrating { faces })?;
-        if !components.join(faces) {
-            return Err(Refusal::ClosedRing { faces });
+/// The first two panels that penetrate each other.
+fn check_interpenetration(target: &Target, panels: &Panels) -> Result<(), Refusal> {
+    match sweep_collision::target_collisions(target, &panels.solids).first() {
+        Some(&faces) => {
+            let opening = target
+                .hinge_between(faces[0], faces[1])
+                .map(|hinge| std::f64::consts::PI - target.hinges[hinge].angle.abs());
+            Err(Refusal::Interpenetrating { faces, opening })
         }
-        hinges.push(hinge);
+        None => Ok(()),
     }
-    Ok(hinges)
 }

@@ -65,7 +65,7 @@ config Strip { part m[3]: Mori
   for i in 0..2 { connect m[i].edge[1] -- m[i + 1].edge[0] }
   set m[1].edge[0].joint = 20deg
   set m[2].edge[0].joint = 200deg
-//                         ^^^^^^ E0309 its range is -180deg to 180deg
+//                         ^^^^^^ E0309 its range is -120deg to 120deg
   set m[2].edge[1].joint = 10deg
 //    ^^^^^^^^^^^^^^^^^^ E0315 no joint at m[2].edge[1] | nothing is connected
 }

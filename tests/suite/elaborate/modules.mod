@@ -53,6 +53,18 @@ module M {
 //      ^^^^ W0005 `a` and `b` overlap
 }
 
+--- a link thinner than a touch, and one that states less
+module Flag {
+  mass 1kg
+  link cloth = box(40mm, 40mm, 0.05mm)
+//     ^^^^^ W0009 `cloth` is 0.05mm thin | `touch` below 0.05mm
+}
+module Pennant {
+  mass 1kg
+  touch 0.04mm
+  link cloth = box(40mm, 40mm, 0.05mm)
+}
+
 --- a lattice in two pieces, and one with a strange cell
 use std.crystal.ExpandingCube
 lattice Split of ExpandingCube = cells("#.#")

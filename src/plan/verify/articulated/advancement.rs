@@ -2,6 +2,7 @@
 //! a bound on motion proves to be separated over an interval are done with.
 
 use super::bodies::Bodies;
+use super::bonded::{BondedLinks, NominalOverlaps};
 use super::collision::{Collision, Excuse, Findings};
 use super::interval_state::IntervalState;
 use super::motion_bounds::MotionBounds;
@@ -10,6 +11,7 @@ use super::separation::{self, BodyPair, ModulePair, View};
 use super::tolerances::Precision;
 use crate::geometry::Vec3;
 use crate::interrupt;
+use crate::plan::tolerances::TOLERANCES;
 use crate::plan::{Exemption, Status, Tracks, Worst};
 use crate::robot::{Assembly, Kinematics};
 use crate::units::{Dimension, quantity};
@@ -32,6 +34,7 @@ pub(super) struct Advancement<'a> {
     /// The key: the pair of modules, and true if it is excused.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
     used: BTreeSet<usize>,
+    overlaps: NominalOverlaps,
     state: IntervalState,
 }
 
@@ -45,9 +48,16 @@ struct Clearance {
 struct Region<'a> {
     kinematics: Kinematics,
     levels: ReferenceLinks,
-    /// The pairs of links that carry mated ports.
-    mated: BTreeSet<(usize, usize)>,
+    /// The pairs of links that bonds join.
+    bonded: BondedLinks,
     excused: &'a [Excuse],
+}
+
+/// An interval so short that a penetration in it is the first.
+#[derive(Clone, Copy, Default)]
+struct Instant {
+    /// The bond at whose nominal pose the links are in each other.
+    bond: Option<usize>,
 }
 
 /// The pairs that are not proved to be separated.
@@ -76,6 +86,7 @@ impl<'a> Advancement<'a> {
             clearance: None,
             collisions: BTreeMap::new(),
             used: BTreeSet::new(),
+            overlaps: NominalOverlaps::default(),
             state: IntervalState::default(),
         }
     }
@@ -90,9 +101,10 @@ impl<'a> Advancement<'a> {
             // From the middle of the part, paths are short and numbers small.
             let kinematics = Kinematics::new(self.robot, bonds, reference_links::middle(self.robot, &part));
             let levels = ReferenceLinks::new(self.robot, &kinematics);
-            let mated = mated(self.robot, bonds, &kinematics);
-            let region = Region { kinematics, levels, mated, excused };
+            let bonded = BondedLinks::new(self.robot, bonds, &kinematics, &self.bodies, &mut self.overlaps);
+            let region = Region { kinematics, levels, bonded, excused };
             self.fixed_pairs(&region, window.0);
+            self.rigid_bonds(&region);
             let open = self.all_pairs(&region);
             self.guess_clearance(&region, window.0, &open);
             self.advance(&region, window.0, window.1, open);
@@ -115,6 +127,10 @@ impl<'a> Advancement<'a> {
             Status::Sampled(self.samples)
         } else if collisions.iter().any(|c| !c.exempt) {
             Status::Failed
+        } else if collisions.is_empty()
+            && self.clearance.as_ref().is_some_and(|c| c.distance <= -TOLERANCES.reported_zero)
+        {
+            Status::WithinTolerance
         } else if collisions.is_empty() {
             Status::Proved
         } else {
@@ -162,8 +178,24 @@ impl<'a> Advancement<'a> {
                 };
                 self.count(&pair, distance, time);
                 if distance < -inner.allowed {
-                    self.collide(region, &pair, distance, true);
+                    self.collide(region, &pair, distance, Some(Instant::default()));
                 }
+            }
+        }
+    }
+
+    /// Judges the links that rigid bonds join: they stay at the nominal pose, where their overlap is known.
+    fn rigid_bonds(&mut self, region: &Region) {
+        for ((x, y), bonded) in region.bonded.iter().filter(|(_, bonded)| bonded.rigid) {
+            let bodies = self.bodies.first_of_link(x).zip(self.bodies.first_of_link(y));
+            let Some((a, b)) = bodies.filter(|_| bonded.overlap > 0.0) else { continue };
+            let (one, other) = (&self.bodies.bodies[a], &self.bodies.bodies[b]);
+            let touch = self.bodies.allowed_depth(one.module, other.module);
+            let allowed = bonded.allowed(one, other, touch);
+            if bonded.overlap > allowed {
+                let (a, b) = (a as u32, b as u32);
+                let pair = BodyPair { a, b, level: 0, counts: false, allowed, normal: Vec3::zeros() };
+                self.collide(region, &pair, -bonded.overlap, Some(Instant { bond: Some(bonded.bond) }));
             }
         }
     }
@@ -179,17 +211,21 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Appends the pairs of bodies of two modules; mated ones may meet.
+    /// Appends the pairs of bodies of two modules. Links that a rigid bond joins are known once and for all; the
+    /// distance of others that a bond joins is no clearance.
     fn expand(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(m, n) as u32;
-        let allowed = self.bodies.allowed_depth(m, n);
+        let touch = self.bodies.allowed_depth(m, n);
         for a in self.bodies.of(m) {
             for b in self.bodies.of(n) {
-                let links = (self.bodies.bodies[a].link, self.bodies.bodies[b].link);
-                if !region.mated.contains(&links) {
-                    let (a, b) = (a as u32, b as u32);
-                    out.push(BodyPair { a, b, level, counts: true, allowed, normal: Vec3::zeros() });
+                let (x, y) = (&self.bodies.bodies[a], &self.bodies.bodies[b]);
+                let bonded = region.bonded.get(x.link, y.link);
+                if bonded.is_some_and(|pair| pair.rigid) {
+                    continue;
                 }
+                let allowed = bonded.map_or(touch, |pair| pair.allowed(x, y, touch));
+                let (a, b, counts) = (a as u32, b as u32, bonded.is_none());
+                out.push(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() });
             }
         }
     }
@@ -206,7 +242,7 @@ impl<'a> Advancement<'a> {
             self.expand(region, a.min(b), a.max(b), &mut near);
         }
         for pair in near.iter_mut().filter(|pair| pair.counts) {
-            let enough = self.clearance.as_ref().map_or(f64::MAX, |c| c.distance);
+            let enough = self.least();
             self.measure(pair, enough, time);
         }
     }
@@ -292,15 +328,20 @@ impl<'a> Advancement<'a> {
         if pair.normal != Vec3::zeros() {
             bound = self.slab(region, pair);
             // If it fails by motion alone, another direction would not help before the interval is
-            // a quarter.
-            if bound.least >= need || bound.middle >= need + (bound.middle - bound.least) / 4.0 {
+            // a quarter. A pair that comes nearer is measured all the same, so that the clearance follows it and
+            // leaves room.
+            let is_new_least =
+                pair.counts && bound.middle < self.least() - self.precision.tol_clearance / 2.0;
+            let by_motion = bound.middle >= need + (bound.middle - bound.least) / 4.0;
+            if !is_new_least && (bound.least >= need || by_motion) {
                 return bound.least >= need;
             }
         }
         let time = self.state.interval.middle;
         let distance = self.measure(pair, need + 2.0 * (bound.middle - bound.least), time);
         if distance < -pair.allowed {
-            self.collide(region, pair, distance, length <= self.precision.tol_time);
+            let instant = (length <= self.precision.tol_time).then(Instant::default);
+            self.collide(region, pair, distance, instant);
         }
         self.slab(region, pair).least >= self.need_of(region, pair)
     }
@@ -323,25 +364,33 @@ impl<'a> Advancement<'a> {
     /// allowed, none nearer than the clearance if that is more. Once they are known to collide only the
     /// greatest depth is sought.
     fn need(&self, region: &Region, a: usize, b: usize, counts: bool, allowed: f64) -> f64 {
+        let mut free = -allowed - self.precision.tol_depth;
         if !self.collisions.is_empty()
             && let Some(known) = self.collisions.get(&(a, b, self.excuse(region, a, b).is_some()))
         {
-            return -known.depth - self.precision.tol_clearance;
+            free = free.min(-known.depth - self.precision.tol_clearance);
         }
-        let free = -allowed - self.precision.tol_depth;
-        let clearance = self.clearance.as_ref().map_or(f64::MAX, |c| c.distance);
-        if counts { free.max(clearance - self.precision.tol_clearance) } else { free }
+        if counts { free.max(self.least() - self.precision.tol_clearance) } else { free }
+    }
+
+    /// The clearance so far, m.
+    fn least(&self) -> f64 {
+        self.clearance.as_ref().map_or(f64::MAX, |c| c.distance)
     }
 
     fn excuse<'r>(&self, region: &Region<'r>, a: usize, b: usize) -> Option<&'r Excuse> {
         region.excused.iter().find(|excuse| excuse.covers(a, b))
     }
 
-    /// Measures the distance of a pair in the middle of the interval, m, and keeps the least.
+    /// Measures the distance of a pair in the middle of the interval, m, exactly below `enough` and below the clearance, and
+    /// keeps the least. Beyond there is but a lower bound, which proves a separation and is no clearance.
     fn measure(&mut self, pair: &mut BodyPair, enough: f64, time: f64) -> f64 {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
+        let enough = if pair.counts { enough.max(self.least()) } else { enough };
         let distance = separation::measure(&self.state, a, b, pair, enough);
-        self.count(pair, distance, time);
+        if distance < enough {
+            self.count(pair, distance, time);
+        }
         distance
     }
 
@@ -355,7 +404,7 @@ impl<'a> Advancement<'a> {
 
     /// Records a penetration in the middle. It is the first of its pair of modules if the interval is short
     /// enough to be an instant: all before is proved to be separated.
-    fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: bool) {
+    fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: Option<Instant>) {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let excuse = self.excuse(region, a.module, b.module);
         let key = (a.module, b.module, excuse.is_some());
@@ -364,7 +413,7 @@ impl<'a> Advancement<'a> {
             if depth > known.depth {
                 (known.depth, known.deepest) = (depth, time);
             }
-        } else if instant {
+        } else if let Some(Instant { bond }) = instant {
             self.used.extend(excuse.map(|excuse| excuse.index));
             let link = |link: usize, module: usize| link - region.kinematics.link(module, 0);
             let collision = Collision {
@@ -375,22 +424,9 @@ impl<'a> Advancement<'a> {
                 deepest: time,
                 allowed: pair.allowed,
                 exempt: excuse.is_some(),
+                bond,
             };
             self.collisions.insert(key, collision);
         }
     }
-}
-
-/// Returns the pairs of links that carry mated ports of bonds that hold, in both orders.
-pub(super) fn mated(robot: &Assembly, bonds: &[bool], kinematics: &Kinematics) -> BTreeSet<(usize, usize)> {
-    let holding = robot.bonds.iter().zip(bonds).filter(|(_, holds)| **holds);
-    holding
-        .flat_map(|(bond, _)| {
-            let link = |at: crate::robot::PortRef| {
-                kinematics.link(at.module, robot.module_type(at.module).ports[at.port].link)
-            };
-            let (a, b) = (link(bond.a), link(bond.b));
-            [(a, b), (b, a)]
-        })
-        .collect()
 }

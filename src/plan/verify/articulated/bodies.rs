@@ -1,7 +1,7 @@
 //! The convex parts of all links that can collide, and the pairs of them that may touch.
 
 use super::tolerances::Tolerances;
-use crate::geometry::distance::{signed_distance, signed_distance_within};
+use crate::geometry::distance::{distance_of_solids, signed_distance, signed_distance_within};
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 
@@ -58,6 +58,8 @@ pub struct Body {
     pub module: usize,
     /// Distance of the part's farthest point from the carrier's origin, m.
     pub reach: f64,
+    /// The centre of the part in the frame of its own link, m.
+    pub home: Vec3,
 }
 
 impl Bodies {
@@ -77,12 +79,14 @@ impl Bodies {
         };
         for (module, instance) in robot.modules.iter().enumerate() {
             let kind = &kinds[instance.kind];
-            let bodies = kind.bodies.iter().map(|(link, carrier, part)| Body {
+            let own = kind.solids.iter().flat_map(|solid| &solid.parts);
+            let bodies = kind.bodies.iter().zip(own).map(|((link, carrier, part), own)| Body {
                 part: part.clone(),
                 link: kinematics.link(module, *link),
                 carrier: kinematics.link(module, *carrier),
                 module,
                 reach: part.centre.norm() + part.radius,
+                home: own.centre,
             });
             all.bodies.extend(bodies);
             all.first.push(all.bodies.len());
@@ -108,6 +112,23 @@ impl Bodies {
     pub fn allowed_depth(&self, a: usize, b: usize) -> f64 {
         let touch = |module: usize| self.kinds[self.kind_of[module]].touch;
         f64::min(touch(a), touch(b))
+    }
+
+    /// Returns the penetration depth of two links, m, each told by its module and its index there; `X_AB` is the
+    /// pose of the second in the first. 0 where they are apart.
+    pub(super) fn overlap(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
+        let distance = distance_of_solids(self.solid(a), &Pose::identity(), self.solid(b), X_AB);
+        (-distance).max(0.0)
+    }
+
+    fn solid(&self, (module, link): (usize, usize)) -> &Solid {
+        &self.kinds[self.kind_of[module]].solids[link]
+    }
+
+    /// Returns the first body of a link, by the numbering of [`Kinematics`]; `None` for a link without a shape.
+    pub(super) fn first_of_link(&self, link: usize) -> Option<usize> {
+        let first = self.bodies.partition_point(|body| body.link < link);
+        self.bodies.get(first).filter(|body| body.link == link).map(|_| first)
     }
 
     /// Returns the signed distance between two links whose world poses are at hand, m; `enough` where it is no
@@ -137,6 +158,8 @@ impl Bodies {
 struct Kind {
     /// Link, carrier, part in the carrier's frame.
     bodies: Vec<(usize, usize, Part)>,
+    /// Of each link, in its frame.
+    solids: Vec<Solid>,
     inner: Vec<InnerPair>,
     touch: f64,
     reach: f64,
@@ -160,7 +183,7 @@ impl Kind {
                 inner.extend(pair(kind, &solids, &bodies, (a, b)));
             }
         }
-        Ok(Kind { reach: reach(kind, &solids), bodies, inner, touch: kind.touch })
+        Ok(Kind { reach: reach(kind, &solids), bodies, solids, inner, touch: kind.touch })
     }
 }
 

@@ -1,7 +1,8 @@
 //! Clearance curves and collision points for those who draw them. Nothing is judged here.
 
-use super::advancement::{Advancement, mated};
+use super::advancement::Advancement;
 use super::bodies::{Bodies, Body, UnsoundLink};
+use super::bonded::{BondedLinks, NominalOverlaps};
 use super::history::base_at;
 use super::tolerances::Precision;
 use crate::geometry::distance::signed_distance;
@@ -57,7 +58,9 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
         let (a, b) = (&bodies.bodies[*a], &bodies.bodies[*b]);
         -signed_distance(&a.part, &b.part, &relative(a, b)).distance - allowed
     };
-    let pairs = pairs(tracks, &bodies, &mated(&tracks.robot, &state.bonds, &kinematics), modules);
+    let mut overlaps = NominalOverlaps::default();
+    let bonded = BondedLinks::new(&tracks.robot, &state.bonds, &kinematics, &bodies, &mut overlaps);
+    let pairs = pairs(tracks, &bodies, &bonded, modules);
     let deepest = pairs.into_iter().map(|pair| (depth(&pair), pair)).max_by(|x, y| x.0.total_cmp(&y.0));
     let (_, (a, b, _)) = deepest.filter(|(depth, (.., allowed))| depth + allowed >= 0.0)?;
     let (a, b) = (&bodies.bodies[a], &bodies.bodies[b]);
@@ -69,7 +72,7 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
 fn pairs(
     tracks: &Tracks,
     bodies: &Bodies,
-    mated: &std::collections::BTreeSet<(usize, usize)>,
+    bonded: &BondedLinks,
     (m, n): (usize, usize),
 ) -> Vec<(usize, usize, f64)> {
     debug_assert!(m < tracks.robot.modules.len() && n < tracks.robot.modules.len());
@@ -77,8 +80,11 @@ fn pairs(
         let first = bodies.of(m).start;
         return bodies.inner(m).iter().map(|i| (first + i.a, first + i.b, i.allowed)).collect();
     }
-    let allowed = bodies.allowed_depth(m, n);
+    let touch = bodies.allowed_depth(m, n);
     let all = bodies.of(m).flat_map(|a| bodies.of(n).map(move |b| (a, b)));
-    let link = |body: usize| bodies.bodies[body].link;
-    all.filter(|(a, b)| !mated.contains(&(link(*a), link(*b)))).map(|(a, b)| (a, b, allowed)).collect()
+    let allowed = |(a, b): (usize, usize)| {
+        let (x, y) = (&bodies.bodies[a], &bodies.bodies[b]);
+        (a, b, bonded.get(x.link, y.link).map_or(touch, |pair| pair.allowed(x, y, touch)))
+    };
+    all.map(allowed).collect()
 }

@@ -11,15 +11,18 @@
 
 use super::advancement::Advancement;
 use super::bodies::{Bodies, UnsoundLink};
+use super::docking;
 use super::tolerances::Precision;
+use crate::geometry::Solid;
 use crate::plan::{CheckKind, DockKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst};
-use crate::robot::{Assembly, Kinematics};
+use crate::robot::{Assembly, Bond, Kinematics, PortRef};
 use crate::units::{Dimension, quantity};
 
 /// Collisions and clearance of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
-    /// Proved, or failed, or the number of intervals at which it gave up.
+    /// Proved, or within tolerance where links penetrate by no more than `touch`, or failed, or the number of intervals
+    /// at which it gave up.
     pub status: Status,
     /// The collisions, in order of time; one for each pair of modules, and one more where it was excused
     /// before.
@@ -49,6 +52,8 @@ pub struct Collision {
     pub allowed: f64,
     /// True if an exemption excuses it.
     pub exempt: bool,
+    /// The bond at whose nominal pose the links are in each other; `None` where a motion brings them there.
+    pub bond: Option<usize>,
 }
 
 /// Judges all instants of a plan's body.
@@ -86,10 +91,18 @@ impl Collision {
         let links = (link(self.modules.0, self.links.0), link(self.modules.1, self.links.1));
         let depth = quantity(self.depth, Dimension::LENGTH);
         // The depth is that of its worst instant, which comes later.
-        let message = if self.modules.0 == self.modules.1 {
-            format!("{} and {} of {a} meet, up to {depth} deep", links.0, links.1)
-        } else {
-            format!("{a} and {b} meet, up to {depth} deep ({} and {})", links.0, links.1)
+        let message = match self.bond {
+            _ if self.modules.0 == self.modules.1 => {
+                format!("{} and {} of {a} meet, up to {depth} deep", links.0, links.1)
+            }
+            None => format!("{a} and {b} meet, up to {depth} deep ({} and {})", links.0, links.1),
+            Some(bond) => {
+                let (name, why) = (docking::bond_name(robot, bond), beneath(robot, bond));
+                format!(
+                    "{a} and {b} meet, {depth} deep ({} and {}), as {name} docks them{why}",
+                    links.0, links.1
+                )
+            }
         };
         Failure {
             kind: CheckKind::Collision,
@@ -103,6 +116,22 @@ impl Collision {
             blames_start: false,
         }
     }
+}
+
+/// Returns in words how deep the ports of a bond lie beneath the surfaces of their links; nothing where neither does.
+fn beneath(robot: &Assembly, bond: usize) -> String {
+    let port_depth = |at: PortRef| {
+        let kind = robot.module_type(at.module);
+        let port = &kind.ports[at.port];
+        let solid = Solid::new(&kind.links[port.link].collides).ok()?;
+        let depth = solid.depth_of(&port.pose.translation.vector);
+        let words = quantity(depth, Dimension::LENGTH);
+        (depth > kind.touch)
+            .then(|| format!("{} lies {words} beneath the surface of its link", robot.port_name(at)))
+    };
+    let Bond { a, b, .. } = robot.bonds[bond];
+    let found: Vec<String> = [a, b].into_iter().filter_map(port_depth).collect();
+    if found.is_empty() { String::new() } else { format!("; {}", found.join(", ")) }
 }
 
 /// Returns the plan cut where bonds change and where exemptions begin or end, and the instant of its end,

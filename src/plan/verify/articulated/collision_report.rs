@@ -6,7 +6,7 @@ use super::collision::{self, Collision};
 use super::rollout::Rollout;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
+use crate::plan::{CauseId, CheckKind, Dock, DockKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
 /// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
@@ -28,7 +28,10 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     }
     for meeting in found.collisions.iter().filter(|c| !c.exempt) {
         let mut failure = meeting.failure(&tracks.robot);
-        failure.blame = blamed(tracks, meeting);
+        match meeting.bond {
+            Some(bond) => (failure.blame, failure.blames_start) = docked(tracks, bond, meeting.time),
+            None => failure.blame = blamed(tracks, meeting),
+        }
         ledger.fail(failure);
     }
     if let Status::Sampled(samples) = found.status {
@@ -40,6 +43,16 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     ledger.verdict.clearance = found.clearance;
     ledger.verdict.samples += found.samples;
     ledger.check(CheckKind::Collision, found.status);
+}
+
+/// Returns the action that docked two links, and false; or the line that connects them from the start, and true.
+fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
+    let docks = |dock: &&Dock| dock.kind == DockKind::Dock && dock.bond == bond && dock.time <= time;
+    if let Some(dock) = tracks.docks.iter().rfind(docks) {
+        return (vec![dock.cause], false);
+    }
+    let causes = tracks.bond_causes.iter().filter(|(connected, _)| *connected == bond);
+    (causes.map(|(_, cause)| *cause).collect(), true)
 }
 
 /// Returns the actions whose joint, held still from its start, keeps the two links apart where they would be

@@ -5,7 +5,7 @@ use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, Dock, DockKind, Failure, Status, Tracks};
-use crate::robot::{Assembly, Bond, Kinematics, Residual};
+use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
 /// Judges every docking, and that the robot is one piece from the start to the end. Returns the bonds
@@ -159,18 +159,19 @@ fn residuals(sample: &Sample) -> Vec<Residual> {
 }
 
 fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> bool {
-    let (distance, angle) = allowed(robot, residual.bond, tolerances);
-    residual.distance <= distance && residual.angle <= angle
+    let error = tolerated(robot, residual.bond, tolerances);
+    residual.distance <= error.distance && residual.angle <= error.angle
 }
 
-fn allowed(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> (f64, f64) {
+/// Returns the error of two ports at which a bond docks and holds: what the connector states, or else that of loops.
+pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> Capture {
     let a = robot.bonds[bond].a;
     let connector = robot.module_type(a.module).ports[a.port].connector;
     let capture = robot.library.connectors[connector].capture;
-    capture.map_or((tolerances.closure_distance, tolerances.closure_angle), |c| (c.distance, c.angle))
+    capture.unwrap_or(Capture { distance: tolerances.closure_distance, angle: tolerances.closure_angle })
 }
 
-fn bond_name(robot: &Assembly, bond: usize) -> String {
+pub(super) fn bond_name(robot: &Assembly, bond: usize) -> String {
     let declared = &robot.bonds[bond];
     format!("{} -- {}", robot.port_name(declared.a), robot.port_name(declared.b))
 }
@@ -189,7 +190,7 @@ fn failure(
     blame: Vec<CauseId>,
     rollout: &Rollout,
 ) -> Failure {
-    let (distance, _) = allowed(robot, residual.bond, rollout.tolerances);
+    let limit = tolerated(robot, residual.bond, rollout.tolerances).distance;
     Failure {
         kind,
         time,
@@ -197,7 +198,7 @@ fn failure(
         at: vec![bond_name(robot, residual.bond)],
         message,
         value: residual.distance,
-        limit: distance,
+        limit,
         blame,
         blames_start: false,
     }

@@ -1,6 +1,6 @@
 //! The judgement of articulated robots, whose plans are tracks of joints.
 //!
-//! In this order: joint and motor limits, from the control points of the polynomials themselves; docking,
+//! In this order: joint and motor limits, and rest at both ends, from the control points of the polynomials; docking,
 //! from the poses at the instants of docking; then one rollout of the plan over the ground, from sample
 //! to sample, which the checks of loops, stability, slip and torque watch; the torque between samples
 //! where the base is fixed; collisions, by conservative advancement; and last the blame for what failed.
@@ -9,6 +9,7 @@ mod tolerances;
 
 mod extremum;
 mod limits;
+mod rest;
 
 mod ground_features;
 
@@ -33,6 +34,7 @@ mod torque;
 
 mod advancement;
 mod bodies;
+mod bonded;
 mod interval_state;
 mod motion_bounds;
 mod reference_links;
@@ -69,6 +71,7 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let tolerances = Tolerances::default();
     let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);
     limits::judge(tracks, &tolerances, &mut ledger);
+    rest::judge(tracks, &tolerances, &mut ledger);
     let rollout = Rollout {
         tracks,
         worlds: &plan.worlds,
@@ -89,8 +92,6 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     ledger.check(CheckKind::Form, Status::Proved);
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.
     ledger.check(CheckKind::Conflict, Status::Proved);
-    // After its last segment a joint holds.
-    ledger.check(CheckKind::Rest, Status::Proved);
     ledger.finish()
 }
 

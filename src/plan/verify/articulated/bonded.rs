@@ -1,0 +1,147 @@
+//! Links that bonds join: how deep they may be in each other.
+//!
+//! Two links with mated ports belong together, so that their distance is no clearance. They are solid all the
+//! same. What they may overlap is what they overlap at the nominal pose of the bond, the hinge at zero, as far
+//! as the error explains that the connector states for docking: guides and pins are no longer than what they
+//! guide. A bond that closes a loop may hold its links off the nominal pose by that error once more.
+
+use super::bodies::{Bodies, Body};
+use super::docking;
+use super::tolerances::Tolerances;
+use crate::geometry::Vec3;
+use crate::robot::{Assembly, Bond, Capture, Kinematics, PortRef, mate};
+use std::collections::BTreeMap;
+
+/// The overlaps of pairs of links at the nominal poses of their bonds, m, by what decides them: the types and ports
+/// of the two modules, and the turn.
+#[derive(Debug, Default)]
+pub(super) struct NominalOverlaps(BTreeMap<[usize; 5], f64>);
+
+/// The pairs of links that bonds join, by their numbers in the kinematics, in both orders.
+#[derive(Debug, Default)]
+pub(super) struct BondedLinks(BTreeMap<(usize, usize), BondedPair>);
+
+/// Two links that one or several bonds join.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BondedPair {
+    /// The first of the bonds, or that which holds the links at its nominal pose.
+    pub bond: usize,
+    /// The overlap at the nominal pose, m.
+    pub overlap: f64,
+    /// The part of it that the error of docking explains, m.
+    pub explained: f64,
+    /// True if the links keep the nominal pose as long as the bond holds.
+    pub rigid: bool,
+    /// The greatest error of a bond that closes a loop, and of each link the origin of its port.
+    error: Option<(Capture, [Vec3; 2])>,
+}
+
+impl NominalOverlaps {
+    fn of(&mut self, robot: &Assembly, bodies: &Bodies, bond: usize) -> f64 {
+        let Bond { a, b, turn } = robot.bonds[bond];
+        let kind = |at: PortRef| robot.modules[at.module].kind;
+        let key = [kind(a), a.port, kind(b), b.port, turn as usize];
+        *self.0.entry(key).or_insert_with(|| {
+            let port = |at: PortRef| &robot.module_type(at.module).ports[at.port];
+            let X_AB = port(a).pose * mate(robot, bond) * port(b).pose.inverse();
+            bodies.overlap((a.module, port(a).link), (b.module, port(b).link), &X_AB)
+        })
+    }
+}
+
+impl BondedLinks {
+    /// Finds the pairs that bonds join which hold, in the part of the robot that `kinematics` reaches.
+    pub(super) fn new(
+        robot: &Assembly,
+        bonds: &[bool],
+        kinematics: &Kinematics,
+        bodies: &Bodies,
+        overlaps: &mut NominalOverlaps,
+    ) -> BondedLinks {
+        let mut found = BondedLinks::default();
+        for &(_, bond) in &kinematics.tree.order {
+            if let Some(bond) = bond {
+                found.join(robot, kinematics, bodies, (bond, true), overlaps);
+            }
+        }
+        for &bond in kinematics.tree.closing.iter().filter(|bond| bonds[**bond]) {
+            found.join(robot, kinematics, bodies, (bond, false), overlaps);
+        }
+        found
+    }
+
+    /// Returns what is known of two links; `None` where no bond joins them.
+    pub(super) fn get(&self, a: usize, b: usize) -> Option<&BondedPair> {
+        self.0.get(&(a, b))
+    }
+
+    /// Iterates over the pairs, each once.
+    pub(super) fn iter(&self) -> impl Iterator<Item = ((usize, usize), &BondedPair)> {
+        self.0.iter().filter(|((a, b), _)| a < b).map(|(links, pair)| (*links, pair))
+    }
+
+    fn join(
+        &mut self,
+        robot: &Assembly,
+        kinematics: &Kinematics,
+        bodies: &Bodies,
+        (bond, in_tree): (usize, bool),
+        overlaps: &mut NominalOverlaps,
+    ) {
+        let Bond { a, b, .. } = robot.bonds[bond];
+        let port = |at: PortRef| &robot.module_type(at.module).ports[at.port];
+        let [x, y] = [a, b].map(|at| kinematics.link(at.module, port(at).link));
+        let origin = |at: PortRef| port(at).pose.translation.vector;
+        let error = docking::tolerated(robot, bond, &Tolerances::default());
+        let overlap = overlaps.of(robot, bodies, bond);
+        let new = BondedPair {
+            bond,
+            overlap,
+            explained: overlap.min(error.distance),
+            rigid: in_tree && robot.hinge(bond).is_none(),
+            error: (!in_tree).then(|| (stated(error), [origin(a), origin(b)])),
+        };
+        let joined = self.0.get(&(x, y)).map_or(new, |known| known.and(&new));
+        self.0.insert((y, x), joined.reversed());
+        self.0.insert((x, y), joined);
+    }
+}
+
+impl BondedPair {
+    /// Returns how deep two bodies of the links may be in each other, m, if bodies that no bond joins may by `touch`.
+    pub(super) fn allowed(&self, a: &Body, b: &Body, touch: f64) -> f64 {
+        let moved = self.error.as_ref().map_or(0.0, |(error, ports)| {
+            // To turn a body about its port moves none of its points by more than this.
+            let lever = |body: &Body, port: &Vec3| (body.home - port).norm() + body.part.radius;
+            error.distance + error.angle * f64::min(lever(a, &ports[0]), lever(b, &ports[1]))
+        });
+        touch + self.explained + moved
+    }
+
+    /// Returns what holds for links that two bonds join: what the one and the other explain.
+    fn and(&self, other: &BondedPair) -> BondedPair {
+        let rigid = if other.rigid && !self.rigid { other } else { self };
+        BondedPair {
+            bond: rigid.bond,
+            overlap: rigid.overlap,
+            explained: self.explained.max(other.explained),
+            rigid: rigid.rigid,
+            error: [self.error, other.error]
+                .into_iter()
+                .flatten()
+                .max_by(|x, y| x.0.distance.total_cmp(&y.0.distance)),
+        }
+    }
+
+    fn reversed(&self) -> BondedPair {
+        BondedPair { error: self.error.map(|(error, [a, b])| (error, [b, a])), ..*self }
+    }
+}
+
+/// Returns the error with the usual angle in place of one that is not stated, which is a half turn and explains nothing.
+fn stated(error: Capture) -> Capture {
+    if error.angle < std::f64::consts::PI {
+        return error;
+    }
+    Capture { angle: Tolerances::default().closure_angle, ..error }
+}
