@@ -2,13 +2,16 @@
 
 use super::arguments::Globals;
 use super::disk;
-use super::report::{self, JsonPlan, Report};
+use super::report::{self, Declaration, JsonPlan, Report};
 use super::terminal::{cancelled, listen_for_cancel, print};
 use super::verdict;
 use super::{CallError, Ending};
 use crate::behavior::unfaithful;
+use crate::execute::standard;
+use crate::plan::facts::{self, Declared};
 use crate::plan::{self, CheckKind, Plan, Status, Verdict, WORST_VALUES};
 use crate::source::{Diagnostic, Sources, Span, code};
+use std::mem::discriminant;
 use std::path::{Path, PathBuf};
 
 /// The greatest size of a plan file, in bytes.
@@ -93,12 +96,37 @@ pub(super) fn judged(plan: &Plan) -> Verdict {
 /// Verifies a plan and prints the verdict; returns true if it is good.
 fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Globals) -> bool {
     let verdict = judged(plan);
+    let rests_on = declarations(plan);
     if !globals.json {
         print(&verdict::text(name, plan, &verdict));
+        print(&verdict::rests_on(&rests_on));
     }
     let ok = verdict.ok();
-    report.plans.get_or_insert_default().push(JsonPlan { file: name.to_owned(), ok, verdict });
+    report.plans.get_or_insert_default().push(JsonPlan { file: name.to_owned(), ok, verdict, rests_on });
     ok
+}
+
+/// Returns the declarations that a verdict rests on, each beside that of the same name in the standard library.
+fn declarations(plan: &Plan) -> Vec<Declaration> {
+    let library = &plan.library;
+    let beside = |declared: Declared| {
+        let facts = facts::facts(library, declared);
+        let found = standard(&facts.name);
+        let standard = found.as_ref().map(|standard| standard.path.clone());
+        let differences = found.map(|standard| {
+            let there = standard.library.as_ref();
+            let counterpart = there.and_then(|there| {
+                let of_kind = |d: &Declared| discriminant(d) == discriminant(&declared);
+                Some((there, facts::declarations(there).into_iter().find(of_kind)?))
+            });
+            counterpart.map_or_else(
+                || vec![format!("there is no such {} there", facts.kind)],
+                |there| facts::differences((library, declared), there, standard.tolerance),
+            )
+        });
+        Declaration { facts, standard, differences: differences.unwrap_or_default() }
+    };
+    facts::declarations(library).into_iter().map(beside).collect()
 }
 
 /// Reads a plan file; `-` is standard input. Fails with a message.

@@ -3,6 +3,7 @@
 use super::arguments::{Color, Globals};
 use super::terminal::{print_error, print_json, print_styled};
 use crate::plan::Verdict;
+use crate::plan::facts::Facts;
 use crate::source::json::{JsonDiagnostic, to_json};
 use crate::source::render::{Style, render_one, sorted};
 use crate::source::{Diagnostic, Severity, Sources};
@@ -65,6 +66,20 @@ pub(super) struct JsonPlan {
     pub ok: bool,
     /// The verdict.
     pub verdict: Verdict,
+    /// The declarations of the file that the verdict rests on.
+    pub rests_on: Vec<Declaration>,
+}
+
+/// A declaration of a plan file's library, which a verdict rests on.
+#[derive(Debug, Serialize)]
+pub(super) struct Declaration {
+    /// The facts of it.
+    #[serde(flatten)]
+    pub facts: Facts,
+    /// The declaration of the same name in the standard library: `std.smores.Smores`.
+    pub standard: Option<String>,
+    /// The differences from that.
+    pub differences: Vec<String>,
 }
 
 impl Report {

@@ -1,5 +1,7 @@
 //! A verdict as text: every check with its status, worst values, failures and their causes.
 
+use super::report::Declaration;
+use crate::plan::facts::Facts;
 use crate::plan::{
     self, Cause, Exemption, ExemptionKind, Failure, Ground, Measure, Plan, Stability, Status, Verdict,
 };
@@ -49,6 +51,30 @@ pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
         line(&mut out, &format!("{}{unneeded}", exemption_line(exemption, plan)));
     }
     verdict.failures.iter().for_each(|failure| failure_lines(&mut out, failure, plan));
+    out
+}
+
+/// The most differences of one declaration that are listed; the rest are counted.
+const DIFFERENCES_MAX: usize = 20;
+
+/// Returns the facts that a verdict rests on as text, a line a declaration, with the differences from the standard
+/// library where that has one of the same name.
+pub(super) fn rests_on(declarations: &[Declaration]) -> String {
+    let mut out = String::new();
+    for Declaration { facts: Facts { kind, name, words, digest }, standard, differences } in declarations {
+        let as_there = match standard {
+            Some(path) if differences.is_empty() => format!(", as {path}"),
+            Some(_) | None => String::new(),
+        };
+        line(&mut out, &format!("rests on {kind} {name}{as_there} ({digest}): {words}"));
+        for difference in differences.iter().take(DIFFERENCES_MAX) {
+            let path = standard.as_deref().unwrap_or_default();
+            line(&mut out, &format!("  differs from {path}: {difference}"));
+        }
+        if differences.len() > DIFFERENCES_MAX {
+            line(&mut out, &format!("  and {} more differences", differences.len() - DIFFERENCES_MAX));
+        }
+    }
     out
 }
 

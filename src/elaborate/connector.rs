@@ -6,13 +6,12 @@ use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{JointSpec, Value};
+use crate::robot::validation::{TURNS_MAX, check_connector};
 use crate::robot::{Capture, Connector, Hinge};
 use crate::source::{Diagnostic, Span, code};
 use crate::units::Dimension;
 use std::rc::Rc;
 
-/// More turns than this are no discrete turns any more.
-const TURNS_MAX: i64 = 3600;
 /// Orientation that docking tolerates where `capture` states only a distance: as much as there is.
 const CAPTURE_ANGLE_DEFAULT: f64 = std::f64::consts::PI;
 
@@ -62,6 +61,11 @@ impl Interpreter<'_> {
         if let Some((span, args)) = &declared.hinge {
             connector.hinge = self.hinge(*span, args, &mut frame)?;
         }
+        // Its mates are declarations still; `check_mutual` checks them.
+        check_connector(std::slice::from_ref(&connector), 0).map_err(|found| {
+            let span = self.shared.program.def(def).span;
+            fault(code::BAD_CONNECTOR, span, found.to_string(), "not sound")
+        })?;
         self.check_mutual(def, declared)?;
         Ok(ConnectorDesign { def, connector, mates: declared.mates.iter().map(|(mate, _)| *mate).collect() })
     }
@@ -69,7 +73,7 @@ impl Interpreter<'_> {
     fn turns(&mut self, declared: &ConnectorDef, frame: &mut Frame) -> Eval<u32> {
         let Some(turns) = &declared.turns else { return Ok(1) };
         match self.eval(turns, frame)? {
-            Value::Int(n) if (1..=TURNS_MAX).contains(&n) => Ok(n as u32),
+            Value::Int(n) if (1..=i64::from(TURNS_MAX)).contains(&n) => Ok(n as u32),
             Value::Unknown => Ok(1),
             _ => Err(fault(
                 code::BAD_CONNECTOR,

@@ -1,12 +1,13 @@
 //! Cells and struts: the facts that the families of expanding cubes and linear actuators ask for.
 
 use crate::check::family::{Fact, FactForm, FactsFamily, Family};
-use crate::check::typed::{Expr, FactsDef};
+use crate::check::typed::{DefId, Expr, FactsDef};
 use crate::interpret::design::{DesignKind, Instance};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::Value;
+use crate::robot::validation::{check_cell, check_strut};
 use crate::robot::{Cell, Strut};
 use crate::source::{Span, code};
 use std::rc::Rc;
@@ -66,6 +67,7 @@ impl Interpreter<'_> {
     pub(super) fn elaborate_facts(
         &mut self,
         def: &FactsDef,
+        id: DefId,
         this: &Rc<Instance>,
         title: &str,
     ) -> Eval<Option<DesignKind>> {
@@ -83,6 +85,8 @@ impl Interpreter<'_> {
             return Ok(None);
         }
         let (stated, title) = (Stated { facts }, title.to_string());
+        let span = self.shared.program.def(id).span;
+        let unsound = |why: &str| fault(code::BAD_MODULE, span, why, "not sound");
         match def.family {
             FactsFamily::Cell => {
                 let cell = stated.cell(title);
@@ -92,9 +96,14 @@ impl Interpreter<'_> {
                     let label = "no smaller than the cell";
                     return self.attempt(|_| Err(fault(code::BAD_MODULE, span, message, label)));
                 }
-                Ok(Some(DesignKind::Cell(cell)))
+                let checked = check_cell(&cell).map_err(|found| unsound(&found.to_string()));
+                Ok(self.attempt(|_| checked)?.map(|()| DesignKind::Cell(cell)))
             }
-            FactsFamily::Strut => Ok(Some(DesignKind::Strut(stated.strut(title)))),
+            FactsFamily::Strut => {
+                let strut = stated.strut(title);
+                let checked = check_strut(&strut).map_err(|found| unsound(&found.to_string()));
+                Ok(self.attempt(|_| checked)?.map(|()| DesignKind::Strut(strut)))
+            }
         }
     }
 

@@ -152,7 +152,7 @@ impl Interpreter<'_> {
     ) -> Eval<Option<DesignKind>> {
         match kind {
             DefKind::Module(module) => self.elaborate_module(module, def, shell, title),
-            DefKind::Facts(facts) => self.elaborate_facts(facts, shell, title),
+            DefKind::Facts(facts) => self.elaborate_facts(facts, def, shell, title),
             DefKind::Lattice(lattice) => self.elaborate_lattice(lattice, def, shell),
             DefKind::Truss(truss) => self.elaborate_truss(truss, def, shell),
             _ => Ok(None),

@@ -24,12 +24,13 @@ pub(crate) use config::outside;
 pub(crate) use connect::free_ports;
 
 use crate::check::typed::DefId;
-use crate::interpret::design::Design;
+use crate::interpret::design::{Design, DesignKind};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::robot::Robot;
 use crate::interpret::routines::Args;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::{PortValue, Value};
+use crate::robot::Library;
 use crate::source::Span;
 use std::rc::Rc;
 
@@ -39,6 +40,25 @@ use std::rc::Rc;
 /// A fault where the declaration needs itself, or a halt.
 pub fn instantiate(interpreter: &mut Interpreter, def: DefId, args: Args, span: Span) -> Eval<Value> {
     interpreter.make_instance(def, args, span)
+}
+
+/// Returns the library of a declaration with its defaults: a module type or those of a configuration, a cell, a strut.
+/// `None` where it is broken or declares none of these.
+///
+/// # Errors
+/// A halt, or a fault of a declaration that it needs.
+pub fn library_of(interpreter: &mut Interpreter, def: DefId) -> Eval<Option<Library>> {
+    let Some(design) = interpreter.default_design(def)?.filter(|design| !design.broken.get()) else {
+        return Ok(None);
+    };
+    Ok(match &design.kind {
+        DesignKind::Module(_) | DesignKind::Config(_) => {
+            interpreter.library_of(&design)?.map(|(library, _)| library)
+        }
+        DesignKind::Cell(cell) => Some(Library { cells: vec![cell.clone()], ..Library::default() }),
+        DesignKind::Strut(strut) => Some(Library { struts: vec![strut.clone()], ..Library::default() }),
+        DesignKind::Lattice(_) | DesignKind::Truss(_) => None,
+    })
 }
 
 /// Returns the robot of a design that is complete, asked for at `span`; `None` where it is broken or no robot.

@@ -5,15 +5,15 @@ use crate::check::typed::{
     DefId, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement, PortClause,
 };
 use crate::geometry::pose::{shifted, turned};
-use crate::geometry::soundness::SIZE_MAX;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::soundness::{self, EXTENT_MAX};
+use crate::geometry::{Placed, Pose, Unsound, Vec3};
 use crate::interpret::design::ConnectorDesign;
 use crate::interpret::design::{DesignKind, Instance, ModuleDesign};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};
-use crate::robot::{Joint, JointKind, Limits, Link, ModuleType, Motor, Port, mass};
+use crate::robot::{Joint, JointKind, Limits, Link, ModulePart, ModuleType, Motor, Port, mass, validation};
 use crate::source::{Diagnostic, Span, code};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -51,6 +51,10 @@ impl Interpreter<'_> {
         self.attempt(|this| this.mass_properties(&mut draft, name, &mut frame))?;
         let groups = self.attempt(|this| this.order_ports(&mut draft))?;
         let (Some(port_groups), false) = (groups, self.failed_since(mark)) else { return Ok(None) };
+        self.attempt(|_| validated(&draft, name))?;
+        if self.failed_since(mark) {
+            return Ok(None);
+        }
         Ok(Some(DesignKind::Module(ModuleDesign {
             module: Rc::new(draft.module),
             connectors: draft.connectors.iter().map(|c| c.def).collect(),
@@ -107,11 +111,13 @@ impl Interpreter<'_> {
             Some(Value::Shape(solid)) => solid.parts.clone(),
             _ => solid.parts.clone(),
         };
+        let left_out = self.attempt(|_| left_out(&solid.parts, &judged, link))?.unwrap_or(0.0);
         let built = Link {
             name: link.name.to_string(),
             pose,
             shape: solid.parts.clone(),
             collides: judged,
+            left_out,
             mass: 0.0,
             com: Vec3::zeros(),
             inertia: [0.0; 6],
@@ -124,8 +130,8 @@ impl Interpreter<'_> {
     pub(super) fn placement(&mut self, at: Option<&Placement>, frame: &mut Frame) -> Eval<Pose> {
         let Some(at) = at else { return Ok(Pose::identity()) };
         let mut pose = match self.eval(&at.position, frame)? {
-            Value::Vec3(position, _) if position.iter().any(|c| c.abs() > SIZE_MAX) => {
-                let message = "nothing is placed farther away than 1000 km";
+            Value::Vec3(position, _) if position.iter().any(|c| c.abs() > EXTENT_MAX) => {
+                let message = "nothing is placed farther away than 1 km";
                 return Err(fault(code::BAD_VALUE, at.position.span, message, "too far"));
             }
             Value::Vec3(position, _) => shifted(position),
@@ -449,10 +455,40 @@ fn default_up(facing: Vec3) -> Vec3 {
     if facing.cross(&Vec3::z()).norm() < TOLERANCES.parallel { Vec3::x() } else { Vec3::z() }
 }
 
+/// Refuses a module that breaks a rule of [`validation`], at the part that does.
+fn validated(draft: &Draft, name: Span) -> Eval<()> {
+    validation::check_module(&draft.module, draft.connectors.len()).map_err(|found| {
+        let span = match found.part() {
+            Some(ModulePart::Link(link)) => draft.def.links[link].span,
+            Some(ModulePart::Joint(joint)) => draft.def.joints[joint].span,
+            Some(ModulePart::Motor(motor)) => draft.def.motors[motor].span,
+            Some(ModulePart::Port(port)) => {
+                let port_name = &draft.module.ports[port].name;
+                draft.ports.iter().find(|(.., port)| port.name == *port_name).map_or(name, |p| p.2)
+            }
+            None => name,
+        };
+        fault(code::BAD_MODULE, span, found.to_string(), "not sound")
+    })
+}
+
+/// Returns the distance by which what is drawn of a link sticks out of what is judged.
+fn left_out(drawn: &[Placed], judged: &[Placed], link: &LinkDef) -> Eval<f64> {
+    let Some(collides) = &link.collides else { return Ok(0.0) };
+    let refused =
+        |unsound: Unsound| fault(code::BAD_SHAPE, collides.span, unsound.to_string(), "this is no solid");
+    if judged.is_empty() {
+        return Err(refused(Unsound::Empty));
+    }
+    judged.iter().try_for_each(soundness::check_placed).map_err(refused)?;
+    // A drawn shape that is no solid has been told.
+    Ok(validation::left_out(drawn, judged).unwrap_or(0.0))
+}
+
 /// Refuses a link's shape that encloses nothing.
 fn sound(solid: &Solid, link: &LinkDef) -> Eval<()> {
     for placed in solid.parts.iter() {
-        crate::geometry::soundness::check(&placed.shape).map_err(|unsound| {
+        soundness::check_placed(placed).map_err(|unsound| {
             fault(code::BAD_SHAPE, link.shape.span, unsound.to_string(), "this is no solid")
         })?;
     }

@@ -5,6 +5,7 @@ use super::tolerances::TOLERANCES;
 use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::segment_segment_distance;
+use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::interpret::design::{Design, DesignKind, Instance, Node, TrussDesign};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
@@ -203,6 +204,11 @@ impl Interpreter<'_> {
         if draft.struts.is_empty() {
             faults.push((name, fault(code::BAD_TRUSS, name, "the truss has no struts", "no struts")));
         }
+        for node in draft.nodes.iter().filter(|node| !in_reach(node.position.as_slice())) {
+            let far = quantity(EXTENT_MAX, Dimension::LENGTH);
+            let message = format!("the node {} is farther than {far} away", node.name);
+            faults.push((node.span, fault(code::BAD_TRUSS, node.span, message, "too far")));
+        }
         let twins = twins(&draft.nodes);
         for &(a, b) in &twins {
             let (a, b) = (&draft.nodes[a], &draft.nodes[b]);
@@ -210,8 +216,11 @@ impl Interpreter<'_> {
             let diagnostic = Diagnostic::error(code::BAD_TRUSS, message);
             faults.push((a.span, diagnostic.label(a.span, "here").label(b.span, "and here").into()));
         }
-        // Faults of struts between two nodes at one position follow from that.
-        let sound = |(a, b, _): &(usize, usize, Span)| !twins.iter().any(|(twin, _)| twin == a || twin == b);
+        // Faults of struts of nodes at one position, or too far away, follow from that.
+        let far = |node: usize| !in_reach(draft.nodes[node].position.as_slice());
+        let sound = |&(a, b, _): &(usize, usize, Span)| {
+            !far(a) && !far(b) && !twins.iter().any(|&(twin, _)| twin == a || twin == b)
+        };
         for (index, strut) in draft.struts.iter().enumerate().filter(|(_, strut)| sound(strut)) {
             if let Err(stop) = self.check_strut(draft, strut, &draft.struts[..index], kind) {
                 faults.push((strut.2, stop));

@@ -4,6 +4,8 @@
 //! [`crate::elaborate`], built-ins are called in [`crate::natives`], and values are printed by
 //! [`crate::display`].
 
+mod standard;
+
 use crate::check::Checked;
 use crate::interpret::routines::Routines;
 use crate::interpret::session::Evaluator;
@@ -11,6 +13,8 @@ use crate::interpret::{self, Host, Mode, Options, Outcome};
 use crate::interrupt::CancelState;
 use crate::source::Files;
 use crate::{display, elaborate, natives};
+
+pub use standard::{Standard, standard};
 
 /// The rooms above the evaluator.
 static ROUTINES: Routines = Routines {

@@ -1,6 +1,7 @@
 //! Uneven ground: a height field over a grid, with flat triangles between.
 
 use super::pose::Vec3;
+use super::soundness::EXTENT_MAX;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,9 +28,16 @@ impl HeightField {
             (self.columns < 2 || rows < 2, "the ground has less than two rows or columns of heights"),
             (rows * self.columns != self.heights.len(), "the rows of the ground have different lengths"),
             (!(self.spacing > 0.0 && self.spacing.is_finite()), "the heights of the ground are not apart"),
-            (self.heights.iter().chain(&self.corner).any(|h| !h.is_finite()), "a height is not finite"),
+            (!self.in_reach(rows), "the ground reaches, or is, farther than 1 km from the origin"),
         ];
         faults.into_iter().find_map(|(bad, why)| bad.then_some(why))
+    }
+
+    /// Returns true if all places of the ground are finite and within [`EXTENT_MAX`] along each axis, of so many `rows`.
+    fn in_reach(&self, rows: usize) -> bool {
+        let ends = [(self.corner[0], self.columns), (self.corner[1], rows)];
+        let ends = ends.map(|(corner, count)| corner + self.spacing * (count as f64 - 1.0));
+        self.heights.iter().chain(&self.corner).chain(&ends).all(|x| x.abs() <= EXTENT_MAX)
     }
 
     /// Returns the number of heights along y.

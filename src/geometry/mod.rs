@@ -2,7 +2,7 @@
 //!
 //! In reading order: vectors and poses ([`pose`], [`rigid_transform`]), declared shapes ([`Shape`]) and what makes them
 //! solids ([`soundness`]), convex parts and solids compiled from them ([`Part`], [`Solid`]), distances ([`distance`],
-//! [`closest_points`], [`contact_point()`]) and the search for near pairs ([`broad_phase`]).
+//! [`closest_points`], [`contact_point()`], [`protrusion()`]) and the search for near pairs ([`broad_phase`]).
 #![allow(non_snake_case)]
 
 mod angle;
@@ -27,6 +27,7 @@ pub mod distance;
 
 mod gjk;
 pub mod hull;
+mod protrusion;
 
 pub use angle::sin_cos;
 pub use contact_point::contact_point;
@@ -35,6 +36,7 @@ pub use height_field::HeightField;
 pub use part::Part;
 pub use polygon::triangulate;
 pub use pose::{Pose, Vec3};
+pub use protrusion::protrusion;
 pub use rigid_transform::RigidTransform;
 pub use shape::{Placed, Shape};
 pub use solid::Solid;

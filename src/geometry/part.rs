@@ -9,6 +9,9 @@ use super::pose::{Pose, Vec3};
 /// Directions this near to a cylinder's axis are along it: what is left across it is rounding.
 const TOL_STRAIGHT: f64 = 1e-9;
 
+/// Corners of the polygon around a rim: it is larger by 1/13000 of the radius.
+const RIM_CORNERS: usize = 256;
+
 /// A convex body in the frame of its solid.
 #[derive(Clone, Debug)]
 pub struct Part {
@@ -111,6 +114,24 @@ impl Part {
         self.centre + from_centre
     }
 
+    /// Returns the corners of a polytope that holds the core of the part, m. It is the core itself, but for a
+    /// cylinder: that is in the prism around it.
+    pub(super) fn core_corners(&self) -> Vec<Vec3> {
+        let signs = [-1.0, 1.0];
+        let from_centre: Vec<Vec3> = match &self.form {
+            Form::Box(e) => signs
+                .iter()
+                .flat_map(|x| signs.map(|y| (*x, y)))
+                .flat_map(|(x, y)| signs.map(|z| e[0] * x + e[1] * y + e[2] * z))
+                .collect(),
+            Form::Cylinder(half, unit, radius) => prism_around(half, unit, *radius),
+            Form::Capsule(half, _) => signs.iter().map(|end| half * *end).collect(),
+            Form::Sphere(_) => vec![Vec3::zeros()],
+            Form::Points(points) => points.clone(),
+        };
+        from_centre.into_iter().map(|p| self.centre + p).collect()
+    }
+
     /// Returns the part in the frame in which its own frame has the pose `X`.
     pub fn moved(&self, X: &Pose) -> Part {
         let turn = |v: &Vec3| X.rotation * v;
@@ -148,6 +169,19 @@ impl Part {
                 Form::Box(_) | Form::Points(_) => false,
             }
     }
+}
+
+/// Returns the corners of the regular prism around a cylinder.
+fn prism_around(half: &Vec3, unit: &Vec3, radius: f64) -> Vec<Vec3> {
+    let across = unit.cross(&Vec3::ith(unit.iamin(), 1.0)).normalize();
+    let up = unit.cross(&across);
+    let step = std::f64::consts::TAU / RIM_CORNERS as f64;
+    let outer = radius / libm::cos(step / 2.0);
+    let corner = |k: usize| {
+        let (s, c) = libm::sincos(step * k as f64);
+        (across * c + up * s) * outer
+    };
+    (0..RIM_CORNERS).flat_map(|k| [corner(k) - half, corner(k) + half]).collect()
 }
 
 fn unit_or_zero(v: &Vec3) -> Vec3 {

@@ -1,8 +1,8 @@
 //! Validation of shapes: which are solids, and the fault of those that are not.
 
 use super::hull::extents;
-use super::pose::Vec3;
-use super::shape::Shape;
+use super::pose::{Pose, Vec3};
+use super::shape::{Placed, Shape};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -10,13 +10,18 @@ use std::fmt;
 /// resolve.
 pub const THICKNESS_MIN: f64 = 1e-6;
 
-/// The greatest coordinate or size of a shape, m: beyond it, differences of a micrometre are lost.
-pub const SIZE_MAX: f64 = 1e6;
+/// The greatest length, coordinate or distance of what is declared, m: 1 km. Double precision tells places at that
+/// distance apart to 1e-13 m, and squares of such distances to 1e-10 m², so that the tolerances of 1e-9 m hold there as
+/// they do near the origin.
+pub const EXTENT_MAX: f64 = 1e3;
+
+/// The most by which the norm of a direction or of a rotation may differ from 1: rounding.
+pub const TOL_UNIT: f64 = 1e-6;
 
 /// The fault by which a shape is no solid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unsound {
-    /// A number that is not finite, or larger than [`SIZE_MAX`].
+    /// A number that is not finite, or larger than [`EXTENT_MAX`].
     NotFinite,
     /// The named size is zero, negative or less than [`THICKNESS_MIN`].
     TooThin {
@@ -45,12 +50,14 @@ pub enum Unsound {
     NoInside,
     /// No shape at all.
     Empty,
+    /// A pose whose rotation is no unit quaternion.
+    NotRigid,
 }
 
 impl fmt::Display for Unsound {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Unsound::NotFinite => write!(f, "a size or coordinate is not a finite number below 1000 km"),
+            Unsound::NotFinite => write!(f, "a size or coordinate is not a finite number of at most 1 km"),
             Unsound::TooThin { what, .. } => write!(f, "the {what} must be at least 1 um"),
             Unsound::NoAxis => write!(f, "the axis has no direction"),
             Unsound::Flat => {
@@ -64,6 +71,7 @@ impl fmt::Display for Unsound {
             }
             Unsound::NoInside => write!(f, "the mesh encloses no volume, or its triangles face inwards"),
             Unsound::Empty => write!(f, "there is no shape"),
+            Unsound::NotRigid => write!(f, "the rotation of a pose is no unit quaternion"),
         }
     }
 }
@@ -97,13 +105,37 @@ pub fn check(shape: &Shape) -> Result<(), Unsound> {
             if parts.is_empty() {
                 return Err(Unsound::Empty);
             }
-            parts.iter().try_for_each(|part| check(&part.shape))
+            parts.iter().try_for_each(check_placed)
         }
     }
 }
 
+/// Checks that a shape is a solid at a rigid pose not farther away than [`EXTENT_MAX`].
+///
+/// # Errors
+/// The first fault of the pose, or of the shape.
+pub fn check_placed(placed: &Placed) -> Result<(), Unsound> {
+    check_pose(&placed.pose)?;
+    check(&placed.shape)
+}
+
+/// Checks that a pose is a rigid displacement by at most [`EXTENT_MAX`] along each axis.
+///
+/// # Errors
+/// [`Unsound::NotFinite`] of its position, or [`Unsound::NotRigid`] of its rotation.
+pub fn check_pose(pose: &Pose) -> Result<(), Unsound> {
+    pose.translation.vector.iter().try_for_each(|v| finite(*v))?;
+    let norm = pose.rotation.quaternion().norm();
+    if (norm - 1.0).abs() < TOL_UNIT { Ok(()) } else { Err(Unsound::NotRigid) }
+}
+
+/// Returns true if a position (m) is finite and not farther than [`EXTENT_MAX`] along any axis.
+pub fn in_reach(position: &[f64]) -> bool {
+    position.iter().all(|c| c.abs() <= EXTENT_MAX)
+}
+
 fn finite(value: f64) -> Result<(), Unsound> {
-    if value.abs() <= SIZE_MAX { Ok(()) } else { Err(Unsound::NotFinite) }
+    if value.abs() <= EXTENT_MAX { Ok(()) } else { Err(Unsound::NotFinite) }
 }
 
 fn extent(what: &'static str, value: f64) -> Result<(), Unsound> {

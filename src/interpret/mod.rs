@@ -44,4 +44,4 @@ mod run;
 pub mod session;
 
 pub use host::{Host, Limits, Mode, Options, Outcome, TestResult, WriteError};
-pub use run::run;
+pub use run::{run, with_interpreter};

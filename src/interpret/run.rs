@@ -44,6 +44,26 @@ fn no_memory(why: &str) -> Diagnostic {
     Diagnostic::error(code::NO_MEMORY, message).hint("end other programs, or raise the limit of this one")
 }
 
+/// Calls `work` with the interpreter of a checked program, of which nothing was run, on the evaluator's thread. `None`
+/// where it met a fault or a limit, or where the system gives no memory for the thread.
+pub fn with_interpreter<T: Send>(
+    routines: &Routines,
+    checked: &Checked,
+    files: &dyn Files,
+    host: &mut dyn Host,
+    options: &Options,
+    work: impl FnOnce(&mut Interpreter) -> Eval<T> + Send,
+) -> Option<T> {
+    let done = evaluator_thread::run(files, host, |host| {
+        let mut interpreter = Interpreter::new(routines, checked, Mode::Check, options, host);
+        let cancel_state = interpreter.shared.host.cancel_state.clone();
+        let progress_sink = interpreter.shared.host.progress_sink();
+        let done = interrupt::catch(&cancel_state, progress_sink, || work(&mut interpreter));
+        done.and_then(Result::ok).filter(|_| interpreter.reported.errors == 0)
+    });
+    done.ok().flatten()
+}
+
 /// Errors before warnings before notes; else as they were found.
 fn in_order(mut reports: Vec<Diagnostic>) -> Vec<Diagnostic> {
     reports.sort_by_key(|d| match d.severity {

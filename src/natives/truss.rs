@@ -269,7 +269,7 @@ fn timed_out(host: &HostProxy, call: &Call, so_far: &str) -> Stop {
 fn morph_refused(call: &Call, truss: &TrussProblem, refusal: morph::Refusal) -> Stop {
     match &refusal {
         morph::Refusal::Truss(invalid) => invalid_truss(call, invalid),
-        morph::Refusal::NoArea | morph::Refusal::FewPoints { .. } => {
+        morph::Refusal::TooFar | morph::Refusal::NoArea | morph::Refusal::FewPoints { .. } => {
             call.refuse("target", refusal.to_string())
         }
         morph::Refusal::NoSurface { edges } => {
@@ -291,14 +291,14 @@ fn morph_refused(call: &Call, truss: &TrussProblem, refusal: morph::Refusal) -> 
 fn locomote_refused(call: &Call, refusal: locomote::Refusal) -> Stop {
     match &refusal {
         locomote::Refusal::Truss(invalid) => invalid_truss(call, invalid),
-        locomote::Refusal::EmptyPath => call.refuse("path", refusal.to_string()),
+        locomote::Refusal::EmptyPath | locomote::Refusal::TooFar => call.refuse("path", refusal.to_string()),
         locomote::Refusal::NeverRests => call.refuse("truss", refusal.to_string()),
     }
 }
 
 fn invalid_truss(call: &Call, invalid: &InvalidTruss) -> Stop {
     let name = match invalid {
-        InvalidTruss::Incomplete | InvalidTruss::Degenerate { .. } => "truss",
+        InvalidTruss::Incomplete | InvalidTruss::Degenerate { .. } | InvalidTruss::TooFar { .. } => "truss",
         InvalidTruss::AngleLimit => "angle",
         InvalidTruss::RigidityLimit | InvalidTruss::RigidityNodes { .. } => "rigidity",
         InvalidTruss::ShortLoop => "perimeters",

@@ -182,9 +182,9 @@ impl Body {
     }
 
     /// Checks that numbers mean something, after the references are.
-    pub(super) fn check_ranges(&self) -> Result<(), PlanFault> {
+    pub(super) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
         match self {
-            Body::Tracks(tracks) => tracks.check_ranges(),
+            Body::Tracks(tracks) => tracks.check_ranges(library),
             // Whole numbers are in their ranges where their references are right.
             Body::Stages(_) => Ok(()),
             Body::NodePaths(paths) => paths.check_ranges(),

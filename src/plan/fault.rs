@@ -8,6 +8,7 @@ use super::finite::{self, Unwritable};
 use super::time::DURATION_MAX;
 use super::world::DynamicsModel;
 use crate::geometry::Unsound;
+use crate::robot::LibraryFault;
 use serde::Serialize;
 use std::fmt;
 
@@ -83,13 +84,6 @@ pub enum PlanFault {
         /// The index that is given.
         node: usize,
     },
-    /// A fault inside a module type.
-    InModule {
-        /// The name of the module type.
-        module: String,
-        /// The fault.
-        fault: Box<PlanFault>,
-    },
     /// A fault inside the track of a joint.
     InTrack {
         /// The index of the joint.
@@ -134,89 +128,31 @@ pub enum PlanFault {
         /// The dynamics that plans of this family are judged under.
         judged: DynamicsModel,
     },
-    /// A fault of a module type or a connector.
+    /// A fault of a module type, a connector, a cell or a strut.
     Library(LibraryFault),
+    /// A pose or a position that is not finite, farther away than
+    /// [`EXTENT_MAX`](crate::geometry::soundness::EXTENT_MAX), or no rigid displacement.
+    Pose {
+        /// The thing that has the pose.
+        of: &'static str,
+        /// The fault.
+        fault: Unsound,
+    },
+    /// A number beyond its named limit.
+    Bound {
+        /// The quantity.
+        what: &'static str,
+        /// Its value in SI units.
+        value: f64,
+        /// The greatest absolute value.
+        most: f64,
+    },
     /// A fault of the plan of an articulated robot.
     Tracks(TracksFault),
     /// A fault of the plan of a lattice.
     Stages(StagesFault),
     /// A fault of the plan of a truss.
     NodePaths(NodePathsFault),
-}
-
-/// A fault of a module type or a connector.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LibraryFault {
-    /// A connector without an allowed turn.
-    NoTurn {
-        /// The name of the connector.
-        connector: String,
-    },
-    /// A joint whose axis has no direction.
-    NoAxis {
-        /// The name of the module type.
-        module: String,
-        /// The name of the joint.
-        joint: String,
-    },
-    /// A link that two joints of its module carry.
-    SharedLink {
-        /// The name of the module type.
-        module: String,
-    },
-    /// A link that no joint of its module carries.
-    LooseLink {
-        /// The name of the module type.
-        module: String,
-    },
-    /// Joints of a module that form a loop.
-    CyclicJoints {
-        /// The name of the module type.
-        module: String,
-    },
-    /// A negative tolerance of a module.
-    NegativeTolerance,
-    /// A module without mass.
-    NoMass,
-    /// A joint whose axis is no unit vector.
-    AxisNorm {
-        /// The name of the joint.
-        joint: String,
-    },
-    /// A pose whose rotation is no unit quaternion: that of the named link, joint, port or base.
-    Pose {
-        /// The name of what has the pose.
-        of: String,
-    },
-    /// A joint whose range ends before it begins.
-    JointRange {
-        /// The name of the joint.
-        joint: String,
-    },
-    /// A limit of a joint or a motor that is not positive.
-    Limit,
-    /// A link of negative mass.
-    LinkMass {
-        /// The name of the link.
-        link: String,
-    },
-    /// A link with a negative coefficient of friction.
-    LinkFriction {
-        /// The name of the link.
-        link: String,
-    },
-    /// A link without a shape.
-    NoShape {
-        /// The name of the link.
-        link: String,
-    },
-    /// A shape of a link that is no solid.
-    Shape {
-        /// The name of the link.
-        link: String,
-        /// The fault.
-        fault: Unsound,
-    },
 }
 
 /// A fault of the plan of an articulated robot.
@@ -386,6 +322,11 @@ pub(super) fn need_ascending(times: &[f64], what: &'static str) -> Result<(), Pl
     need(times.windows(2).all(|w| w[0] < w[1]), || PlanFault::TimeOrder { what })
 }
 
+/// Returns `Ok` where a number is no farther from 0 than its limit.
+pub(super) fn need_bounded(value: f64, most: f64, what: &'static str) -> Result<(), PlanFault> {
+    need(value.abs() <= most, || PlanFault::Bound { what, value, most })
+}
+
 /// Returns `Ok` where every number of a part of a plan is finite.
 pub(super) fn need_finite(part: &'static str, value: &impl Serialize) -> Result<(), PlanFault> {
     finite::check(value).map_err(|value| PlanFault::Unwritable { part, value })
@@ -449,7 +390,6 @@ impl fmt::Display for PlanFault {
                 "node {node} of the program has node {child} as a child, which does not stand before it"
             ),
             PlanFault::ProgramRoot { node } => write!(f, "the program has no node {node} to begin with"),
-            PlanFault::InModule { module, fault } => write!(f, "in module `{module}`: {fault}"),
             PlanFault::InTrack { joint, fault } => write!(f, "in the track of joint {joint}: {fault}"),
             PlanFault::InStage { stage, fault } => write!(f, "in stage `{stage}`: {fault}"),
             PlanFault::After { time, fault } => write!(f, "at {time} s {fault}"),
@@ -463,35 +403,13 @@ impl fmt::Display for PlanFault {
                 write!(f, "a world states the dynamics `{stated}`; such plans are judged under `{judged}`")
             }
             PlanFault::Library(fault) => fault.fmt(f),
+            PlanFault::Pose { of, fault } => write!(f, "{of}: {fault}"),
+            PlanFault::Bound { what, value, most } => {
+                write!(f, "{what} is {value} in SI units; the limit is {most}")
+            }
             PlanFault::Tracks(fault) => fault.fmt(f),
             PlanFault::Stages(fault) => fault.fmt(f),
             PlanFault::NodePaths(fault) => fault.fmt(f),
-        }
-    }
-}
-
-impl fmt::Display for LibraryFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            LibraryFault::NoTurn { connector } => write!(f, "connector `{connector}` has no turn"),
-            LibraryFault::NoAxis { module, joint } => write!(f, "joint `{module}.{joint}` has no axis"),
-            LibraryFault::SharedLink { module } => {
-                write!(f, "two joints carry one link of module `{module}`")
-            }
-            LibraryFault::LooseLink { module } => write!(f, "no joint carries a link of module `{module}`"),
-            LibraryFault::CyclicJoints { module } => {
-                write!(f, "the joints of module `{module}` form a circle")
-            }
-            LibraryFault::NegativeTolerance => write!(f, "a tolerance is negative"),
-            LibraryFault::NoMass => write!(f, "it has no mass"),
-            LibraryFault::AxisNorm { joint } => write!(f, "the axis of `{joint}` is no unit vector"),
-            LibraryFault::Pose { of } => write!(f, "the pose of `{of}` is no rigid displacement"),
-            LibraryFault::JointRange { joint } => write!(f, "the range of `{joint}` ends before it begins"),
-            LibraryFault::Limit => write!(f, "a limit is not positive"),
-            LibraryFault::LinkMass { link } => write!(f, "the mass of `{link}` is negative"),
-            LibraryFault::LinkFriction { link } => write!(f, "the friction of `{link}` is negative"),
-            LibraryFault::NoShape { link } => write!(f, "`{link}` has no shape"),
-            LibraryFault::Shape { link, fault } => write!(f, "a shape of `{link}`: {fault}"),
         }
     }
 }

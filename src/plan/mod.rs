@@ -25,6 +25,7 @@ mod body;
 mod motion_plan;
 
 mod exceptions;
+pub mod facts;
 mod fault;
 mod finite;
 mod operation_error;
@@ -39,7 +40,7 @@ pub mod verify;
 pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
 pub use exceptions::headline;
-pub use fault::{LibraryFault, NodePathsFault, PlanFault, StagesFault, TracksFault};
+pub use fault::{NodePathsFault, PlanFault, StagesFault, TracksFault};
 pub use finite::Unwritable;
 pub use motion_plan::Plan;
 pub use node_paths::{Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TrussLimits};

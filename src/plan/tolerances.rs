@@ -14,8 +14,6 @@ pub struct Tolerances {
     pub stage_border: f64,
     /// The most by which a joint may jump between two segments, rad or m: rounding, where plans were joined.
     pub joint_jump: f64,
-    /// The most by which the norm of a direction or of a rotation may differ from 1: rounding.
-    pub unit_norm: f64,
     /// Lengths (m), angles (rad) and fractions of a limit below this are reported as zero: rounding.
     pub reported_zero: f64,
     /// Hulls of contacts narrower than this are lines, m.
@@ -28,7 +26,6 @@ pub const TOLERANCES: Tolerances = Tolerances {
     join_node: 1e-6,
     stage_border: 1e-9,
     joint_jump: 1e-9,
-    unit_norm: 1e-6,
     reported_zero: 1e-9,
     polygon_width: 1e-6,
 };

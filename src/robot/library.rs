@@ -96,6 +96,12 @@ impl Link {
     pub const FRICTION_DEFAULT: f64 = 0.5;
 }
 
+/// Returns true for 0, which files leave out.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 /// A rigid body of a module.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -110,6 +116,10 @@ pub struct Link {
     pub shape: Vec<Placed>,
     /// The shapes to judge, in the link's frame; the same as `shape` unless declared otherwise.
     pub collides: Vec<Placed>,
+    /// The distance by which `shape` sticks out of `collides`, m, as `collides` in a program states: so much of what is
+    /// drawn is not judged. A file whose shapes leave out more is refused.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub left_out: f64,
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass in the link's frame, m.

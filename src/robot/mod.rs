@@ -1,14 +1,16 @@
 //! Modules, what they are made of, robots composed of them, and the kinematics and mass of robots.
 //!
-//! In reading order: declarations ([`Library`]), robots and their states ([`Assembly`], [`State`]), mass
-//! ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian ([`jacobian`]) and inverse
+//! In reading order: declarations ([`Library`]) and which of them are sound ([`validation`]), robots and their
+//! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian ([`jacobian`]) and inverse
 //! kinematics ([`inverse_kinematics`]), when two robots are the same ([`matching()`]), rigidity of trusses
 //! ([`truss`]), and files of RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
 mod assembly;
+mod fault;
 mod library;
 pub mod mass;
+pub mod validation;
 
 mod kinematics;
 mod step;
@@ -28,6 +30,7 @@ pub mod rofi_assembly;
 pub mod rofi_json;
 
 pub use assembly::{Assembly, Bond, JointId, JointOwner, ModuleInstance, PortRef, State};
+pub use fault::{LibraryFault, ModulePart};
 pub use kinematics::{Kinematics, Residual, mate};
 pub use library::{
     Capture, Cell, Connector, Hinge, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Port, Strut,

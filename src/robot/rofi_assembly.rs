@@ -100,6 +100,7 @@ fn link(name: &str, pose: Pose, radius: f64) -> Link {
         pose,
         collides: shape.clone(),
         shape,
+        left_out: 0.0,
         mass: LINK_MASS,
         com: Vec3::zeros(),
         inertia: [inertia, inertia, inertia, 0.0, 0.0, 0.0],

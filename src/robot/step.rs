@@ -10,8 +10,8 @@ use nalgebra::{Quaternion, UnitQuaternion};
 /// Components of axes and offsets below this are taken for the rounding of a declared zero.
 const ROUNDING: f64 = 1e-15;
 
-/// Mimics may follow mimics; deeper than this they can only be going round in circles.
-const MIMIC_DEPTH_MAX: usize = 16;
+/// The greatest number of steps over which joints follow joints that follow others.
+pub(super) const MIMIC_DEPTH_MAX: usize = 16;
 
 /// The placement of a link B against its parent A.
 #[derive(Clone, Debug, PartialEq)]
@@ -211,13 +211,19 @@ pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)
         if !mimics {
             break;
         }
-        terms = terms
-            .iter()
-            .flat_map(|&(j, factor)| match &kind.joints[j].mimic {
-                Some(followed) => followed.iter().map(|&(k, f)| (k, factor * f)).collect(),
-                None => vec![(j, factor)],
-            })
-            .collect();
+        let followed = terms.iter().flat_map(|&(j, factor)| match &kind.joints[j].mimic {
+            Some(followed) => followed.iter().map(|&(k, f)| (k, factor * f)).collect(),
+            None => vec![(j, factor)],
+        });
+        // Each joint once, or the terms of joints that follow sums would multiply.
+        let mut sum: Vec<(usize, f64)> = Vec::new();
+        for (j, factor) in followed {
+            match sum.iter_mut().find(|(known, _)| *known == j) {
+                Some((_, known)) => *known += factor,
+                None => sum.push((j, factor)),
+            }
+        }
+        terms = sum;
     }
     terms.iter().map(|&(j, factor)| (first + j, factor)).collect()
 }

@@ -296,6 +296,39 @@ fn a_new_project_runs_is_verified_and_passes_its_test() {
     assert!(tested.code == 0 && tested.out.contains("1 passed, 0 failed"), "{}{}", tested.out, tested.err);
 }
 
+/// The facts of the modules that a verdict rests on, and where they are not those of the library that has their name.
+#[test]
+fn the_facts_of_a_plan_file_are_told_with_their_differences_from_the_library() {
+    let s = Sandbox::new(&[(
+        "m.mod",
+        b"use std.smores.Driver1\nemit(plan(Driver1().drive(t: 1s)), \"p.plan.json\")\n",
+    )]);
+    assert_eq!(s.run(&["run", "m.mod"]).code, 0);
+    let plan = s.path("out/p.plan.json");
+    let verified = s.run(&["verify", "out/p.plan.json"]);
+    assert!(verified.out.contains("rests on module Smores, as std.smores.Smores ("), "{}", verified.out);
+    let mut file: serde_json::Value =
+        serde_json::from_slice(&fs::read(&plan).expect("it was written")).expect("it is JSON");
+    let module = &mut file["library"]["modules"][0];
+    module["touch"] = 0.004.into();
+    module["joints"][0]["limits"]["effort"] = serde_json::Value::Null;
+    module["links"][0]["mass"] = 0.2.into();
+    fs::write(&plan, file.to_string()).expect("it can be written");
+    let altered = s.run(&["verify", "out/p.plan.json"]);
+    for difference in [
+        "touch is 0.004, there 0.0001",
+        "joints.tilt.limits.effort is not stated, there 2.3",
+        "links.holder.mass is 0.2, there 0.127498",
+    ] {
+        let told = format!("differs from std.smores.Smores: {difference}");
+        assert!(altered.out.contains(&told), "{told}: {}", altered.out);
+    }
+    let report = json(&s.run(&["verify", "--json", "out/p.plan.json"]));
+    let facts = &report["plans"][0]["rests_on"][0];
+    assert_eq!(facts["standard"], "std.smores.Smores");
+    assert_eq!(facts["differences"].as_array().map(Vec::len), Some(3));
+}
+
 const TESTS: &[u8] =
     b"print(1)\ntest \"one is one\" { expect 1 == 1 }\ntest \"one is two\" { expect 1 == 2 }\n";
 

@@ -42,7 +42,7 @@ const ROOMS: &[Room] = &[
     room("elaborate", &["interpret"], &["syntax", "plan", "behavior", "planners"]),
     room("natives", &["interpret", "elaborate", "view", "formats"], &[]),
     room("display", &["natives"], &["interrupt", "syntax", "behavior", "view", "formats"]),
-    room("execute", &["display", "interrupt"], &["units", "geometry", "robot", "plan", "planners"]),
+    room("execute", &["display", "interrupt"], &["units", "geometry", "plan", "planners"]),
     room("document", &["execute", "syntax"], &["elaborate", "natives", "display"]),
     room("session", &["execute", "format", "units"], &["interrupt", "elaborate", "natives", "display"]),
     room("cli", &["session", "document", "view", "behavior"], &["syntax", "geometry", "robot"]),

@@ -7,6 +7,8 @@ pub mod lattices;
 pub mod motions;
 pub mod programs;
 pub mod properties;
+pub mod recount;
+pub mod recount_lattice;
 pub mod replay;
 pub mod robots;
 pub mod sources;

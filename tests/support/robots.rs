@@ -53,6 +53,7 @@ pub fn link(name: &str, shape: Vec<Placed>, mass: f64, com: Vec3, friction: f64)
         name: name.into(),
         pose: Pose::identity(),
         collides: shape.clone(),
+        left_out: 0.0,
         shape,
         mass,
         com,

@@ -1,9 +1,13 @@
 //! The validation of node paths: references, orders and ranges.
 
 use super::motion::{Interpolation, NodePaths};
-use crate::geometry::{HeightField, soundness};
-use crate::plan::fault::{NodePathsFault, PlanFault, need, need_ascending, need_finite, need_index};
+use crate::geometry::HeightField;
+use crate::geometry::soundness::{EXTENT_MAX, check_placed};
+use crate::plan::fault::{
+    NodePathsFault, PlanFault, need, need_ascending, need_bounded, need_finite, need_index,
+};
 use crate::robot::Library;
+use crate::robot::validation::POSITION_MAX;
 
 impl NodePaths {
     /// Checks that every index points at something, and that keyframes are in order of time.
@@ -37,14 +41,17 @@ impl NodePaths {
         need_finite("the limits", &self.limits)?;
         need_finite("the surroundings", &self.surroundings)?;
         for placed in self.surroundings.obstacles.iter().flatten() {
-            soundness::check(&placed.shape).map_err(NodePathsFault::Obstacle)?;
+            check_placed(placed).map_err(NodePathsFault::Obstacle)?;
         }
         if let Some(fault) = self.surroundings.terrain.as_ref().and_then(HeightField::fault) {
             return Err(NodePathsFault::Terrain(fault).into());
         }
+        let coordinates = self.keyframes.iter().flat_map(|keyframe| keyframe.nodes.iter().flatten());
+        coordinates.into_iter().try_for_each(|&c| need_bounded(c, EXTENT_MAX, "the coordinate of a node"))?;
         need(self.struts.iter().all(|(a, b)| a != b), || NodePathsFault::StrutEnds)?;
         self.keyframes.iter().try_for_each(|keyframe| match keyframe.interpolation {
-            Interpolation::RigidRoll { edge: (a, b), .. } => {
+            Interpolation::RigidRoll { edge: (a, b), angle } => {
+                need_bounded(angle, POSITION_MAX, "the angle of a roll")?;
                 let long = keyframe.nodes[a] != keyframe.nodes[b];
                 need(long, || NodePathsFault::RollLength { time: keyframe.time })
             }

@@ -1,7 +1,7 @@
 //! The names of what indices stand for in a robot, as plan files state them beside the indices.
 
 use super::validation;
-use crate::plan::validation::library::references;
+use crate::robot::validation::check_references;
 use crate::robot::{Assembly, JointId, PortRef};
 
 /// The names of the modules, joints, ports and bonds of an assembly. An index that points nowhere has the empty
@@ -13,7 +13,7 @@ pub(in crate::plan) struct RobotNames<'a> {
 
 impl<'a> RobotNames<'a> {
     pub(in crate::plan) fn of(robot: &'a Assembly) -> RobotNames<'a> {
-        let well_formed = references(&robot.library).and_then(|()| validation::robot(robot)).is_ok();
+        let well_formed = check_references(&robot.library).is_ok() && validation::robot(robot).is_ok();
         let robot = Some(robot).filter(|_| well_formed);
         let joints = robot.map_or_else(Vec::new, |robot| {
             robot.joints().map(|owner| robot.joint_name(owner)).collect::<Vec<_>>()

@@ -1,16 +1,15 @@
 //! The validation of tracks: references, orders and ranges.
 
 use super::motion::{Dock, DockKind, Track, Tracks};
+use crate::geometry::soundness::check_pose;
 use crate::plan::cause::CauseId;
-use crate::plan::fault::{PlanFault, TracksFault, need, need_finite, need_index};
+use crate::plan::fault::{PlanFault, TracksFault, need, need_bounded, need_finite, need_index};
 use crate::plan::polynomial::DEGREE_MAX;
 use crate::plan::tolerances::TOLERANCES;
-use crate::plan::validation::library::{ranges, rigid};
-use crate::robot::{Assembly, JointKind, JointOwner, PortRef};
+use crate::robot::validation::{MODULE_EXTENT_MAX, POSITION_MAX, check_library};
+use crate::robot::{Assembly, JointKind, JointOwner, Library, PortRef};
 use std::collections::BTreeSet;
-
-/// The furthest position of a joint, rad or m: what turns more often takes the judge for ever.
-const POSITION_MAX: f64 = 1e6;
+use std::sync::Arc;
 
 impl Tracks {
     /// Checks that every index points at something, that segments and docks are in order, and that
@@ -78,14 +77,29 @@ impl Tracks {
     }
 
     /// Checks that joints can be moved, stay within sight, and that ports which are docked mate.
-    pub(in crate::plan) fn check_ranges(&self) -> Result<(), PlanFault> {
-        ranges(&self.robot.library)?;
-        rigid(&self.start.base, "the base")?;
+    pub(in crate::plan) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
+        // The library of the plan has been checked, and is that of its robot, as a rule.
+        if !Arc::ptr_eq(library, &self.robot.library) {
+            check_library(&self.robot.library).map_err(PlanFault::Library)?;
+        }
+        check_pose(&self.start.base).map_err(|fault| PlanFault::Pose { of: "the base", fault })?;
         let owners: Vec<JointOwner> = self.robot.joints().collect();
+        let farthest = |owner: JointOwner| match owner {
+            JointOwner::Module { module, joint }
+                if self.robot.module_type(module).joints[joint].kind == JointKind::Prismatic =>
+            {
+                MODULE_EXTENT_MAX
+            }
+            JointOwner::Module { .. } | JointOwner::Bond(_) => POSITION_MAX,
+        };
+        for (&position, &owner) in self.start.joints.iter().zip(&owners) {
+            need_bounded(position, farthest(owner), "the start position of a joint")?;
+        }
         for track in &self.tracks {
-            let far = track.segments.iter().flat_map(|s| &s.control).any(|q| q.abs() > POSITION_MAX);
-            need(!far, || TracksFault::FarJoint { limit: POSITION_MAX })?;
             let owner = owners[track.joint.0 as usize];
+            let limit = farthest(owner);
+            let far = track.segments.iter().flat_map(|s| &s.control).any(|q| q.abs() > limit);
+            need(!far, || TracksFault::FarJoint { limit })?;
             need(takes_commands(&self.robot, owner), || TracksFault::NoCommands {
                 joint: self.robot.joint_name(owner),
             })?;

@@ -5,21 +5,22 @@
 //! judged. The quality of the motion is for the judge. Rules of one family of bodies stand in that family's
 //! folder, through [`Body`](super::Body).
 
-pub(super) mod library;
 mod program;
 
-use super::fault::{PlanFault, need, need_ascending, need_finite, need_index};
+use super::fault::{PlanFault, need, need_ascending, need_bounded, need_finite, need_index};
 use super::motion_plan::Plan;
 use super::time::DURATION_MAX;
 use super::visit::Graph;
 use super::world::Ground;
+use crate::robot::validation::{QUANTITY_MAX, check_library};
 
-/// Validates the references and the orders of a plan: what reading a file asks of it.
+/// Validates the library, the references and the orders of a plan: what reading a file asks of it. The library is
+/// held to the rules of programs.
 ///
 /// # Errors
 /// The first fault that was found.
 pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
-    library::references(&plan.library)?;
+    check_library(&plan.library).map_err(PlanFault::Library)?;
     plan.provenance.check()?;
     let duration = plan.body.duration();
     let in_range = duration.is_finite() && (0.0..=DURATION_MAX).contains(&duration);
@@ -51,8 +52,7 @@ pub fn check(plan: &Plan) -> Result<(), PlanFault> {
     numbers(plan)?;
     validate(plan)?;
     options(plan)?;
-    library::ranges(&plan.library)?;
-    plan.body.check_ranges()
+    plan.body.check_ranges(&plan.library)
 }
 
 /// Refuses numbers that are not finite.
@@ -70,10 +70,14 @@ fn options(plan: &Plan) -> Result<(), PlanFault> {
     need(settings.sample > 0.0, || PlanFault::SampleInterval { interval: settings.sample })?;
     need(settings.unstable_for >= 0.0, || PlanFault::UnstableFor)?;
     need(settings.samples_max >= 1, || PlanFault::NoSamples)?;
+    need_bounded(settings.sample, DURATION_MAX, "the time between samples")?;
+    need_bounded(settings.unstable_for, DURATION_MAX, "`unstable_for`")?;
     let has_base = plan.body.tracks().is_some();
     plan.worlds.iter().try_for_each(|w| {
         need(has_base || w.world.ground != Ground::Held, || PlanFault::NoBaseToHold)?;
         need(w.world.gravity >= 0.0, || PlanFault::Gravity)?;
-        need(w.world.friction >= 0.0, || PlanFault::Friction)
+        need_bounded(w.world.gravity, QUANTITY_MAX, "gravity")?;
+        need(w.world.friction >= 0.0, || PlanFault::Friction)?;
+        need_bounded(w.world.friction, QUANTITY_MAX, "friction")
     })
 }

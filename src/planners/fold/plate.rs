@@ -105,6 +105,7 @@ impl Plate {
             pose: Pose::identity(),
             shape: shape.clone(),
             collides: shape,
+            left_out: 0.0,
             mass: body.mass,
             com: body.centre,
             inertia: [i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]],

@@ -3,7 +3,7 @@
 use super::tolerances::TOLERANCES;
 use super::unfoldable::Unfoldable;
 use crate::geometry::Vec3;
-use crate::geometry::soundness::SIZE_MAX;
+use crate::geometry::soundness::EXTENT_MAX;
 use std::collections::BTreeMap;
 
 /// The greatest number of faces: the count of layouts is by elimination, cubic in the faces.
@@ -76,7 +76,7 @@ impl Target {
         for (face, corners) in faces.iter().enumerate() {
             let triangle = <[usize; 3]>::try_from(corners.as_slice())
                 .map_err(|_| Unfoldable::NotTriangle { face, corners: corners.len() })?;
-            let far = |v: &usize| vertices.get(*v).is_some_and(|p| p.iter().any(|x| x.abs() > SIZE_MAX));
+            let far = |v: &usize| vertices.get(*v).is_some_and(|p| p.iter().any(|x| x.abs() > EXTENT_MAX));
             if triangle.iter().any(far) {
                 return Err(Unfoldable::TooFar { face });
             }

@@ -105,7 +105,7 @@ impl fmt::Display for Unfoldable {
                 write!(f, "face {face} has {corners} corners; only triangles fold")
             }
             Unfoldable::Degenerate { face } => write!(f, "face {face} has no area"),
-            Unfoldable::TooFar { face } => write!(f, "face {face} has a corner farther away than 1000 km"),
+            Unfoldable::TooFar { face } => write!(f, "face {face} has a corner farther away than 1 km"),
             Unfoldable::NonManifold { faces } => {
                 let names: Vec<String> = faces.iter().map(usize::to_string).collect();
                 write!(f, "faces {} meet at one edge; a hinge joins two", listed(&names))

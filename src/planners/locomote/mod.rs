@@ -43,6 +43,7 @@ use super::truss::motion::{node_paths, travelled_distance};
 use super::truss::problem::{InvalidTruss, TrussProblem};
 use super::truss::{Structure, roll};
 use super::{Progress, Solution};
+use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::plan::Body;
 use std::fmt;
 
@@ -85,6 +86,8 @@ pub enum Refusal {
     Truss(InvalidTruss),
     /// The path has no point.
     EmptyPath,
+    /// A place of the path is farther away than [`EXTENT_MAX`].
+    TooFar,
     /// The truss does not come to rest on the ground.
     NeverRests,
 }
@@ -94,6 +97,7 @@ impl fmt::Display for Refusal {
         match self {
             Refusal::Truss(invalid) => invalid.fmt(f),
             Refusal::EmptyPath => f.write_str("a path has at least one place"),
+            Refusal::TooFar => write!(f, "a path leads to places at most {EXTENT_MAX} m away"),
             Refusal::NeverRests => f.write_str("the truss does not come to rest on the ground"),
         }
     }
@@ -116,6 +120,9 @@ pub fn plan(
     problem.truss.check_start(&truss, &start).map_err(Refusal::Truss)?;
     if problem.path.is_empty() {
         return Err(Refusal::EmptyPath);
+    }
+    if !problem.path.iter().all(|place| in_reach(place)) {
+        return Err(Refusal::TooFar);
     }
     let travel = follow_path(&truss, &start, &problem.path, settings, progress);
     let report = Report {

@@ -46,6 +46,7 @@ use super::truss::motion::{Move, node_paths};
 use super::truss::problem::{InvalidTruss, TrussProblem};
 use super::{Progress, Solution};
 use crate::geometry::Vec3;
+use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::plan::Body;
 use std::fmt;
 
@@ -88,6 +89,8 @@ pub struct Report {
 pub enum Refusal {
     /// The truss can't be planned for.
     Truss(InvalidTruss),
+    /// A corner or point of the target is farther away than [`EXTENT_MAX`].
+    TooFar,
     /// The triangles of the target have no area.
     NoArea,
     /// The cloud has too few points.
@@ -106,6 +109,7 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Refusal::Truss(invalid) => invalid.fmt(f),
+            Refusal::TooFar => write!(f, "a target reaches to at most {EXTENT_MAX} m"),
             Refusal::NoArea => f.write_str("a surface without area is no target"),
             Refusal::FewPoints { points } => {
                 write!(f, "a target has at least {POINTS_MIN} points; these are {points}")
@@ -150,6 +154,14 @@ pub fn plan(
 
 /// Returns the target with its sample points; `spacing` in m.
 fn target(shape: &TargetShape, spacing: f64) -> Result<Target, Refusal> {
+    let near = |p: &Vec3| in_reach(p.as_slice());
+    let in_reach = match shape {
+        TargetShape::Mesh(triangles) => triangles.iter().flatten().all(near),
+        TargetShape::Cloud(points) => points.iter().all(near),
+    };
+    if !in_reach {
+        return Err(Refusal::TooFar);
+    }
     match shape {
         TargetShape::Mesh(triangles) => {
             let area: f64 = triangles.iter().map(|[a, b, c]| (b - a).cross(&(c - a)).norm()).sum();

@@ -6,6 +6,7 @@ use super::step::StepError;
 use super::structure::{Limits, Structure};
 use super::surroundings::Surroundings;
 use super::tolerances::Tolerances;
+use crate::geometry::soundness::{EXTENT_MAX, check_placed, in_reach};
 use crate::geometry::{HeightField, Placed, Solid, Unsound, Vec3};
 use crate::robot::Strut;
 use crate::units::{Dimension, quantity};
@@ -49,6 +50,11 @@ pub enum InvalidTruss {
     Degenerate {
         /// The number of the strut.
         strut: usize,
+    },
+    /// A node is farther away than [`EXTENT_MAX`].
+    TooFar {
+        /// The name of the node.
+        node: String,
     },
     /// The shapes of an obstacle enclose no volume.
     NotSolid {
@@ -98,6 +104,7 @@ impl fmt::Display for InvalidTruss {
         match self {
             InvalidTruss::Incomplete => f.write_str("a truss has struts, and a name for each node"),
             InvalidTruss::Degenerate { strut } => write!(f, "strut {strut} joins no two nodes"),
+            InvalidTruss::TooFar { node } => write!(f, "the node {node} is farther than {EXTENT_MAX} m away"),
             InvalidTruss::NotSolid { obstacle, why } => {
                 write!(f, "obstacle {} is no solid: {why}", obstacle + 1)
             }
@@ -142,6 +149,8 @@ impl TrussProblem {
         self.check()?;
         let mut solids = Vec::with_capacity(self.obstacles.len());
         for (obstacle, shapes) in self.obstacles.iter().enumerate() {
+            let sound = shapes.iter().try_for_each(check_placed);
+            sound.map_err(|why| InvalidTruss::NotSolid { obstacle, why })?;
             solids.push(Solid::new(shapes).map_err(|why| InvalidTruss::NotSolid { obstacle, why })?);
         }
         let surroundings = Surroundings::new(&solids, self.terrain.clone(), self.strut.clearance / 2.0);
@@ -154,6 +163,9 @@ impl TrussProblem {
     fn check(&self) -> Result<(), InvalidTruss> {
         if self.node_names.len() != self.nodes.len() || self.struts.is_empty() {
             return Err(InvalidTruss::Incomplete);
+        }
+        if let Some(node) = self.nodes.iter().position(|node| !in_reach(node.as_slice())) {
+            return Err(InvalidTruss::TooFar { node: self.node_names[node].clone() });
         }
         let place = |node: usize| self.nodes.get(node);
         let joins = |&(a, b): &(usize, usize)| place(a).zip(place(b)).is_some_and(|(p, q)| p != q);

@@ -103,3 +103,65 @@ truss Twice of PneumaticReel {
   strut b -- a
 //^^^^^^^^^^^^ E0312 there twice
 }
+
+--- joints that follow each other in a circle
+module M {
+  mass 1kg
+  link a = box(10mm, 10mm, 10mm)
+  link b = box(10mm, 10mm, 10mm) at [30mm, 0mm, 0mm]
+  link c = box(10mm, 10mm, 10mm) at [60mm, 0mm, 0mm]
+  joint j: a -> b = revolute(axis: X)
+//      ^ E0307 follows itself
+  joint k: b -> c = revolute(axis: X)
+  joint j = 2 * k
+  joint k = -1 * j
+}
+
+--- an inertia that no body has
+module M {
+  link a = box(100mm, 100mm, 100mm, mass: 1kg, inertia: [1e-4kg*m^2, 1e-4kg*m^2, 4e-3kg*m^2])
+//     ^ E0307 more than the other two together
+}
+module N {
+  link a = box(100mm, 100mm, 100mm, mass: 1kg, inertia: [1kg*m^2, 1kg*m^2, 1kg*m^2])
+//     ^ E0307 no body of its mass within the module
+}
+
+--- a centre of mass outside of the module
+module M {
+  link a = box(100mm, 100mm, 100mm, mass: 1kg, com: [0m, 0m, 1m])
+//     ^ E0307 outside of the module
+}
+
+--- penetrations that are no tolerance, and joints and connectors beyond all bounds
+module M {
+//     ^ E0307 `touch` is 1
+  mass 1kg
+  touch 1m
+  link a = box(100mm, 100mm, 100mm)
+}
+module N {
+  mass 1kg
+  link a = box(10mm, 10mm, 10mm)
+  link b = box(10mm, 10mm, 10mm) at [30mm, 0mm, 0mm]
+  joint j: a -> b = prismatic(axis: X, range: 0m..1e6m)
+//      ^ E0307 its range is 1000000
+}
+connector Face { mates Face, turns 1, capture 1e7m 5deg }
+//        ^^^^ E0310 the distance of capture
+
+--- what is farther away than 1 km
+module M {
+  mass 1kg
+  link a = box(100mm, 100mm, 2km)
+//         ^^^^^^^^^^^^^^^^^^^^^^ E0314 at most 1 km
+}
+use std.truss.PneumaticReel
+truss Far of PneumaticReel {
+  node a = [0m, 0m, 0m]
+  node b = [1m, 0m, 0m]
+  node c = [0m, 1m, 0m]
+  node d = [0m, 0m, 1e308m]
+//     ^ E0312 farther than 1000m away
+  strut a -- b  strut a -- c  strut b -- c  strut a -- d  strut b -- d
+}

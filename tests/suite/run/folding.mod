@@ -50,7 +50,7 @@ print(fold(polyhedron(corners, [[0, 1, 2], [0, 5, 1]]), module: Mori).layouts)
 print(fold(polyhedron(corners, [[0, 1, 2], [3, 4, 5]]), module: Mori).layouts)
 //         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 from face 0 to face 1 | that coincide
 print(fold(polyhedron([[0m, 0m, 0m], [1e12m, 0m, 0m], [0m, 1e12m, 0m]], [[0, 1, 2]]), module: Mori).layouts)
-//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 0 has a corner farther away than 1000 km | unit of a file
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 0 has a corner farther away than 1 km | unit of a file
 print(fold(polyhedron([], []), module: Mori).layouts)
 //         ^^^^^^^^^^^^^^^^^^ E0803 no faces | at least one
 print(fold(geodesic(radius: 1m, parts: 6), module: Mori).layouts)

@@ -41,3 +41,12 @@ truss T of PneumaticReel {
   strut a -- twin
 }
 print(nodes(T))
+
+--- targets and paths that are farther away than 1 km
+use std.truss.PneumaticReel
+truss P of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
+let far = cloud([[0m, 0m, 0m], [1m, 0m, 0m], [0m, 1m, 0m], [0m, 0m, 1e300m]])
+print(morph(P, far).rms)
+//             ^^^ E0506 a target reaches to at most 1000 m
+print(locomote(P, path: [[1e6m, 0m, 0m]]).distance)
+//                      ^^^^^^^^^^^^^^^^ E0506 at most 1000 m away

@@ -1,0 +1,240 @@
+//! Faults of declarations: why a module, a connector, a cell or a strut is not sound.
+
+use crate::geometry::Unsound;
+use std::fmt;
+
+/// The first fault that was found in a library or in one of its declarations. Lengths are in m, masses in kg.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LibraryFault {
+    /// A fault of a declaration.
+    Declaration {
+        /// The kind of declaration: `module`.
+        kind: &'static str,
+        /// Its name.
+        name: String,
+        /// The fault.
+        fault: Box<LibraryFault>,
+    },
+    /// A fault of a part of a module.
+    Inside {
+        /// The part.
+        part: ModulePart,
+        /// Its name.
+        name: String,
+        /// The fault.
+        fault: Box<LibraryFault>,
+    },
+    /// An index into a list of things of one sort that is too large for the list.
+    Index {
+        /// The sort of things in the list.
+        what: &'static str,
+        /// The index.
+        index: usize,
+        /// The length of the list.
+        count: usize,
+    },
+    /// A quantity that is zero, negative or no number.
+    NotPositive {
+        /// The quantity.
+        what: &'static str,
+        /// Its value in SI units.
+        value: f64,
+    },
+    /// A quantity that is negative or no number.
+    Negative {
+        /// The quantity.
+        what: &'static str,
+        /// Its value in SI units.
+        value: f64,
+    },
+    /// A quantity beyond its named limit.
+    Bound {
+        /// The quantity.
+        what: &'static str,
+        /// Its value in SI units.
+        value: f64,
+        /// The greatest absolute value.
+        most: f64,
+    },
+    /// A connector with no allowed turn, or with too many.
+    Turns {
+        /// The number of turns.
+        turns: u32,
+        /// The greatest number.
+        most: u32,
+    },
+    /// A connector that mates another, which does not mate it.
+    OneWayMate {
+        /// The name of the other connector.
+        other: String,
+    },
+    /// Connectors that mate and have different turns.
+    MateTurns {
+        /// The name of the other connector.
+        other: String,
+    },
+    /// A module without a link.
+    NoLink,
+    /// A shape that is no solid, or a pose that is none.
+    Shape(Unsound),
+    /// A drawn shape that sticks out of the shape that is judged, farther than the link says.
+    LeftOut {
+        /// The distance by which it does, m.
+        found: f64,
+        /// The distance that the link states, m.
+        told: f64,
+    },
+    /// A centre of mass outside the box around its module.
+    MassOutside {
+        /// The distance from the box, m.
+        outside: f64,
+    },
+    /// An inertia of a link without mass.
+    InertiaWithoutMass,
+    /// An inertia with a principal moment that is not positive.
+    InertiaNotPositive {
+        /// The least principal moment, kg·m².
+        least: f64,
+    },
+    /// Principal moments of which one is more than the other two together.
+    InertiaTriangle {
+        /// In ascending order, kg·m².
+        moments: [f64; 3],
+    },
+    /// A principal moment that no body of this mass within the module has.
+    InertiaExtent {
+        /// The greatest principal moment, kg·m².
+        most: f64,
+        /// The moment of all of the mass at the farthest corner of the module, kg·m².
+        bound: f64,
+    },
+    /// A link that two joints of its module carry, or the body, which none may.
+    SharedLink,
+    /// A link that no joints connect with the body.
+    LooseLink,
+    /// An axis that is no unit vector.
+    Axis,
+    /// A range that ends before it begins.
+    RangeOrder,
+    /// A joint that follows itself, over others.
+    MimicCycle,
+    /// A joint that follows others over too many steps.
+    MimicDepth {
+        /// The greatest number of steps.
+        most: usize,
+    },
+    /// A cell that does not become smaller when it contracts.
+    NoShrinking,
+    /// A strut whose greatest length is not larger than its least.
+    NoLengthRange,
+}
+
+/// A part of a module, by its index among those of its sort.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModulePart {
+    /// Index in [`ModuleType::links`](super::ModuleType::links).
+    Link(usize),
+    /// Index in [`ModuleType::joints`](super::ModuleType::joints).
+    Joint(usize),
+    /// Index in [`ModuleType::motors`](super::ModuleType::motors).
+    Motor(usize),
+    /// Index in [`ModuleType::ports`](super::ModuleType::ports).
+    Port(usize),
+}
+
+impl ModulePart {
+    /// Returns the word for parts of its sort.
+    pub fn word(self) -> &'static str {
+        match self {
+            ModulePart::Link(_) => "link",
+            ModulePart::Joint(_) => "joint",
+            ModulePart::Motor(_) => "motor",
+            ModulePart::Port(_) => "port",
+        }
+    }
+}
+
+impl LibraryFault {
+    /// Returns the fault as one of a declaration.
+    pub(super) fn of(self, kind: &'static str, name: &str) -> LibraryFault {
+        LibraryFault::Declaration { kind, name: name.to_owned(), fault: Box::new(self) }
+    }
+
+    /// Returns the fault as one of a part of a module.
+    pub(super) fn inside(self, part: ModulePart, name: &str) -> LibraryFault {
+        LibraryFault::Inside { part, name: name.to_owned(), fault: Box::new(self) }
+    }
+
+    /// Returns the part of a module that has the fault; `None` where the module as a whole has it.
+    pub fn part(&self) -> Option<ModulePart> {
+        match self {
+            LibraryFault::Inside { part, .. } => Some(*part),
+            _ => None,
+        }
+    }
+}
+
+impl From<Unsound> for LibraryFault {
+    fn from(unsound: Unsound) -> LibraryFault {
+        LibraryFault::Shape(unsound)
+    }
+}
+
+impl fmt::Display for LibraryFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LibraryFault::Declaration { kind, name, fault } => write!(f, "in {kind} `{name}`: {fault}"),
+            LibraryFault::Inside { part, name, fault } => write!(f, "the {} `{name}`: {fault}", part.word()),
+            LibraryFault::Index { what, index, count } => {
+                write!(f, "there is no {what} {index}: there are {count}")
+            }
+            LibraryFault::NotPositive { what, value } => write!(f, "{what} must be positive, and is {value}"),
+            LibraryFault::Negative { what, value } => {
+                write!(f, "{what} must not be negative, and is {value}")
+            }
+            LibraryFault::Bound { what, value, most } => {
+                write!(f, "{what} is {value} in SI units; the limit is {most}")
+            }
+            LibraryFault::Turns { turns, most } => write!(f, "it has {turns} turns, not 1 to {most}"),
+            LibraryFault::OneWayMate { other } => write!(f, "it mates `{other}`, which does not mate it"),
+            LibraryFault::MateTurns { other } => write!(f, "it mates `{other}`, which has other turns"),
+            LibraryFault::NoLink => write!(f, "it has no link"),
+            LibraryFault::Shape(unsound) => write!(f, "a shape or pose: {unsound}"),
+            LibraryFault::LeftOut { found, told } => write!(
+                f,
+                "what is drawn sticks at least {found:.6} m out of what is judged, and {told} m are stated"
+            ),
+            LibraryFault::MassOutside { outside } => {
+                write!(f, "its centre of mass is {outside} m outside of the module")
+            }
+            LibraryFault::InertiaWithoutMass => write!(f, "it has inertia and no mass"),
+            LibraryFault::InertiaNotPositive { least } => {
+                write!(f, "its least principal moment of inertia is {least} kg*m^2, not positive")
+            }
+            LibraryFault::InertiaTriangle { moments: [a, b, c] } => write!(
+                f,
+                "no body has the principal moments of inertia {a}, {b} and {c} kg*m^2: the greatest is more \
+                 than the other two together"
+            ),
+            LibraryFault::InertiaExtent { most, bound } => write!(
+                f,
+                "no body of its mass within the module has a moment of inertia of {most} kg*m^2: at most \
+                 {bound} kg*m^2"
+            ),
+            LibraryFault::SharedLink => {
+                write!(f, "it carries the body, or a link that another joint carries")
+            }
+            LibraryFault::LooseLink => write!(f, "no joints connect it with the body"),
+            LibraryFault::Axis => write!(f, "its axis is no unit vector"),
+            LibraryFault::RangeOrder => write!(f, "its range ends before it begins"),
+            LibraryFault::MimicCycle => write!(f, "it follows itself, over the joints that it follows"),
+            LibraryFault::MimicDepth { most } => {
+                write!(f, "it follows joints that follow others, over more than {most} steps")
+            }
+            LibraryFault::NoShrinking => write!(f, "`shrinks_to` must be less than `size`"),
+            LibraryFault::NoLengthRange => write!(f, "`length` is a range from a length to a larger one"),
+        }
+    }
+}
+
+impl std::error::Error for LibraryFault {}
