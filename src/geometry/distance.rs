@@ -59,7 +59,7 @@ pub(super) fn distance_apart(
 
 /// Returns the penetration of parts whose cores overlap: the least depth that two methods find, each of which has its
 /// blind spots: the expansion of a polytope where bodies touch, the nearest points of shrunk bodies where they are deep
-/// in each other. Where even shrunk bodies overlap, about one centre, directions are searched.
+/// in each other. If even shrunk bodies overlap, about one centre, directions are searched.
 fn penetration(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     let expanded = expanding_polytope(a, b, X_AB);
     let deep = shrunk(a, b, X_AB).or_else(|| Some(direction_search(a, b, X_AB)));

@@ -5,6 +5,7 @@
 //! the robots at hand.
 
 use super::file::digest;
+use super::tolerances::TOLERANCES;
 use crate::robot::{Cell, Joint, JointKind, Library, Limits, ModuleType, Strut};
 use crate::units::{Dimension, quantity};
 use serde::Serialize;
@@ -12,8 +13,6 @@ use serde_json::Value;
 
 /// Digits of a hash that are shown: enough to tell files apart that people compare.
 const DIGITS: usize = 12;
-/// Numbers that differ by less than this part are equal: rounding on the way through other tools.
-const TOL_EQUAL: f64 = 1e-9;
 
 /// A declaration of a library in a few words.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -167,7 +166,7 @@ pub fn differences(
     here["name"] = Value::Null;
     there["name"] = Value::Null;
     let mut found = Vec::new();
-    compare("", &here, &there, tolerance + TOL_EQUAL, &mut found);
+    compare("", &here, &there, tolerance + TOLERANCES.equal_facts, &mut found);
     found
 }
 

@@ -18,6 +18,9 @@ pub struct Tolerances {
     pub reported_zero: f64,
     /// Hulls of contacts narrower than this are lines, m.
     pub polygon_width: f64,
+    /// Numbers of two libraries that differ by less than this part are equal: rounding on the way through other
+    /// tools.
+    pub equal_facts: f64,
 }
 
 /// The tolerances with which every plan is validated, changed and judged.
@@ -28,4 +31,5 @@ pub const TOLERANCES: Tolerances = Tolerances {
     joint_jump: 1e-9,
     reported_zero: 1e-9,
     polygon_width: 1e-6,
+    equal_facts: 1e-9,
 };

@@ -30,7 +30,7 @@ pub(super) enum Origin {
 /// The words that begin a clause and declare nothing.
 const CLAUSES: &[&str] = &["connect", "set", "base", "require", "expect", "touching", "alias"];
 
-/// Returns whether a name is declared behind this word; a loop declares its binder.
+/// Returns true if a name is declared behind this word; a loop declares its binder.
 fn declares(word: &str) -> bool {
     word == "for" || DECLARING.contains(&word)
 }

@@ -382,9 +382,9 @@ pub struct Placement {
 /// The families whose declarations state facts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactsFamily {
-    /// `cell`
+    /// Cells of lattices: `cell`.
     Cell,
-    /// `strut`
+    /// Struts of trusses: `strut`.
     Strut,
 }
 

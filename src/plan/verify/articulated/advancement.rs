@@ -373,7 +373,7 @@ impl<'a> Advancement<'a> {
         if counts { free.max(self.least() - self.precision.tol_clearance) } else { free }
     }
 
-    /// The clearance so far, m.
+    /// Returns the clearance so far, m.
     fn least(&self) -> f64 {
         self.clearance.as_ref().map_or(f64::MAX, |c| c.distance)
     }

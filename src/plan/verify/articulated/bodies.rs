@@ -158,7 +158,7 @@ impl Bodies {
 struct Kind {
     /// Link, carrier, part in the carrier's frame.
     bodies: Vec<(usize, usize, Part)>,
-    /// Of each link, in its frame.
+    /// The solid of each link, in its frame.
     solids: Vec<Solid>,
     inner: Vec<InnerPair>,
     touch: f64,

@@ -1,9 +1,9 @@
 //! Links that bonds join: how deep they may be in each other.
 //!
 //! Two links with mated ports belong together, so that their distance is no clearance. They are solid all the
-//! same. What they may overlap is what they overlap at the nominal pose of the bond, the hinge at zero, as far
-//! as the error explains that the connector states for docking: guides and pins are no longer than what they
-//! guide. A bond that closes a loop may hold its links off the nominal pose by that error once more.
+//! same. They may overlap as far as they do at the nominal pose of the bond, the hinge at zero, as far as the
+//! error explains that the connector states for docking: guides and pins are no longer than what they guide. A
+//! bond that closes a loop may hold its links off the nominal pose by that error once more.
 
 use super::bodies::{Bodies, Body};
 use super::docking;
