@@ -65,7 +65,7 @@ impl Sandbox {
     }
 }
 
-fn ran(output: std::process::Output) -> Ran {
+pub fn ran(output: std::process::Output) -> Ran {
     let text = |bytes| String::from_utf8(bytes).expect("the command prints UTF-8");
     Ran { code: output.status.code().unwrap_or(-1), out: text(output.stdout), err: text(output.stderr) }
 }
@@ -531,75 +531,4 @@ fn watch_checks_again_when_a_file_changes_that_was_read_or_missed() {
     drop(done);
     limit.join().expect("it only waits");
     child.wait().expect("it ended");
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn an_output_that_takes_nothing_is_an_error() {
-    let s = Sandbox::new(&[("a.mod", b"print(1)\n")]);
-    for arguments in
-        [&["run", "a.mod"][..], &["check", "--json", "a.mod"], &["--help"], &["-e", "1"], &["explain"]]
-    {
-        let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("a device that is full");
-        let ran = ran(s.command(arguments).stdout(full).stderr(Stdio::piped()).output().expect("it runs"));
-        assert_eq!(ran.code, 2, "{arguments:?}: {}", ran.err);
-        assert!(ran.err.contains("standard output can't be written: No space left"), "{}", ran.err);
-        // Who closes a pipe has read enough.
-        let (reader, writer) = std::io::pipe().expect("a pipe");
-        drop(reader);
-        let ran = self::ran(s.command(arguments).stdout(writer).output().expect("it runs"));
-        assert_eq!(ran.code, 0, "{arguments:?}: {}", ran.err);
-    }
-}
-
-/// A plan file whose module has a name that colours the terminal and reverses the reading.
-const HOSTILE: &str = "use std.smores.Smores
-config C { part m: Smores
-  behavior b = move(m.tilt, to: 10deg) }
-emit(C().b(), \"c.plan.json\")
-";
-
-#[test]
-fn names_of_others_do_not_command_the_terminal() {
-    let s = Sandbox::new(&[("c.mod", HOSTILE.as_bytes())]);
-    assert_eq!(s.run(&["run", "c.mod"]).code, 0);
-    let path = s.path("out/c.plan.json");
-    let name = "\"\\u001b[31mm\\u009b2J\\u202e";
-    let plan = fs::read_to_string(&path).expect("a plan");
-    let plan = plan.replace("\"m\"", &format!("{name}\"")).replace("\"m.", &format!("{name}."));
-    fs::write(&path, plan).expect("it can be written");
-    let said = s.run(&["verify", "out/c.plan.json"]);
-    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
-    let json = s.run(&["verify", "--json", "out/c.plan.json"]);
-    for (text, escape) in
-        [(&said.out, "\\u{1b}[31mm\\u{9b}2J\\u{202e}"), (&json.out, "\\u001b[31mm\\u009b2J\\u202e")]
-    {
-        assert!(text.contains(escape), "{text}");
-        assert!(!text.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{text}");
-    }
-    // What a program prints is no different.
-    let printed = s.run(&["-e", "print(\"\\u{1b}[2J\\tdone\")"]);
-    assert_eq!(printed.out, "\\u{1b}[2J\tdone\n");
-}
-
-#[cfg(unix)]
-#[test]
-fn little_memory_and_a_small_stack_suffice() {
-    let powers = format!("let a = {}2\n", "2^".repeat(100_000));
-    let deep = "fn f(n: Int) -> Int = if n == 0 { 0 } else { 1 + f(n - 1) }\nprint(f(150))\n";
-    let s = Sandbox::new(&[("powers.mod", powers.as_bytes()), ("deep.mod", deep.as_bytes())]);
-    let limited = |limit: &str, arguments: &str| {
-        let line = format!("ulimit {limit} && exec {} {arguments}", env!("CARGO_BIN_EXE_modl"));
-        let mut command = Command::new("sh");
-        command.args(["-c", &line]).current_dir(s.0.path()).stdin(Stdio::null());
-        ran(command.output().expect("a shell"))
-    };
-    for limit in ["-v 2000000", "-v 400000", "-s 512"] {
-        let run = limited(limit, "run deep.mod");
-        assert_eq!((run.code, run.out.as_str()), (0, "150\n"), "{limit}: {}", run.err);
-        let session = limited(limit, "-e 'print(2 + 2)'");
-        assert_eq!((session.code, session.out.as_str()), (0, "4\n"), "{limit}: {}", session.err);
-        let run = limited(limit, "check powers.mod");
-        assert!(run.code == 1 && run.err.contains("E0005"), "{limit}: {}", run.err);
-    }
 }

@@ -6,5 +6,6 @@ pub mod cli;
 pub mod documentation;
 pub mod interrupt;
 pub mod repl;
+pub mod system;
 pub mod transcripts;
 pub mod view;
