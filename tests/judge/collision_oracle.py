@@ -285,6 +285,8 @@ def answer(task):
         pairs = [pair for pair, (_, counts) in case.pairs.items() if counts and of(pair) == wanted]
         told = min(case.at(pair, task["time"]) for pair in pairs)
     name = lambda pair: None if pair is None else [int(link) for link in pair]
+    # JSON knows no infinity: where no two links come near each other, none is too deep by far.
+    excess = max(excess, -1e9)
     return {
         "clearance": None if numpy.isinf(least) else float(least), "when": float(when), "pair": name(pair),
         "excess": float(excess), "at": float(at), "deepest": name(deepest), "told": None if told is None else float(told),
