@@ -49,7 +49,7 @@ impl Interpreter<'_> {
     /// Returns the value of an expression. A fault is reported and leaves an unknown value.
     ///
     /// # Errors
-    /// No faults, only [`Stop::Halt`](super::stop::Stop::Halt).
+    /// No faults, only [`Stop::Halt`].
     pub fn eval(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
         self.step(expr.span)?;
         let result = self.with_depth(expr.span, |this| this.eval_kind(expr, frame));

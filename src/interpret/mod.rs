@@ -1,8 +1,8 @@
 //! The evaluator: typed tree to values, effects and plans.
 //!
-//! The parts of this room: [`run`](mod@run) puts an evaluator on a thread of its own ([`evaluator_thread`]),
-//! which walks expressions ([`eval`], [`operators`], [`call`], [`statements`]) to values ([`value`]).
-//! Declarations become designs ([`crate::elaborate`]); behaviours become plans ([`behavior`], [`planning`]),
+//! The parts of this room: `run` puts an evaluator on a thread of its own ([`evaluator_thread`]),
+//! which walks expressions ([`eval`], `operators`, `call`, `statements`) to values ([`value`]).
+//! Declarations become designs ([`crate::elaborate`]); behaviours become plans (`behavior`, [`planning`]),
 //! and what is wrong with these goes back to the lines that caused it ([`causes`], [`verdicts`]). The
 //! built-ins ([`crate::natives`]) are the only bridge between the front end (the language) and the back end
 //! (robotics).

@@ -102,7 +102,7 @@ impl Bodies {
     }
 
     /// Returns the pairs of bodies within a module that are checked for collision, by index among the
-    /// module's own bodies. Each may penetrate by [`InnerPair::allowed`]: `touch`, plus the overlap as drawn
+    /// module's own bodies. Each may penetrate by `InnerPair::allowed`: `touch`, plus the overlap as drawn
     /// for two links that a joint joins.
     pub fn inner(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner
