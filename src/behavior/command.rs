@@ -8,7 +8,7 @@ use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
 use super::run::Run;
 use crate::plan::time::tick_after;
-use crate::plan::{Action, CauseId, Command, Dock, DockKind, Profile, Target};
+use crate::plan::{Action, CauseId, Command, DockingEvent, DockingKind, Profile, Target};
 use crate::robot::{Bond, JointId, PortRef};
 use std::sync::Arc;
 
@@ -230,7 +230,7 @@ impl Run<'_> {
             self.robot.bonds.len() - 1
         });
         self.holds[index] = true;
-        self.docks.push(Dock { time: self.now, kind: DockKind::Dock, bond: index, cause });
+        self.docks.push(DockingEvent { time: self.now, kind: DockingKind::Dock, bond: index, cause });
         Ok(())
     }
 
@@ -238,7 +238,7 @@ impl Run<'_> {
         let bond = docking::bond_at(&self.robot, &self.holds, port)
             .ok_or_else(|| Reason::PortFree { port: self.robot.port_name(port) })?;
         self.holds[bond] = false;
-        self.docks.push(Dock { time: self.now, kind: DockKind::Undock, bond, cause });
+        self.docks.push(DockingEvent { time: self.now, kind: DockingKind::Undock, bond, cause });
         Ok(())
     }
 }

@@ -44,8 +44,8 @@ fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
         let (made, stated) = (time(made.duration), time(stated.duration));
         return Some(format!("the program lasts {made}, the motion of the file {stated}"));
     }
-    let same_docks = made.docks.len() == stated.docks.len()
-        && made.docks.iter().zip(&stated.docks).all(|(a, b)| {
+    let same_docks = made.events.len() == stated.events.len()
+        && made.events.iter().zip(&stated.events).all(|(a, b)| {
             (a.kind, a.bond) == (b.kind, b.bond) && (a.time - b.time).abs() <= TOLERANCES.faithful
         });
     if !same_docks {

@@ -7,7 +7,7 @@ use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
 use super::schedule::Settings;
 use crate::plan::time::{DURATION_MAX, tick_after};
-use crate::plan::{Action, CauseId, Dock, Exemption, Node, Otherwise, Track};
+use crate::plan::{Action, CauseId, DockingEvent, Exemption, Node, Otherwise, Track};
 use crate::robot::{Assembly, JointId};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -22,7 +22,7 @@ pub(super) struct Run<'a> {
     pub(super) start: Vec<f64>,
     /// True, by bond, if it holds.
     pub(super) holds: Vec<bool>,
-    pub(super) docks: Vec<Dock>,
+    pub(super) docks: Vec<DockingEvent>,
     pub(super) exemptions: Vec<Exemption>,
     pub(super) issues: Vec<Issue>,
     pub(super) settings: Settings,
@@ -52,7 +52,7 @@ pub(super) struct Played {
     pub(super) joints: Vec<f64>,
     /// Positions at the end.
     pub(super) end: Vec<f64>,
-    pub(super) docks: Vec<Dock>,
+    pub(super) docks: Vec<DockingEvent>,
     pub(super) duration: f64,
     pub(super) exemptions: Vec<Exemption>,
     pub(super) issues: Vec<Issue>,

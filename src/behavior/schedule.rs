@@ -115,7 +115,7 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
     let start = State { bonds: bonds.collect(), joints, base: start.base };
     drop(graph);
     Ok(Scheduled {
-        tracks: Tracks { robot, start, tracks, docks, duration, start_causes, bond_causes },
+        tracks: Tracks { robot, start, tracks, events: docks, duration, start_causes, bond_causes },
         program: Program { root: program },
         exemptions,
         nominal,

@@ -3,7 +3,7 @@
 use super::number::{list, number, rotation, vector};
 use super::solids::{Meshes, solids};
 use crate::geometry::Pose;
-use crate::plan::{DockKind, Segment, Track, Tracks, polynomial};
+use crate::plan::{DockingKind, Segment, Track, Tracks, polynomial};
 use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, ModuleType};
 use crate::robot::{Motion, Step};
 use serde_json::{Map, Value, json};
@@ -99,13 +99,13 @@ impl Forms {
 /// Returns the kinematic trees, one for each instant at which bonds change.
 fn trees(tracks: &Tracks, forms: &mut Forms) -> Vec<Value> {
     let mut times = vec![0.0];
-    times.extend(tracks.docks.iter().map(|dock| dock.time));
+    times.extend(tracks.events.iter().map(|dock| dock.time));
     times.dedup();
     let mut trees: Vec<(Vec<bool>, Value)> = Vec::new();
     for time in times {
         let mut bonds = tracks.start.bonds.clone();
-        for dock in tracks.docks.iter().take_while(|dock| dock.time <= time) {
-            bonds[dock.bond] = dock.kind == DockKind::Dock;
+        for dock in tracks.events.iter().take_while(|dock| dock.time <= time) {
+            bonds[dock.bond] = dock.kind == DockingKind::Dock;
         }
         if trees.last().is_none_or(|(before, _)| *before != bonds) {
             let made = tree(&tracks.robot, &bonds, time, forms);
@@ -179,6 +179,8 @@ fn sampled(tracks: &Tracks, track: &Track, positions: usize) -> Vec<Segment> {
 
 /// Returns `[time, is a docking, bond, cause]` of each docking event.
 fn docks(tracks: &Tracks) -> Vec<Value> {
-    let dock = |d: &crate::plan::Dock| json!([number(d.time), d.kind == DockKind::Dock, d.bond, d.cause.0]);
-    tracks.docks.iter().map(dock).collect()
+    let dock = |d: &crate::plan::DockingEvent| {
+        json!([number(d.time), d.kind == DockingKind::Dock, d.bond, d.cause.0])
+    };
+    tracks.events.iter().map(dock).collect()
 }

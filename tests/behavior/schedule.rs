@@ -6,7 +6,7 @@ use crate::support::robots::{FRONT, LEFT, RIGHT, TILT, at_rest, chain};
 use modl::behavior::{Reason, Scheduled};
 use modl::plan::time::TICK;
 use modl::plan::{Action, CauseId, Command, ExemptionKind};
-use modl::plan::{Compare, Condition, DockKind, Node, Otherwise, Profile, Signal, Target};
+use modl::plan::{Compare, Condition, DockingKind, Node, Otherwise, Profile, Signal, Target};
 use modl::robot::{Assembly, JointId, PortRef};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::Arc;
@@ -279,7 +279,7 @@ fn a_ring_closes_by_docking_with_the_turn_that_fits() {
     for residual in kinematics.residuals(&robot, &end.joints, &poses) {
         assert!(residual.distance < 1e-9 && residual.angle < 1e-6, "{residual:?}");
     }
-    assert_eq!(docked.tracks.docks[0].kind, DockKind::Dock);
+    assert_eq!(docked.tracks.events[0].kind, DockingKind::Dock);
     assert!(!docked.tracks.start.bonds[11] && end.bonds[11]);
 }
 

@@ -242,7 +242,7 @@ fn lit(plan: &Plan, times: &[f64]) -> Value {
         match &plan.body {
             Body::Tracks(tracks) => {
                 let segments = tracks.tracks.iter().flat_map(|track| &track.segments);
-                let docks = tracks.docks.iter().filter(|dock| (dock.time - t).abs() < 0.25);
+                let docks = tracks.events.iter().filter(|dock| (dock.time - t).abs() < 0.25);
                 let moving = segments.filter(|s| s.start <= t && t < s.end).map(|s| s.cause.0);
                 moving.chain(docks.map(|dock| dock.cause.0)).collect()
             }

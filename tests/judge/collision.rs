@@ -6,7 +6,7 @@ use modl::geometry::{Pose, Vec3};
 use modl::plan::verify::articulated::collision::judge;
 use modl::plan::verify::articulated::{Bodies, Findings, Precision};
 use modl::plan::{
-    CauseId, Dock, DockKind, Exemption, ExemptionKind, Segment, Settings, Status, Track, Tracks,
+    CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Segment, Settings, Status, Track, Tracks,
 };
 use modl::robot::{
     Assembly, Joint, JointId, JointKind, Kinematics, Library, Limits, ModuleInstance, ModuleType, Port,
@@ -184,7 +184,7 @@ fn a_bond_excuses_only_while_it_holds() {
     let held = judged(&tracks);
     assert_eq!(held.status, Status::Proved, "{held:?}");
     // Undocked the rest of the robot is elsewhere; how it lies is not judged.
-    tracks.docks.push(Dock { time: 0.5, kind: DockKind::Undock, bond: 1, cause: CAUSE });
+    tracks.events.push(DockingEvent { time: 0.5, kind: DockingKind::Undock, bond: 1, cause: CAUSE });
     assert_eq!(judged(&tracks).status, Status::Proved);
     // In a ring the two ends stay in place when their bond opens.
     let mut ring = robots::ring12_closed();
@@ -192,7 +192,7 @@ fn a_bond_excuses_only_while_it_holds() {
     let mut tracks = plan(ring, vec![], 1.0);
     (0..12).for_each(|m| tracks.start.joints[4 * m + robots::TILT] = PI / 6.0);
     assert_eq!(judged(&tracks).status, Status::Proved);
-    tracks.docks.push(Dock { time: 0.5, kind: DockKind::Undock, bond: 11, cause: CAUSE });
+    tracks.events.push(DockingEvent { time: 0.5, kind: DockingKind::Undock, bond: 11, cause: CAUSE });
     let found = judged(&tracks);
     assert_eq!(found.collisions.len(), 1, "{found:?}");
     assert!((found.collisions[0].time - 0.5).abs() < 1e-5 && found.collisions[0].modules == (0, 11));

@@ -4,8 +4,8 @@ use crate::support::motions::{self, Motion};
 use crate::support::robots::{self, FRONT, LEFT, RIGHT, TILT};
 use modl::plan::verify::{verify, verify_state};
 use modl::plan::{
-    Body, CauseId, CheckKind, Dock, DockKind, Exemption, ExemptionKind, Ground, Plan, Settings, Stability,
-    Status, Tracks, Verdict, World,
+    Body, CauseId, CheckKind, DockingEvent, DockingKind, Exemption, ExemptionKind, Ground, Plan, Settings,
+    Stability, Status, Tracks, Verdict, World,
 };
 use modl::robot::Assembly;
 use std::sync::Arc;
@@ -303,7 +303,7 @@ fn docked(angle: f64) -> Verdict {
     m = (0..12).fold(m, |m, i| m.set(&format!("r{i}"), TILT, 30.0));
     m = m.set("r3", TILT, angle).smooth("r3", FRONT, 0.0, 0.0, 1.0);
     m.tracks.start.bonds[11] = false;
-    m.tracks.docks = vec![Dock { time: 1.0, kind: DockKind::Dock, bond: 11, cause: CauseId(0) }];
+    m.tracks.events = vec![DockingEvent { time: 1.0, kind: DockingKind::Dock, bond: 11, cause: CauseId(0) }];
     judged(m)
 }
 
@@ -318,7 +318,8 @@ fn nothing_falls_off() {
     let undock = |bond| {
         let mut m = Motion::new(hold_nothing(robots::ring12_closed()));
         m = (0..12).fold(m, |m, i| m.set(&format!("r{i}"), TILT, 30.0));
-        m.tracks.docks = vec![Dock { time: 0.5, kind: DockKind::Undock, bond, cause: CauseId(0) }];
+        m.tracks.events =
+            vec![DockingEvent { time: 0.5, kind: DockingKind::Undock, bond, cause: CauseId(0) }];
         m.tracks.duration = 1.0;
         m.tracks.tracks = vec![];
         let mut plan = m.plan(World::default());
@@ -328,7 +329,7 @@ fn nothing_falls_off() {
     assert!(!kinds(&verify(&undock(3))).contains(&CheckKind::Connectedness));
     let mut twice = undock(3);
     let Body::Tracks(tracks) = &mut twice.body else { unreachable!("a plan of tracks") };
-    tracks.docks.push(Dock { time: 0.7, kind: DockKind::Undock, bond: 7, cause: CauseId(0) });
+    tracks.events.push(DockingEvent { time: 0.7, kind: DockingKind::Undock, bond: 7, cause: CauseId(0) });
     let verdict = verify(&twice);
     fails(&verdict, CheckKind::Connectedness);
     let apart = verdict.failures.iter().find(|f| f.kind == CheckKind::Connectedness).expect("just found");
@@ -368,7 +369,9 @@ fn corrupted_plans_are_refused_as_values() {
     refused(|_, t| t.robot.modules[0].kind = 7);
     refused(|_, t| t.duration = -1.0);
     refused(|_, t| t.duration = f64::NAN);
-    refused(|_, t| t.docks.push(Dock { time: 1.0, kind: DockKind::Dock, bond: 3, cause: CauseId(0) }));
+    refused(|_, t| {
+        t.events.push(DockingEvent { time: 1.0, kind: DockingKind::Dock, bond: 3, cause: CauseId(0) })
+    });
     refused(|p, _| p.causes.clear());
     refused(|p, _| p.worlds.clear());
     refused(|p, _| p.worlds[0].world.gravity = f64::NAN);

@@ -6,7 +6,7 @@ use crate::planners::fold::target;
 use modl::geometry::Part;
 use modl::geometry::{Pose, Vec3};
 use modl::interpret::Mode;
-use modl::plan::{Body, DockKind, Plan, Tracks};
+use modl::plan::{Body, DockingKind, Plan, Tracks};
 use modl::planners::fold::Observer;
 use modl::planners::fold::pattern::{Pattern, lattice_corners};
 use modl::planners::fold::sweep_collision::Solids;
@@ -98,9 +98,9 @@ fn a_shape_becomes_another_and_the_judge_agrees() {
     let becomes = becomes.trim_end_matches(']').split(", ").map(|f| f.parse::<usize>().expect("a face"));
     let wanted: Vec<Vec3> = becomes.map(|face| faces[face]).collect();
     assert!(same_shape(&panels(tracks, true), &wanted));
-    let docks = |kind: DockKind| tracks.docks.iter().filter(|d| d.kind == kind).count();
+    let docks = |kind: DockingKind| tracks.events.iter().filter(|d| d.kind == kind).count();
     let changes: usize = numbers.split(' ').next().expect("a number").parse().expect("a number");
-    assert_eq!((docks(DockKind::Dock), docks(DockKind::Undock)), (changes, changes));
+    assert_eq!((docks(DockingKind::Dock), docks(DockingKind::Undock)), (changes, changes));
 }
 
 /// Panels that lie in one plane: a connection goes and another comes at the same instant.
@@ -126,8 +126,11 @@ emit(there, \"there.plan.json\")
     assert_eq!(ran.host.printed, ["1 1"]);
     assert!(modl::plan::verify::verify(&plan).ok());
     let Body::Tracks(tracks) = &plan.body else { panic!("an articulated robot") };
-    assert_eq!(tracks.docks.iter().map(|d| d.kind).collect::<Vec<_>>(), [DockKind::Dock, DockKind::Undock]);
-    assert_eq!(tracks.docks[0].time, tracks.docks[1].time);
+    assert_eq!(
+        tracks.events.iter().map(|d| d.kind).collect::<Vec<_>>(),
+        [DockingKind::Dock, DockingKind::Undock]
+    );
+    assert_eq!(tracks.events[0].time, tracks.events[1].time);
 }
 
 #[test]
@@ -285,8 +288,8 @@ fn panels_walk_from_sheet_to_sheet() {
     let Body::Tracks(tracks) = &plan.body else { panic!("an articulated robot") };
     let printed: Vec<usize> =
         ran.host.printed[0].split(' ').take(2).map(|n| n.parse().expect("a number")).collect();
-    let docks = |kind: DockKind| tracks.docks.iter().filter(|d| d.kind == kind).count();
-    assert_eq!((docks(DockKind::Dock), docks(DockKind::Undock)), (printed[0], printed[0]));
+    let docks = |kind: DockingKind| tracks.events.iter().filter(|d| d.kind == kind).count();
+    assert_eq!((docks(DockingKind::Dock), docks(DockingKind::Undock)), (printed[0], printed[0]));
     assert!(0 < printed[1] && printed[1] <= printed[0], "{printed:?}");
     let (middles, ends) = (panels(tracks, false), panels(tracks, true));
     // An icosahedron's middles are on a ball; those of a tube of five are in four rows of five heights.

@@ -5,7 +5,7 @@ use crate::support::desk::{run, run_clean};
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
-use modl::plan::{self, Body, DockKind, Plan, Tracks};
+use modl::plan::{self, Body, DockingKind, Plan, Tracks};
 use modl::source::code;
 
 /// Shapes that are no snake, with what they are made of.
@@ -138,17 +138,17 @@ fn spoilt_plans_do_not_pass() {
         how(tracks);
         assert!(!plan::verify::verify(&spoilt).ok(), "{what} passes");
     };
-    let first = |kind: DockKind, tracks: &Tracks| {
-        tracks.docks.iter().position(|dock| dock.kind == kind).expect("there is one")
+    let first = |kind: DockingKind, tracks: &Tracks| {
+        tracks.events.iter().position(|dock| dock.kind == kind).expect("there is one")
     };
     spoil("a dock that does not meet", &|tracks| {
-        let dock = first(DockKind::Dock, tracks);
-        tracks.docks[dock].time *= 0.5;
+        let dock = first(DockingKind::Dock, tracks);
+        tracks.events[dock].time *= 0.5;
     });
     spoil("letting go too early", &|tracks| {
-        let dock = first(DockKind::Undock, tracks);
-        tracks.docks[dock].time *= 0.5;
-        tracks.docks.swap(0, dock);
+        let dock = first(DockingKind::Undock, tracks);
+        tracks.events[dock].time *= 0.5;
+        tracks.events.swap(0, dock);
     });
     spoil("a joint that stays behind", &|tracks| {
         let longest = tracks.tracks.iter_mut().max_by_key(|track| track.segments.len());
@@ -158,8 +158,8 @@ fn spoilt_plans_do_not_pass() {
         tracks.robot.modules.pop();
     });
     spoil("a bond that is let go, and nothing else holds", &|tracks| {
-        let dock = first(DockKind::Dock, tracks);
-        tracks.docks.remove(dock);
+        let dock = first(DockingKind::Dock, tracks);
+        tracks.events.remove(dock);
     });
     spoil("only ends of moves: whoever is between them", &|tracks| {
         for track in &mut tracks.tracks {
@@ -183,14 +183,14 @@ fn a_snake_that_lacks_a_module_is_none() {
     let mut plan = planned("Star");
     let Body::Tracks(tracks) = &mut plan.body else { panic!("a plan of joints") };
     Replay::new(tracks).ends_as_snake().expect("as it was planned");
-    let last = |kind: DockKind, tracks: &Tracks| {
-        tracks.docks.iter().rposition(|dock| dock.kind == kind).expect("there is one")
+    let last = |kind: DockingKind, tracks: &Tracks| {
+        tracks.events.iter().rposition(|dock| dock.kind == kind).expect("there is one")
     };
     // Before the last leg docked it hung on by another bond, and everything else held as it does in the end.
-    let undock = last(DockKind::Undock, tracks);
-    tracks.docks.remove(undock);
-    let dock = last(DockKind::Dock, tracks);
-    tracks.docks.remove(dock);
+    let undock = last(DockingKind::Undock, tracks);
+    tracks.events.remove(undock);
+    let dock = last(DockingKind::Dock, tracks);
+    tracks.events.remove(dock);
     assert!(Replay::new(tracks).ends_as_snake().is_err());
 }
 

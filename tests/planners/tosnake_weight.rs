@@ -78,7 +78,7 @@ fn heaviest(plan: &Plan) -> f64 {
                 let mut still = tracks.clone();
                 still.start.joints = joints.clone();
                 still.start.joints[turned] += by;
-                (still.tracks, still.docks) = (vec![], vec![]);
+                (still.tracks, still.events) = (vec![], vec![]);
                 let shoes = Replay::new(&still).shoes(0.0, &hops);
                 let base = &shoes[2 * tracks.robot.base];
                 // Upwards in the frame of the shoe that is held, as the plan has it drawn.

@@ -226,7 +226,7 @@ fn meaning(plan: &Plan) -> Plan {
     match &mut plan.body {
         Body::Tracks(tracks) => {
             tracks.tracks.iter_mut().flat_map(|t| &mut t.segments).for_each(|s| s.cause = CauseId(0));
-            tracks.docks.iter_mut().for_each(|dock| dock.cause = CauseId(0));
+            tracks.events.iter_mut().for_each(|dock| dock.cause = CauseId(0));
             (tracks.start_causes, tracks.bond_causes) = (Vec::new(), Vec::new());
             tracks.robot.name.clear();
         }

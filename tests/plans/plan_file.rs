@@ -308,7 +308,7 @@ fn what_points_nowhere_is_refused() {
         (|p| tracks(p).tracks[1].joint = JointId(4000), "joint 4000"),
         (|p| tracks(p).tracks[0].segments[0].control[0] = 0.1, "jumps"),
         (|p| tracks(p).tracks[0].segments[0].end = 1e4, "beyond the end"),
-        (|p| tracks(p).docks[0].bond = 77, "bond 77"),
+        (|p| tracks(p).events[0].bond = 77, "bond 77"),
         (|p| tracks(p).duration = 1e9, "outside"),
         (|p| p.worlds.clear(), "first world"),
         (|p| p.exemptions[0].kind = ExemptionKind::Overload(Some(1000)), "joint 1000"),

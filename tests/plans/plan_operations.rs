@@ -5,8 +5,8 @@ use crate::support::programs::*;
 use crate::support::robots::{FRONT, LEFT, TILT, at_rest, chain, walk4};
 use modl::behavior::Scheduled;
 use modl::plan::{
-    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockKind, Interpolation, Law, Model,
-    Node, NodePaths, OperationError, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage,
+    Body, Cause, CauseId, CellLimits, Change, Command, Compare, Counter, DockingKind, Interpolation, Law,
+    Model, Node, NodePaths, OperationError, Plan, Program, Provenance, Ratio, Run, Settings, Snapshot, Stage,
     Stages, Tracks, TrussLimits, World, WorldFrom, joined, reversed, sliced, timeline,
 };
 use modl::robot::{Assembly, JointId, Mismatch, PortRef};
@@ -191,8 +191,8 @@ fn docking_runs_backwards_as_undocking() {
     let dock = act(Command::Dock { a: port(0, 3), b: port(1, 2) }, 4);
     let plan = planned(chain(2), series(vec![wait(1.0), undock, wait(0.5)]));
     let back = reversed(&plan);
-    assert_eq!(tracks(&back).docks[0].kind, DockKind::Dock);
-    assert_eq!(tracks(&back).docks[0].time, 0.5);
+    assert_eq!(tracks(&back).events[0].kind, DockingKind::Dock);
+    assert_eq!(tracks(&back).events[0].time, 0.5);
     assert_eq!(tracks(&back).start.bonds, [false]);
     assert_eq!(tracks(&back).end().bonds, [true]);
     assert_eq!(tracks(&reversed(&back)), tracks(&plan));
@@ -296,7 +296,7 @@ fn a_bond_made_by_the_second_plan_is_added() {
     assert_eq!((bond.a, bond.b), (port(11, 3), port(0, 2)));
     assert_eq!(tracks(&all).start.bonds.len(), 12);
     assert!(!tracks(&all).start.bonds[11] && tracks(&all).end().bonds[11]);
-    assert_eq!(tracks(&all).docks[0].cause, CauseId(1005));
+    assert_eq!(tracks(&all).events[0].cause, CauseId(1005));
 }
 
 /// A row of four cells pulled together and let go, with an odd one out.

@@ -31,8 +31,8 @@ fn motion(plan: &Plan) -> impl PartialEq + use<> {
     let mut tracks = plan.body.tracks().expect("a plan of joints").clone();
     let nobody = CauseId(0);
     tracks.tracks.iter_mut().flat_map(|track| &mut track.segments).for_each(|s| s.cause = nobody);
-    tracks.docks.iter_mut().for_each(|dock| dock.cause = nobody);
-    (tracks.robot, tracks.start, tracks.tracks, tracks.docks, tracks.duration)
+    tracks.events.iter_mut().for_each(|dock| dock.cause = nobody);
+    (tracks.robot, tracks.start, tracks.tracks, tracks.events, tracks.duration)
 }
 
 #[test]

@@ -7,7 +7,7 @@ use modl::geometry::distance::distance_of_solids;
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Part, Pose, Solid, Vec3};
 use modl::plan::{
-    Body, DockKind, ExemptionKind, Ground, Interpolation, NodePaths, Plan, Segment, Tracks, World,
+    Body, DockingKind, ExemptionKind, Ground, Interpolation, NodePaths, Plan, Segment, Tracks, World,
 };
 use modl::robot::{JointKind, JointOwner, Library, ModuleType, PortRef};
 use std::f64::consts::{PI, TAU};
@@ -169,8 +169,8 @@ impl<'a> Robot<'a> {
 
     fn holds(&self, t: f64) -> Vec<bool> {
         let mut holds = self.tracks.start.bonds.clone();
-        for dock in self.tracks.docks.iter().filter(|dock| dock.time <= t) {
-            holds[dock.bond] = dock.kind == DockKind::Dock;
+        for dock in self.tracks.events.iter().filter(|dock| dock.time <= t) {
+            holds[dock.bond] = dock.kind == DockingKind::Dock;
         }
         holds
     }
@@ -380,7 +380,7 @@ impl<'a> Robot<'a> {
     }
 
     fn dockings(&self, found: &mut Vec<String>) {
-        for dock in self.tracks.docks.iter().filter(|dock| dock.kind == DockKind::Dock) {
+        for dock in self.tracks.events.iter().filter(|dock| dock.kind == DockingKind::Dock) {
             let (poses, _) = self.poses(dock.time - 1e-9);
             let bond = self.tracks.robot.bonds[dock.bond];
             let at = |port: PortRef| {

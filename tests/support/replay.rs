@@ -2,7 +2,7 @@
 //! degree, and with arithmetic of its own.
 #![allow(non_snake_case)]
 
-use modl::plan::{DockKind, Tracks};
+use modl::plan::{DockingKind, Tracks};
 use modl::robot::{Bond, PortRef};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -50,8 +50,8 @@ impl<'a> Replay<'a> {
 
     pub fn bonds(&self, t: f64, inclusive: bool) -> Vec<bool> {
         let mut bonds = self.tracks.start.bonds.clone();
-        for dock in self.tracks.docks.iter().filter(|d| d.time < t || (inclusive && d.time == t)) {
-            bonds[dock.bond] = dock.kind == DockKind::Dock;
+        for dock in self.tracks.events.iter().filter(|d| d.time < t || (inclusive && d.time == t)) {
+            bonds[dock.bond] = dock.kind == DockingKind::Dock;
         }
         bonds
     }
@@ -139,7 +139,8 @@ impl<'a> Replay<'a> {
             }
             // At the instant of docking both the old and the new bonds meet.
             let mut both = self.bonds(ends[1], false);
-            for dock in self.tracks.docks.iter().filter(|d| d.time == ends[1] && d.kind == DockKind::Dock) {
+            for dock in self.tracks.events.iter().filter(|d| d.time == ends[1] && d.kind == DockingKind::Dock)
+            {
                 both[dock.bond] = true;
             }
             self.state(ends[1], &both, &hops)?;

@@ -1,7 +1,7 @@
 //! Tracks as they stand in a plan file: beside every index the name of what it stands for. The library
 //! stands once, beside the body.
 
-use super::motion::{Dock, DockKind, Segment, Track, Tracks};
+use super::motion::{DockingEvent, DockingKind, Segment, Track, Tracks};
 use super::names::RobotNames;
 use crate::plan::cause::CauseId;
 use crate::plan::stated::Stated;
@@ -111,7 +111,7 @@ struct TrackJson<'a> {
 struct EventJson {
     /// The time, s.
     time: f64,
-    kind: DockKind,
+    kind: DockingKind,
     /// Index in the robot's bonds.
     bond: usize,
     /// The name of that bond.
@@ -124,7 +124,7 @@ struct EventJson {
 impl<'a> TracksJson<'a> {
     pub(in crate::plan) fn of(tracks: &'a Tracks) -> TracksJson<'a> {
         let names = RobotNames::of(&tracks.robot);
-        let event = |dock: &Dock| EventJson {
+        let event = |dock: &DockingEvent| EventJson {
             time: dock.time,
             kind: dock.kind,
             bond: dock.bond,
@@ -146,7 +146,7 @@ impl<'a> TracksJson<'a> {
             start: Cow::Borrowed(&tracks.start),
             duration: tracks.duration,
             tracks: tracks.tracks.iter().map(track).collect(),
-            events: tracks.docks.iter().map(event).collect(),
+            events: tracks.events.iter().map(event).collect(),
             start_causes: Cow::Borrowed(&tracks.start_causes),
             bond_causes: Cow::Borrowed(&tracks.bond_causes),
         }
@@ -177,12 +177,12 @@ impl<'a> TracksJson<'a> {
 
     pub(in crate::plan) fn into_tracks(self, library: &Arc<Library>) -> Tracks {
         let track = |track: TrackJson| Track { joint: track.joint, segments: track.segments.into_owned() };
-        let dock = |e: EventJson| Dock { time: e.time, kind: e.kind, bond: e.bond, cause: e.cause };
+        let dock = |e: EventJson| DockingEvent { time: e.time, kind: e.kind, bond: e.bond, cause: e.cause };
         Tracks {
             robot: self.robot.into_assembly(library),
             start: self.start.into_owned(),
             tracks: self.tracks.into_iter().map(track).collect(),
-            docks: self.events.into_iter().map(dock).collect(),
+            events: self.events.into_iter().map(dock).collect(),
             duration: self.duration,
             start_causes: self.start_causes.into_owned(),
             bond_causes: self.bond_causes.into_owned(),

@@ -13,7 +13,7 @@ mod validation;
 
 pub(super) use join::fitted;
 pub(super) use json::TracksJson;
-pub use motion::{Dock, DockKind, Segment, Track, Tracks};
+pub use motion::{DockingEvent, DockingKind, Segment, Track, Tracks};
 pub(super) use names::RobotNames;
 pub use remap::Remap;
 pub use timeline::timeline;

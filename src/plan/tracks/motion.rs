@@ -19,7 +19,7 @@ pub struct Tracks {
     /// start position.
     pub tracks: Vec<Track>,
     /// The changes of bonds, in order of time.
-    pub docks: Vec<Dock>,
+    pub events: Vec<DockingEvent>,
     /// The duration, s.
     pub duration: f64,
     /// The causes of the start pose: (joint, cause).
@@ -57,7 +57,7 @@ pub struct Segment {
 /// The two changes of a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum DockKind {
+pub enum DockingKind {
     /// The bond begins to hold.
     Dock,
     /// The bond ceases to hold.
@@ -67,11 +67,11 @@ pub enum DockKind {
 /// A bond begins or ends to hold.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Dock {
+pub struct DockingEvent {
     /// The time, s.
     pub time: f64,
     /// The change.
-    pub kind: DockKind,
+    pub kind: DockingKind,
     /// Index in the assembly's bonds.
     pub bond: usize,
     /// The command of the source that this comes from.
@@ -154,7 +154,7 @@ impl Tracks {
             robot,
             start,
             tracks: Vec::new(),
-            docks: Vec::new(),
+            events: Vec::new(),
             duration: 0.0,
             start_causes: Vec::new(),
             bond_causes: Vec::new(),
@@ -167,7 +167,7 @@ impl Tracks {
         Some(&self.tracks[at])
     }
 
-    /// Returns joint positions and bonds at the time `t` (s), docks at that very instant included. The base
+    /// Returns joint positions and bonds at the time `t` (s), events at that very instant included. The base
     /// keeps its pose: the judge computes its motion.
     pub fn state(&self, t: f64) -> State {
         let mut state = self.start.clone();
@@ -175,8 +175,8 @@ impl Tracks {
             let joint = &mut state.joints[track.joint.0 as usize];
             *joint = track.position(*joint, t);
         }
-        for dock in self.docks.iter().take_while(|d| d.time <= t) {
-            state.bonds[dock.bond] = dock.kind == DockKind::Dock;
+        for dock in self.events.iter().take_while(|d| d.time <= t) {
+            state.bonds[dock.bond] = dock.kind == DockingKind::Dock;
         }
         state
     }
@@ -198,7 +198,7 @@ impl Tracks {
     pub fn instants(&self) -> Vec<f64> {
         let segments = self.tracks.iter().flat_map(|t| t.segments.iter().flat_map(|s| [s.start, s.end]));
         let mut all: Vec<f64> =
-            segments.chain(self.docks.iter().map(|d| d.time)).chain([0.0, self.duration]).collect();
+            segments.chain(self.events.iter().map(|d| d.time)).chain([0.0, self.duration]).collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
         all

@@ -1,6 +1,6 @@
 //! Programs and motions of one robot, said of another that matches it.
 
-use super::motion::{Dock, Segment, Track, Tracks};
+use super::motion::{DockingEvent, Segment, Track, Tracks};
 use crate::plan::cause::CauseId;
 use crate::plan::program::{Action, Command, Condition, Node, Otherwise, Signal, Target};
 use crate::plan::visit::{Graph, with_children};
@@ -93,14 +93,14 @@ impl Remap {
                 Err(place) => tracks.insert(place, Track { joint, segments }),
             }
         }
-        let docks = b.docks.iter().map(|d| Dock {
+        let docks = b.events.iter().map(|d| DockingEvent {
             time: d.time + a.duration,
             bond: self.bonds[d.bond],
             cause: self.cause(d.cause),
             ..*d
         });
         Tracks {
-            docks: a.docks.iter().cloned().chain(docks).collect(),
+            events: a.events.iter().cloned().chain(docks).collect(),
             tracks,
             duration: a.duration + b.duration,
             start_causes: a.start_causes.clone(),

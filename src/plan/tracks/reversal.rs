@@ -1,6 +1,6 @@
 //! Tracks run backwards.
 
-use super::motion::{Dock, DockKind, Segment, Track, Tracks};
+use super::motion::{DockingEvent, DockingKind, Segment, Track, Tracks};
 
 impl Segment {
     fn reversed(&self, duration: f64) -> Segment {
@@ -17,17 +17,17 @@ impl Tracks {
             joint: t.joint,
             segments: t.segments.iter().rev().map(|s| s.reversed(d)).collect(),
         };
-        let dock = |k: &Dock| {
+        let dock = |k: &DockingEvent| {
             let kind = match k.kind {
-                DockKind::Dock => DockKind::Undock,
-                DockKind::Undock => DockKind::Dock,
+                DockingKind::Dock => DockingKind::Undock,
+                DockingKind::Undock => DockingKind::Dock,
             };
-            Dock { time: d - k.time, kind, ..k.clone() }
+            DockingEvent { time: d - k.time, kind, ..k.clone() }
         };
         Tracks {
             start: self.end(),
             tracks: self.tracks.iter().map(track).collect(),
-            docks: self.docks.iter().rev().map(dock).collect(),
+            events: self.events.iter().rev().map(dock).collect(),
             ..self.clone()
         }
     }

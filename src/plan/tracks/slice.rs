@@ -13,14 +13,14 @@ impl Tracks {
             });
             Track { joint: t.joint, segments: pieces.collect() }
         };
-        let docks = self.docks.iter().filter(|d| from < d.time && d.time <= to).cloned().map(|mut d| {
+        let docks = self.events.iter().filter(|d| from < d.time && d.time <= to).cloned().map(|mut d| {
             d.time -= from;
             d
         });
         Tracks {
             start: self.state(from),
             tracks: self.tracks.iter().map(track).filter(|t| !t.segments.is_empty()).collect(),
-            docks: docks.collect(),
+            events: docks.collect(),
             duration: to - from,
             ..self.clone()
         }

@@ -1,7 +1,7 @@
 //! The program that executes given tracks by the clock: for plans that were reversed or cut, and for planned
 //! ones.
 
-use super::motion::{DockKind, Segment, Track, Tracks};
+use super::motion::{DockingKind, Segment, Track, Tracks};
 use crate::plan::cause::CauseId;
 use crate::plan::operation_error::OperationError;
 use crate::plan::program::{Action, Command, Node, Otherwise, Profile, Target};
@@ -18,7 +18,7 @@ pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, OperationError> {
     for track in &tracks.tracks {
         branches.push(joint(track)?);
     }
-    if !tracks.docks.is_empty() {
+    if !tracks.events.is_empty() {
         branches.push(docking(tracks));
     }
     // A motion without tracks takes its time, too.
@@ -63,16 +63,16 @@ fn command(joint: JointId, segment: &Segment) -> Result<Command, OperationError>
 
 fn docking(tracks: &Tracks) -> Arc<Node> {
     let mut now = 0.0;
-    let mut series = Vec::with_capacity(tracks.docks.len());
-    for dock in &tracks.docks {
+    let mut series = Vec::with_capacity(tracks.events.len());
+    for dock in &tracks.events {
         if dock.time > now {
             series.push(wait(dock.time - now));
             now = dock.time;
         }
         let bond = tracks.robot.bonds[dock.bond];
         let command = match dock.kind {
-            DockKind::Dock => Command::Dock { a: bond.a, b: bond.b },
-            DockKind::Undock => Command::Undock { port: bond.b },
+            DockingKind::Dock => Command::Dock { a: bond.a, b: bond.b },
+            DockingKind::Undock => Command::Undock { port: bond.b },
         };
         series.push(action(command, dock.cause));
     }

@@ -1,6 +1,6 @@
 //! The validation of tracks: references, orders and ranges.
 
-use super::motion::{Dock, DockKind, Track, Tracks};
+use super::motion::{DockingEvent, DockingKind, Track, Tracks};
 use crate::geometry::soundness::check_pose;
 use crate::plan::cause::CauseId;
 use crate::plan::fault::{PlanFault, TracksFault, need, need_bounded, need_finite, need_index};
@@ -27,7 +27,7 @@ impl Tracks {
             self.segments(track, causes)
                 .map_err(|fault| PlanFault::InTrack { joint, fault: Box::new(fault) })?;
         }
-        self.docks(causes)?;
+        self.events(causes)?;
         for &(joint, id) in &self.start_causes {
             need_index(joint.0 as usize, joints, "joint").and(cause(id, causes))?;
         }
@@ -53,14 +53,14 @@ impl Tracks {
         Ok(())
     }
 
-    fn docks(&self, causes: usize) -> Result<(), PlanFault> {
+    fn events(&self, causes: usize) -> Result<(), PlanFault> {
         let mut now = 0.0;
         let mut holds = self.start.bonds.clone();
-        for &Dock { time, kind, bond, cause: id } in &self.docks {
+        for &DockingEvent { time, kind, bond, cause: id } in &self.events {
             cause(id, causes)?;
             need_index(bond, holds.len(), "bond")?;
             need(now <= time && time <= self.duration, || TracksFault::EventOrder { time })?;
-            let docks = kind == DockKind::Dock;
+            let docks = kind == DockingKind::Dock;
             need(holds[bond] != docks, || TracksFault::BondUnchanged { time, bond, holds: docks })?;
             holds[bond] = docks;
             now = time;
@@ -72,7 +72,7 @@ impl Tracks {
     pub(in crate::plan) fn check_numbers(&self) -> Result<(), PlanFault> {
         need_finite("the start", &self.start)?;
         need_finite("the tracks", &self.tracks)?;
-        need_finite("the docks", &self.docks)?;
+        need_finite("the docks", &self.events)?;
         need_finite("the robot", &*self.robot.library)
     }
 
@@ -106,7 +106,7 @@ impl Tracks {
         }
         ports(&self.robot, &self.start.bonds)?;
         let mut bonds = self.start.bonds.clone();
-        self.docks.iter().try_for_each(|dock| {
+        self.events.iter().try_for_each(|dock| {
             bonds[dock.bond] = !bonds[dock.bond];
             ports(&self.robot, &bonds)
                 .map_err(|fault| PlanFault::After { time: dock.time, fault: Box::new(fault) })

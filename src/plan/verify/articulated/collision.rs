@@ -14,7 +14,9 @@ use super::bodies::{Bodies, UnsoundLink};
 use super::docking;
 use super::tolerances::Precision;
 use crate::geometry::Solid;
-use crate::plan::{CheckKind, DockKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst};
+use crate::plan::{
+    CheckKind, DockingKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst,
+};
 use crate::robot::{Assembly, Bond, Kinematics, PortRef};
 use crate::units::{Dimension, quantity};
 
@@ -71,10 +73,10 @@ pub fn judge(
     let bodies = Bodies::new(&tracks.robot, &everything)?;
     let mut advancement = Advancement::new(tracks, bodies, *precision, settings.samples_max);
     let mut bonds = tracks.start.bonds.clone();
-    let mut docks = tracks.docks.iter().peekable();
+    let mut docks = tracks.events.iter().peekable();
     for window in windows(tracks, exemptions) {
         while let Some(dock) = docks.next_if(|dock| dock.time <= window.0) {
-            bonds[dock.bond] = dock.kind == DockKind::Dock;
+            bonds[dock.bond] = dock.kind == DockingKind::Dock;
         }
         let excused = excused(tracks, exemptions, window);
         advancement.window(&bonds, window, &excused);
@@ -137,7 +139,7 @@ fn beneath(robot: &Assembly, bond: usize) -> String {
 /// Returns the plan cut where bonds change and where exemptions begin or end, and the instant of its end,
 /// which is never excused and in which the last docks hold.
 fn windows(tracks: &Tracks, exemptions: &[Exemption]) -> Vec<(f64, f64)> {
-    let docks = tracks.docks.iter().map(|d| d.time);
+    let docks = tracks.events.iter().map(|d| d.time);
     let excused = exemptions.iter().filter(|e| matches!(e.kind, ExemptionKind::Collision(_)));
     let mut cuts: Vec<f64> = docks
         .chain(excused.flat_map(|e| [e.from, e.to]))

@@ -6,7 +6,7 @@ use super::collision::{self, Collision};
 use super::rollout::Rollout;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CauseId, CheckKind, Dock, DockKind, Failure, Status, Tracks};
+use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
 /// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
@@ -47,8 +47,9 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
 
 /// Returns the action that docked two links, and false; or the line that connects them from the start, and true.
 fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
-    let docks = |dock: &&Dock| dock.kind == DockKind::Dock && dock.bond == bond && dock.time <= time;
-    if let Some(dock) = tracks.docks.iter().rfind(docks) {
+    let docks =
+        |dock: &&DockingEvent| dock.kind == DockingKind::Dock && dock.bond == bond && dock.time <= time;
+    if let Some(dock) = tracks.events.iter().rfind(docks) {
         return (vec![dock.cause], false);
     }
     let causes = tracks.bond_causes.iter().filter(|(connected, _)| *connected == bond);

@@ -4,7 +4,7 @@ use super::rollout::{Rollout, Sample, positions};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CauseId, CheckKind, Dock, DockKind, Failure, Status, Tracks};
+use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
 use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
@@ -15,12 +15,12 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     let mut missed = Vec::new();
     let mut bonds = tracks.start.bonds.clone();
     in_one_piece(tracks, &bonds, None, ledger);
-    let mut docks = tracks.docks.iter().peekable();
+    let mut docks = tracks.events.iter().peekable();
     while let Some(dock) = docks.next() {
-        if dock.kind == DockKind::Dock && !near_enough(rollout, &bonds, dock, ledger) {
+        if dock.kind == DockingKind::Dock && !near_enough(rollout, &bonds, dock, ledger) {
             missed.push(dock.bond);
         }
-        bonds[dock.bond] = dock.kind == DockKind::Dock;
+        bonds[dock.bond] = dock.kind == DockingKind::Dock;
         if docks.peek().is_none_or(|next| next.time > dock.time) {
             in_one_piece(tracks, &bonds, Some(dock), ledger);
         }
@@ -30,7 +30,7 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     missed
 }
 
-fn in_one_piece(tracks: &Tracks, bonds: &[bool], dock: Option<&Dock>, ledger: &mut Ledger) {
+fn in_one_piece(tracks: &Tracks, bonds: &[bool], dock: Option<&DockingEvent>, ledger: &mut Ledger) {
     let robot = &tracks.robot;
     let tree = Kinematics::new(robot, bonds, robot.base).tree;
     if tree.loose.is_empty() {
@@ -60,7 +60,7 @@ fn listed(names: &[String]) -> String {
 }
 
 /// Returns true if the ports of a dock are within capture; records a failure otherwise.
-fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &Dock, ledger: &mut Ledger) -> bool {
+fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &mut Ledger) -> bool {
     let robot = &rollout.tracks.robot;
     let kinematics = Kinematics::new(robot, bonds, robot.base);
     let Bond { a, b, .. } = robot.bonds[dock.bond];

@@ -10,7 +10,7 @@ use super::stance::{Placement, Stance, StepOutcome};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
-use crate::plan::{DockKind, Exemption, ExemptionKind, Ground, Settings, Tracks, World, WorldFrom};
+use crate::plan::{DockingKind, Exemption, ExemptionKind, Ground, Settings, Tracks, World, WorldFrom};
 use crate::units::{Dimension, quantity};
 
 /// A plan to roll out, with settings and tolerances.
@@ -431,8 +431,8 @@ pub(super) fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
 /// Returns for each bond if it holds just after a time (s).
 pub(super) fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
     let mut bonds = tracks.start.bonds.clone();
-    for dock in tracks.docks.iter().take_while(|d| d.time <= t) {
-        bonds[dock.bond] = dock.kind == DockKind::Dock;
+    for dock in tracks.events.iter().take_while(|d| d.time <= t) {
+        bonds[dock.bond] = dock.kind == DockingKind::Dock;
     }
     bonds
 }
