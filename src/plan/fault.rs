@@ -4,8 +4,8 @@
 //! order, or that a number has no meaning, so that whoever comes after may index without asking.
 //! Times are in s, positions in rad or m.
 
-use super::finite::{self, Unwritable};
 use super::time::DURATION_MAX;
+use super::validation::{Unwritable, check_serialisable};
 use super::world::DynamicsModel;
 use crate::geometry::Unsound;
 use crate::robot::LibraryFault;
@@ -329,7 +329,7 @@ pub(super) fn need_bounded(value: f64, most: f64, what: &'static str) -> Result<
 
 /// Returns `Ok` where every number of a part of a plan is finite.
 pub(super) fn need_finite(part: &'static str, value: &impl Serialize) -> Result<(), PlanFault> {
-    finite::check(value).map_err(|value| PlanFault::Unwritable { part, value })
+    check_serialisable(value).map_err(|value| PlanFault::Unwritable { part, value })
 }
 
 impl From<LibraryFault> for PlanFault {

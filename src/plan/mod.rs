@@ -27,7 +27,6 @@ mod motion_plan;
 mod exceptions;
 pub mod facts;
 mod fault;
-mod finite;
 mod operation_error;
 mod operations;
 mod stated;
@@ -41,7 +40,6 @@ pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
 pub use exceptions::headline;
 pub use fault::{NodePathsFault, PlanFault, StagesFault, TracksFault};
-pub use finite::Unwritable;
 pub use motion_plan::Plan;
 pub use node_paths::{Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TrussLimits};
 pub use operation_error::OperationError;
@@ -53,6 +51,7 @@ pub use stages::{
 };
 pub use tolerances::{TOLERANCES, Tolerances};
 pub use tracks::{DockingEvent, DockingKind, Remap, Segment, Track, Tracks, timeline};
+pub use validation::Unwritable;
 pub use verdict::{
     Check, CheckKind, Dynamics, Failure, Measure, Status, Verdict, WORST_VALUES, Worst, WorstKind,
 };

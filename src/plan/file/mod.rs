@@ -8,8 +8,8 @@ mod program;
 
 use self::json::{FORMAT, Header, PlanJson, VERSION, VERSION_MIN};
 use self::layout::laid_out;
-use super::finite;
 use super::motion_plan::Plan;
+use super::validation::check_serialisable;
 use sha2::{Digest, Sha256};
 
 /// Longest text that is read, bytes.
@@ -55,7 +55,7 @@ impl From<serde_json::Error> for FileError {
 /// Refuses numbers that are not finite, which JSON cannot hold.
 pub fn write(plan: &Plan) -> Result<String, FileError> {
     let json = PlanJson::of(plan);
-    finite::check(&json).map_err(|fault| FileError::whole(fault.to_string()))?;
+    check_serialisable(&json).map_err(|fault| FileError::whole(fault.to_string()))?;
     Ok(laid_out(&serde_json::to_string(&json)?))
 }
 

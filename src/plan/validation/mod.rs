@@ -6,6 +6,10 @@
 //! folder, through [`Body`](super::Body).
 
 mod program;
+mod serialisable;
+
+pub use serialisable::Unwritable;
+pub(super) use serialisable::check_serialisable;
 
 use super::fault::{PlanFault, need, need_ascending, need_bounded, need_finite, need_index};
 use super::motion_plan::Plan;

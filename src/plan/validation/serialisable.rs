@@ -26,7 +26,7 @@ pub enum Unwritable {
 const DEPTH_MAX: usize = 100;
 
 /// Refuses numbers that are not finite, and nesting deeper than [`DEPTH_MAX`].
-pub(super) fn check(value: &impl Serialize) -> Result<(), Unwritable> {
+pub(in crate::plan) fn check_serialisable(value: &impl Serialize) -> Result<(), Unwritable> {
     value.serialize(&mut Walk { field: "", depth: 0 })
 }
 
