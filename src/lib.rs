@@ -11,14 +11,10 @@ pub mod interrupt;
 pub mod source;
 pub mod units;
 
-// The fields of the variants of a tree say nothing that their names beside the grammar do not.
-#[allow(missing_docs)]
 pub mod syntax;
 
 pub mod format;
 
-// As the trees of `syntax`.
-#[allow(missing_docs)]
 pub mod check;
 
 pub mod behavior;

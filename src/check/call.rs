@@ -190,14 +190,14 @@ impl<'a> Checker<'a> {
         Some(found.unwrap_or(Entity::Error))
     }
 
-    /// Returns the index of a behaviour of a configuration.
+    /// Returns the index of a behaviour of a configuration; `None` if there is none of this name.
     fn behavior_index(&mut self, id: DefId, name: Symbol) -> Option<usize> {
         let DefItem::Config(_) = self.def(id).item else { return None };
         let members = self.members(id);
         members.behaviors.iter().position(|b| b.ast.name.text == name)
     }
 
-    /// Returns a method of a record, inherited ones included.
+    /// Returns a method of a record, inherited ones included; `None` if there is none of this name.
     fn method(&self, record: DefId, name: Symbol) -> Option<DefId> {
         let line = self.record_line(record);
         let found = self.defs.iter().position(|info| {
@@ -283,6 +283,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns checked arguments in the order of the parameters, and the bindings of the type parameters.
+    /// `object`, if given, is the first argument. Reports arguments that are too many, given twice, misnamed or
+    /// missing; in place of a missing one stands an error.
     fn arguments(
         &mut self,
         scope: &mut Scope,
@@ -293,6 +295,7 @@ impl<'a> Checker<'a> {
         args: &'a [ast::Arg],
     ) -> (Vec<Option<Expr>>, Bindings) {
         let params = &signature.params;
+        // What each parameter takes so far, and the next one that is filled by position.
         let mut bindings = Bindings::new(&signature.type_params);
         let mut out: Vec<Option<Expr>> = vec![None; params.len()];
         let mut filled = vec![false; params.len()];
@@ -303,6 +306,7 @@ impl<'a> Checker<'a> {
             next = 1;
         }
         let mut rest: Vec<&'a ast::Expr> = Vec::new();
+        // Each argument goes to the parameter of its name, or to the next by position.
         let (mut named, mut misnamed) = (false, false);
         for arg in args {
             let index = match arg.name {
@@ -351,6 +355,7 @@ impl<'a> Checker<'a> {
             filled[variadic] = true;
         }
         let mut missing = Vec::new();
+        // A parameter without default needs an argument.
         for (index, param) in params.iter().enumerate().filter(|(_, p)| !p.may_be_left_out()) {
             if !filled[index] {
                 missing.push(format!("`{}`", param.name));

@@ -30,6 +30,7 @@ pub(super) enum Entity {
 /// The tree of a declaration.
 #[derive(Clone, Copy)]
 pub(super) enum DefItem<'a> {
+    /// A constant: `let`.
     Let(&'a ast::Let),
     Fn(&'a ast::Fn),
     Native(&'a ast::ExternFn),
@@ -77,7 +78,8 @@ pub(super) struct DefInfo<'a> {
 pub(super) struct Signature {
     /// The parameters, in order.
     pub params: Vec<ParamInfo>,
-    /// The declared result; `None` if it is inferred from the body.
+    /// The declared result, [`Type::Nothing`] for an `extern fn` without one; `None` if it is inferred from the
+    /// body.
     pub result: Option<Type>,
     /// The type parameters of an `extern fn`.
     pub type_params: Vec<TypeParam>,
@@ -95,11 +97,13 @@ pub(super) struct TypeParam {
 /// The bound of a type parameter: the types that it may stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Bound {
+    /// No bound is written.
     Anything,
     /// It is the dimension of quantities, no type of its own.
     Dimension,
     /// An `Int` or any quantity.
     Quantity,
+    /// An instance of a declaration of this family.
     Family(Family),
 }
 
@@ -159,13 +163,19 @@ pub(super) struct MemberInfo<'a> {
 /// The kinds of members.
 #[derive(Clone, Copy)]
 pub(super) enum MemberInfoKind<'a> {
+    /// The parameter at this index.
     Param(usize),
+    /// A `let` at the top of the body.
     Let(&'a ast::Let),
+    /// A part, with its index among the parts.
     Part(&'a ast::Part, usize),
     /// A port clause, with true if it is an array.
     Port(&'a ast::ConfigClauseKind, bool),
+    /// A behaviour, by its index among the behaviours.
     Behavior(usize),
+    /// A node of a truss.
     Node {
+        /// True for an array of nodes.
         array: bool,
     },
 }
@@ -264,7 +274,7 @@ impl<'a> Checker<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Returns the entity of a name at the top of a file, the prelude included.
+    /// Returns the entity of a name at the top of a file, the prelude included; `None` for an unknown name.
     pub(super) fn entity(&self, file: usize, name: Symbol) -> Option<Entity> {
         let own = self.top(file).get(&name).copied();
         own.or_else(|| self.loaded.prelude.and_then(|p| self.top(p).get(&name).copied()))
@@ -295,7 +305,7 @@ impl<'a> Checker<'a> {
         self.scopes[index].insert(name, entity);
     }
 
-    /// Returns a built-in by its name in the prelude.
+    /// Returns a built-in by its name in the prelude; `None` if the prelude has none, or could not be read.
     pub(super) fn prelude_def(&self, name: &str) -> Option<DefId> {
         match self.top(self.loaded.prelude?).get(&Symbol::new(name)) {
             Some(Entity::Def(id)) => Some(*id),
@@ -351,7 +361,8 @@ impl<'a> Checker<'a> {
         self.loaded.files.iter().any(|file| file.ast.unread.contains(&name))
     }
 
-    /// Adds the declaration of an item, if it is one.
+    /// Adds the declaration of an item, and those of a record's methods; returns its name and identity, or
+    /// `None` if it declares nothing.
     fn declare_item(&mut self, file: usize, item: &'a ast::Item) -> Option<(ast::Name, DefId)> {
         use ast::ItemKind as K;
         let (name, def) = match &item.kind {
@@ -416,7 +427,8 @@ impl<'a> Checker<'a> {
         );
     }
 
-    /// Enters an import into the scope of its file.
+    /// Enters an import into the scope of its file; reports a name that is taken, except that in a session a
+    /// later import replaces what an earlier entry declared.
     fn declare_import(&mut self, file: usize, import: &super::load::Import) {
         let entity = match import.target {
             ImportTarget::Error => Entity::Error,
@@ -482,7 +494,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the family of a declaration with instances.
+    /// Returns the family of a declaration with instances; `None` for other declarations.
     pub(super) fn family(&self, id: DefId) -> Option<Family> {
         Some(match self.def(id).item {
             DefItem::Module(_) => Family::Module,

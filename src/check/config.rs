@@ -90,7 +90,8 @@ impl<'a> Checker<'a> {
         PartDef { member, name: part.name.text, span: part.name.span, of, count, args, ty_span: part.ty_span }
     }
 
-    /// Returns the declaration that a part is an instance of; reports one without instances.
+    /// Returns the declaration that a part is an instance of; `None` (and a diagnostic) if it is no module or
+    /// configuration.
     fn part_type(&mut self, scope: &Scope, part: &'a ast::Part) -> Option<DefId> {
         let path = &part.ty;
         let last = path[path.len() - 1];
@@ -132,14 +133,16 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// Returns the import path of the loaded library file that declares a name.
+    /// Returns the import path of the loaded library file that declares a name, such as `std.smores`; `None` if
+    /// none does.
     fn library_home(&self, name: &str) -> Option<String> {
         let info = self.defs.iter().find(|d| d.name == name && self.sources.file(d.span.file).library)?;
         let file = &self.sources.file(info.span.file).name;
         Some(file.trim_end_matches(".mod").replace('/', "."))
     }
 
-    /// Checks the path of a `base` clause.
+    /// Checks the path of a `base` clause; `None` (and a diagnostic) if it names no module or
+    /// configuration.
     fn base(&mut self, scope: &mut Scope, path: &'a ast::Path) -> Option<Expr> {
         let base = self.path(scope, path, None);
         match &base.ty {
@@ -175,7 +178,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks an exemption of an `allows` clause; reports an unknown one.
+    /// Checks an exemption of an `allows` clause; `None` (and a diagnostic) for an unknown one.
     fn exemption(&mut self, scope: &mut Scope, e: &'a ast::Exemption) -> Option<Exemption> {
         let known = ["unstable", "slip", "collision", "overload"];
         let part = Type::AnyOf(Family::Config);
@@ -329,7 +332,7 @@ impl<'a> Checker<'a> {
         want: Option<&Type>,
         next: Option<&ast::PathStep>,
     ) -> Expr {
-        // The step `.joint` or `.port` behind a name that is both a joint and a port chooses one.
+        // The step `.joint` or `.port` after a name that is both a joint and a port chooses one.
         let is_module = self.instance_family(&object.ty) == Some(Family::Module);
         let chosen = match next {
             Some(ast::PathStep::Field(n)) if is_module && n.text == "joint" => {

@@ -63,7 +63,7 @@ impl Checker<'_> {
 }
 
 impl Program {
-    /// Returns a type as it is written.
+    /// Returns a type as it is written in programs, `List<Length>`; `?` for an error, `nothing` for no value.
     pub fn type_name(&self, ty: &Type) -> String {
         type_name(ty, &|id| self.def(id).name)
     }

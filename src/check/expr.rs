@@ -15,7 +15,9 @@ use std::sync::Arc;
 /// The context for which a type is expected, as messages name it.
 #[derive(Clone, Copy)]
 pub(super) enum Role {
+    /// A parameter or a `let`, by its name.
     Param(Symbol),
+    /// A phrase, such as "each coordinate".
     Place(&'static str),
 }
 
@@ -61,7 +63,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the text of a span, if it is short enough for a sentence.
+    /// Returns the text of a span; `None` if it has more than 40 bytes or several lines.
     pub(super) fn quoted(&self, span: Span) -> Option<&'a str> {
         let text = self.sources.text(span);
         (text.len() <= 40 && !text.contains('\n')).then_some(text)
@@ -101,7 +103,7 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Returns a hint on how to mend a mismatch, if one is likely to help.
+    /// Returns a hint on the correction of a mismatch; `None` if none is known.
     pub(super) fn type_hint(&self, got: &Expr, want: &Type) -> Option<String> {
         let written = self.quoted(got.span).unwrap_or("it");
         match (&got.ty, want) {
@@ -156,7 +158,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks `x else y`.
+    /// Checks `x else y`, for an optional value or an action with a timeout.
     fn otherwise(
         &mut self,
         scope: &mut Scope,
@@ -196,7 +198,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks an `if` expression.
+    /// Checks an `if` expression; reports one without `else`, and branches of different types.
     fn if_expr(
         &mut self,
         scope: &mut Scope,
@@ -237,7 +239,7 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, kind)
     }
 
-    /// Checks a block expression.
+    /// Checks a block expression; reports values of lines that are lost.
     fn block(
         &mut self,
         scope: &mut Scope,
@@ -273,7 +275,7 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, ExprKind::Block { statements, value: value.map(Box::new) })
     }
 
-    /// Checks a lambda.
+    /// Checks a lambda against the expected function type, from which the types of its parameters come.
     fn lambda(
         &mut self,
         scope: &mut Scope,
@@ -318,7 +320,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Fn(Arc::new(ty)), kind)
     }
 
-    /// Returns the family of an instance type.
+    /// Returns the family of an instance type; `None` for other types.
     pub(super) fn instance_family(&self, ty: &Type) -> Option<Family> {
         match ty {
             Type::Instance(id) => self.family(*id),
@@ -336,7 +338,8 @@ pub(super) fn alternatives(ty: &Type) -> Vec<&Type> {
     }
 }
 
-/// Returns the dimension of an expected type that is one quantity.
+/// Returns the dimension of an expected type that is one quantity; `None` for other types and for several
+/// alternatives.
 fn inner_quantity(want: &Type) -> Option<Dimension> {
     match alternatives(want).as_slice() {
         [one] => one.dimension(),
@@ -344,7 +347,7 @@ fn inner_quantity(want: &Type) -> Option<Dimension> {
     }
 }
 
-/// Returns the function type among the alternatives of an expected type.
+/// Returns the function type among the alternatives of an expected type; the type itself if there is none.
 fn fn_of(want: &Type) -> &Type {
     alternatives(want).into_iter().find(|t| matches!(t, Type::Fn(_))).unwrap_or(want)
 }
@@ -365,7 +368,7 @@ pub(super) fn has_params(ty: &Type) -> bool {
     }
 }
 
-/// Returns a likely correction of a quantity of the wrong dimension.
+/// Returns a likely correction of a quantity of the wrong dimension; `None` if none is known.
 fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimension) -> Option<String> {
     let written = written?;
     let literal = written.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())

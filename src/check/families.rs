@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Returns the declaration behind `of`; reports one that is not of the family.
+    /// Returns the declaration after `of`; `None` (and a diagnostic) if it is not of the family.
     fn of(&mut self, file: usize, path: &[ast::Name], family: Family) -> Option<DefId> {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);
@@ -139,7 +139,7 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Checks one clause of a truss.
+    /// Checks one clause of a truss; `None` for a `let` at the top, which is a member, and for an error.
     fn truss_clause(
         &mut self,
         scope: &mut Scope,
@@ -188,7 +188,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Checks a reference to a node; reports an unknown one.
+    /// Checks a reference to a node; `None` (and a diagnostic) for an unknown one.
     fn node_ref(&mut self, scope: &mut Scope, id: DefId, path: &'a ast::Path) -> Option<NodeRef> {
         let members = self.members(id);
         let member = members.index.get(&path.root.text).copied();

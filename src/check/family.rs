@@ -24,7 +24,7 @@ pub enum Family {
 /// A fact that every declaration of a family states: none may be left out.
 #[derive(Debug)]
 pub struct Fact {
-    /// The word in the declaration.
+    /// The word in the declaration, such as `size`.
     pub name: &'static str,
     /// The dimension of its value.
     pub dimension: Dimension,
@@ -102,7 +102,8 @@ impl Family {
         }
     }
 
-    /// Returns the facts that its declarations state; none for families with a body of clauses.
+    /// Returns the facts that its declarations state, in a fixed order; none for families with a body of
+    /// clauses.
     pub fn facts(self) -> &'static [Fact] {
         match self {
             Family::Cell => CELL,
@@ -129,7 +130,7 @@ pub struct Instantiable<'p> {
     pub params: &'p [Param],
     /// The parameters, and what the body names.
     pub members: &'p [Member],
-    /// The number of slots that the expressions of the members need.
+    /// The number of slots of the frame in which the expressions of the body and of defaults run.
     pub frame: usize,
 }
 

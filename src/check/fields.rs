@@ -13,7 +13,8 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Returns the member, joint or port that a bare name stands for in the body of `this`.
+    /// Returns the member, joint or port that a bare name stands for in the body of `this`; `None` if it names
+    /// none.
     pub(super) fn own_member(
         &mut self,
         this: DefId,
@@ -237,7 +238,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// Returns the prelude's record `Plan`, if the prelude could be read.
+    /// Returns the prelude's record `Plan`; `None` if the prelude could not be read.
     pub(super) fn plan_record(&self) -> Option<DefId> {
         self.prelude_def("plan").and(self.prelude_def("Plan"))
     }

@@ -186,12 +186,12 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns the element type of an expected vector.
+/// Returns the element type of an expected vector; `None` if no vector is expected.
 pub(super) fn vec3_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::Vec3(e) = t { Some(&**e) } else { None })
 }
 
-/// Returns the element type of an expected list.
+/// Returns the element type of an expected list; `None` if no list is expected.
 pub(super) fn list_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::List(e) = t { Some(&**e) } else { None })
 }

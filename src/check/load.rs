@@ -62,9 +62,9 @@ pub struct Entry {
     pub text: String,
     /// The line of a longer input at which it begins; 1 if there is none.
     pub first_line: usize,
-    /// The name under which the value of its last expression is declared.
+    /// The name under which the value of its last expression is declared; `None` if it is not.
     pub value: Option<Symbol>,
-    /// The name of the declaration that `_` stands for in it.
+    /// The name of the declaration that `_` stands for in it; `None` if there is no value before it.
     pub last: Option<Symbol>,
 }
 
@@ -127,7 +127,7 @@ pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sou
     loader.finish(root, prelude)
 }
 
-/// Returns the sentence that a file can't be read, with the reason.
+/// Returns the sentence that the file at `path` can't be read, with the reason: ``can't read `a.mod`: ...``.
 pub fn why_unreadable(path: &str, error: &ReadError) -> String {
     format!("can't read `{path}`: {}", describe(error))
 }
@@ -173,7 +173,10 @@ impl<'a> Loader<'a> {
         index
     }
 
-    /// Loads a file with all that it imports, once, and returns its index. Fails if it can't be read.
+    /// Loads a file with all that it imports, once, and returns its index.
+    ///
+    /// # Errors
+    /// The reason why it can't be read; on a later try always [`ReadError::NotFound`].
     fn load(&mut self, place: FilePlace) -> Result<usize, ReadError> {
         let shown = place.shown();
         if let Some(known) = self.by_name.get(&shown) {
@@ -203,7 +206,10 @@ impl<'a> Loader<'a> {
         index
     }
 
-    /// Reads a text; one that is not UTF-8 is reported and empty.
+    /// Reads a text and adds it to the sources; one that is not UTF-8 is reported and read as empty.
+    ///
+    /// # Errors
+    /// The reason why it can't be read.
     fn read(&mut self, place: &FilePlace, shown: &str) -> Result<(FileId, String), ReadError> {
         let bytes = match place {
             FilePlace::Library(path) => {
@@ -396,7 +402,7 @@ fn name_value(item: &mut ast::Item, name: Symbol) {
     }
 }
 
-/// Returns a statement as an expression, also an `if` whose branches end with one.
+/// Returns a statement as an expression, also an `if` whose branches all end with one; `None` for others.
 fn value_of(statement: &ast::Stmt) -> Option<ast::Expr> {
     let span = statement.span;
     match &statement.kind {
@@ -418,7 +424,7 @@ fn value_of(statement: &ast::Stmt) -> Option<ast::Expr> {
     }
 }
 
-/// Returns statements as a block expression, if the last one has a value.
+/// Returns statements as a block expression; `None` if the last one has no value.
 fn block_of(span: Span, statements: &[ast::Stmt]) -> Option<ast::Expr> {
     let (last, before) = statements.split_last()?;
     let value = Some(Box::new(value_of(last)?));

@@ -9,7 +9,7 @@ use crate::source::Symbol;
 pub enum Meaning {
     /// A declaration.
     Def(DefId),
-    /// An imported file, with its public declarations by name.
+    /// An imported file, with its public declarations, sorted by name.
     File(Vec<(Symbol, DefId)>),
 }
 

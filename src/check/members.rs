@@ -329,7 +329,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns the dimension of a joint's position, from the name of its kind.
+/// Returns the dimension of a joint's position, from the name of its kind: length for `prismatic`, else angle.
 fn joint_dimension(kind: &ast::Expr) -> Dimension {
     match &kind.kind {
         K::Call { callee, .. } => match &callee.kind {
@@ -358,7 +358,7 @@ fn coordinates(members: &mut Members) {
     }
 }
 
-/// Returns the first name in a linear combination.
+/// Returns the first name in a linear combination; `None` if there is none.
 fn first_name(sum: &ast::Expr) -> Option<Symbol> {
     match &sum.kind {
         K::Name(name) => Some(*name),
@@ -369,7 +369,7 @@ fn first_name(sum: &ast::Expr) -> Option<Symbol> {
     }
 }
 
-/// Returns the joint of a name that is declared between links and follows nothing yet.
+/// Returns the joint of a name that is declared between links and follows nothing yet; `None` if there is none.
 fn declared_joint<'m, 'a>(members: &'m mut Members<'a>, name: Symbol) -> Option<&'m mut JointInfo<'a>> {
     let open = |j: &&mut JointInfo| matches!(j.clause, ModuleClauseKind::Joint { .. }) && j.follows.is_none();
     members.joints.iter_mut().filter(|j| j.name == name).find(open)

@@ -31,6 +31,7 @@ pub(crate) mod summary;
 mod type_expr;
 pub mod typed;
 mod typed_expr;
+mod typed_module;
 mod types;
 
 use crate::source::{Diagnostic, FileId, Files, Sources, Span, Symbol};
@@ -48,14 +49,14 @@ pub struct Checked {
     pub sources: Sources,
     /// The typed program; mistakes are error nodes in it.
     pub program: Program,
-    /// The diagnostics, in the order in which they were found.
+    /// The diagnostics, in the order in which they were found, not of position.
     pub diagnostics: Vec<Diagnostic>,
-    /// The spans at which declarations are named, in no order.
+    /// The spans at which declarations are named, each with the declaration, in no order.
     pub uses: Vec<(Span, DefId)>,
     /// The texts that are entries of a session, in order.
     pub entries: Vec<FileId>,
-    /// The names visible at the top of the file that is run with their meanings, the prelude's included, by
-    /// name.
+    /// The names visible at the top of the file that is run with their meanings, the prelude's included, sorted
+    /// by name.
     pub names: Vec<(Symbol, Meaning)>,
 }
 
@@ -74,7 +75,8 @@ pub fn check(files: &dyn Files, root: &str) -> Checked {
 
 /// Checks the entries of a session with all that they import. All entries have one scope, in which a later
 /// declaration replaces an earlier one of its name, for the earlier entries too. The statements are those
-/// of the newest entry. An entry never changes the identities of the declarations before it.
+/// of the newest entry; there are none without entries. An entry never changes the identities of the
+/// declarations before it.
 pub fn check_session(files: &dyn Files, entries: &[Entry]) -> Checked {
     check_loaded(load::load_session(files, entries))
 }

@@ -58,7 +58,7 @@ impl<'a> Checker<'a> {
         DefKind::Connector(def)
     }
 
-    /// Checks a value of `holds`: a force or a torque.
+    /// Checks a value of `holds`: a force or a torque; `None` (and a diagnostic) for others.
     fn holds(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> Option<Expr> {
         let got = self.expr(scope, e, None);
         match &got.ty {
@@ -83,7 +83,7 @@ impl<'a> Checker<'a> {
         self.arguments_of(scope, span, Symbol::new("hinge"), &signature, args)
     }
 
-    /// Returns a connector by its path; reports an unknown one.
+    /// Returns a connector by its path; `None` (and a diagnostic) if there is none.
     fn connector_named(&mut self, scope: &Scope, path: &[ast::Name]) -> Option<DefId> {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);
@@ -220,7 +220,7 @@ impl<'a> Checker<'a> {
         Placement { position, turned, span: p.span }
     }
 
-    /// Checks one turn of a placement.
+    /// Checks one turn of a placement; `None` (and a diagnostic) if it has not two arguments.
     fn turned(&mut self, scope: &mut Scope, span: Span, args: &'a [ast::Arg]) -> Option<(Expr, Expr)> {
         let [axis, angle] = args else {
             self.report(
@@ -292,7 +292,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks a clause that may be inside `if` and `for`.
+    /// Checks a clause that may be inside `if` and `for`; `None` for others, which are reported.
     fn nested_clause(
         &mut self,
         scope: &mut Scope,
@@ -352,7 +352,7 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Checks a `port` clause.
+    /// Checks a `port` clause; `None` if its connector is unknown.
     fn port_clause(
         &mut self,
         scope: &mut Scope,
@@ -384,7 +384,7 @@ impl<'a> Checker<'a> {
         })))
     }
 
-    /// Checks a `motor` clause.
+    /// Checks a `motor` clause; `None` if it drives no linear combination of joints.
     fn motor(
         &mut self,
         scope: &mut Scope,
@@ -425,7 +425,8 @@ impl<'a> Checker<'a> {
         Some(motor)
     }
 
-    /// Returns a linear combination of joints, `tilt + 2 * pan`; reports other expressions.
+    /// Returns a linear combination of joints, `tilt + 2 * pan`; `None` (and a diagnostic) for other
+    /// expressions.
     fn linear(&mut self, scope: &mut Scope, id: DefId, e: &'a ast::Expr) -> Option<Linear> {
         let one = |value: f64| expr_of(e.span, Type::NUMBER, ExprKind::Number(value));
         match &e.kind {

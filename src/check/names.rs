@@ -49,7 +49,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the declaration that `_` stands for in a session, unless an optional value is expected.
+    /// Returns the declaration that `_` stands for in a session; `None` where an optional value is expected,
+    /// and if there is no value before.
     pub(super) fn last_value(&self, scope: &Scope, want: Option<&Type>) -> Option<Symbol> {
         let may_miss = matches!(want, Some(Type::Optional(_)));
         self.loaded.files[scope.file].last.filter(|_| !may_miss)
@@ -120,7 +121,8 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// Returns the file of the same folder that declares a public name and is part of the program.
+    /// Returns the path of a file of the program that declares a public name, if both files are at the top of
+    /// the project; otherwise `None`.
     fn declared_elsewhere(&self, file: usize, name: Symbol) -> Option<String> {
         let public = !name.as_str().starts_with('_');
         let own = |other: usize| match self.top(other).get(&name) {
@@ -205,7 +207,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns the choice of an expected type.
+/// Returns the choice of an expected type; `None` if it is none.
 pub(super) fn choice_of(want: &Type) -> Option<&super::types::Choice> {
     match want {
         Type::Optional(inner) => choice_of(inner),

@@ -84,8 +84,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the expected type of the operands, if the operator determines it: ports for `a <-> b`, the
-    /// expected type of the whole for `a ++ b` and `a + b`.
+    /// Returns the expected type of the operands: ports for `a <-> b`, for `a ++ b` and `a + b` the list or
+    /// vector that the whole is expected to be; `None` where the operator does not determine it.
     fn wanted_of_operands(&self, op: BinaryOp, want: Option<&Type>) -> Option<Type> {
         match op {
             BinaryOp::Mated => Some(Type::Port),
@@ -120,7 +120,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the result type of a comparison: a Bool, or a condition for signals.
+    /// Returns the result type of a comparison: a Bool, or a condition for signals; `None` if it does not
+    /// apply.
     fn order_type(&self, a: &Type, b: &Type) -> Option<Type> {
         match (a, b) {
             (Type::Signal(s), other) | (other, Type::Signal(s)) => {
@@ -131,7 +132,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the result type of `a ++ b`.
+    /// Returns the result type of `a ++ b`; `None` if it does not apply.
     fn join_type(&self, a: &Type, b: &Type) -> Option<Type> {
         match (a, b) {
             (Type::Text, Type::Text) => Some(Type::Text),
@@ -145,7 +146,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the result type of a sum or difference.
+    /// Returns the result type of a sum or difference; `None` if it does not apply.
     fn sum_type(&self, a: &Type, b: &Type) -> Option<Type> {
         match (a, b) {
             (Type::Int, Type::Int) => Some(Type::Int),
@@ -187,7 +188,8 @@ impl<'a> Checker<'a> {
         )
     }
 
-    /// Returns a plain literal with the unit of the other operand.
+    /// Returns a plain literal with the unit of the other operand, for a hint; `None` if that is no likely
+    /// correction.
     fn with_unit(&self, number: &Expr, beside: &Expr) -> Option<String> {
         let (plain, needed) = (number.ty.dimension()?, beside.ty.dimension()?);
         let written = self.quoted(number.span)?;
@@ -240,7 +242,7 @@ fn comparable(ty: &Type) -> bool {
     !matches!(ty, Type::Fn(_) | Type::Behavior | Type::Condition | Type::Signal(_) | Type::Nothing)
 }
 
-/// Returns the type of a product.
+/// Returns the type of a product; `None` if it does not apply.
 fn product_type(a: &Type, b: &Type) -> Option<Type> {
     match (a, b) {
         (Type::Int, Type::Int) => Some(Type::Int),
@@ -251,7 +253,7 @@ fn product_type(a: &Type, b: &Type) -> Option<Type> {
     }
 }
 
-/// Returns the type of a quotient.
+/// Returns the type of a quotient; `None` if it does not apply.
 fn quotient_type(a: &Type, b: &Type) -> Option<Type> {
     match (a, b) {
         (Type::Vec3(v), s) => {
@@ -262,7 +264,7 @@ fn quotient_type(a: &Type, b: &Type) -> Option<Type> {
     }
 }
 
-/// Returns the value of an integer literal, negated ones included.
+/// Returns the value of an integer literal, negated ones included; `None` for other expressions.
 fn literal(e: &Expr) -> Option<i32> {
     match &e.kind {
         ExprKind::Int(n) => i32::try_from(*n).ok(),

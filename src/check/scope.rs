@@ -21,11 +21,13 @@ pub(super) struct Scope {
 /// The locals of one body. A lambda has a frame of its own.
 #[derive(Default)]
 struct Frame {
-    /// Copies of locals of the outer frames, each with the outer local.
+    /// The own locals in scope, innermost last.
     locals: Vec<Binding>,
-    /// Locals of the frames outside, copied in, and where from.
+    /// The captured locals: copies of locals of the frame outside, each with that local.
     captured: Vec<(Binding, Local)>,
+    /// The next free slot.
     next: u32,
+    /// The number of slots in use at most.
     size: u32,
 }
 
@@ -102,7 +104,7 @@ impl Scope {
         (frame.size as usize, captures)
     }
 
-    /// Returns a local by name, captured from an outer frame if need be.
+    /// Returns a local by name, captured from an outer frame if need be; `None` if there is none.
     pub(super) fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
         self.local_at(name, self.outer.len()).map(|b| (b.local, b.ty))
     }
@@ -124,7 +126,7 @@ impl Scope {
         if depth == self.outer.len() { &mut self.frame } else { &mut self.outer[depth] }
     }
 
-    /// Returns the type of a local, without capturing it.
+    /// Returns the type of a local, without capturing it; `None` if there is none.
     pub(super) fn local_type(&self, name: Symbol) -> Option<&Type> {
         let frames = std::iter::once(&self.frame).chain(self.outer.iter().rev());
         frames.filter_map(|f| f.find(name)).map(|b| &b.ty).next()

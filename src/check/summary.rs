@@ -64,7 +64,7 @@ pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
     }
 }
 
-/// Returns the keyword of a declaration: `module`, `config`, `fn`.
+/// Returns the keyword of a declaration, such as `module` or `fn`; empty for an error.
 pub(crate) fn word(kind: &DefKind) -> &'static str {
     match kind {
         DefKind::Let(_) => "let",
@@ -103,8 +103,8 @@ pub(crate) fn params_of(program: &Program, id: DefId) -> &[Param] {
     }
 }
 
-/// Returns the parameters, joints, ports, parts, values, behaviours, fields and methods of a declaration,
-/// in the order of the text. Private names are left out.
+/// Returns the parameters, joints, ports, parts, values, behaviours, fields and methods of a declaration: group
+/// by group, and in a group in the order of the text. Private `let`s and ports of a configuration are left out.
 pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
     let program = &checked.program;
     let entry = |group, name: Symbol, head: String, doc: &Option<Arc<str>>| Inside {

@@ -69,7 +69,7 @@ impl<'a> Checker<'a> {
         Type::Choice(Arc::new(choice))
     }
 
-    /// Returns a bare name in a choice that names no type: a word of the choice.
+    /// Returns a bare name in a choice that names no type: a word of the choice; `None` for a type.
     fn choice_word(&self, scope: &Scope, ty: &ast::TypeExpr) -> Option<Symbol> {
         let TypeKind::Named { path, args } = &ty.kind else { return None };
         let [name] = path.as_slice() else { return None };
@@ -99,7 +99,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the dimension of a unit and its factors to SI; reports an unknown unit.
+    /// Returns the dimension of a unit and its factors to SI, each with its exponent; `None` (and a diagnostic)
+    /// for an unknown unit.
     pub(super) fn unit(&mut self, unit: &ast::UnitExpr) -> Option<(Dimension, Vec<(f64, i32)>)> {
         let mut dimension = Dimension::NUMBER;
         let mut factors = Vec::new();
@@ -286,7 +287,8 @@ impl<'a> Checker<'a> {
         line
     }
 
-    /// Returns the least common supertype of two values, as for the elements of a list.
+    /// Returns the least common supertype of two types, as for the elements of a list; `None` if there is
+    /// none.
     pub(super) fn join(&self, a: &Type, b: &Type) -> Option<Type> {
         if a.is_error() || b.is_error() {
             return Some(if a.is_error() { b.clone() } else { a.clone() });
@@ -316,7 +318,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the family of an instance type or supertype.
+    /// Returns the family of an instance type or supertype; `None` for other types.
     fn family_of(&self, ty: &Type) -> Option<Family> {
         match ty {
             Type::Instance(id) => self.family(*id),

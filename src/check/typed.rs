@@ -1,5 +1,5 @@
 //! The typed tree, the result of `check` and the input of `interpret`. This file holds declarations,
-//! `typed_expr` statements and expressions.
+//! `typed_module` the parts of modules, and `typed_expr` statements and expressions.
 //!
 //! Names are resolved, arguments are in the order of the parameters, quantities are in SI, and type names
 //! used as instances are instantiations. An `Error` node marks what has been reported: the interpreter
@@ -8,33 +8,37 @@
 use super::family::FactsFamily;
 use super::types::Type;
 use crate::source::{FileId, Span, Symbol};
-use crate::units::Dimension;
 use std::sync::Arc;
 
 pub use super::typed_expr::{BinaryOp, Body, Clause, Expr, ExprKind, Stmt, StmtKind, Test, UnaryOp};
+pub use super::typed_module::{
+    JointBetween, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement,
+    PortClause, PortGroup,
+};
 
-/// The identity of a declaration: an index into [`Program::defs`].
+/// The identity of a declaration: an index into [`Program::defs`], from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DefId(pub u32);
 
-/// A local variable: a slot of the frame of its body.
+/// A local variable: the index, from 0, of a slot of the frame of its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Local(pub u32);
 
-/// A member of a declaration with instances: an index into its `members`.
+/// A member of a declaration with instances: an index into its `members`, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MemberId(pub u32);
 
 /// A checked program.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
-    /// All declarations, by [`DefId`], those of imported files and the standard library included.
+    /// All declarations, by [`DefId`], those of imported files and the standard library included; in a session
+    /// also vacant ones, which are [`DefKind::Error`].
     pub defs: Vec<Def>,
-    /// The statements of the file that is run.
+    /// The statements of the file that is run; those of the newest entry in a session.
     pub statements: Body,
     /// The tests of the file that is run.
     pub tests: Vec<Test>,
-    /// The declarations of the project's own files, in order; `modl check` elaborates them.
+    /// The declarations of the project's own files, by [`DefId`]; `modl check` elaborates them.
     pub own: Vec<DefId>,
 }
 
@@ -52,11 +56,11 @@ pub struct Def {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The span of the whole declaration.
+    /// The span of the whole declaration, from its keyword; for a method, that of its record.
     pub whole: Span,
     /// The file that it is in.
     pub file: FileId,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// Its typed body.
     pub kind: DefKind,
@@ -118,11 +122,11 @@ pub struct FnDef {
 pub struct NativeDef {
     /// The key of the Rust body: `move`, or `Plan.at` for a method.
     pub key: Symbol,
-    /// The parameters, those of a method behind its object.
+    /// The parameters; the object of a method is the first, `self`.
     pub params: Vec<Param>,
     /// The type of the result.
     pub result: Type,
-    /// The names of the type parameters, for messages.
+    /// The names of the type parameters, in order, for messages.
     pub type_params: Vec<Symbol>,
     /// The number of slots of the frame in which defaults are evaluated.
     pub frame: usize,
@@ -137,20 +141,21 @@ pub struct Param {
     pub span: Span,
     /// Its type.
     pub ty: Type,
-    /// The default value, evaluated in the frame of the callee after the parameters before it.
+    /// The default value, evaluated in the frame of the callee after the parameters before it; `None` if an
+    /// argument is needed.
     pub default: Option<Expr>,
-    /// True if it takes all remaining positional arguments as one list.
+    /// True if it takes all remaining positional arguments as one list; `ty` is then that of an element.
     pub variadic: bool,
 }
 
 /// A record type: `extern type`.
 #[derive(Clone, Debug)]
 pub struct RecordDef {
-    /// The record that this one extends: a `Folding` is a `Plan`.
+    /// The record that this one extends, as a `Folding` is a `Plan`; `None` if it stands alone.
     pub is: Option<DefId>,
     /// Its own fields; inherited ones are in the record it extends.
     pub fields: Vec<RecordField>,
-    /// The natives whose first parameter is the record.
+    /// Its own methods: natives whose first parameter is the record.
     pub methods: Vec<DefId>,
 }
 
@@ -161,7 +166,7 @@ pub struct RecordField {
     pub name: Symbol,
     /// Its type.
     pub ty: Type,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
 }
 
@@ -175,9 +180,10 @@ pub struct ConnectorDef {
     /// The greatest forces and torques that it holds; the type of an expression distinguishes a force from a
     /// torque.
     pub holds: Vec<Expr>,
-    /// The tolerances of docking: distance and angle.
+    /// The tolerances of docking: a length, and perhaps an angle; `None` if the clause is missing.
     pub capture: Option<(Expr, Option<Expr>)>,
-    /// The span of `hinge`, and its arguments in the order of the parameters of the prelude's `revolute`.
+    /// The span of `hinge`, and its arguments in the order of the parameters of the prelude's `revolute`;
+    /// `None` for a rigid connector.
     pub hinge: Option<(Span, Vec<Option<Expr>>)>,
     /// The number of slots of its frame.
     pub frame: usize,
@@ -203,186 +209,24 @@ pub struct Member {
 /// The kinds of members.
 #[derive(Clone, Debug)]
 pub enum MemberKind {
-    /// The parameter at this index.
+    /// The parameter at this index of the declaration's `params`.
     Param(usize),
-    /// A `let` at the top of the body; evaluated when first needed.
+    /// A `let` at the top of the body with its value, which is evaluated when first needed.
     Let(Expr),
-    /// A part, or a list of parts ([`ConfigDef::parts`]).
+    /// A part, or a list of parts: an index into [`ConfigDef::parts`].
     Part(usize),
-    /// A port of a configuration: a port or a list of ports; `count` is the declared length.
-    Port { count: Option<Expr>, value: Expr },
-    /// [`ConfigDef::behaviors`]; only ever called.
+    /// A port or a list of ports of a configuration.
+    Port {
+        /// The declared length of a list of ports; `None` for a single port, and where no length is
+        /// written.
+        count: Option<Expr>,
+        /// The port, or the list of ports, that it names.
+        value: Expr,
+    },
+    /// A behaviour: an index into [`ConfigDef::behaviors`].
     Behavior(usize),
     /// A node of a truss, or a list of nodes.
     Node,
-}
-
-/// A module with its links, joints and ports: `module`.
-#[derive(Clone, Debug)]
-pub struct ModuleDef {
-    /// The parameters.
-    pub params: Vec<Param>,
-    /// The parameters and `let`s.
-    pub members: Vec<Member>,
-    /// The mass of the whole module (`mass`), if it is stated.
-    pub mass: Option<Expr>,
-    /// `touch`: the depth beyond which penetration is a collision, a length.
-    pub touch: Option<Expr>,
-    /// `contact`: the gap up to which links touch the ground, a length.
-    pub contact: Option<Expr>,
-    /// The links, in order.
-    pub links: Vec<LinkDef>,
-    /// The joints, in order.
-    pub joints: Vec<JointDef>,
-    /// The names of ports; an array is one entry.
-    pub ports: Vec<PortGroup>,
-    /// The motors, in order.
-    pub motors: Vec<MotorDef>,
-    /// The clauses `let`, `require`, `port` and `touching`, and conditions and loops over them, in order.
-    pub clauses: Vec<ModuleClause>,
-    /// Aliases of joints as (name, index in `joints`), by name.
-    pub joint_aliases: Vec<(Symbol, usize)>,
-    /// Aliases of ports as (name, index in `ports`), by name.
-    pub port_aliases: Vec<(Symbol, usize)>,
-    /// The number of slots of its frame.
-    pub frame: usize,
-}
-
-/// A `link` of a module.
-#[derive(Clone, Debug)]
-pub struct LinkDef {
-    /// Its name.
-    pub name: Symbol,
-    /// The span of the name.
-    pub span: Span,
-    /// The shape that is drawn, and that collides unless `collides` is given.
-    pub shape: Expr,
-    /// The shape for collisions, if it is another.
-    pub collides: Option<Expr>,
-    /// The pose of the shape in the link's frame.
-    pub at: Option<Placement>,
-}
-
-/// A `joint` of a module.
-#[derive(Clone, Debug)]
-pub struct JointDef {
-    /// Its name.
-    pub name: Symbol,
-    /// The span of the name.
-    pub span: Span,
-    /// The dimension of its position: angle for a revolute joint, length for a prismatic one, number for a
-    /// fixed one.
-    pub dimension: Dimension,
-    /// The text of its doc comment.
-    pub doc: Option<Arc<str>>,
-    /// A joint between links, or a coordinate.
-    pub kind: JointDefKind,
-}
-
-/// The kinds of joints of a module.
-#[derive(Clone, Debug)]
-pub enum JointDefKind {
-    /// A joint between two links.
-    Declared(Box<JointBetween>),
-    /// A coordinate that moves no link: a linear combination of other joints (`joint b = -a`).
-    Mimic(Linear),
-}
-
-/// A joint between two links.
-#[derive(Clone, Debug)]
-pub struct JointBetween {
-    /// The parent link, an index into `links`.
-    pub parent: usize,
-    /// The child link, an index into `links`.
-    pub child: usize,
-    /// The kind of joint: a value of type `JointKind`.
-    pub kind: Expr,
-    /// The pose of the joint in the parent's frame.
-    pub at: Option<Placement>,
-    /// The linear combination of joints that it follows, from a clause of its own.
-    pub follows: Option<Linear>,
-}
-
-/// A linear combination: a sum of joints (indices into `joints`), each times a factor.
-pub type Linear = Vec<(usize, Expr)>;
-
-/// A port of a module, or an array of ports.
-#[derive(Clone, Debug)]
-pub struct PortGroup {
-    /// Its name.
-    pub name: Symbol,
-    /// The span of the name.
-    pub span: Span,
-    /// True for an array.
-    pub array: bool,
-    /// The text of its doc comment.
-    pub doc: Option<Arc<str>>,
-}
-
-/// A `motor` of a module.
-#[derive(Clone, Debug)]
-pub struct MotorDef {
-    /// Its name.
-    pub name: Symbol,
-    /// The span of the name.
-    pub span: Span,
-    /// The joints that it drives (indices into `joints`), each with its transmission factor.
-    pub joints: Vec<(usize, Expr)>,
-    /// The greatest speed.
-    pub max_speed: Option<Expr>,
-    /// The greatest acceleration.
-    pub max_accel: Option<Expr>,
-    /// The greatest torque or force.
-    pub max_torque: Option<Expr>,
-}
-
-/// A pose: `at [x, y, z] turned(Z, 90deg)`. Turns apply in order, each in the frame turned so far.
-#[derive(Clone, Debug)]
-pub struct Placement {
-    /// The position: a vector of lengths.
-    pub position: Expr,
-    /// The turns as (axis, angle).
-    pub turned: Vec<(Expr, Expr)>,
-    /// The span of the clause.
-    pub span: Span,
-}
-
-/// A clause of a module that depends on values.
-#[derive(Clone, Debug)]
-pub enum ModuleClause {
-    /// A port, or one element of a port array.
-    Port(Box<PortClause>),
-    /// Two links (indices into `links`) that may touch, and the span of the clause.
-    Touching(usize, usize, Span),
-    /// A local definition: `let name = value`.
-    Let { local: Local, value: Expr },
-    /// A requirement: `require condition`.
-    Require(Require),
-    /// `if`; only the clauses of one branch are elaborated.
-    If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
-    /// `for`; the clauses are elaborated for each element.
-    For { binder: Local, iterable: Expr, body: Vec<ModuleClause> },
-}
-
-/// A port, or one element of a port array.
-#[derive(Clone, Debug)]
-pub struct PortClause {
-    /// The index of its name in [`ModuleDef::ports`].
-    pub group: usize,
-    /// Its index in an array.
-    pub index: Option<Expr>,
-    /// The connector at the port.
-    pub connector: DefId,
-    /// The link that carries it, an index into `links`.
-    pub link: usize,
-    /// The pose of the port in the link's frame.
-    pub at: Option<Placement>,
-    /// The direction of its outward normal.
-    pub facing: Expr,
-    /// The direction from which turns are counted.
-    pub up: Option<Expr>,
-    /// The span of the clause.
-    pub span: Span,
 }
 
 /// A requirement that is checked when the body is complete: `require condition`.
@@ -392,7 +236,7 @@ pub struct Require {
     pub span: Span,
     /// The condition that must hold.
     pub condition: Expr,
-    /// The message if it does not.
+    /// The message if it does not hold, a text; `None` if none is written.
     pub message: Option<Expr>,
 }
 
@@ -403,7 +247,7 @@ pub struct FactsDef {
     pub family: FactsFamily,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The parameters and `let`s.
+    /// The parameters.
     pub members: Vec<Member>,
     /// The values of [`Family::facts`](super::family::Family::facts), in their order; `None` where one is
     /// missing.
@@ -417,7 +261,7 @@ pub struct FactsDef {
 pub struct ConfigDef {
     /// The parameters.
     pub params: Vec<Param>,
-    /// The span of the word `closed`, if connections may close loops.
+    /// The span of the word `closed`, if connections may close loops; `None` if it is not written.
     pub closed: Option<Span>,
     /// The parameters, `let`s, parts, ports and behaviours by name.
     pub members: Vec<Member>,
@@ -425,9 +269,10 @@ pub struct ConfigDef {
     pub parts: Vec<PartDef>,
     /// The behaviours, in order.
     pub behaviors: Vec<BehaviorDef>,
-    /// The other clauses, in order.
+    /// The clauses `connect`, `set` and `require`, and branches and loops over them, in order.
     pub clauses: Vec<ConfigClause>,
-    /// The base: an instance of a module or configuration, or one of its parts.
+    /// The base: an instance of a module or configuration among the parts; `None` if the clause is missing or
+    /// wrong.
     pub base: Option<Expr>,
     /// The number of slots of the body outside of behaviours: loop variables and nested `let`s. Parameters
     /// are members.
@@ -443,13 +288,14 @@ pub struct PartDef {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The module or configuration of which it is an instance.
+    /// The module or configuration of which it is an instance; after a mistake the configuration itself, and
+    /// the type of the member is then an error.
     pub of: DefId,
-    /// The number of parts, for a list of parts.
+    /// The length of a list of parts; `None` for a single part.
     pub count: Option<PartCount>,
     /// The arguments, in the order of the parameters of `of`; `None`: the default.
     pub args: Vec<Option<Expr>>,
-    /// The span of the type and its arguments.
+    /// The span of the path of the type, without its arguments.
     pub ty_span: Span,
 }
 
@@ -458,8 +304,14 @@ pub struct PartDef {
 pub enum PartCount {
     /// A number of equal parts: `part m[n]: ...`.
     Number(Expr),
-    /// One part for each element of a range, which its arguments can refer to: `part m[i in range]: ...`.
-    Each { binder: Local, range: Expr },
+    /// One part for each element of a list or range, which its arguments can refer to: `part m[i in range]:
+    /// ...`.
+    Each {
+        /// The local that holds the element.
+        binder: Local,
+        /// The list, or the range of whole numbers.
+        range: Expr,
+    },
 }
 
 /// A `behavior` of a configuration. Its parameters are the first locals of the body.
@@ -473,7 +325,7 @@ pub struct BehaviorDef {
     pub doc: Option<Arc<str>>,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The exemptions from verification.
+    /// The exemptions from verification, in order.
     pub allows: Vec<Exemption>,
     /// The body.
     pub body: Expr,
@@ -497,27 +349,62 @@ pub enum ExemptionKind {
     Unstable,
     /// The robot may slip.
     Slip,
-    /// Two instances, or none: any two.
+    /// The two instances may collide; `None`: any two.
     Collision(Option<(Expr, Expr)>),
-    /// A joint, or none: any.
+    /// The joint may be overloaded; `None`: any joint.
     Overload(Option<Expr>),
 }
 
 /// A clause of a configuration that depends on values.
 #[derive(Clone, Debug)]
 pub enum ConfigClause {
-    /// `connect a -- b turn angle`: bonds two ports.
-    Connect { a: Expr, b: Expr, turn: Option<Expr>, span: Span },
-    /// `set joint = value`: a joint position at the start.
-    Set { joint: Expr, value: Expr, span: Span },
+    /// A connection that bonds two ports: `connect a -- b turn angle`.
+    Connect {
+        /// The first port.
+        a: Expr,
+        /// The second port.
+        b: Expr,
+        /// The angle at which they mate; `None` if it is not written.
+        turn: Option<Expr>,
+        /// The span of the clause.
+        span: Span,
+    },
+    /// The position of a joint at the start: `set joint = value`.
+    Set {
+        /// The joint.
+        joint: Expr,
+        /// Its position at the start, of the dimension of the joint.
+        value: Expr,
+        /// The span of the clause.
+        span: Span,
+    },
     /// A local definition: `let name = value`.
-    Let { local: Local, value: Expr },
+    Let {
+        /// The local that holds the value.
+        local: Local,
+        /// The value.
+        value: Expr,
+    },
     /// A requirement: `require condition`.
     Require(Require),
-    /// `if`; only the clauses of one branch are elaborated.
-    If { condition: Expr, then: Vec<ConfigClause>, otherwise: Vec<ConfigClause> },
-    /// `for`; the clauses are elaborated for each element.
-    For { binder: Local, iterable: Expr, body: Vec<ConfigClause> },
+    /// A branch: only the clauses of one side are elaborated.
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The clauses if the condition holds.
+        then: Vec<ConfigClause>,
+        /// The clauses if it does not; empty without `else`.
+        otherwise: Vec<ConfigClause>,
+    },
+    /// A loop: the clauses are elaborated for each element.
+    For {
+        /// The local that holds the element.
+        binder: Local,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The clauses of the loop.
+        body: Vec<ConfigClause>,
+    },
 }
 
 /// A lattice with its cell and arrangement: `lattice`.
@@ -525,7 +412,7 @@ pub enum ConfigClause {
 pub struct LatticeDef {
     /// The parameters.
     pub params: Vec<Param>,
-    /// The parameters and `let`s.
+    /// The parameters.
     pub members: Vec<Member>,
     /// The cell that it is made of.
     pub of: DefId,
@@ -562,18 +449,53 @@ pub enum TrussBody {
 /// A clause of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussClause {
-    /// A node; its name is the member's, `index` its index in an array of nodes.
-    Node { member: MemberId, index: Option<Expr>, value: Expr, span: Span },
-    /// Nodes by member and index.
-    Strut { a: NodeRef, b: NodeRef, span: Span },
+    /// A node, or one of an array of nodes.
+    Node {
+        /// The member that names the node or the array of nodes.
+        member: MemberId,
+        /// Its index in the array, from 0; `None` for a single node.
+        index: Option<Expr>,
+        /// Its position, a vector of lengths.
+        value: Expr,
+        /// The span of the name.
+        span: Span,
+    },
+    /// A strut between two nodes.
+    Strut {
+        /// The first node.
+        a: NodeRef,
+        /// The second node.
+        b: NodeRef,
+        /// The span of the clause.
+        span: Span,
+    },
     /// A local definition: `let name = value`.
-    Let { local: Local, value: Expr },
+    Let {
+        /// The local that holds the value.
+        local: Local,
+        /// The value.
+        value: Expr,
+    },
     /// A requirement: `require condition`.
     Require(Require),
-    /// `if`; only the clauses of one branch are elaborated.
-    If { condition: Expr, then: Vec<TrussClause>, otherwise: Vec<TrussClause> },
-    /// `for`; the clauses are elaborated for each element.
-    For { binder: Local, iterable: Expr, body: Vec<TrussClause> },
+    /// A branch: only the clauses of one side are elaborated.
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The clauses if the condition holds.
+        then: Vec<TrussClause>,
+        /// The clauses if it does not; empty without `else`.
+        otherwise: Vec<TrussClause>,
+    },
+    /// A loop: the clauses are elaborated for each element.
+    For {
+        /// The local that holds the element.
+        binder: Local,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The clauses of the loop.
+        body: Vec<TrussClause>,
+    },
 }
 
 /// A reference to a node: a member, with its index in an array of nodes.
@@ -581,7 +503,7 @@ pub enum TrussClause {
 pub struct NodeRef {
     /// The member.
     pub member: MemberId,
-    /// The index in an array.
+    /// The index in an array, from 0; `None` for a single node.
     pub index: Option<Expr>,
     /// The span of the reference.
     pub span: Span,

@@ -39,16 +39,40 @@ pub struct Stmt {
 /// The kinds of statements.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
-    /// `let`; binds a local.
-    Let { local: Local, value: Expr },
+    /// A definition, which binds a local: `let name = value`.
+    Let {
+        /// The local that holds the value.
+        local: Local,
+        /// The value.
+        value: Expr,
+    },
     /// An expression; its value may be printed.
     Expr(Expr),
-    /// A test of a condition: `expect condition, message`.
-    Expect { condition: Expr, message: Option<Expr> },
+    /// A test of a condition: `expect condition, message`, or `require` among statements.
+    Expect {
+        /// The condition that the test expects to hold.
+        condition: Expr,
+        /// The message if it does not hold, a text; `None` if none is written.
+        message: Option<Expr>,
+    },
     /// A branch: `if`.
-    If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The statements if the condition holds.
+        then: Vec<Stmt>,
+        /// The statements if it does not; empty without `else`.
+        otherwise: Vec<Stmt>,
+    },
     /// A loop: `for`.
-    For { binder: Local, iterable: Expr, body: Vec<Stmt> },
+    For {
+        /// The local that holds the element.
+        binder: Local,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The statements of the loop.
+        body: Vec<Stmt>,
+    },
 }
 
 /// An expression with its type.
@@ -67,86 +91,195 @@ pub struct Expr {
 pub enum ExprKind {
     /// A mistake that has been reported.
     Error,
-    /// A number in SI units; its dimension is in `ty`.
+    /// A finite number in SI units; its dimension is in `ty`.
     Number(f64),
-    /// A whole number that fits.
+    /// A whole number that fits in 64 bits.
     Int(i64),
-    /// A whole number of more digits.
+    /// A whole number that does not fit, by its decimal digits.
     BigInt(Symbol),
     /// A truth value: `true`, `false`.
     Bool(bool),
     /// A text without interpolation.
     Text(Arc<str>),
-    /// Pieces to be joined; values are shown as `print` shows them.
+    /// A text with values: its pieces in order, texts and values, which are shown as `print` shows them.
     Interpolation(Vec<Expr>),
     /// A word of a choice.
     Word(Symbol),
-    /// `_`, or an argument left out that has no default: the missing value of an optional type.
+    /// The missing value of an optional type: `_`.
     Missing,
     /// A local variable.
     Local(Local),
-    /// A top-level `let`.
+    /// The value of a top-level `let`.
     Global(DefId),
     /// A function used as a value.
     FnValue(DefId),
     /// A behaviour used as a value: a function of its parameters.
-    BehaviorValue { object: Box<Expr>, behavior: usize },
+    BehaviorValue {
+        /// The instance of a configuration.
+        object: Box<Expr>,
+        /// The index in [`ConfigDef::behaviors`](super::typed::ConfigDef::behaviors).
+        behavior: usize,
+    },
     /// The instance whose body this is.
     This,
     /// A member of an instance.
-    Member { object: Box<Expr>, member: MemberId },
-    /// A joint of a module instance; `joint` indexes [`ModuleDef::joints`](super::typed::ModuleDef::joints).
-    Joint { object: Box<Expr>, joint: usize },
-    /// A port or a port array of a module instance; `port` indexes
-    /// [`ModuleDef::ports`](super::typed::ModuleDef::ports).
-    Port { object: Box<Expr>, port: usize },
+    Member {
+        /// The instance.
+        object: Box<Expr>,
+        /// The member of its declaration.
+        member: MemberId,
+    },
+    /// A joint of a module instance.
+    Joint {
+        /// The module instance.
+        object: Box<Expr>,
+        /// The index in [`ModuleDef::joints`](super::typed::ModuleDef::joints).
+        joint: usize,
+    },
+    /// A port or a port array of a module instance.
+    Port {
+        /// The module instance.
+        object: Box<Expr>,
+        /// The index in [`ModuleDef::ports`](super::typed::ModuleDef::ports).
+        port: usize,
+    },
     /// The joint of the connection at a port.
     Hinge(Box<Expr>),
-    /// A field of a record.
-    Field { object: Box<Expr>, field: Symbol },
+    /// A field of a record, or the part of a vector (`x`), a range (`from`) or a pose (`position`).
+    Field {
+        /// The value.
+        object: Box<Expr>,
+        /// The name of the field; that of a record may be inherited.
+        field: Symbol,
+    },
     /// A list: `[a, b]`.
     List(Vec<Expr>),
     /// A list comprehension: `[body for x in xs if c]`.
-    Comprehension { body: Box<Expr>, clauses: Vec<Clause> },
+    Comprehension {
+        /// The expression for each element.
+        body: Box<Expr>,
+        /// The clauses, in order; the first is a loop.
+        clauses: Vec<Clause>,
+    },
     /// A vector: `[x, y, z]` where one is expected.
     Vec3(Box<[Expr; 3]>),
     /// A range: `from..to`.
-    Range { from: Box<Expr>, to: Box<Expr> },
+    Range {
+        /// The first end.
+        from: Box<Expr>,
+        /// The second end.
+        to: Box<Expr>,
+    },
     /// A prefix operator with its operand.
-    Unary { op: UnaryOp, operand: Box<Expr> },
+    Unary {
+        /// The operator.
+        op: UnaryOp,
+        /// The operand.
+        operand: Box<Expr>,
+    },
     /// An infix operator with its operands.
-    Binary { op: BinaryOp, left: Box<Expr>, right: Box<Expr> },
-    /// `x else y` for an optional `x`.
-    OrElse { value: Box<Expr>, otherwise: Box<Expr> },
-    /// `move(..., timeout: 2s) else b` for behaviours.
-    TimeoutElse { action: Box<Expr>, otherwise: Box<Expr> },
-    /// Drops radians, so that the dimension is that of `ty`.
+    Binary {
+        /// The operator.
+        op: BinaryOp,
+        /// The left operand.
+        left: Box<Expr>,
+        /// The right operand.
+        right: Box<Expr>,
+    },
+    /// An optional value with one for the case that it is missing: `x else y`.
+    OrElse {
+        /// The value that may be missing.
+        value: Box<Expr>,
+        /// The value in its place; it is evaluated only then.
+        otherwise: Box<Expr>,
+    },
+    /// An action with a behaviour for the case that its time runs out: `move(..., timeout: 2s) else b`.
+    TimeoutElse {
+        /// The action with a timeout.
+        action: Box<Expr>,
+        /// The behaviour that follows if the time runs out.
+        otherwise: Box<Expr>,
+    },
+    /// A quantity whose radians are dropped, so that its dimension is that of `ty`; the number stays.
     DropRadians(Box<Expr>),
-    /// An element of a list: `object[index]`.
-    Index { object: Box<Expr>, index: Box<Expr> },
+    /// An element of a list or a vector: `object[index]`.
+    Index {
+        /// The list or vector.
+        object: Box<Expr>,
+        /// The index, a whole number counted from 0.
+        index: Box<Expr>,
+    },
     /// A conditional expression: `if condition { then } else { otherwise }`.
-    If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
-    /// `{ statements value }`: a block; without `value` it has none.
-    Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
-    /// Runs in a frame of its own: the parameters are its first slots, and each capture copies a
-    /// local of the frame where the lambda stands (first) to a slot of the new one (second).
-    Lambda { captures: Vec<(Local, Local)>, params: usize, body: Arc<Expr>, frame: usize },
-    /// A call of a user's function or a built-in; arguments in the order of the parameters. `None`:
-    /// take the default.
-    Call { def: DefId, args: Vec<Option<Expr>> },
+    If {
+        /// The condition.
+        condition: Box<Expr>,
+        /// The value if the condition holds.
+        then: Box<Expr>,
+        /// The value if it does not; the checker refuses an `if` without one.
+        otherwise: Option<Box<Expr>>,
+    },
+    /// A block of statements that may end with a value: `{ statements value }`.
+    Block {
+        /// The statements before the value, in order.
+        statements: Vec<Stmt>,
+        /// The expression that ends the block; `None` if a statement does, or if it is empty.
+        value: Option<Box<Expr>>,
+    },
+    /// An anonymous function, `x => e`. It runs in a frame of its own, whose first slots are the
+    /// parameters.
+    Lambda {
+        /// The captured variables: each first local, of the frame around the lambda, is copied to the
+        /// second.
+        captures: Vec<(Local, Local)>,
+        /// The number of parameters.
+        params: usize,
+        /// The result.
+        body: Arc<Expr>,
+        /// The number of slots of its frame.
+        frame: usize,
+    },
+    /// A call of a user's function or a built-in.
+    Call {
+        /// The function.
+        def: DefId,
+        /// The arguments in the order of the parameters. `None`: take the default.
+        args: Vec<Option<Expr>>,
+    },
     /// A call of a function value.
-    CallValue { callee: Box<Expr>, args: Vec<Expr> },
+    CallValue {
+        /// The function value.
+        callee: Box<Expr>,
+        /// The arguments, in order, one for each parameter.
+        args: Vec<Expr>,
+    },
     /// A call of a behaviour of an instance of a configuration.
-    CallBehavior { object: Box<Expr>, behavior: usize, args: Vec<Option<Expr>> },
+    CallBehavior {
+        /// The instance of a configuration.
+        object: Box<Expr>,
+        /// The index in [`ConfigDef::behaviors`](super::typed::ConfigDef::behaviors).
+        behavior: usize,
+        /// The arguments in the order of the parameters. `None`: take the default.
+        args: Vec<Option<Expr>>,
+    },
     /// An instance of a module, cell, strut, config, lattice or truss.
-    Instance { def: DefId, args: Vec<Option<Expr>> },
+    Instance {
+        /// The declaration.
+        def: DefId,
+        /// The arguments in the order of the parameters. `None`: take the default.
+        args: Vec<Option<Expr>>,
+    },
 }
 
 /// A clause of a comprehension.
 #[derive(Clone, Debug)]
 pub enum Clause {
     /// A loop of a comprehension: `for x in iterable`.
-    For { binder: Local, iterable: Expr },
+    For {
+        /// The local that holds the element.
+        binder: Local,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+    },
     /// A filter of a comprehension: `if condition`.
     If(Expr),
 }

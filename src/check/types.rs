@@ -10,13 +10,13 @@ use std::sync::Arc;
 /// distinguished there.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Type {
-    /// Something that was wrong and has been reported; it fits everywhere.
+    /// The type of a mistake that has been reported; it fits everywhere.
     Error,
-    /// No value: `print(...)`.
+    /// The type of what has no value, such as `print(...)`.
     Nothing,
-    /// A parameter of a built-in that takes any value.
+    /// The type of a parameter of a built-in that takes any value.
     Any,
-    /// `Number` is the quantity without dimension.
+    /// A quantity of this dimension; `Number` is the one without dimension.
     Quantity(Dimension),
     /// A whole number; it is a `Number`.
     Int,
@@ -26,7 +26,7 @@ pub enum Type {
     Text,
     /// A list: `List<T>`.
     List(Arc<Type>),
-    /// Three quantities; a direction is three numbers.
+    /// A vector of three quantities, `Vec3<T>`; a direction is three plain numbers.
     Vec3(Arc<Type>),
     /// A pose: `Pose`.
     Pose,
@@ -44,32 +44,39 @@ pub enum Type {
     Port,
     /// A behaviour: `Behavior`.
     Behavior,
-    /// `Signal<T>`: a value that changes during a behaviour.
+    /// A value that changes during a behaviour: `Signal<T>`.
     Signal(Arc<Type>),
-    /// `Condition`: a truth that changes during a behaviour.
+    /// A truth value that changes during a behaviour: `Condition`.
     Condition,
     /// A shape: `Shape`.
     Shape,
-    /// `revolute(...)`, `prismatic(...)`, `fixed()`: only a `joint` clause takes it.
+    /// The kind of a joint, which only a `joint` clause takes: `revolute(...)`, `prismatic(...)`,
+    /// `fixed()`.
     JointKind,
-    /// `Cells`: the cells of a lattice.
+    /// The cells of a lattice: `Cells`.
     Cells,
-    /// `Mesh`: a triangle mesh.
+    /// A triangle mesh: `Mesh`.
     Mesh,
-    /// `Cloud`: a point cloud.
+    /// A point cloud: `Cloud`.
     Cloud,
-    /// `Terrain`: a height field.
+    /// A height field: `Terrain`.
     Terrain,
     /// The instances of a `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
     Instance(DefId),
-    /// The supertypes: `Module`, `Config` (a module is the smallest one), `Lattice`, ...
+    /// The instances of all declarations of a family: `Module`, `Config` (every module is one), `Lattice`,
+    /// ...
     AnyOf(Family),
     /// A record, declared by `extern type`.
     Record(DefId),
-    /// A type parameter of the `extern fn` at hand.
+    /// A type parameter of the `extern fn` being checked, by index from 0.
     Param(u8),
     /// A quantity in a dimension parameter raised to a power: `Quantity<D>`, `Quantity<D^2>`.
-    QuantityParam { param: u8, power: i8 },
+    QuantityParam {
+        /// The index of the type parameter, from 0.
+        param: u8,
+        /// The power; only 1 and 2 occur in the library.
+        power: i8,
+    },
 }
 
 /// The type of a function value.
@@ -84,9 +91,9 @@ pub struct FnType {
 /// A choice: `exact | enumerate`, `auto | Int`, `Mesh | Cloud`: words, types, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// The words, in the order as written.
+    /// The words, in the order in which they are written.
     pub words: Vec<Symbol>,
-    /// The types, in the order as written.
+    /// The types, in the order in which they are written.
     pub types: Vec<Type>,
 }
 
@@ -99,7 +106,7 @@ impl Type {
         Type::List(Arc::new(element))
     }
 
-    /// Returns the optional type of `inner`; an optional or erroneous type stays itself.
+    /// Returns the type `inner?`; an optional or erroneous type stays itself.
     pub fn optional(inner: Type) -> Type {
         match inner {
             Type::Optional(_) | Type::Error => inner,
@@ -107,7 +114,7 @@ impl Type {
         }
     }
 
-    /// Returns the type of vectors of three quantities.
+    /// Returns the type of vectors of three quantities of this dimension.
     pub fn vec3(dimension: Dimension) -> Type {
         Type::Vec3(Arc::new(Type::Quantity(dimension)))
     }

@@ -7,12 +7,12 @@
 
 use crate::source::{FileId, Span, Symbol};
 
-/// A name with its span.
+/// A word that stands for something, as written; no lookup has been made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Name {
-    /// The name.
+    /// The text of the name.
     pub text: Symbol,
-    /// Its span.
+    /// The span of the word.
     pub span: Span,
 }
 
@@ -21,9 +21,9 @@ pub struct Name {
 pub struct File {
     /// The identity of the file.
     pub id: FileId,
-    /// The text of the `//!` lines, without the marks.
+    /// The text of the `//!` lines, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// The items, in order.
+    /// The items, in order; an unreadable one is an [`ItemKind::Error`].
     pub items: Vec<Item>,
     /// All comments, documentation included, in order of position.
     pub comments: Vec<Comment>,
@@ -34,9 +34,9 @@ pub struct File {
 /// A comment with its kind and span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comment {
-    /// Its span, marks included.
+    /// The span from the first mark to the end; that of a line comment ends before the line break.
     pub span: Span,
-    /// Its kind.
+    /// Its kind, by its marks.
     pub kind: CommentKind,
 }
 
@@ -56,9 +56,9 @@ pub enum CommentKind {
 /// An item with its documentation.
 #[derive(Clone, Debug)]
 pub struct Item {
-    /// Its span.
+    /// The span from its keyword to its end, without the documentation.
     pub span: Span,
-    /// The text of the `///` lines before the item, without the marks.
+    /// The text of the `///` lines before the item, without the marks; `None` if there are none.
     pub doc: Option<String>,
     /// Its kind.
     pub kind: ItemKind,
@@ -98,7 +98,7 @@ pub enum ItemKind {
 }
 
 impl ItemKind {
-    /// Returns the name that the item declares; `None` for an import, a test, a statement.
+    /// Returns the name that the item declares; `None` for an import, a test, a statement and an error.
     pub fn name(&self) -> Option<Name> {
         Some(match self {
             ItemKind::Let(x) => x.name,
@@ -121,9 +121,8 @@ impl ItemKind {
 pub struct Use {
     /// The file, or the path that names it.
     pub source: UseSource,
-    /// The imported names. `None`: a bare `use std.gaits`, which imports the last word of the path: a file,
-    /// or an item of the file that the path before it names. `check` refuses `use "claw.mod"` without
-    /// names.
+    /// The imported names. `None` for a bare `use std.gaits`, which imports the last word of the path: a file,
+    /// or an item of the file that the path before it names. `check` refuses `use "claw.mod"` without names.
     pub names: Option<Vec<UseName>>,
 }
 
@@ -133,7 +132,12 @@ pub enum UseSource {
     /// A module path: `std.smores`.
     Path(Vec<Name>),
     /// A path relative to the importing file; the span covers the quotes.
-    File { path: String, span: Span },
+    File {
+        /// The path as written, escapes resolved.
+        path: String,
+        /// The span of the path, quotes included.
+        span: Span,
+    },
 }
 
 /// One imported name.
@@ -141,7 +145,7 @@ pub enum UseSource {
 pub struct UseName {
     /// The name in the imported file.
     pub name: Name,
-    /// The name behind `as`.
+    /// The name after `as`, which it has in the importing file; `None` if it keeps its own.
     pub rename: Option<Name>,
 }
 
@@ -150,7 +154,7 @@ pub struct UseName {
 pub struct Let {
     /// Its name.
     pub name: Name,
-    /// The declared type.
+    /// The declared type; `None` if it is to be inferred.
     pub ty: Option<TypeExpr>,
     /// The value.
     pub value: Expr,
@@ -163,14 +167,13 @@ pub struct Fn {
     pub name: Name,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The declared type of the result.
+    /// The declared type of the result; `None` if it is to be inferred.
     pub result: Option<TypeExpr>,
-    /// The body.
+    /// The expression or block after `=`.
     pub body: Expr,
 }
 
-/// A native function: `extern fn clamp<D: Dimension>(x: Quantity<D>, to: Range<Quantity<D>>) ->
-/// Quantity<D>`
+/// A native function, whose body is in Rust: `extern fn sqrt<D: Dimension>(x: Quantity<D^2>) -> Quantity<D>`.
 #[derive(Clone, Debug)]
 pub struct ExternFn {
     /// Its name.
@@ -179,7 +182,7 @@ pub struct ExternFn {
     pub type_params: Vec<TypeParam>,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The declared type of the result.
+    /// The declared type of the result; `None` if there is no result.
     pub result: Option<TypeExpr>,
 }
 
@@ -188,27 +191,27 @@ pub struct ExternFn {
 pub struct TypeParam {
     /// Its name.
     pub name: Name,
-    /// The bound: a supertype, or `Dimension`.
+    /// The bound after `:`, such as `Dimension`, `Quantity` or `Module`; `None` if it may be any type.
     pub bound: Option<Name>,
 }
 
-/// A record: `extern type Folding is Plan { layout: Layout fn at(t: Time) -> State }`
+/// A record: `extern type Folding is Plan { layout: Layout fn at(t: Time) -> State }`.
 #[derive(Clone, Debug)]
 pub struct ExternType {
     /// Its name.
     pub name: Name,
-    /// The record that it extends.
+    /// The record that it extends; `None` if it stands alone.
     pub is: Option<Name>,
     /// The fields.
     pub fields: Vec<ExternField>,
-    /// The methods with their documentation.
+    /// The methods, each after the text of its `///` lines.
     pub methods: Vec<(Option<String>, ExternFn)>,
 }
 
 /// A field of a record.
 #[derive(Clone, Debug)]
 pub struct ExternField {
-    /// The text of the `///` lines before it.
+    /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
     /// Its name.
     pub name: Name,
@@ -223,7 +226,7 @@ pub struct Param {
     pub name: Name,
     /// Its type.
     pub ty: TypeExpr,
-    /// The default value.
+    /// The default value; `None` if an argument is needed.
     pub default: Option<Expr>,
     /// True for `b: Behavior...`, which takes all remaining arguments.
     pub variadic: bool,
@@ -242,25 +245,35 @@ pub struct TypeExpr {
 #[derive(Clone, Debug)]
 pub enum TypeKind {
     /// A type by its name: `Length`, `std.smores.Smores`, `List<Length>`, `Vec3<Length>`.
-    Named { path: Vec<Name>, args: Vec<TypeExpr> },
+    Named {
+        /// The name, with those before its dots: at least one.
+        path: Vec<Name>,
+        /// The arguments in `< >`; empty if there are none.
+        args: Vec<TypeExpr>,
+    },
     /// `Quantity<kg*m^2>`: the unit as written (a lone name may be a dimension parameter).
     Quantity(UnitExpr),
     /// A type whose value may be missing: `T?`.
     Optional(Box<TypeExpr>),
     /// A function type: `fn(A, B) -> C`.
-    Fn { params: Vec<TypeExpr>, result: Box<TypeExpr> },
-    /// `exact | enumerate | heuristic`, `auto | Int`, `Mesh | Cloud`; at least two.
+    Fn {
+        /// The types of the parameters, in order.
+        params: Vec<TypeExpr>,
+        /// The type of the result.
+        result: Box<TypeExpr>,
+    },
+    /// A choice of two or more words and types: `exact | heuristic`, `auto | Int`, `Mesh | Cloud`.
     Choice(Vec<TypeExpr>),
     /// A type that could not be parsed.
     Error,
 }
 
-/// A unit: a product of powers such as `N*m` or `m/s^2`. Exponents behind `/` are negative.
+/// A unit: a product of powers such as `N*m` or `m/s^2`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitExpr {
     /// Its span.
     pub span: Span,
-    /// The units with their exponents, in order.
+    /// The units with their exponents, in order; those after `/` are negative. Each is within ±99.
     pub factors: Vec<(Name, i32)>,
 }
 
@@ -278,16 +291,28 @@ pub struct Connector {
 /// A clause of a connector.
 #[derive(Clone, Debug)]
 pub enum ConnectorClause {
-    /// `mates Socket`, `mates Plug, Socket` is two clauses' worth of names.
+    /// The connectors that it mates with: `mates Plug, Socket`.
     Mates(Vec<Name>),
-    /// `turns 4`: the number of turns at which it mates.
+    /// The number of turns at which it mates, evenly over a full turn: `turns 4`.
     Turns(Expr),
     /// The greatest force or torque that it holds: `holds 88N`, `holds 1.9N*m`.
     Holds(Expr),
-    /// The error that docking tolerates: `capture 4mm 5deg`.
-    Capture { keyword: Span, distance: Expr, angle: Option<Expr> },
+    /// The error of position and angle that docking tolerates: `capture 4mm 5deg`.
+    Capture {
+        /// The span of the word `capture`.
+        keyword: Span,
+        /// The greatest distance of the ports, a length.
+        distance: Expr,
+        /// The greatest angle between the ports, if one is written.
+        angle: Option<Expr>,
+    },
     /// The joint of the bond: `hinge(axis: Z, range: ...)`.
-    Hinge { keyword: Span, args: Vec<Arg> },
+    Hinge {
+        /// The span of the word `hinge`.
+        keyword: Span,
+        /// The arguments in the parentheses, in order.
+        args: Vec<Arg>,
+    },
     /// A piece that could not be parsed.
     Error,
 }
@@ -308,7 +333,7 @@ pub struct Module {
 pub struct ModuleClause {
     /// Its span.
     pub span: Span,
-    /// The text of the `///` lines before it.
+    /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
     /// Its kind.
     pub kind: ModuleClauseKind,
@@ -319,32 +344,83 @@ pub struct ModuleClause {
 pub enum ModuleClauseKind {
     /// The mass of the module: `mass 0.4kg`.
     Mass(Expr),
-    /// `touch 0.2mm`: penetration deeper than this is a collision.
+    /// The penetration depth beyond which links collide: `touch 0.2mm`.
     Touch(Expr),
-    /// `contact 4mm`: links within this of the ground touch it.
+    /// The greatest gap at which links touch the ground: `contact 4mm`.
     Contact(Expr),
     /// A link: `link body = shape collides shape at [...]`.
-    Link { name: Name, shape: Expr, collides: Option<Expr>, at: Option<Placement> },
-    /// `joint bend : base -> tip = revolute(...) at [...]`; `kind` is a call.
-    Joint { name: Name, parent: Name, child: Name, kind: Expr, at: Option<Placement> },
+    Link {
+        /// The name of the link.
+        name: Name,
+        /// The shape that is drawn, and that collides unless `collides` is written.
+        shape: Expr,
+        /// The shape behind `collides`, if it is written.
+        collides: Option<Expr>,
+        /// The pose of the shape in the link's frame; `None` for the link's frame itself.
+        at: Option<Placement>,
+    },
+    /// A joint between two links: `joint bend : base -> tip = revolute(...) at [...]`.
+    Joint {
+        /// The name of the joint.
+        name: Name,
+        /// The link before `->`.
+        parent: Name,
+        /// The link after `->`, which the joint moves.
+        child: Name,
+        /// The kind of joint, such as `revolute(axis: Y)`.
+        kind: Expr,
+        /// The pose of the joint in the parent's frame; `None` for the parent's frame itself.
+        at: Option<Placement>,
+    },
     /// A joint that follows others: `joint b = -a`.
-    Mimic { name: Name, value: Expr },
+    Mimic {
+        /// The name of the joint.
+        name: Name,
+        /// The linear combination of joints that it follows.
+        value: Expr,
+    },
     /// A port or an array of ports: `port side[4] : Face on base at ... facing +X up +Z`.
     Port(ModulePort),
     /// A motor that drives several joints: `motor p = tilt + pan (max_speed: ..., max_torque: ...)`.
-    Motor { name: Name, value: Expr, args: Vec<Arg> },
-    /// Two links that meet by design: `touching a b`.
+    Motor {
+        /// The name of the motor.
+        name: Name,
+        /// The linear combination of the joints that it drives.
+        value: Expr,
+        /// The limits in the parentheses; empty if there are none.
+        args: Vec<Arg>,
+    },
+    /// Two links that may touch by design: `touching a b`.
     Touching(Name, Name),
-    /// `alias pan = front`: another name for a joint or a port.
-    Alias { name: Name, target: Name },
+    /// Another name for a joint, a port, or a joint and a port of one name: `alias pan = front`.
+    Alias {
+        /// The new name.
+        name: Name,
+        /// The name of the joint or port.
+        target: Name,
+    },
     /// A definition: `let name = value`.
     Let(Let),
     /// A requirement: `require condition`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
-    If { condition: Expr, then: Vec<ModuleClause>, otherwise: Vec<ModuleClause> },
-    /// The ports of an array are declared in a loop: `for i in 0..4 { port side[i] : ... }`.
-    For { binder: Name, iterable: Expr, body: Vec<ModuleClause> },
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The clauses if the condition holds.
+        then: Vec<ModuleClause>,
+        /// The clauses if it does not; one `If` for `else if`, empty without `else`.
+        otherwise: Vec<ModuleClause>,
+    },
+    /// A loop, such as one over the ports of an array: `for i in 0..4 { port side[i] : ... }`.
+    For {
+        /// The loop variable.
+        binder: Name,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The clauses of the loop.
+        body: Vec<ModuleClause>,
+    },
     /// A piece that could not be parsed.
     Error,
 }
@@ -354,26 +430,26 @@ pub enum ModuleClauseKind {
 pub struct ModulePort {
     /// Its name.
     pub name: Name,
-    /// The index in the port array, inside a `for`.
+    /// The index in the port array, from 0; `None` for a single port.
     pub index: Option<Expr>,
     /// The path of the connector.
     pub connector: Vec<Name>,
     /// The link that carries it.
     pub link: Name,
-    /// The pose in the link's frame.
+    /// The pose in the link's frame; `None` for the link's frame itself.
     pub at: Option<Placement>,
-    /// The direction of its outward normal.
+    /// The direction of its outward normal, in the link's frame.
     pub facing: Expr,
-    /// The direction from which turns are counted.
+    /// The direction from which turns are counted, in the link's frame; `None` if it is not written.
     pub up: Option<Expr>,
 }
 
-/// A pose: `at [x, y, z] turned(Z, 90deg) turned(X, 10deg)`
+/// A pose: `at [x, y, z] turned(Z, 90deg) turned(X, 10deg)`.
 #[derive(Clone, Debug)]
 pub struct Placement {
     /// Its span.
     pub span: Span,
-    /// The position.
+    /// The position, a vector of lengths.
     pub position: Expr,
     /// The arguments of each `turned`, in order.
     pub turned: Vec<Vec<Arg>>,
@@ -389,7 +465,7 @@ pub enum FactsFamily {
 }
 
 impl FactsFamily {
-    /// Returns the keyword: `cell`.
+    /// Returns the keyword of its declarations: `cell` or `strut`.
     pub fn word(self) -> &'static str {
         match self {
             FactsFamily::Cell => "cell",
@@ -431,7 +507,7 @@ pub struct Config {
 pub struct ConfigClause {
     /// Its span.
     pub span: Span,
-    /// The text of the `///` lines before it.
+    /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
     /// Its kind.
     pub kind: ConfigClauseKind,
@@ -443,39 +519,72 @@ pub enum ConfigClauseKind {
     /// A part: `part name: Type`.
     Part(Part),
     /// A port or an array of ports of the whole: `port head = body.head`, `port side[4] = [...]`.
-    Port { name: Name, count: Option<Expr>, value: Expr },
+    Port {
+        /// The name of the port or of the array.
+        name: Name,
+        /// The declared length of an array; `None` for a single port.
+        count: Option<Expr>,
+        /// The port, or the list of ports, that it names.
+        value: Expr,
+    },
     /// The base module: `base path`.
     Base(Path),
     /// A behaviour: `behavior name = body`.
     Behavior(Behavior),
     /// A connection: `connect a -- b turn angle`.
-    Connect { a: Path, b: Path, turn: Option<Expr> },
+    Connect {
+        /// The first port.
+        a: Path,
+        /// The second port.
+        b: Path,
+        /// The angle behind `turn`, if it is written.
+        turn: Option<Expr>,
+    },
     /// A start position: `set joint = value`.
-    Set { joint: Path, value: Expr },
+    Set {
+        /// The joint.
+        joint: Path,
+        /// The position of the joint at the start, an angle or a length.
+        value: Expr,
+    },
     /// A definition: `let name = value`.
     Let(Let),
     /// A requirement: `require condition`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
-    If { condition: Expr, then: Vec<ConfigClause>, otherwise: Vec<ConfigClause> },
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The clauses if the condition holds.
+        then: Vec<ConfigClause>,
+        /// The clauses if it does not; one `If` for `else if`, empty without `else`.
+        otherwise: Vec<ConfigClause>,
+    },
     /// A loop: `for name in iterable { ... }`.
-    For { binder: Name, iterable: Expr, body: Vec<ConfigClause> },
+    For {
+        /// The loop variable.
+        binder: Name,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The clauses of the loop.
+        body: Vec<ConfigClause>,
+    },
     /// A piece that could not be parsed.
     Error,
 }
 
-/// A part of a configuration: `part leg[i in 0..4]: Leg(left: i < 2)`
+/// A part of a configuration: `part leg[i in 0..4]: Leg(left: i < 2)`.
 #[derive(Clone, Debug)]
 pub struct Part {
     /// Its name.
     pub name: Name,
-    /// The length of a list of parts.
+    /// The length of a list of parts; `None` for a single part.
     pub count: Option<PartCount>,
-    /// The path of the type.
+    /// The path of the module or configuration that it is an instance of.
     pub ty: Vec<Name>,
     /// The arguments; `None` if no parentheses are written.
     pub args: Option<Vec<Arg>>,
-    /// The span of the type and its arguments.
+    /// The span of the path of the type, without its arguments.
     pub ty_span: Span,
 }
 
@@ -484,8 +593,13 @@ pub struct Part {
 pub enum PartCount {
     /// A number of equal parts: `leg[4]`.
     Number(Expr),
-    /// One part for each element of a range, which its arguments can refer to: `leg[i in 0..4]`.
-    Each { binder: Name, range: Expr },
+    /// One part for each element of a list or range, which its arguments can refer to: `leg[i in 0..4]`.
+    Each {
+        /// The variable that holds the element.
+        binder: Name,
+        /// The list or range.
+        range: Expr,
+    },
 }
 
 /// A behaviour of a configuration: `behavior name(params) allows exemptions = body`.
@@ -501,7 +615,7 @@ pub struct Behavior {
     pub body: Expr,
 }
 
-/// An exemption of a behaviour: `unstable`, `slip`, `collision(a, b)`, `overload(j)`
+/// An exemption of a behaviour: `unstable`, `slip`, `collision(a, b)`, `overload(j)`.
 #[derive(Clone, Debug)]
 pub struct Exemption {
     /// Its name.
@@ -519,7 +633,7 @@ pub struct Require {
     pub span: Span,
     /// The condition that must hold.
     pub condition: Expr,
-    /// The message if it does not.
+    /// The message if it does not hold, a text; `None` if none is written.
     pub message: Option<Expr>,
 }
 
@@ -540,7 +654,12 @@ pub enum PathStep {
     /// A member: `.name`.
     Field(Name),
     /// An element: `[index]`.
-    Index { index: Expr, span: Span },
+    Index {
+        /// The index, counted from 0.
+        index: Expr,
+        /// The span of the step, brackets included.
+        span: Span,
+    },
 }
 
 // Lattices and trusses.
@@ -567,14 +686,14 @@ pub struct Truss {
     pub params: Vec<Param>,
     /// The path of the strut.
     pub of: Vec<Name>,
-    /// The nodes and struts.
+    /// The nodes and struts, as a value or as clauses.
     pub body: TrussBody,
 }
 
 /// The nodes and struts of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussBody {
-    /// `= value`, a value of the prelude's record `Frame`.
+    /// A value of the prelude's record `Frame`: `= value`.
     Value(Expr),
     /// Clauses: `{ clauses }`.
     Clauses(Vec<TrussClause>),
@@ -592,18 +711,44 @@ pub struct TrussClause {
 /// The kinds of clauses of a truss.
 #[derive(Clone, Debug)]
 pub enum TrussClauseKind {
-    /// `node a = [0m, 0m, 0m]`, in a loop `node ring[i] = ...`
-    Node { name: Name, index: Option<Expr>, value: Expr },
+    /// A node: `node a = [0m, 0m, 0m]`, or one of an array, `node ring[i] = ...`.
+    Node {
+        /// The name of the node or of the array of nodes.
+        name: Name,
+        /// The index in the array; `None` for a single node.
+        index: Option<Expr>,
+        /// The position of the node, a vector of lengths.
+        value: Expr,
+    },
     /// A strut between two nodes: `strut a -- b`.
-    Strut { a: Path, b: Path },
+    Strut {
+        /// The first node.
+        a: Path,
+        /// The second node.
+        b: Path,
+    },
     /// A definition: `let name = value`.
     Let(Let),
     /// A requirement: `require condition`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
-    If { condition: Expr, then: Vec<TrussClause>, otherwise: Vec<TrussClause> },
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The clauses if the condition holds.
+        then: Vec<TrussClause>,
+        /// The clauses if it does not; one `If` for `else if`, empty without `else`.
+        otherwise: Vec<TrussClause>,
+    },
     /// A loop: `for name in iterable { ... }`.
-    For { binder: Name, iterable: Expr, body: Vec<TrussClause> },
+    For {
+        /// The loop variable.
+        binder: Name,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The clauses of the loop.
+        body: Vec<TrussClause>,
+    },
     /// A piece that could not be parsed.
     Error,
 }
@@ -638,13 +783,32 @@ pub enum StmtKind {
     /// An expression.
     Expr(Expr),
     /// A test of a condition: `expect condition, message`.
-    Expect { condition: Expr, message: Option<Expr> },
+    Expect {
+        /// The condition that the test expects to hold.
+        condition: Expr,
+        /// The message if it does not hold, a text, if one is written.
+        message: Option<Expr>,
+    },
     /// A requirement: `require condition`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
-    If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The statements if the condition holds.
+        then: Vec<Stmt>,
+        /// The statements if it does not; one `If` for `else if`, empty without `else`.
+        otherwise: Vec<Stmt>,
+    },
     /// A loop: `for name in iterable { ... }`.
-    For { binder: Name, iterable: Expr, body: Vec<Stmt> },
+    For {
+        /// The loop variable.
+        binder: Name,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The statements of the loop.
+        body: Vec<Stmt>,
+    },
     /// A piece that could not be parsed.
     Error,
 }
@@ -661,42 +825,110 @@ pub struct Expr {
 /// The kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
-    /// `12`, `1_000`, `90deg`: the digits as written without underscores, and the unit attached to them.
-    Number { digits: Symbol, unit: Option<UnitExpr> },
+    /// A number, perhaps with a unit: `12`, `1_000`, `90deg`.
+    Number {
+        /// The digits with point and exponent, without underscores.
+        digits: Symbol,
+        /// The unit attached to the digits; `None` for a plain number.
+        unit: Option<UnitExpr>,
+    },
     /// A truth value: `true`, `false`.
     Bool(bool),
-    /// Text with `{expr}` in it; a plain text is one `Literal` (or none, when empty).
+    /// A text, perhaps with `{expr}` in it; a plain text is one `Literal`, an empty one none.
     Text(Vec<TextPart>),
     /// A name.
     Name(Symbol),
     /// A coordinate axis: `X`, `Y`, `Z`; `-X` is a `Unary`.
     Axis(Axis),
-    /// `_`: the missing value, as in the rows of a gait table.
+    /// The missing value, as in the rows of a gait table, or the last value of a session: `_`.
     Hole,
     /// A list: `[a, b]`.
     List(Vec<Expr>),
     /// A list comprehension: `[e for x in xs if c for y in ys]`.
-    Comprehension { body: Box<Expr>, clauses: Vec<ComprehensionClause> },
+    Comprehension {
+        /// The expression for each element.
+        body: Box<Expr>,
+        /// The clauses, in order; the first is a loop.
+        clauses: Vec<ComprehensionClause>,
+    },
     /// A prefix operator with its operand.
-    Unary { op: UnaryOp, op_span: Span, operand: Box<Expr> },
+    Unary {
+        /// The operator.
+        op: UnaryOp,
+        /// The span of the operator.
+        op_span: Span,
+        /// The operand.
+        operand: Box<Expr>,
+    },
     /// An infix operator with its operands.
-    Binary { op: BinaryOp, op_span: Span, left: Box<Expr>, right: Box<Expr> },
+    Binary {
+        /// The operator.
+        op: BinaryOp,
+        /// The span of the operator.
+        op_span: Span,
+        /// The left operand.
+        left: Box<Expr>,
+        /// The right operand.
+        right: Box<Expr>,
+    },
     /// A range: `a..b`.
-    Range { from: Box<Expr>, to: Box<Expr> },
-    /// `x else y`: `y` if `x` is missing. It binds like `or`.
-    Otherwise { value: Box<Expr>, otherwise: Box<Expr> },
+    Range {
+        /// The first end.
+        from: Box<Expr>,
+        /// The second end.
+        to: Box<Expr>,
+    },
+    /// A value with one for the case that it is missing: `x else y`. It binds like `or`.
+    Otherwise {
+        /// The value that may be missing.
+        value: Box<Expr>,
+        /// The value in its place.
+        otherwise: Box<Expr>,
+    },
     /// A call: `callee(args)`.
-    Call { callee: Box<Expr>, args: Vec<Arg> },
-    /// An element of a list: `object[index]`.
-    Index { object: Box<Expr>, index: Box<Expr> },
+    Call {
+        /// The function, or the type of an instance.
+        callee: Box<Expr>,
+        /// The arguments, in order.
+        args: Vec<Arg>,
+    },
+    /// An element of a list or a vector: `object[index]`.
+    Index {
+        /// The list or vector.
+        object: Box<Expr>,
+        /// The index, counted from 0.
+        index: Box<Expr>,
+    },
     /// A member of a value: `object.field`.
-    Field { object: Box<Expr>, field: Name },
-    /// `if c { a } else { b }`; the branches are blocks.
-    If { condition: Box<Expr>, then: Box<Expr>, otherwise: Option<Box<Expr>> },
-    /// A block: `{ let a = ... newline expr }`; without `value` it has none.
-    Block { statements: Vec<Stmt>, value: Option<Box<Expr>> },
+    Field {
+        /// The value.
+        object: Box<Expr>,
+        /// The name of the member.
+        field: Name,
+    },
+    /// A conditional expression, whose branches are blocks: `if c { a } else { b }`.
+    If {
+        /// The condition.
+        condition: Box<Expr>,
+        /// The block if the condition holds.
+        then: Box<Expr>,
+        /// The block, or the next `If`, behind `else`; `None` without `else`.
+        otherwise: Option<Box<Expr>>,
+    },
+    /// A block of statements that may end with a value: `{ let a = ... newline expr }`.
+    Block {
+        /// The statements before the value, in order.
+        statements: Vec<Stmt>,
+        /// The expression that ends the block; `None` if a statement does, or if it is empty.
+        value: Option<Box<Expr>>,
+    },
     /// An anonymous function: `x => e`, `(a, b) => e`.
-    Lambda { params: Vec<Name>, body: Box<Expr> },
+    Lambda {
+        /// The names of the parameters, in order.
+        params: Vec<Name>,
+        /// The result: an expression or a block.
+        body: Box<Expr>,
+    },
     /// A piece that could not be parsed.
     Error,
 }
@@ -704,7 +936,7 @@ pub enum ExprKind {
 /// A piece of a text.
 #[derive(Clone, Debug)]
 pub enum TextPart {
-    /// Escapes already resolved.
+    /// Text as it is, with escapes resolved.
     Literal(String),
     /// An interpolated value: `{expr}`.
     Value(Expr),
@@ -714,7 +946,12 @@ pub enum TextPart {
 #[derive(Clone, Debug)]
 pub enum ComprehensionClause {
     /// A loop: `for name in iterable`.
-    For { binder: Name, iterable: Expr },
+    For {
+        /// The loop variable.
+        binder: Name,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+    },
     /// A filter: `if condition`.
     If(Expr),
 }
@@ -722,7 +959,7 @@ pub enum ComprehensionClause {
 /// An argument of a call.
 #[derive(Clone, Debug)]
 pub struct Arg {
-    /// The name in front of it: `name: value`.
+    /// The name in front of it, `name: value`; `None` for an argument by position.
     pub name: Option<Name>,
     /// The value.
     pub value: Expr,
@@ -769,7 +1006,7 @@ pub enum BinaryOp {
     Gt,
     /// At least: `>=`.
     Ge,
-    /// `a <-> b`: the two ports are mated.
+    /// The condition that two ports are mated: `a <-> b`.
     Mated,
     /// Concatenation of lists or texts, or plans one after another: `++`.
     Join,

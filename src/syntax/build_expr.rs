@@ -10,7 +10,7 @@ use pest::iterators::Pairs;
 pub(super) struct Tall {
     /// The expression.
     pub(super) expr: Expr,
-    /// The height: 0 for a leaf.
+    /// The height: 1 for a leaf, 0 for an error.
     pub(super) height: usize,
 }
 

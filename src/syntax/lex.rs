@@ -8,7 +8,7 @@ pub struct Token {
     pub kind: TokenKind,
     /// The offset of its first byte.
     pub start: usize,
-    /// The offset behind its last byte.
+    /// The offset after its last byte.
     pub end: usize,
 }
 
@@ -17,20 +17,21 @@ pub struct Token {
 pub enum TokenKind {
     /// A line end.
     LineBreak,
-    /// `// ...`, without the line end.
+    /// A line comment, `// ...`, without the line end.
     LineComment,
     /// A block comment: `/* ... */`.
     BlockComment {
-        /// The depth of nested comments in it.
+        /// The depth of its nesting; 1 if no comment is nested in it.
         depth: usize,
     },
     /// A name or keyword.
     Word,
-    /// A number with a simple unit.
+    /// A number with its unit: from the lexer with a simple one, `3m` of `3m/s`; in an
+    /// [`Outline`](super::Outline) all of it.
     Number,
-    /// `"..."` or `"""..."""`, with the contents of its `{ }`.
+    /// A text, `"..."` or `"""..."""`, with the contents of its `{ }`.
     Text {
-        /// The depth of brackets nested in its `{ }`.
+        /// The depth of brackets and texts nested in it; 0 without `{ }`.
         depth: usize,
     },
     /// An opening bracket: `(`, `[` or `{`.
@@ -55,7 +56,7 @@ pub(super) struct Lexer<'t> {
     bytes: &'t [u8],
     text: &'t str,
     at: usize,
-    /// True behind the words `use` and `test`, whose text has no `{expr}`.
+    /// True after the words `use` and `test`, whose text has no `{expr}`.
     plain_text: bool,
 }
 

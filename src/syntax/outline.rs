@@ -19,31 +19,32 @@ pub enum Role {
     Names,
     /// `<` or `>` around the arguments of a type.
     Angle,
-    /// `for` or `if` of a comprehension, which does not continue the expression before it.
+    /// The `for` or `if` of a comprehension, which does not continue the expression before it.
     Each,
-    /// The `:` behind the name of a joint or port, which is spaced on both sides.
+    /// The `:` after the name of a joint or port, which is spaced on both sides.
     Spaced,
 }
 
 /// A run of items that is parsed on its own.
 #[derive(Clone, Debug)]
 pub struct Chunk {
-    /// The bytes of the text.
+    /// The range of bytes of the text.
     pub range: Range<usize>,
     /// True if the grammar can parse it.
     pub sound: bool,
 }
 
-/// The outline of a text.
+/// The outline of a text: its tokens, and what the grammar makes of them.
 #[derive(Debug)]
 pub struct Outline {
     /// The tokens, in order, comments and line breaks included; a number and its unit are one token.
     pub tokens: Vec<Token>,
-    /// The offsets at which items, clauses and statements begin.
+    /// The offsets in bytes at which items, clauses and statements begin.
     pub begins: HashSet<usize>,
-    /// The roles by offset of the token. Tokens in unreadable chunks have none.
+    /// The roles of tokens, by offset in bytes. Most tokens have none, nor have those in unreadable chunks.
     pub roles: HashMap<usize, Role>,
-    /// The chunks, in order, without gaps. The first may hold nothing but comments.
+    /// The chunks, in order, without gaps up to the end of the text. The first may hold nothing but
+    /// comments.
     pub chunks: Vec<Chunk>,
 }
 
@@ -80,7 +81,7 @@ impl Outline {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Skeleton(Vec<(Rule, usize, String)>);
 
-/// Returns the skeleton of a text; `None` if a piece of it cannot be parsed.
+/// Returns the skeleton of a text; `None` if the text has a syntax error.
 pub fn skeleton(text: &str) -> Option<Skeleton> {
     let scan = scan(FileId(0), text);
     let mut out = Skeleton::default();
@@ -113,6 +114,7 @@ impl Skeleton {
     }
 }
 
+/// The roles and beginnings found so far, by offset in bytes.
 #[derive(Default)]
 struct Found {
     begins: HashSet<usize>,

@@ -9,11 +9,11 @@ use pest::Parser as _;
 use pest::error::ErrorVariant;
 use std::sync::{Mutex, PoisonError};
 
-/// The deepest nesting of brackets, comments and types.
+/// The deepest nesting of brackets, comments and types, and the longest chain of `else if`.
 pub const NESTING_MAX: usize = 200;
-/// The greatest height of the tree of one expression; later rooms walk it by recursion.
+/// The greatest height of the tree of one expression; later rooms walk it by recursion. A leaf has height 1.
 pub const HEIGHT_MAX: usize = 500;
-/// The greatest length of a text, in bytes.
+/// The greatest length of a text, in bytes: 8 MiB. A longer one is not parsed.
 pub const TEXT_MAX: usize = 8 << 20;
 
 #[derive(pest_derive::Parser)]
@@ -23,7 +23,7 @@ struct Grammar;
 /// A node of pest's parse of a piece of text.
 pub(super) type Node<'i> = pest::iterators::Pair<'i, Rule>;
 
-/// The most diagnostics of one file.
+/// The most diagnostics of one file; of more, those first in the text are kept.
 pub const DIAGNOSTICS_MAX: usize = 200;
 
 /// The result of parsing a file.
@@ -31,12 +31,12 @@ pub const DIAGNOSTICS_MAX: usize = 200;
 pub struct Parsed {
     /// The tree.
     pub file: ast::File,
-    /// The diagnostics, in order of position.
+    /// The diagnostics, in order of position; at most [`DIAGNOSTICS_MAX`].
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns the tree of a file. Never fails: pieces that cannot be parsed become `Error` nodes with a
-/// diagnostic each. A text longer than [`TEXT_MAX`] is reported and not parsed.
+/// Returns the tree of a file. Never fails: pieces that cannot be parsed become `Error` nodes, and are
+/// reported. A text longer than [`TEXT_MAX`] is reported and gives an empty tree.
 pub fn parse(id: FileId, text: &str) -> Parsed {
     if text.len() > TEXT_MAX {
         return too_large(id, text);
@@ -70,8 +70,8 @@ pub(super) fn nodes(rule: Rule, text: &str) -> Option<Node<'_>> {
     Grammar::parse(rule, text).ok()?.next()
 }
 
-/// Returns true if a text is incomplete: its last piece cannot be parsed, and would be by more text behind
-/// it.
+/// Returns true if a text is incomplete: its last item cannot be parsed, and the parser fails only at its end,
+/// so that more text could complete it. False for a text longer than [`TEXT_MAX`].
 pub fn breaks_off(text: &str) -> bool {
     if text.len() > TEXT_MAX {
         return false;

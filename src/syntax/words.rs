@@ -6,7 +6,7 @@ pub const RESERVED: &[&str] = &[
     "X", "Y", "Z",
 ];
 
-/// The words that begin a declaration.
+/// The words that begin an item other than a statement (`let` begins either).
 pub const ITEMS: &[&str] = &[
     "use",
     "let",
@@ -25,7 +25,7 @@ pub const ITEMS: &[&str] = &[
 /// The words that begin a declaration with instances.
 pub(super) const FAMILIES: &[&str] = &["module", "cell", "strut", "config", "lattice", "truss"];
 
-/// The words behind which a name is declared.
+/// The words after which a name is declared.
 pub const DECLARING: &[&str] = &[
     "behavior",
     "cell",
@@ -45,7 +45,7 @@ pub const DECLARING: &[&str] = &[
     "truss",
 ];
 
-/// The words that begin a statement, besides expressions.
+/// The words that begin a statement; an expression is one, too.
 pub const STATEMENTS: &[&str] = &["let", "expect", "require", "if", "for"];
 
 /// The words that begin an item or a statement of a file.

@@ -1,0 +1,195 @@
+//! The typed tree of modules: links, joints, ports and motors.
+
+use super::typed::{DefId, Expr, Local, Member, Param, Require};
+use crate::source::{Span, Symbol};
+use crate::units::Dimension;
+use std::sync::Arc;
+
+/// A module with its links, joints and ports: `module`.
+#[derive(Clone, Debug)]
+pub struct ModuleDef {
+    /// The parameters.
+    pub params: Vec<Param>,
+    /// The parameters and `let`s.
+    pub members: Vec<Member>,
+    /// The mass of the whole module; `None` if the clause is missing.
+    pub mass: Option<Expr>,
+    /// The depth beyond which penetration is a collision, a length; `None` if the clause `touch` is
+    /// missing.
+    pub touch: Option<Expr>,
+    /// The gap up to which links touch the ground, a length; `None` if the clause `contact` is missing.
+    pub contact: Option<Expr>,
+    /// The links, in order.
+    pub links: Vec<LinkDef>,
+    /// The joints, in order.
+    pub joints: Vec<JointDef>,
+    /// The ports by name, in order; an array is one entry.
+    pub ports: Vec<PortGroup>,
+    /// The motors, in order.
+    pub motors: Vec<MotorDef>,
+    /// The clauses `let`, `require`, `port` and `touching`, and conditions and loops over them, in order.
+    pub clauses: Vec<ModuleClause>,
+    /// Aliases of joints as (name, index in `joints`), sorted by name.
+    pub joint_aliases: Vec<(Symbol, usize)>,
+    /// Aliases of ports as (name, index in `ports`), sorted by name.
+    pub port_aliases: Vec<(Symbol, usize)>,
+    /// The number of slots of its frame.
+    pub frame: usize,
+}
+
+/// A `link` of a module.
+#[derive(Clone, Debug)]
+pub struct LinkDef {
+    /// Its name.
+    pub name: Symbol,
+    /// The span of the name.
+    pub span: Span,
+    /// The shape that is drawn, and that collides unless `collides` is given.
+    pub shape: Expr,
+    /// The shape for collisions; `None` if it is the one that is drawn.
+    pub collides: Option<Expr>,
+    /// The pose of the shape in the link's frame; `None` for the link's frame itself.
+    pub at: Option<Placement>,
+}
+
+/// A `joint` of a module.
+#[derive(Clone, Debug)]
+pub struct JointDef {
+    /// Its name.
+    pub name: Symbol,
+    /// The span of the name.
+    pub span: Span,
+    /// The dimension of its position: length for a prismatic joint, angle for a revolute or fixed one, and for
+    /// a mimic joint that of the first joint that it follows.
+    pub dimension: Dimension,
+    /// The text of its doc comment.
+    pub doc: Option<Arc<str>>,
+    /// Its kind: between two links, or a mimic joint.
+    pub kind: JointDefKind,
+}
+
+/// The kinds of joints of a module.
+#[derive(Clone, Debug)]
+pub enum JointDefKind {
+    /// A joint between two links.
+    Declared(Box<JointBetween>),
+    /// A mimic joint, which moves no link: a linear combination of other joints, `joint b = -a`.
+    Mimic(Linear),
+}
+
+/// A joint between two links.
+#[derive(Clone, Debug)]
+pub struct JointBetween {
+    /// The parent link, an index into `links`.
+    pub parent: usize,
+    /// The child link, an index into `links`.
+    pub child: usize,
+    /// The kind of joint: a value of type `JointKind`.
+    pub kind: Expr,
+    /// The pose of the joint in the parent's frame; `None` for the parent's frame itself.
+    pub at: Option<Placement>,
+    /// The linear combination of joints that it follows, from a clause of its own; `None` if it moves
+    /// freely.
+    pub follows: Option<Linear>,
+}
+
+/// A linear combination: a sum of joints (indices into `joints`), each times a factor.
+pub type Linear = Vec<(usize, Expr)>;
+
+/// A port of a module, or an array of ports.
+#[derive(Clone, Debug)]
+pub struct PortGroup {
+    /// Its name.
+    pub name: Symbol,
+    /// The span of the name.
+    pub span: Span,
+    /// True for an array of ports.
+    pub array: bool,
+    /// The text of its doc comment.
+    pub doc: Option<Arc<str>>,
+}
+
+/// A `motor` of a module.
+#[derive(Clone, Debug)]
+pub struct MotorDef {
+    /// Its name.
+    pub name: Symbol,
+    /// The span of the name.
+    pub span: Span,
+    /// The joints that it drives (indices into `joints`), each with its transmission factor.
+    pub joints: Vec<(usize, Expr)>,
+    /// The greatest speed of the motor, an angular speed; `None` if it is not stated.
+    pub max_speed: Option<Expr>,
+    /// The greatest acceleration of the motor, an angular one; `None` if it is not stated.
+    pub max_accel: Option<Expr>,
+    /// The greatest torque of the motor; `None` if it is not stated.
+    pub max_torque: Option<Expr>,
+}
+
+/// A pose: `at [x, y, z] turned(Z, 90deg)`. Turns apply in order, each in the frame turned so far.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    /// The position: a vector of lengths.
+    pub position: Expr,
+    /// The turns as (axis, angle), in order; the axis is a vector of plain numbers.
+    pub turned: Vec<(Expr, Expr)>,
+    /// The span of the clause.
+    pub span: Span,
+}
+
+/// A clause of a module that depends on values.
+#[derive(Clone, Debug)]
+pub enum ModuleClause {
+    /// A port, or one element of a port array.
+    Port(Box<PortClause>),
+    /// Two links (indices into `links`) that may touch, and the span of the clause.
+    Touching(usize, usize, Span),
+    /// A local definition: `let name = value`.
+    Let {
+        /// The local that holds the value.
+        local: Local,
+        /// The value.
+        value: Expr,
+    },
+    /// A requirement: `require condition`.
+    Require(Require),
+    /// A branch: only the clauses of one side are elaborated.
+    If {
+        /// The condition.
+        condition: Expr,
+        /// The clauses if the condition holds.
+        then: Vec<ModuleClause>,
+        /// The clauses if it does not; empty without `else`.
+        otherwise: Vec<ModuleClause>,
+    },
+    /// A loop: the clauses are elaborated for each element.
+    For {
+        /// The local that holds the element.
+        binder: Local,
+        /// The list or range that the loop goes through.
+        iterable: Expr,
+        /// The clauses of the loop.
+        body: Vec<ModuleClause>,
+    },
+}
+
+/// A port, or one element of a port array.
+#[derive(Clone, Debug)]
+pub struct PortClause {
+    /// The index of its name in [`ModuleDef::ports`].
+    pub group: usize,
+    /// Its index in an array, from 0; `None` for a single port.
+    pub index: Option<Expr>,
+    /// The connector at the port.
+    pub connector: DefId,
+    /// The link that carries it, an index into `links`.
+    pub link: usize,
+    /// The pose of the port in the link's frame; `None` for the link's frame itself.
+    pub at: Option<Placement>,
+    /// The direction of its outward normal, a vector of plain numbers in the link's frame.
+    pub facing: Expr,
+    /// The direction from which turns are counted, as `facing`; `None` if it is not written.
+    pub up: Option<Expr>,
+    /// The span of the clause.
+    pub span: Span,
+}
