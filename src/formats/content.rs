@@ -1,15 +1,17 @@
-//! The content of a mesh file, whatever its format.
+//! The content of a mesh file or a point cloud, whatever its format.
 
-/// The content of a mesh file, in the file's own unit of length.
+/// The content of a mesh file or a point cloud, in the file's own unit of length.
 #[derive(Debug, Default)]
 pub struct Content {
     /// The corners; of a cloud, its points.
     pub vertices: Vec<[f64; 3]>,
-    /// The corners of each face, as indices into `vertices`; none in a cloud.
+    /// The corners of each face in order around it, as indices into `vertices`. A cloud has no faces, unless its file
+    /// is one of a mesh.
     pub faces: Vec<Vec<usize>>,
 }
 
-/// Returns faces of more than three corners as fans of triangles.
+/// Returns faces as triangles: one with more than three corners as the fan from its first corner, which is exact for a
+/// convex face. Panics for a face without corners.
 pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
     let place = |corner: usize| u32::try_from(corner).expect("a file has fewer than 2^32 vertices");
     let fan = |face: &Vec<usize>| -> Vec<[u32; 3]> {

@@ -7,7 +7,7 @@ use std::fmt;
 pub enum FormatFault {
     /// The bytes of a text format are not UTF-8.
     NotText,
-    /// The file has no line that says anything.
+    /// The file holds no lines but empty ones and comments.
     Empty,
     /// The file can be read, and holds none of what is wanted.
     Nothing {
@@ -16,26 +16,26 @@ pub enum FormatFault {
     },
     /// A coordinate is infinite or not a number.
     NotFinite {
-        /// The vertex.
+        /// The index of the vertex.
         vertex: usize,
     },
-    /// A face has one corner or two.
+    /// A face has fewer than three corners.
     FewCorners {
-        /// The face.
+        /// The index of the face.
         face: usize,
     },
     /// A corner of a face is no vertex of the file.
     NoVertex {
-        /// The face.
+        /// The index of the face.
         face: usize,
-        /// The vertex that it names.
+        /// The index of the vertex that it names.
         corner: usize,
         /// The number of vertices.
         count: usize,
     },
-    /// A corner of some face is no vertex of the file.
+    /// A corner of some face of an OBJ file is no vertex of it.
     NoSuchVertex,
-    /// The first word of an OFF file is another.
+    /// The first word of an OFF file is none of the format's.
     NotOff {
         /// The line.
         line: usize,
@@ -47,72 +47,72 @@ pub enum FormatFault {
         /// The line that says so.
         line: usize,
     },
-    /// The line with the numbers of vertices and faces is missing.
+    /// The line of an OFF file with the numbers of vertices and faces is missing.
     NoCounts,
-    /// A number of vertices or faces is missing.
+    /// The number of vertices or of faces of an OFF file is missing.
     NoCount {
         /// The line.
         line: usize,
-        /// The things counted.
+        /// The things counted: vertices, faces.
         what: &'static str,
     },
-    /// A number of vertices or faces is none.
+    /// The number of vertices or of faces of an OFF file is no whole number.
     BadCount {
         /// The line.
         line: usize,
-        /// The things counted.
+        /// The things counted: vertices, faces.
         what: &'static str,
         /// The word that stands there.
         found: String,
     },
-    /// The file ends before all that it announces.
+    /// An OFF file ends before all the vertices or faces that it announces.
     Ends {
-        /// The things counted.
+        /// The things counted: vertices, faces.
         what: &'static str,
         /// The number found.
         found: usize,
         /// The number announced.
         wanted: usize,
     },
-    /// A line is not what it has to be.
+    /// A line of an OFF or STL file does not hold the vertex or face that has to stand there.
     BadLine {
         /// The line.
         line: usize,
         /// The thing wanted: a vertex, a face.
         what: &'static str,
     },
-    /// A line of a cloud has fewer than three numbers.
+    /// A line of an XYZ file does not begin with three numbers.
     NotThreeNumbers {
         /// The line.
         line: usize,
     },
-    /// A line is not UTF-8.
+    /// A line of an OBJ file is not UTF-8.
     LineNotText {
         /// The line.
         line: usize,
     },
-    /// A file is neither a binary STL file of its length nor a text.
+    /// The length of an STL file is not that of its number of binary triangles, and it is no text.
     StlLength,
-    /// The corners of an STL file end within a triangle.
+    /// The number of corners of an STL text is no multiple of three.
     IncompleteTriangle,
     /// The header of a PLY file announces more rows than the file has bytes.
     Announced {
-        /// The name of the rows.
+        /// The name of the rows' element, such as `vertex`.
         element: String,
         /// The number announced.
         count: usize,
     },
     /// A vertex of a PLY file lacks a coordinate.
     NoCoordinates {
-        /// The vertex.
+        /// The index of the vertex.
         vertex: usize,
     },
     /// A face of a PLY file has no corners.
     NoCornerList {
-        /// The face.
+        /// The index of the face.
         face: usize,
     },
-    /// The reader of a crate says why, with the line if it has one.
+    /// The reason in the words of the crate that reads the format, with the line if it gives one.
     Reader(String),
 }
 

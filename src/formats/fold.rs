@@ -18,11 +18,12 @@ pub struct CreasePattern {
     pub vertices: Vec<[f64; 2]>,
     /// The triangles as indices into `vertices`, counterclockwise.
     pub faces: Vec<[usize; 3]>,
-    /// The name of the module of each face, by index.
+    /// The name of the module of each face, one for each of `faces`.
     pub modules: Vec<String>,
-    /// The boundary edges and hinges.
+    /// The hinges that fold and the edges of the outline, in any order.
     pub edges: Vec<Crease>,
-    /// The positions of the vertices after each step, in metres; one list for each step.
+    /// The positions of all vertices after each step, in metres; one list for each step, without the flat state. The
+    /// face that keeps its pose lies in the plane z = 0, as in the flat sheet.
     pub folded: Vec<Vec<[f64; 3]>>,
 }
 
@@ -31,20 +32,21 @@ pub struct CreasePattern {
 pub struct Crease {
     /// The indices of the two ends in [`CreasePattern::vertices`].
     pub vertices: [usize; 2],
-    /// The adjacent faces as indices: one for a boundary edge, two for a hinge.
+    /// The adjacent faces as indices in [`CreasePattern::faces`]: one for a boundary edge, two for a hinge.
     pub faces: Vec<usize>,
     /// The fold angle of a hinge at the end, in radians: positive where the fold is convex as seen from
     /// outside. `None` for a boundary edge.
     pub angle: Option<f64>,
     /// The step in which the hinge folds, from 1; `None` if it never folds.
     pub step: Option<usize>,
-    /// The index of the edge that coincides with this one in the folded state.
+    /// The index in [`CreasePattern::edges`] of the boundary edge that coincides with this one in the folded state;
+    /// `None` for a hinge, and for a boundary edge of the folded surface.
     pub glued: Option<usize>,
 }
 
 impl Crease {
-    /// Returns the FOLD assignment: `B` boundary, `F` flat, `M` mountain (convex as seen from outside), `V`
-    /// valley.
+    /// Returns the assignment of the FOLD format: `B` boundary, `F` flat, `M` mountain (convex as seen from outside),
+    /// `V` valley.
     fn assignment(&self) -> &'static str {
         match self.angle {
             None => "B",

@@ -24,7 +24,7 @@ pub use fold::{Crease, CreasePattern};
 /// A file format.
 #[derive(Clone, Copy)]
 pub struct Format {
-    /// The end of the names of its files, after the dot.
+    /// The end of the names of its files, after the dot, in lower case.
     pub ending: &'static str,
     /// The name that messages give it.
     pub name: &'static str,
@@ -47,7 +47,7 @@ pub const CLOUD_FORMATS: &[Format] = &[
 
 /// A format in which data of one kind is exported.
 pub struct ExportFormat<T> {
-    /// The end of the names of its files, after the dot.
+    /// The end of the names of its files, after the dot, in lower case.
     pub ending: &'static str,
     /// The function that returns the text of the file.
     pub write: fn(&T) -> String,
@@ -64,12 +64,12 @@ pub const ROBOT_FORMATS: &[ExportFormat<rofi::World>] = &[
 ];
 
 impl<T> ExportFormat<T> {
-    /// Returns the format of a table whose files have this ending.
+    /// Returns the format of a table whose files have this ending, without the dot; `None` if none has.
     pub fn of_ending<'f>(table: &'f [ExportFormat<T>], ending: &str) -> Option<&'f ExportFormat<T>> {
         table.iter().find(|format| format.ending == ending)
     }
 
-    /// Returns the endings of a table in words: `.rofi` or `.json`, in backquotes.
+    /// Returns the endings of a table as text for messages: each with its dot in backquotes, joined by " or ".
     pub fn endings(table: &[ExportFormat<T>]) -> String {
         let endings: Vec<String> = table.iter().map(|format| format!("`.{}`", format.ending)).collect();
         endings.join(" or ")
@@ -77,23 +77,25 @@ impl<T> ExportFormat<T> {
 }
 
 impl Format {
-    /// Reads a mesh: at least one face, each of three corners or more, and finite coordinates.
+    /// Reads a mesh: at least one face, each of three corners or more among the vertices, and finite coordinates.
+    /// It need not be closed.
     ///
     /// # Errors
-    /// A [`FormatFault`], with its line where the format has lines.
+    /// The first [`FormatFault`] of the bytes, or of the mesh that they hold.
     pub fn read_mesh(&self, bytes: &[u8]) -> Result<Content, FormatFault> {
         checked_mesh((self.read)(bytes)?)
     }
 
-    /// Reads a cloud: at least one point, and finite coordinates.
+    /// Reads a cloud: at least one point, and finite coordinates. Faces of the file, if any, are kept.
     ///
     /// # Errors
-    /// A [`FormatFault`], with its line where the format has lines.
+    /// The first [`FormatFault`] of the bytes, or of the cloud that they hold.
     pub fn read_cloud(&self, bytes: &[u8]) -> Result<Content, FormatFault> {
         checked_cloud((self.read)(bytes)?)
     }
 }
 
+/// Checks the conditions on a cloud of any format.
 fn checked_cloud(read: Content) -> Result<Content, FormatFault> {
     if read.vertices.is_empty() {
         return Err(FormatFault::Nothing { what: "points" });
@@ -102,6 +104,7 @@ fn checked_cloud(read: Content) -> Result<Content, FormatFault> {
     Ok(read)
 }
 
+/// Checks that all coordinates are finite.
 fn finite(read: &Content) -> Result<(), FormatFault> {
     match read.vertices.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         Some(vertex) => Err(FormatFault::NotFinite { vertex }),
@@ -109,7 +112,7 @@ fn finite(read: &Content) -> Result<(), FormatFault> {
     }
 }
 
-/// Checks what holds for a mesh of any format.
+/// Checks the conditions on a mesh of any format.
 fn checked_mesh(read: Content) -> Result<Content, FormatFault> {
     if read.faces.is_empty() {
         return Err(FormatFault::Nothing { what: "faces" });

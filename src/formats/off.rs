@@ -56,7 +56,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     Ok(read)
 }
 
-/// Returns the number of corners, then the corners.
+/// Reads the corners of a face from a line: their number, then so many indices of vertices; `None` if it does not
+/// hold that.
 fn face(line: &str) -> Option<Vec<usize>> {
     let mut words = line.split_whitespace();
     let size: usize = words.next()?.parse().ok()?;

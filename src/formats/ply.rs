@@ -5,7 +5,7 @@ use super::fault::FormatFault;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 
-/// A message of the crate may quote the file; so much of it is shown.
+/// The greatest number of characters of a message of the crate that is shown: it may quote the file.
 const SHOWN: usize = 120;
 
 /// Reads a file.
@@ -45,6 +45,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     Ok(read)
 }
 
+/// Returns the crate's message as a fault.
 fn said(error: &ParseError) -> FormatFault {
     let whole = error.to_string();
     let words: Vec<&str> = whole.split_whitespace().collect();
@@ -54,6 +55,7 @@ fn said(error: &ParseError) -> FormatFault {
     FormatFault::Reader(shown(&text))
 }
 
+/// Returns a text short enough for a message.
 fn shown(text: &str) -> String {
     text.chars().take(SHOWN).collect()
 }
@@ -84,6 +86,7 @@ impl PropertyAccess for Row {
     }
 }
 
+/// Returns the number that a property holds; `None` for a list.
 fn number(property: &Property) -> Option<f64> {
     match *property {
         Property::Float(x) => Some(x.into()),

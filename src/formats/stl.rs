@@ -7,8 +7,9 @@ use super::content::Content;
 use super::fault::FormatFault;
 use std::collections::HashMap;
 
-/// Bytes of the header of a binary file, and of one triangle.
+/// The length of the header of a binary file with the number of triangles, bytes.
 const HEADER: usize = 84;
+/// The length of a triangle of a binary file, bytes.
 const TRIANGLE: usize = 50;
 
 /// Reads a file. Corners at one position are one vertex.
@@ -27,12 +28,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     Ok(shared(&corners))
 }
 
+/// Returns the triangles of a binary file from the bytes after its header.
 fn binary(body: &[u8]) -> Vec<[[f32; 3]; 3]> {
     let number = |b: &[u8], at: usize| f32::from_le_bytes([b[at], b[at + 1], b[at + 2], b[at + 3]]);
     let corner = |b: &[u8], k: usize| [0, 4, 8].map(|c| number(b, 12 + 12 * k + c));
     body.chunks_exact(TRIANGLE).map(|b| [0, 1, 2].map(|k| corner(b, k))).collect()
 }
 
+/// Returns the triangles of a text, of all its solids: each three lines `vertex x y z`.
 fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, FormatFault> {
     let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::StlLength)?;
     let mut corners = Vec::new();
@@ -51,6 +54,7 @@ fn text(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, FormatFault> {
     Ok(corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
 }
 
+/// Returns triangles as faces of shared vertices: corners at one position are one vertex.
 fn shared(corners: &[[[f32; 3]; 3]]) -> Content {
     let mut vertices = Vec::new();
     let mut known: HashMap<[u32; 3], usize> = HashMap::new();

@@ -33,7 +33,8 @@ pub(super) fn base(moments: &[Moment], start: &Pose) -> Value {
     Value::Array(kept.into_iter().map(|i| key(moments[i].time, &moments[i].base)).collect())
 }
 
-/// Returns the indices of the moments between which linear interpolation is within tolerance.
+/// Returns the indices of the moments between which linear interpolation is within tolerance, the first and the last
+/// among them.
 fn kept(moments: &[Moment]) -> Vec<usize> {
     let mut kept = vec![0];
     let mut from = 0;
@@ -86,21 +87,22 @@ pub(super) fn supports(moments: &[Moment]) -> Vec<Value> {
 }
 
 /// Returns `[time, [x, y, ...]]` of the points that touch the ground, for each moment at which they differ
-/// from those before; and true if the judge's limit of contacts truncated them.
+/// from those before; and true if some moment has as many as the judge's limit of contacts, so that others may be
+/// left out.
 pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
     let most = moments.iter().map(|m| m.contacts.len()).max().unwrap_or(0);
     let afforded = CONTACTS_MAX / most.max(1);
     let stride = moments.len().div_ceil(afforded.max(1)).max(1);
-    let mut told: Vec<Value> = Vec::new();
+    let mut changes: Vec<Value> = Vec::new();
     let mut last: Option<&[[f64; 2]]> = None;
     for moment in moments.iter().step_by(stride) {
         if last.is_some_and(|last| same(last, &moment.contacts)) {
             continue;
         }
         last = Some(&moment.contacts);
-        told.push(json!([number(moment.time), list(moment.contacts.iter().flatten().map(|x| place(*x)))]));
+        changes.push(json!([number(moment.time), list(moment.contacts.iter().flatten().map(|x| place(*x)))]));
     }
-    (told, most >= articulated::CONTACTS_MAX)
+    (changes, most >= articulated::CONTACTS_MAX)
 }
 
 /// Returns true if two sets of points are equal within tolerance.
@@ -120,7 +122,8 @@ pub(super) fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> V
     points.iter().map(|(time, value)| json!([number(*time), number(value * 1e3)])).collect()
 }
 
-/// Returns `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint in parts of its limit.
+/// Returns `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint as a part of its limit, at so
+/// many moments that a page holds them; null if no load is known.
 pub(super) fn loads(moments: &[Moment]) -> Value {
     let weighed: Vec<&Moment> = moments.iter().filter(|m| !m.loads.is_empty()).collect();
     let mut joints: Vec<usize> =
@@ -140,6 +143,6 @@ pub(super) fn loads(moments: &[Moment]) -> Value {
         }
         ratios.iter().map(|r| libm::round(r * 1e3) / 1e3).collect()
     };
-    let told = weighed.iter().step_by(stride.max(1)).map(|m| json!([number(m.time), ratios(m)]));
-    json!({ "joints": joints, "moments": told.collect::<Vec<_>>() })
+    let sampled = weighed.iter().step_by(stride.max(1)).map(|m| json!([number(m.time), ratios(m)]));
+    json!({ "joints": joints, "moments": sampled.collect::<Vec<_>>() })
 }

@@ -85,7 +85,8 @@ impl Mesh {
         }
     }
 
-    /// Adds a surface and its sharp edges.
+    /// Adds a surface and its sharp edges: a corner gets the mean normal of the faces around it that are nearly level
+    /// with the face.
     fn surface(&mut self, X: &Pose, points: &[Vec3], triangles: &[[u32; 3]]) {
         let at = |i: u32| X.transform_point(&points[i as usize].into()).coords;
         let corners: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(at)).collect();

@@ -1,7 +1,7 @@
 //! Plans as pictures: a page that plays a plan, still pictures and drawings.
 //!
 //! The room receives a plan with its verdict and returns text or bytes; it writes no files. The data of a
-//! page is collected by `data` (the plan's own numbers, thinned where there are too many) and inserted
+//! page is collected by `data` (the plan's own trajectories, thinned where there are too many) and inserted
 //! between the style and the scripts of `page/` by [`page`]. The page computes the poses itself, by the
 //! same kinematics as the judge; only the base pose on the ground is sampled, from the judge's own rollout.
 

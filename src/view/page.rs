@@ -31,8 +31,9 @@ const SCRIPTS: [&str; 14] = [
 const STILL: StillOptions =
     StillOptions { time: 0.0, side: super::picture::Side::Corner, width: 480, height: 300 };
 
-/// Returns the HTML of the page. No text of the plan can become markup: the data is JSON in which `<`, `>`
-/// and `&` are written as escapes, and the scripts put it on the page as text, never as markup.
+/// Returns the page that plays a plan as HTML, which loads nothing from elsewhere. No text of the plan can become
+/// markup: the data is JSON in which `<`, `>` and `&` are written as escapes, and the scripts put it on the page as
+/// text, never as markup.
 pub fn page(input: &RenderInput) -> String {
     let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
     let plan = unmarked(&data::data(input).to_string());
@@ -48,7 +49,7 @@ pub fn page(input: &RenderInput) -> String {
 }
 
 /// Returns the path of the page of a plan file: the same path with the ending `.html` instead of
-/// `.plan.json` or `.json`.
+/// `.plan.json`, `.json` or `.plan` in letters of any case; added to a path that has none of them.
 pub fn page_name(plan_file: &str) -> String {
     let stem = without(without(plan_file, ".json"), ".plan");
     format!("{stem}.html")

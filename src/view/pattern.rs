@@ -55,6 +55,7 @@ pub(super) fn pattern(input: &RenderInput, tracks: &Tracks) -> Option<String> {
     if !hinged || !rigid || robot.closed {
         return None;
     }
+    // The panels where the sheet is flat.
     let kinematics = Kinematics::new(robot, &tracks.start.bonds, robot.base);
     let poses_at = |joints: &[f64]| {
         let mut poses = vec![Pose::identity(); kinematics.link_count()];
@@ -65,6 +66,7 @@ pub(super) fn pattern(input: &RenderInput, tracks: &Tracks) -> Option<String> {
     let panels: Vec<Panel> = (0..robot.modules.len())
         .map(|module| panel(robot.module_type(module), &poses[kinematics.link(module, 0)]))
         .collect::<Option<_>>()?;
+    // The folds, with their angles at the end.
     let order = order(tracks);
     let end = tracks.end();
     let joints: Vec<(usize, usize)> = robot
@@ -83,6 +85,7 @@ pub(super) fn pattern(input: &RenderInput, tracks: &Tracks) -> Option<String> {
         Fold { ends, angle: end.joints[joint], order: place }
     };
     let folds: Vec<Fold> = joints.iter().map(fold).collect();
+    // The free ports that coincide in the folded shape, and the cut edges.
     let folded = poses_at(&end.joints);
     let bonded: Vec<PortRef> = robot.bonds.iter().flat_map(|bond| [bond.a, bond.b]).collect();
     let ports = (0..robot.modules.len()).flat_map(|module| {
@@ -127,8 +130,8 @@ fn on_paper(place: &Vec3) -> Point {
     [place.x * MILLIMETRES, -place.y * MILLIMETRES]
 }
 
-/// Returns the outline of a module, if it lies in the sheet. A triangle with a port in the middle of each
-/// edge extends from edge to edge, though its body may be inset a little.
+/// Returns the outline of a module at pose `X`; `None` unless it is one hull or mesh that lies in the sheet. A
+/// triangle with a port in the middle of each edge extends from edge to edge, though its body may be inset a little.
 fn panel(kind: &ModuleType, X: &Pose) -> Option<Panel> {
     let [link] = &kind.links[..] else { return None };
     let [placed] = &link.shape[..] else { return None };
@@ -177,7 +180,7 @@ fn side(panel: &Panel, at: Point) -> Edge {
     sides(panel).min_by(|a, b| away(a).total_cmp(&away(b))).expect("a panel has three sides")
 }
 
-/// Returns the joints in the order in which they first move.
+/// Returns the joints that move, in the order in which they first do.
 fn order(tracks: &Tracks) -> Vec<usize> {
     let moves = |track: &crate::plan::Track| {
         let first = track.segments.iter().find(|s| s.control.iter().any(|c| *c != s.control[0]))?;

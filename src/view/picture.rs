@@ -59,10 +59,10 @@ impl Side {
     }
 }
 
-/// The options of a still picture.
+/// The options of a still picture. [`png`] panics for a width or height of 0.
 #[derive(Clone, Copy, Debug)]
 pub struct StillOptions {
-    /// The time of the picture in seconds; clipped to the part that is played.
+    /// The time of the picture in seconds; clamped to the part that is played, from 0 to the first failure or the end.
     pub time: f64,
     /// The viewpoint.
     pub side: Side,
@@ -78,7 +78,7 @@ impl Default for StillOptions {
     }
 }
 
-/// Returns a picture as the bytes of a PNG file.
+/// Returns a picture as the bytes of a PNG file with red, green and blue of 8 bits each.
 pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     let pixels = pixels(&canvas(input, options), options);
     encoded(options, &pixels, None)
@@ -98,15 +98,20 @@ fn canvas(input: &RenderInput, options: &StillOptions) -> Canvas {
     Scene::new(bodies, surroundings::floor(input.plan), options).canvas()
 }
 
-/// A scene with its camera and light.
+/// A scene with its camera and light; lengths in metres.
 struct Scene {
     bodies: Vec<Drawn>,
     camera: Camera,
+    /// The orthographic camera of the shadow map, in the direction of the sun.
     sun: Camera,
+    /// The shadow map: the depths of the bodies as the sun sees them.
     shadows: Canvas,
+    /// The centre of the bodies' bounding box, and half its diagonal.
     middle: Vec3,
     radius: f64,
+    /// True if a level floor is drawn.
     grounded: bool,
+    /// The width and height in samples.
     width: usize,
     height: usize,
     /// Gamma correction from linear light to sRGB, in 1024 steps.
@@ -114,6 +119,7 @@ struct Scene {
 }
 
 impl Scene {
+    /// Sets up the camera so that all bodies are in the picture, the sun, and its shadow map.
     fn new(bodies: Vec<Drawn>, grounded: bool, options: &StillOptions) -> Scene {
         let (middle, radius) = ball(&bodies);
         let (width, height) = (options.width * SUPERSAMPLING, options.height * SUPERSAMPLING);
@@ -132,6 +138,7 @@ impl Scene {
         Scene { bodies, camera, sun, shadows, middle, radius, grounded, width, height, gamma }
     }
 
+    /// Renders the bodies, their sharp edges, then the background.
     fn canvas(&self) -> Canvas {
         let mut canvas = Canvas::new(self.width, self.height);
         for body in &self.bodies {
@@ -213,6 +220,7 @@ impl Scene {
         if ray.z >= 0.0 || self.camera.at.z <= 0.0 {
             return 0.0;
         }
+        // The point where the ray meets the plane z = 0.
         let away = -self.camera.at.z / ray.z;
         let p = self.camera.at + ray * away;
         let reach = f64::max(6.0 * self.radius, 2.5 * self.camera.distance);
@@ -232,6 +240,7 @@ impl Scene {
             };
             f64::max(line(p.x), line(p.y)) * (step / long / SUPERSAMPLING as f64 / 8.0 - 0.25).clamp(0.0, 1.0)
         };
+        // Lines at the power of ten below the size of the scene, and at ten times that.
         let step = libm::pow(10.0, libm::floor(libm::log10(self.radius * 0.9)));
         let lines = f64::max(grid(step) * 0.10, grid(10.0 * step) * 0.22);
         let shade = (1.0 - self.sunlight(&p)) * 0.34;

@@ -14,14 +14,20 @@ const ACTIONS_MAX: usize = 1500;
 /// The deepest nesting drawn.
 const DEPTH_MAX: usize = 60;
 
+/// The font size of an action's label, px.
 const SIZE: f64 = 11.0;
+/// The height of a label, px.
 const TALL: f64 = 24.0;
+/// The gap between serial steps, px.
 const BESIDE: f64 = 22.0;
+/// The gap between parallel branches, px.
 const BELOW: f64 = 8.0;
+/// The margin within a frame, px.
 const RIM: f64 = 9.0;
+/// The height of a frame's title, px.
 const HEAD: f64 = 16.0;
 
-/// A laid-out piece of the graph; coordinates from its upper left corner.
+/// The kind of a piece of the graph, with the pieces in it.
 enum Piece {
     Label { words: String, colour: String },
     Row(Vec<LaidOut>),
@@ -29,8 +35,10 @@ enum Piece {
     Frame(String, Box<LaidOut>),
 }
 
+/// A laid-out piece of the graph; lengths in px, y down.
 struct LaidOut {
     piece: Piece,
+    /// The upper left corner, from that of the piece around it.
     at: [f64; 2],
     size: [f64; 2],
 }
@@ -74,12 +82,14 @@ fn names(robot: &Assembly) -> Vec<(String, Option<usize>, bool)> {
     robot.joints().map(name).collect()
 }
 
+/// Returns an action's label, as wide as its text.
 fn label(words: String, colour: String) -> LaidOut {
     let wide = words.chars().count() as f64 * SIZE * LETTER + 18.0;
     LaidOut { piece: Piece::Label { words, colour }, at: [0.0; 2], size: [wide, TALL] }
 }
 
 impl Drawer<'_> {
+    /// Lays out a node of the program with all below it.
     fn piece(&mut self, node: &Node, depth: usize) -> LaidOut {
         if depth > DEPTH_MAX || self.drawn >= ACTIONS_MAX {
             return label("...".into(), SOFT.into());
@@ -111,6 +121,7 @@ impl Drawer<'_> {
         }
     }
 
+    /// Returns the label of an action, in the colour of its module.
     fn action(&self, action: &Action) -> LaidOut {
         let time = |t: f64| quantity(t, Dimension::TIME);
         let (joint, words) = match &action.command {
@@ -138,6 +149,7 @@ impl Drawer<'_> {
         label(known.map_or(words.clone(), |(name, _, _)| format!("{name} {words}")), colour)
     }
 
+    /// Returns a joint's position or displacement as text: a length, or an angle in degrees.
     fn amount(&self, joint: JointId, x: f64) -> String {
         let slides = self.names.get(joint.0 as usize).is_some_and(|(_, _, slides)| *slides);
         if slides {
@@ -148,6 +160,7 @@ impl Drawer<'_> {
     }
 }
 
+/// Lays out serial pieces side by side.
 fn row(mut pieces: Vec<LaidOut>) -> LaidOut {
     let tall = pieces.iter().map(|p| p.size[1]).fold(TALL, f64::max);
     let mut x = 0.0;
@@ -158,6 +171,7 @@ fn row(mut pieces: Vec<LaidOut>) -> LaidOut {
     LaidOut { piece: Piece::Row(pieces), at: [0.0; 2], size: [(x - BESIDE).max(0.0), tall] }
 }
 
+/// Lays out parallel pieces one below the other.
 fn column(mut pieces: Vec<LaidOut>) -> LaidOut {
     let wide = pieces.iter().map(|p| p.size[0]).fold(0.0, f64::max);
     let mut y = 0.0;
@@ -168,6 +182,7 @@ fn column(mut pieces: Vec<LaidOut>) -> LaidOut {
     LaidOut { piece: Piece::Column(pieces), at: [0.0; 2], size: [wide + BESIDE, (y - BELOW).max(0.0)] }
 }
 
+/// Lays out a piece in a frame with a title.
 fn framed(words: String, mut inner: LaidOut) -> LaidOut {
     inner.at = [RIM, HEAD];
     let wide = words.chars().count() as f64 * 9.0 * LETTER + 2.0 * RIM;
@@ -175,6 +190,7 @@ fn framed(words: String, mut inner: LaidOut) -> LaidOut {
     LaidOut { piece: Piece::Frame(words, Box::new(inner)), at: [0.0; 2], size }
 }
 
+/// Draws a piece with its upper left corner at `at`, and the lines between the pieces in it.
 fn draw(drawing: &mut Drawing, placed: &LaidOut, at: [f64; 2]) {
     let [w, h] = placed.size;
     let middle = at[1] + h / 2.0;

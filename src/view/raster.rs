@@ -75,7 +75,8 @@ impl Camera {
         })
     }
 
-    /// Returns the unit direction of the ray through a pixel.
+    /// Returns the unit direction of the ray of a perspective camera through the point (x, y) of a picture of this
+    /// size, in pixels.
     pub(super) fn ray(&self, x: f64, y: f64, width: usize, height: usize) -> Vec3 {
         let scale = self.half * 2.0 / height as f64;
         let (u, v) = ((x - width as f64 / 2.0) * scale, (height as f64 / 2.0 - y) * scale);
@@ -109,6 +110,8 @@ impl Canvas {
         }
     }
 
+    /// Rasterises one triangle by edge functions where it is not hidden; `colour` gets the barycentric weights of its
+    /// corners at a pixel, correct for the perspective.
     fn triangle(
         &mut self,
         spots: [Projected; 3],

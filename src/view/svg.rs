@@ -1,12 +1,12 @@
-//! Drawings as SVG. The kind of drawing depends on the plan.
+//! Drawings as SVG, of a kind that depends on the plan.
 
 use super::input::RenderInput;
 use super::{graph, layers, pattern, program};
 use crate::plan::{Body, Node, Plan};
 
-/// Returns a drawing: flat panels joined by hinges as their crease pattern, true to scale; a behaviour as
-/// its series-parallel graph; a configuration as a graph of modules; a lattice or truss plan stage by
-/// stage.
+/// Returns a drawing of a plan as the text of an SVG file. Flat panels joined by hinges are drawn as their crease
+/// pattern, true to scale; another plan with actions as its series-parallel graph; one without as the graph of its
+/// modules and bonds at the start; a lattice or truss plan stage by stage.
 pub fn svg(input: &RenderInput) -> String {
     match &input.plan.body {
         Body::Tracks(tracks) => match pattern::pattern(input, tracks) {

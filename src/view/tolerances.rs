@@ -1,4 +1,4 @@
-//! The tolerances of pictures, all in one place.
+//! The tolerances and thresholds of pictures and pages.
 
 /// The tolerances with which pictures and pages are made.
 pub(super) struct Tolerances {
@@ -17,12 +17,13 @@ pub(super) struct Tolerances {
     pub rounding: f64,
     /// The least size, m, by which a drawing is scaled: smaller ones are points.
     pub size: f64,
-    /// The least radius, m, of what a picture shows.
+    /// The least radius, m, of the scene of a picture.
     pub radius: f64,
-    /// The height above a surface, as a part of the radius, at which its shadow is asked for: it does not shade
-    /// itself.
+    /// The height above a surface, as a part of the scene's radius, at which the shadow map is read for it, so that it
+    /// does not shade itself.
     pub shadow: f64,
-    /// The depth below what the shadow map shows, as a part of the radius, from which a point is in the shade.
+    /// The depth below the surface in the shadow map, as a part of the scene's radius, from which a point is in the
+    /// shade.
     pub shadow_depth: f64,
 }
 
