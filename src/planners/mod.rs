@@ -39,27 +39,27 @@ pub struct Solution<R> {
 /// best solution so far, or its refusal for an exhausted limit if there is none. To unwind without any
 /// result, see [`interrupt::checkpoint`].
 pub trait Progress {
-    /// Receives the start of a part of the work, such as `unwinding Chair`, before its reports. An observer
-    /// with a time limit counts from here. By default it is ignored.
+    /// Receives the start of a part of the work before its reports: `_task` builds its name, such as `unwinding
+    /// Chair`. An observer with a time limit counts from here. By default it is ignored.
     fn task_started(&mut self, _task: &dyn Fn() -> String) {}
 
-    /// Receives how far the search is. `how_far` builds one short line of text, such as
+    /// Receives the state of the search. `how_far` builds one short line of text, such as
     /// `12 of 40 points reached`; an observer that shows nothing does not call it. Called at least every few
     /// milliseconds, so it must be cheap.
     fn report(&mut self, how_far: &dyn Fn() -> String);
 
-    /// Receives an event that happens seldom, such as one goal of many that is reached: an observer that
-    /// shows reports only on request shows this one unasked. By default it is a report like any other.
+    /// Receives an event that happens seldom, such as one goal of many that is reached, as a line of text: an
+    /// observer that shows reports only on request shows this one unasked. By default it is a report like any other.
     fn milestone(&mut self, reached: &dyn Fn() -> String) {
         self.report(reached);
     }
 
-    /// Returns false if the search has to end with the best solution so far. Asked between two steps
-    /// of the search.
+    /// Returns false if the search has to end with the best solution so far. Searches ask between two of their steps,
+    /// and may ask again after false.
     fn should_continue(&mut self) -> bool;
 }
 
-/// The observer that ignores all reports and never ends the search, for callers who do not care.
+/// The observer that ignores all reports and never ends the search.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoProgress;
 

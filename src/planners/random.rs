@@ -17,7 +17,7 @@ impl SplitMix64 {
         x ^ (x >> 31)
     }
 
-    /// Advances the state as if `count` numbers had been taken, in constant time.
+    /// Advances the state as if `count` numbers had been taken by [`next_u64`](Self::next_u64), in constant time.
     pub fn skip(&mut self, count: usize) {
         self.0 = self.0.wrapping_add(GAMMA.wrapping_mul(count as u64));
     }
@@ -38,7 +38,8 @@ impl SplitMix64 {
         (self.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Permutes a list in place, every permutation equally likely (Fisher and Yates).
+    /// Permutes a list in place, every permutation equally likely up to the bias of [`below`](Self::below) (Fisher
+    /// and Yates).
     pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for last in (1..list.len()).rev() {
             list.swap(last, self.below(last + 1));

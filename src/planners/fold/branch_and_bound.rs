@@ -32,7 +32,7 @@ use std::rc::Rc;
 /// The greatest size of the queue of open nodes, bytes.
 const QUEUE_BYTES_MAX: usize = 1 << 29;
 
-/// Rounds of one subgradient ascent.
+/// The greatest number of rounds of one subgradient ascent.
 const ROUNDS: usize = 6;
 
 /// The least part of the gap that an ascent has to close for another one to follow before branching.
@@ -50,13 +50,14 @@ const FLAT_BUDGET_SHARE: u64 = 4;
 /// The options of a search for the optimum.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The root of the layout; `None`: the best of all roots.
+    /// The root of the layout, a face of the target; `None`: the best of all roots.
     pub root: Option<usize>,
     /// True leaves out layouts whose patterns overlap in the plane.
     pub flat: bool,
     /// The greatest number of hinges on a path from the root; `None`: any number.
     pub height: Option<usize>,
-    /// The greatest number of search steps: faces settled on paths, exchanges weighed, and nodes.
+    /// The greatest number of search steps: faces settled on paths, exchanges weighed, and nodes. The search also ends
+    /// when its open nodes fill 512 MiB.
     pub budget: u64,
     /// The seed of the perturbations, which choose among layouts that tie.
     pub seed: u64,
@@ -73,61 +74,64 @@ impl Default for Settings {
 pub enum Proof {
     /// The bound is below the energy by less than `TOLERANCES.proof` of it.
     Optimal,
-    /// The search ended before, and the gap to the bound is open.
+    /// The search ended before that: the bound is farther below the energy.
     Open,
 }
 
 /// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Optimum {
-    /// The best layout found.
+    /// The best layout found that fits the settings and was not refused, rooted at its root.
     pub layout: Layout,
     /// Its energy, N·m for steps of one second.
     pub energy: f64,
-    /// The lower bound on the energy of all layouts asked for, in the same unit.
+    /// A lower bound on the energy of all layouts that fit the settings and were not refused, N·m for steps of one
+    /// second; at least 0.
     pub bound: f64,
     /// The strength of the proof.
     pub proof: Proof,
-    /// The roots that reach the energy up to ties, in order; those found before the budget ended.
+    /// The roots that reach the energy up to ties, in order, as far as they were found before the search ended.
     pub roots: Vec<usize>,
-    /// The number of branchings.
+    /// The number of nodes that were branched.
     pub nodes: u64,
 }
 
-/// The reason that there is no optimum.
+/// The reason why there is no optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLayout {
     /// Every layout overlaps in the plane, is too high, or was refused by the caller.
     AllOverlap,
-    /// The budget ended, or the search was stopped, before a layout was found.
+    /// The budget or the memory ended, or the search was stopped, before a layout was found.
     Budget,
 }
 
 /// The caller's decision about a layout that might be the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
-    /// The layout is the answer.
+    /// The layout may be the answer; the search goes on only for layouts at other roots that tie with it, or are better
+    /// if decisions were not asked in order.
     Accept,
-    /// The search goes on to the next best.
+    /// The layout is not the answer; the search goes on to the next best.
     Refuse,
-    /// The search ends here, without another layout.
+    /// The layout is not the answer; the search ends with what was accepted before, if anything.
     Stop,
 }
 
-/// Returns the layout of least energy.
+/// Returns the layout of least energy that fits the settings, as far as the budget reaches. Panics if the settings name
+/// a root that is no face.
 ///
 /// # Errors
-/// [`NoLayout`] where no layout lies flat or is low enough, or none was found within the budget.
+/// [`NoLayout`] if no layout lies flat or is low enough, or none was found within the budget.
 pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Result<Optimum, NoLayout> {
     search(target, weights, settings, None, &Observer::none())
 }
 
-/// Returns the layout of least energy among those that `accepts` accepts; it decides about layouts in order of
-/// their energy. If the budget ends before one is accepted, it decides about a last one, which need not be the
-/// next.
+/// Returns the layout of least energy among those that `accepts` accepts, which is asked about layouts that fit the
+/// settings in order of their energy, up to ties. If the budget ends before one is accepted, it is asked about a last
+/// one, which need not be the next. Panics if the settings name a root that is no face.
 ///
 /// # Errors
-/// [`NoLayout`] where every layout was refused, or none was accepted within the budget.
+/// [`NoLayout`] if every layout was refused, or none was accepted within the budget.
 pub fn optimum_among(
     target: &Target,
     weights: &Weights,
@@ -208,6 +212,7 @@ fn perturbed(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weigh
     weights.perturbed(&extra)
 }
 
+/// The state of one search.
 struct Search<'s, 'a, 'o> {
     target: &'s Target,
     weights: &'s Weights,
@@ -238,6 +243,7 @@ struct Search<'s, 'a, 'o> {
     observer: &'s Observer<'o>,
 }
 
+/// The incumbent, with its energy, N·m for steps of one second.
 struct Found {
     layout: Layout,
     energy: f64,
@@ -251,6 +257,7 @@ struct Bounds<'s> {
 }
 
 impl<'s> Search<'s, '_, '_> {
+    /// Expands open nodes, that of least bound first, until none is left or the search has to end.
     fn run(&mut self, bounds: &mut Bounds<'s>) {
         while let Some(node) = self.open_nodes.pop() {
             let least = self.best.as_ref().map(|best| best.energy);
@@ -278,6 +285,7 @@ impl<'s> Search<'s, '_, '_> {
         }
     }
 
+    /// Queues a node, unless its bound reaches the cutoff.
     fn push(&mut self, node: Node) {
         if node.bound < self.cutoff(node.root) {
             self.queue_bytes += node.size();
@@ -533,6 +541,7 @@ impl<'s> Search<'s, '_, '_> {
         word
     }
 
+    /// Returns the shortest paths of a root over all arcs; `None` if a face can't be reached within the height.
     fn first(&mut self, routes: &mut ShortestPaths, root: usize) -> Option<NodePaths> {
         let n = self.target.faces.len();
         let mut allowed: Allowed = vec![0; n];

@@ -16,7 +16,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// One step: the hinges that have folded before it, and the face whose hinge folds in it.
 type FoldStep = (Vec<bool>, usize);
 
-/// The search in one layout. Steps that the judge refused can be forbidden; then it finds another order.
+/// The search for an order of folding of one layout. Steps that the judge refused can be forbidden; then it finds
+/// another order.
 pub struct OrderSearch<'t> {
     layout: &'t Layout,
     target: &'t Target,
@@ -24,14 +25,16 @@ pub struct OrderSearch<'t> {
     limits: Option<&'t LoadLimits>,
     free: BTreeMap<FoldStep, bool>,
     forbidden: BTreeSet<FoldStep>,
-    /// The number of steps that may still be sampled.
+    /// The number of steps that [`order`](Self::order) may still sample; steps known from before count nothing.
     pub samples_left: usize,
-    /// The least overload that stood against a step, N·m, and the face on whose hinge it is.
+    /// The least torque beyond the limit that a sampled step would have taken, N·m, and the face that the overloaded
+    /// hinge carries; `None` while none did.
     pub overload: Option<(f64, usize)>,
 }
 
 impl<'t> OrderSearch<'t> {
-    /// Sets up the search; `limits`: under gravity; `samples`: the greatest number of steps that are sampled.
+    /// Sets up the search; `limits`: those of ground and hinges under gravity, `None` without; `samples`: the greatest
+    /// number of steps that [`order`](Self::order) samples in all.
     pub fn new(
         target: &'t Target,
         layout: &'t Layout,
@@ -44,8 +47,9 @@ impl<'t> OrderSearch<'t> {
         OrderSearch { layout, target, check, limits, free, forbidden, samples_left: samples, overload: None }
     }
 
-    /// Returns all faces but the root in an order in which each can fold; `None` if none is found.
-    /// `preferred`: such an order, which the result follows where it can.
+    /// Returns all faces but the root in an order in which each can fold alone, as far as samples show; `None` if
+    /// there is none or `samples_left` is used up. `preferred`: all faces but the root in the order that the result
+    /// follows where it can.
     pub fn order(&mut self, preferred: &[usize]) -> Option<Vec<usize>> {
         let mut folded = vec![true; self.layout.parent.len()];
         folded[self.layout.root] = false;
@@ -78,8 +82,8 @@ impl<'t> OrderSearch<'t> {
         Some(opened)
     }
 
-    /// Lays an order into steps: a hinge folds with the one before it where neither carries the other and nothing
-    /// collides.
+    /// Lays an order of faces into steps: a hinge folds with those before it if none of them carries another and no
+    /// sample shows a collision or a violated limit. One list of faces for each step.
     pub fn steps(&self, order: &[usize]) -> Vec<Vec<usize>> {
         let mut folded = vec![false; self.layout.parent.len()];
         let mut steps: Vec<Vec<usize>> = Vec::new();
@@ -108,7 +112,8 @@ impl<'t> OrderSearch<'t> {
         })
     }
 
-    /// Forbids a step of an order that was found.
+    /// Forbids the step at index `step` of `order` (faces): later orders do not fold the hinge of that face when
+    /// exactly the faces before it have folded. Panics if the order is not longer than `step`.
     pub fn forbid(&mut self, order: &[usize], step: usize) {
         let mut folded = vec![false; self.layout.parent.len()];
         order[..step].iter().for_each(|face| folded[*face] = true);
@@ -135,10 +140,12 @@ impl<'t> OrderSearch<'t> {
         Some(is_free)
     }
 
+    /// Returns the first violation of a limit in a step; `None` if there is none, or no limits.
     fn violation(&self, folded: &[bool], moving: &[usize]) -> Option<Violation> {
         self.limits?.violation(self.target, self.layout, folded, moving)
     }
 
+    /// Returns true if no sample of a step shows a collision or a violated limit.
     fn passes(&self, folded: &[bool], moving: &[usize]) -> bool {
         self.violation(folded, moving).is_none() && self.check.pair_during(folded, moving).is_none()
     }

@@ -1,9 +1,9 @@
 //! Dynamics of the folding tree: recursive Newton-Euler (Eq. 3 and 4) for any motion of its hinges.
 //!
-//! Outwards from the root, which is held: where every face is, how it turns and accelerates. Inwards
-//! from the leaves: what its parent has to exert on it; the part about the hinge is the motor's. In
-//! Eq. 3 `p_i` is one vector for each child, from the face's own hinge to the child's. (The paper has
-//! one for each module, which is wrong where a module has two children.)
+//! The outward recursion from the root, which is held, gives the pose, velocity and acceleration of every face. The
+//! inward recursion from the leaves gives the force and moment that the parent has to exert on it; the moment about the
+//! hinge is the motor's torque. In Eq. 3 `p_i` is one vector for each child, from the face's own hinge to the child's.
+//! (The paper has one for each module, which is wrong where a module has two children.)
 
 use super::inertia::Body;
 use super::kinematics::about;
@@ -11,7 +11,7 @@ use super::layout::Layout;
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
-/// Position, speed and acceleration of the hinge of a face. An angle of 0 is level.
+/// The position, speed and acceleration of the hinge of a face. An angle of 0 is level, positive angles are convex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hinging {
     /// The angle, rad.
@@ -22,7 +22,7 @@ pub struct Hinging {
     pub acceleration: f64,
 }
 
-/// The tree of a layout as rigid bodies on hinges.
+/// The inverse dynamics of a layout: a tree of rigid bodies on hinges whose root is held.
 pub struct Dynamics<'t> {
     target: &'t Target,
     layout: &'t Layout,
@@ -37,14 +37,15 @@ pub struct Dynamics<'t> {
 struct Moving {
     /// Its displacement from its pose in the target.
     pose: Pose,
-    /// A point of its hinge, and the direction about which the motor turns it.
+    /// A point of its hinge, m, and the unit vector about which the motor turns it.
     origin: Vec3,
     axis: Vec3,
+    /// The angular velocity, rad/s, and the angular acceleration, rad/s².
     turning: Vec3,
     spinning_up: Vec3,
-    /// Acceleration of the origin, less gravity.
+    /// The acceleration of the origin, less gravity, m/s².
     rising: Vec3,
-    /// The force that its parent exerts, and the moment about the origin.
+    /// The force that its parent exerts, N, and the moment about the origin, N·m.
     force: Vec3,
     moment: Vec3,
 }
@@ -64,13 +65,16 @@ const AT_REST: Moving = Moving {
 };
 
 impl<'t> Dynamics<'t> {
-    /// Sets up the dynamics; `bodies`: by face; `gravity`: the vector in the frame of the target, m/s².
+    /// Sets up the dynamics; `bodies`: by face, one for each face; `gravity`: the vector in the frame of the target,
+    /// m/s².
     pub fn new(target: &'t Target, layout: &'t Layout, bodies: &'t [Body], gravity: Vec3) -> Dynamics<'t> {
         Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
     }
 
-    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm) and writes
-    /// them to `torques`, N·m, by face; the root has none. Positive torques turn towards positive angles.
+    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm) for the motion
+    /// `hinging(face)` of each face's hinge and writes them to `torques`, N·m, by the face that the hinge carries;
+    /// that of the root is 0. Positive torques turn towards positive angles. Panics if `torques` has fewer entries
+    /// than there are faces.
     pub fn torques(&mut self, hinging: impl Fn(usize) -> Hinging, torques: &mut [f64]) {
         self.outwards(hinging);
         for &face in self.layout.order[1..].iter().rev() {
@@ -87,7 +91,7 @@ impl<'t> Dynamics<'t> {
     /// recursion).
     fn outwards(&mut self, hinging: impl Fn(usize) -> Hinging) {
         let layout = self.layout;
-        // Pulled upwards, everything weighs.
+        // Gravity enters as an upward acceleration of the base.
         self.faces[layout.root] = Moving { rising: -self.gravity, ..AT_REST };
         for &face in &layout.order[1..] {
             let hinge = &self.target.hinges[layout.hinge[face].expect("only the root has none")];
@@ -115,7 +119,7 @@ impl<'t> Dynamics<'t> {
     }
 }
 
-/// Returns the acceleration of a point of a body over that of another, `arm` away from it.
+/// Returns the acceleration of a point of a body relative to that of another point of it; `arm`: from that to it.
 fn carried(turning: &Vec3, spinning_up: &Vec3, arm: &Vec3) -> Vec3 {
     spinning_up.cross(arm) + turning.cross(&turning.cross(arm))
 }

@@ -6,13 +6,13 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
-/// Exchanges that gain of which the best one that is allowed is made.
+/// The number of exchanges that gain, the best first, of which the first that is allowed is made.
 const TRIED_MAX: usize = 256;
 
-/// Sums that take about as long as one exchange that is weighed.
+/// The number of sums that take about as long as one exchange that is weighed.
 const SUMS: usize = 64;
 
-/// Returns a greedy tree grown from the root: always the face is added whose path costs it the least.
+/// Returns a greedy tree grown from the root: in each step the face is added whose path costs the least for it.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let n = target.faces.len();
     // For each face: the hinges between it and the root, once it belongs to the tree.
@@ -43,13 +43,14 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("every face was added by one hinge")
 }
 
-/// Improves a layout by exchanges of a hinge that folds for one that does not, as long as that helps (steepest
-/// descent). `steps` counts down the exchanges weighed and the sums that each exchange made takes anew.
+/// Returns a layout of no greater energy with the same root, improved by exchanges of a hinge that folds for one that
+/// does not, as long as that helps (steepest descent). `steps` counts down the exchanges weighed and the sums that each
+/// exchange made takes anew; at 0 the search ends.
 pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut u64) -> Layout {
     improved_where(target, weights, layout, steps, &|_| true)
 }
 
-/// Improves a layout by exchanges that lead to layouts which are allowed.
+/// Returns a layout improved as by [`improved`], by exchanges that lead to layouts for which `allowed` is true.
 pub fn improved_where(
     target: &Target,
     weights: &Weights,
@@ -60,15 +61,16 @@ pub fn improved_where(
     improved_by(target, weights, layout, steps, &Rules { fits: &|_, _| true, allowed })
 }
 
-/// The conditions on exchanges beside that they help.
+/// The conditions on exchanges besides a lesser energy.
 pub struct Rules<'r> {
-    /// A filter of every exchange: true if, in a layout, the first hinge may be exchanged for the second.
+    /// A filter of every exchange that helps: true if in a layout the first hinge, which folds, may be exchanged for
+    /// the second.
     pub fits: &'r dyn Fn(&Layout, [usize; 2]) -> bool,
-    /// A filter of the layouts that the best exchanges lead to: true if the layout is allowed.
+    /// A filter of the layouts that the 256 best exchanges lead to: true if the layout is allowed.
     pub allowed: &'r dyn Fn(&Layout) -> bool,
 }
 
-/// Improves a layout by exchanges that keep to the rules.
+/// Returns a layout improved as by [`improved`], by exchanges that keep to the rules.
 pub fn improved_by(
     target: &Target,
     weights: &Weights,
@@ -185,7 +187,8 @@ fn side_of_cycle(layout: &Layout, depths: &[usize], a: usize, b: usize, way: &mu
     }
 }
 
-/// Returns the hinges of the tree between two faces.
+/// Returns the hinges of the tree between two faces: those from `a` upwards, then those from `b` upwards; none for the
+/// same face.
 pub fn path(layout: &Layout, a: usize, b: usize) -> Vec<usize> {
     let up = |mut face: usize| {
         let mut way = Vec::new();

@@ -12,11 +12,12 @@ use super::target::Target;
 use super::weights::QUINTIC;
 use crate::geometry::{Pose, Vec3};
 
-/// The greatest height of a tree that is searched: the work grows with its factorial.
+/// The greatest number of hinges on a path from the root of a layout that is searched: the work grows with its
+/// factorial.
 pub const HEIGHT_MAX: usize = 8;
 
-/// Returns an order of all faces but the root of least energy, and that energy (N·m for steps of one second);
-/// `None` for trees that are higher than [`HEIGHT_MAX`]. `masses`: by face, kg.
+/// Returns an order of all faces but the root of least energy without gravity, counting the moving joint, and that
+/// energy (N·m for steps of one second); `None` for trees that are higher than [`HEIGHT_MAX`]. `masses`: by face, kg.
 pub fn least_energy(
     target: &Target,
     layout: &Layout,
@@ -40,13 +41,15 @@ pub fn least_energy(
     Some(all)
 }
 
-/// Returns the energy of an order, N·m for steps of one second; `masses`: by face, kg.
+/// Returns the energy of an order of faces without gravity, counting the moving joint, N·m for steps of one second;
+/// `masses`: by face, kg. Panics if the order names the root.
 pub fn energy(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, order: &[usize]) -> f64 {
     means(target, layout, masses, inertia, order).iter().sum()
 }
 
-/// Returns by face the mean torque of its hinge while it folds, computed step by step from the poses of all
-/// faces; N·m for steps of one second. `masses`: by face, kg.
+/// Returns by face the mean absolute torque of its hinge while it folds in this order of faces without gravity,
+/// computed step by step from the poses of all faces; 0 for the root; N·m for steps of one second. `masses`: by face,
+/// kg. Panics if the order names the root.
 pub fn means(
     target: &Target,
     layout: &Layout,
@@ -82,6 +85,7 @@ struct Costs {
 }
 
 impl Costs {
+    /// Computes the costs of a face.
     fn new(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, face: usize) -> Costs {
         let mut path = Vec::new();
         let mut at = face;

@@ -2,7 +2,7 @@
 //!
 //! Hinges are taken in order: one is kept, then left out where the faces are still connected without it. So
 //! every branch ends in a layout. Energies of a layout for all its roots come from one of them: when the root
-//! crosses a hinge, the faces before it are carried by the hinge and those behind it no longer are.
+//! crosses a hinge, the faces that it leaves are carried by the hinge from then on, and the others no longer are.
 
 use super::layout::Layout;
 use super::observer::Observer;
@@ -19,43 +19,44 @@ pub const FACES_MAX: usize = 64;
 /// The number of faces whose sums are read from a table at a time.
 const CHUNK: usize = 8;
 
-/// The spanning trees of a target, counted by their energy.
+/// The result of an enumeration: the layouts of a target with their energies.
 #[derive(Clone, Debug)]
 pub struct Enumeration {
     /// The number of layouts visited.
     pub layouts: u64,
-    /// True if these are all layouts; else the budget ended the enumeration.
+    /// True if these are all layouts of the target; false if the budget ended the enumeration.
     pub complete: bool,
-    /// A layout of least energy, rooted at its best root; the first found.
+    /// The first layout found of least energy, rooted at its best root of those asked for.
     pub best: Layout,
     /// The least energy, N·m for steps of one second.
     pub least: f64,
     /// The greatest energy, N·m for steps of one second.
     pub greatest: f64,
-    /// The number of pairs of layout and root with the least energy, up to ties.
+    /// The number of pairs of a layout and a root asked for with the least energy, up to ties.
     pub ties: u64,
-    /// The least energy by root, N·m for steps of one second.
+    /// The least energy by root, N·m for steps of one second; infinite for roots that were not asked for.
     pub by_root: Vec<f64>,
-    /// The energies that occur, if they were asked for.
+    /// The energies that occur (N·m for steps of one second); `None` if they were not asked for.
     pub spectrum: Option<Spectrum>,
 }
 
 /// The options of an enumeration.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The root; `None`: all roots.
+    /// The root, a face of the target; `None`: all roots.
     pub root: Option<usize>,
-    /// True counts how often each energy occurs.
+    /// True if the multiplicity of each energy is counted.
     pub spectrum: bool,
-    /// The greatest number of layouts.
+    /// The greatest number of layouts that are visited; 0 counts as 1.
     pub budget: u64,
 }
 
-/// The target has more than [`FACES_MAX`] faces.
+/// The reason why a target is not enumerated: it has more than [`FACES_MAX`] faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyFaces;
 
-/// Computes the energy of every layout with every root.
+/// Computes the energy of every layout with every root asked for, with the leaves folded first, within the budget.
+/// Panics if the settings name a root that is no face.
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than 64 faces.
@@ -121,11 +122,11 @@ pub fn enumerate_energies(
 pub struct Traversal {
     /// The number of layouts visited.
     pub layouts: u64,
-    /// True if these are all layouts.
+    /// True if these are all layouts of the target; false if the budget ended the enumeration.
     pub complete: bool,
 }
 
-/// Hands the hinges of every layout to `visit`, at most `budget` layouts, at least one.
+/// Hands the hinges of every layout, in ascending order, to `visit`, of at most `budget` layouts and at least one.
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than 64 faces.
@@ -271,7 +272,7 @@ impl Sums {
     }
 }
 
-/// The greatest mean torque of layouts with the leaves first, computed without making them.
+/// The greatest mean torque of layouts that fold with the leaves first, from sums of weights over sets of faces.
 pub struct Peaks<'t> {
     sums: Sums,
     tree: Tree<'t>,
@@ -284,13 +285,13 @@ impl<'t> Peaks<'t> {
         few.then(|| Peaks { sums: Sums::new(target, weights), tree: Tree::new(target) })
     }
 
-    /// Takes up a layout.
+    /// Sets the layout that [`greatest`](Self::greatest) is about, by its hinges, which must be a spanning tree.
     pub fn set_layout(&mut self, hinges: &[usize]) {
         self.tree.root_at_first(hinges);
     }
 
-    /// Returns the greatest mean torque of the layout that was taken up last, with a root: N·m for steps of one
-    /// second.
+    /// Returns the greatest mean torque of a hinge of the layout that was set last, with this root, N·m for steps of
+    /// one second; 0 before any was set.
     pub fn greatest(&self, root: usize) -> f64 {
         let below = &self.tree.below;
         let carried = |&(face, _, hinge): &(usize, usize, usize)| {
@@ -324,6 +325,7 @@ impl<'t> Tree<'t> {
         }
     }
 
+    /// Rebuilds the tree from its hinges.
     fn root_at_first(&mut self, hinges: &[usize]) {
         self.degree = [0; FACES_MAX];
         for &index in hinges {

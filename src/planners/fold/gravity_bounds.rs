@@ -1,7 +1,7 @@
-//! Lower bounds on energy and peak torque under gravity, with the leaves folded first: what gravity asks of every
-//! hinge for every face that it carries.
+//! Lower bounds on energy and peak torque under gravity, with the leaves folded first, from the torque of gravity
+//! about every hinge for every face that it carries.
 //!
-//! All above a hinge is level when it folds, and what it carries has its final form: one rigid body that
+//! All above a hinge is level when it folds, and the faces that it carries have their final form: one rigid body that
 //! turns about an axis at rest. Its torque is `J q̈ + G(q)`. Over the step the mean of `J q̈` is 0, for the
 //! hinge begins and ends at rest; so the mean of |torque| is no less than |mean of G|, and the peak is no
 //! less than |G| at either end, where q̈ is 0. G is a sum over the faces that are carried, and what a face

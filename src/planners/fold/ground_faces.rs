@@ -6,9 +6,9 @@ use super::target::Target;
 /// A face that reaches below the ground plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protrusion {
-    /// The face.
+    /// The index of the face.
     pub face: usize,
-    /// The depth of its lowest corner, m.
+    /// The depth of its lowest corner below that plane, m.
     pub depth: f64,
 }
 

@@ -7,23 +7,23 @@ use super::layout::Layout;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 
-/// The constants of Theorem 1 (Table 5).
+/// The paper's measure χ of a layout, by the constants of Theorem 1 (Table 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
-    /// λ1: the norm of a panel's inertia tensor. The paper's 6.15e-11 amounts to none, kg·m².
+    /// λ1: the norm of a panel's inertia tensor, kg·m². The paper's 6.15e-11 amounts to none.
     pub inertia: f64,
-    /// λ2: half the side by the sine of 60 degrees, times the mass, kg·m.
+    /// λ2: half the side divided by the sine of 60 degrees, times the mass, kg·m.
     pub arm: f64,
     /// λ3: the mass of a panel, kg.
     pub mass: f64,
-    /// λ4: from hinge to hinge, m.
+    /// λ4: the distance from hinge to hinge, m; of [`Measure::of_panels`] the side.
     pub span: f64,
-    /// κ1, κ2, κ3: the constants of the design.
+    /// κ1, κ2, κ3: the constants of the design, without unit.
     pub design: [f64; 3],
 }
 
 impl Measure {
-    /// Returns the constants for panels of a mass (kg) and side (m).
+    /// Returns the paper's constants for equal panels of a mass (kg) and side (m).
     pub fn of_panels(mass: f64, side: f64) -> Measure {
         Measure {
             inertia: 6.15e-11,
@@ -34,7 +34,7 @@ impl Measure {
         }
     }
 
-    /// Returns χ of a layout (Eq. 6, 9, 10) with the leaves folded first.
+    /// Returns χ of a layout (Eq. 6, 9, 10) with the leaves folded first, kg·m²; less is better.
     ///
     /// Distances are from the root's centroid, at the beginning and at the end of the face's own step:
     /// everything below it has folded, nothing above it has.
@@ -67,17 +67,18 @@ impl Measure {
 /// The result of a search by the measure.
 #[derive(Clone, Debug)]
 pub struct Preferred {
-    /// The first of the preferred layouts.
+    /// The first layout found of the least measure.
     pub layout: Layout,
-    /// Its measure.
+    /// Its measure χ ([`Measure::of`]), kg·m²; the least is preferred.
     pub measure: f64,
-    /// The number of pairs of a layout and a root asked for that are equally good.
+    /// The number of pairs of a layout and a root asked for with this measure, up to ties.
     pub ties: u64,
-    /// The extent of the enumeration.
+    /// The extent of the enumeration, over which alone the layout is the best.
     pub walked: Traversal,
 }
 
-/// Searches the layout that the measure prefers, among all with the root asked for, or any; `budget`: layouts.
+/// Searches the layout of least measure among all with the given root, or any if `None`, by enumeration of at most
+/// `budget` layouts, and at least one.
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than 64 faces.

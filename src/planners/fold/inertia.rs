@@ -4,14 +4,14 @@ use super::target::Target;
 use crate::geometry::Vec3;
 use nalgebra::Matrix3;
 
-/// The model of how a panel's mass is spread.
+/// The distribution of a panel's mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Inertia {
     /// Evenly over the triangle, without thickness.
     Lamina,
     /// Evenly over the triangle with a thickness, m, half of it on either side.
     Prism(f64),
-    /// All in the centroid: what the paper's numbers amount to.
+    /// All at the centroid, to which the paper's numbers amount.
     Point,
 }
 
@@ -27,21 +27,22 @@ pub struct Body {
 }
 
 impl Body {
-    /// Computes the body of a panel from its corners (m) and mass (kg).
+    /// Computes the rigid body of a panel from its corners (m) and mass (kg), in the frame of the corners.
     pub fn of_panel(corners: &[Vec3; 3], mass: f64, inertia: Inertia) -> Body {
         let centre = corners.iter().sum::<Vec3>() / 3.0;
         let second = second_moment(&corners.map(|c| c - centre), inertia) * mass;
         Body { mass, centre, inertia: Matrix3::identity() * second.trace() - second }
     }
 
-    /// Computes the bodies of all panels of a target; `masses`: by face, kg.
+    /// Computes the rigid bodies of all panels of a target, by face; `masses`: by face, kg, one for each face.
     pub fn of_target(target: &Target, masses: &[f64], inertia: Inertia) -> Vec<Body> {
         let body = |(face, &mass): (usize, &f64)| Body::of_panel(&target.corners(face), mass, inertia);
         masses.iter().enumerate().map(body).collect()
     }
 }
 
-/// Returns the moment of inertia (kg·m²) of a triangle about the line through `point` along the unit `axis`.
+/// Returns the moment of inertia (kg·m²) of a panel with these corners (m) and this `mass` (kg), spread as `inertia`
+/// says, about the line through `point` (m) along the unit vector `axis`.
 pub fn moment_about(corners: &[Vec3; 3], mass: f64, inertia: Inertia, point: &Vec3, axis: &Vec3) -> f64 {
     let second = second_moment(&corners.map(|c| c - point), inertia);
     mass * (second.trace() - axis.dot(&(second * axis)))

@@ -7,13 +7,13 @@ use crate::planners::Solution;
 use crate::robot::{Assembly, State};
 use std::sync::Arc;
 
-/// A program of a robot, with what it is judged under.
+/// A program of a robot, with the world and the options under which it is judged.
 pub(crate) struct Motion {
     /// The robot that moves.
     pub robot: Assembly,
     /// Its state at the beginning.
     pub start: State,
-    /// All its actions have cause 0.
+    /// The program; all its actions have cause 0.
     pub program: Arc<Node>,
     /// The world that the plan assumes.
     pub world: World,
@@ -29,13 +29,13 @@ pub(crate) struct Judged {
     pub verdict: Verdict,
 }
 
-/// The reason that a motion is refused.
+/// The reason why a motion is refused.
 pub(crate) enum Fault {
     /// It can't be scheduled.
     Schedule(behavior::Refusal),
     /// A stated duration is shorter than the limits of a joint allow.
     TooFast,
-    /// The judge refuses it; its first failure.
+    /// The judge refuses it; the earliest failure.
     Refused(Box<Failure>),
 }
 

@@ -5,11 +5,11 @@ use super::target::Target;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
 
-/// Returns the displacement of every face from its pose in the target, with the root in its pose there, when
-/// the hinges of the faces for which `folded` holds have folded and the others are level.
+/// Returns the displacement of every face from its pose in the target, by face, with the root in its pose there, when
+/// the hinges of the faces for which `folded(face)` is true have folded and the others are level.
 ///
-/// A child's displacement is its parent's, after a turn about the target's line of the hinge by the angle
-/// that is still missing.
+/// A child's displacement is its parent's after a rotation about the line of the hinge in the target by the difference
+/// between the hinge's angle and its fold angle.
 pub fn poses(target: &Target, layout: &Layout, folded: impl Fn(usize) -> bool) -> Vec<Pose> {
     poses_at(target, layout, |face| {
         let hinge = layout.hinge[face].expect("only the root has none");
@@ -17,7 +17,8 @@ pub fn poses(target: &Target, layout: &Layout, folded: impl Fn(usize) -> bool) -
     })
 }
 
-/// Returns the displacements with the hinge of every face at an angle, rad: 0 is level.
+/// Returns the displacement of every face from its pose in the target, by face, with the root in its pose there, when
+/// the hinge of each face but the root is at `angle(face)`, rad: 0 is level, the angle of the hinge folded.
 pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Pose> {
     let mut poses = vec![Pose::identity(); target.faces.len()];
     for &face in &layout.order[1..] {

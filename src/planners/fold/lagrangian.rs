@@ -22,44 +22,47 @@ use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 use std::collections::BinaryHeap;
 
-/// Rounds without progress after which steps are shortened.
-const PATIENCE: usize = 30;
+/// The number of rounds without progress after which steps are shortened.
+const STALLED_ROUNDS_MAX: usize = 30;
 
 /// The factor by which steps are shortened.
 const SHORTER: f64 = 0.7;
 
-/// Sums over the table of multipliers that take about as long as settling a face on a path.
+/// The number of sums over the table of multipliers that take about as long as settling a face on a path.
 const SUMS: usize = 64;
 
-/// The multipliers that are not zero: index in the table and value, N·m for steps of one second.
+/// The multipliers that are not zero, each with its index in the table by goal j and arc a, `3 * faces * j + a`; N·m
+/// for steps of one second.
 pub type Multipliers = [(u32, f64)];
 
 /// The result of an ascent.
 pub struct Ascent {
-    /// The lower bound for all layouts over the arcs allowed; infinite where there is none.
+    /// The lower bound on the energy of all layouts over the arcs allowed, N·m for steps of one second; infinite if
+    /// there is no such layout.
     pub bound: f64,
-    /// The multipliers of that bound.
+    /// The multipliers of that bound, as [`Multipliers`]; those given if no layout is left.
     pub multipliers: Vec<(u32, f64)>,
-    /// The number of paths that entered by each face and side in the last round.
+    /// For each face and side, the number of paths of the last round that enter there; all 0 if no layout is left.
     pub uses: Vec<[u32; 3]>,
-    /// The length of the last step, as a part of the gap.
+    /// The length of the last step, as a part of the gap between bound and estimated optimum.
     pub length: f64,
 }
 
 /// The limits of an ascent.
 #[derive(Clone, Copy, Debug)]
 pub struct AscentLimits {
-    /// The bound at which the ascent ends; arcs that only costlier layouts use are removed.
+    /// The bound at which the ascent ends, N·m for steps of one second; arcs that only costlier layouts use are
+    /// removed.
     pub cutoff: f64,
-    /// An estimate of the optimum, for Polyak's step.
+    /// An estimate of the optimum for Polyak's step, N·m for steps of one second.
     pub optimum_estimate: f64,
-    /// The greatest number of rounds.
+    /// The greatest number of rounds; without any the bound is minus infinity.
     pub rounds: usize,
-    /// The length of the first step, as a part of the gap.
+    /// The length of the first step, as a part of the gap between bound and estimated optimum.
     pub length: f64,
 }
 
-/// The relaxation of one target under its weights, with its working memory.
+/// The Lagrangian relaxation of one target under its weights, with its working memory.
 pub struct Lagrangian<'t> {
     target: &'t Target,
     faces: usize,
@@ -119,8 +122,9 @@ impl<'t> Lagrangian<'t> {
     /// Raises the bound of the layouts with this root over the arcs allowed by subgradient ascent, from given
     /// multipliers. Arcs that no layout below the cutoff uses are removed from `allowed` (fixing by reduced
     /// costs). `steps` counts down the faces settled on paths and the sums over multipliers; at zero the
-    /// ascent ends. `layouts` gets the arcs chosen into each face every few rounds, which are nearly a
-    /// layout, and returns the cutoff from then on.
+    /// ascent ends. In the first and in every 20th round `layouts` gets the arc chosen into each face (that of the root
+    /// has no meaning), which are nearly a layout, and `steps`; if it returns less than the cutoff, that is the cutoff
+    /// from then on.
     pub fn ascend(
         &mut self,
         root: usize,
@@ -174,7 +178,7 @@ impl<'t> Lagrangian<'t> {
             if self.remove_arcs(root, allowed, &paid, bound, cutoff) {
                 moved.fill(true);
             }
-            if stale > PATIENCE {
+            if stale > STALLED_ROUNDS_MAX {
                 (length, stale) = (length * SHORTER, 0);
             }
             if length < TOLERANCES.ascent_step
@@ -187,6 +191,7 @@ impl<'t> Lagrangian<'t> {
         Ascent { bound: best, multipliers: best_multipliers, uses, length }
     }
 
+    /// Returns the multipliers that are not zero.
     fn nonzero(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         let paid = self.multipliers.iter().enumerate().filter(|(_, multiplier)| **multiplier > 0.0);
         paid.map(|(at, multiplier)| (u32::try_from(at).expect("targets have few faces"), *multiplier))
@@ -343,11 +348,12 @@ impl<'t> Lagrangian<'t> {
     }
 }
 
-/// Rounds between two calls of the Lagrangian heuristic.
+/// The number of rounds between two calls of the Lagrangian heuristic.
 const LAYOUTS_EVERY: usize = 20;
 
-/// Returns the hinges of a layout made of one arc into each face (Lagrangian heuristic). Faces connected to
-/// the root stay as they are; cycles are joined to it across the first hinge that leads there.
+/// Returns the hinges of a layout made of one arc into each face (Lagrangian heuristic); `chosen`: by face, of which
+/// that of the root is not read. Faces connected to the root keep their arcs; cycles are joined to it across the
+/// first hinge that leads there. Panics if a chosen side has no hinge.
 pub fn repaired(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
     let n = target.faces.len();
     let hinge_of = |arc: usize| target.sides[arc / 3][arc % 3].expect("arcs lead across hinges");

@@ -6,29 +6,30 @@ use super::weights::Weights;
 /// A layout: a spanning tree of the faces of a target, rooted at a face. Its edges are the hinges that fold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// The face that stays where it is.
+    /// The face that keeps its pose.
     pub root: usize,
-    /// The hinge from each face to its parent; `None` for the root.
+    /// For each face, the index in [`Target::hinges`] of the hinge to its parent; `None` for the root.
     pub hinge: Vec<Option<usize>>,
-    /// The parent of each face; the root's is itself.
+    /// For each face, its parent; the root's is itself.
     pub parent: Vec<usize>,
-    /// All faces, parents before children.
+    /// All faces, parents before children, the root first.
     pub order: Vec<usize>,
 }
 
-/// The hinge between a face and its parent, seen from both.
+/// The sides at which a face and its parent are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Across {
-    /// The parent.
+    /// The parent of the face.
     pub parent: usize,
-    /// The parent's side at the hinge.
+    /// The parent's side at the hinge, 0 to 2.
     pub parent_side: usize,
-    /// The face's own.
+    /// The face's side at the hinge, 0 to 2.
     pub side: usize,
 }
 
 impl Layout {
-    /// Builds a layout from the hinges that fold; `None` where they are no spanning tree.
+    /// Builds a layout from the indices of the hinges that fold, in any order; `None` if they are no spanning tree of
+    /// the faces. Panics if an index or the root is none of the target.
     pub fn of_hinges(target: &Target, hinges: &[usize], root: usize) -> Option<Layout> {
         let n = target.faces.len();
         if hinges.len() + 1 != n {
@@ -54,13 +55,14 @@ impl Layout {
         (layout.order.len() == n).then_some(layout)
     }
 
-    /// Builds a layout from pairs of neighbouring faces; `None` where they are no spanning tree of hinges.
+    /// Builds a layout from the pairs of faces whose hinges fold, in any order; `None` if a pair shares no hinge or the
+    /// hinges are no spanning tree of the faces. Panics if a face or the root is none of the target.
     pub fn of_pairs(target: &Target, pairs: &[[usize; 2]], root: usize) -> Option<Layout> {
         let hinges: Option<Vec<usize>> = pairs.iter().map(|&[a, b]| target.hinge_between(a, b)).collect();
         Layout::of_hinges(target, &hinges?, root)
     }
 
-    /// Returns the hinge of a face that is not the root, seen from both sides. Panics for the root.
+    /// Returns the sides at which a face and its parent are joined. Panics for the root.
     pub fn across(&self, target: &Target, face: usize) -> Across {
         let hinge = &target.hinges[self.hinge[face].expect("only the root has none")];
         let parent = self.parent[face];
@@ -72,22 +74,22 @@ impl Layout {
         self.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle)
     }
 
-    /// Returns the hinges that fold, in order of number.
+    /// Returns the indices of the hinges that fold, in ascending order.
     pub fn hinges(&self) -> Vec<usize> {
         let mut hinges: Vec<usize> = self.hinge.iter().copied().flatten().collect();
         hinges.sort_unstable();
         hinges
     }
 
-    /// Returns the layout with the hinge `added` instead of `dropped`, which must lie on the cycle that
-    /// `added` closes; panics otherwise.
+    /// Returns the layout with the hinge `added` instead of `dropped`, with the same root. Panics if `added` does not
+    /// join the two parts into which the layout falls without `dropped`, which must be one of its hinges.
     pub fn exchanged(&self, target: &Target, dropped: usize, added: usize) -> Layout {
         let hinges: Vec<usize> =
             self.hinges().into_iter().map(|hinge| if hinge == dropped { added } else { hinge }).collect();
         Layout::of_hinges(target, &hinges, self.root).expect("it joins the two parts")
     }
 
-    /// Returns the same tree rooted at another face.
+    /// Returns the same tree rooted at another face. Panics if the target has no such face.
     pub fn rerooted(&self, target: &Target, root: usize) -> Layout {
         Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")
     }
@@ -105,7 +107,7 @@ impl Layout {
         sum
     }
 
-    /// Returns by face the number of hinges between it and the root.
+    /// Returns the depth of every face, by face: the number of hinges between it and the root.
     pub fn depths(&self) -> Vec<usize> {
         let mut depths = vec![0; self.parent.len()];
         for &face in &self.order[1..] {
@@ -114,7 +116,8 @@ impl Layout {
         depths
     }
 
-    /// Returns by face the number of hinges between it and the farthest leaf below it; 0 for a leaf.
+    /// Returns the height of every face, by face: the number of hinges between it and the farthest leaf below it; 0 for
+    /// a leaf. That of the root is the height of the tree.
     pub fn heights(&self) -> Vec<usize> {
         let mut heights = vec![0; self.parent.len()];
         for &face in self.order[1..].iter().rev() {
@@ -124,7 +127,7 @@ impl Layout {
         heights
     }
 
-    /// Returns true if one of two faces is on the other's path from the root, or they are the same.
+    /// Returns true if one of two faces is on the path from the root to the other, or they are the same face.
     pub fn comparable(&self, a: usize, b: usize) -> bool {
         self.is_above(a, b) || self.is_above(b, a)
     }
@@ -143,7 +146,7 @@ impl Layout {
         }
     }
 
-    /// Returns the children of every face, in order of number.
+    /// Returns the children of every face, by face, in ascending order; none for a leaf.
     pub fn children(&self) -> Vec<Vec<usize>> {
         let mut children = vec![Vec::new(); self.parent.len()];
         for (face, &parent) in self.parent.iter().enumerate() {

@@ -69,7 +69,7 @@ impl Series {
         self.0[0] * (x + 1.0) + higher.sum::<f64>()
     }
 
-    /// Returns mean and peak of the absolute value, parted at the roots.
+    /// Returns mean and peak of the absolute value over -1..1, by the integrals between the roots.
     pub(super) fn size(&self) -> Size {
         let place = |i: usize| 2.0 * i as f64 / SIGN_SAMPLES as f64 - 1.0;
         let values: [f64; SIGN_SAMPLES + 1] = std::array::from_fn(|i| self.at(place(i)));
@@ -95,6 +95,7 @@ impl Series {
         Size { mean: sum / 2.0, peak }
     }
 
+    /// Returns the root between two points with values of opposite signs, by bisection.
     fn root(&self, mut low: f64, mut high: f64) -> f64 {
         let sign = self.at(low);
         for _ in 0..SECTIONS {
@@ -104,6 +105,7 @@ impl Series {
         low
     }
 
+    /// Returns the greatest absolute value between two points around one top, by ternary search.
     fn top(&self, mut low: f64, mut high: f64) -> f64 {
         let size = |x: f64| self.at(x).abs();
         for _ in 0..SECTIONS {
@@ -114,12 +116,12 @@ impl Series {
     }
 }
 
-/// Mean and peak of the absolute value of a function, in its own unit.
+/// The mean and the peak of the absolute value of a function, in its own unit: torques in N·m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Size {
-    /// The mean.
+    /// The mean of the absolute value.
     pub mean: f64,
-    /// The peak.
+    /// The greatest absolute value.
     pub peak: f64,
 }
 

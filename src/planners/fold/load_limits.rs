@@ -9,19 +9,19 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
 
-/// States of each step that are sampled.
+/// The number of states of each step that are sampled.
 const SAMPLES: usize = 12;
 
-/// The loads of the faces and the limits of ground and hinges. The root lies on the ground with its outside down.
+/// The weights of the faces and the limits of ground and hinges. The root lies on the ground with its outside down.
 #[derive(Clone, Debug)]
 pub struct LoadLimits {
-    /// The weight of each face, N.
+    /// The weight of each face, by face, N.
     pub weights: Vec<f64>,
     /// The torque that a hinge holds, N·m; infinite where no limit is stated.
     pub torque: f64,
-    /// The depth under the root's level at which a corner is in the ground, m.
+    /// The depth below the root's plane beyond which a corner is in the ground, m.
     pub depth: f64,
-    /// The height over it below which a corner touches the ground, m.
+    /// The height over the root's plane below which a corner touches the ground, m.
     pub touch: f64,
 }
 
@@ -32,21 +32,21 @@ pub enum Violation {
     Ground {
         /// The face.
         face: usize,
-        /// The depth of its lowest corner, m.
+        /// The depth of its lowest corner below the root's plane, m.
         depth: f64,
     },
     /// The hinge of a face is overloaded.
     Overload {
-        /// The face below the hinge.
+        /// The face that the hinge carries.
         face: usize,
-        /// The torque that it would have to hold, N·m.
+        /// The absolute torque that the hinge would have to hold, N·m.
         torque: f64,
     },
 }
 
 impl LoadLimits {
-    /// Returns the first violation of a load limit in a step; `folded`: true, by face, if its hinge has
-    /// folded before.
+    /// Returns the first violation of a limit in the samples of a step; `None` if they show none. `folded`: for each
+    /// face, true if its hinge has folded before; `moving`: the faces whose hinges fold in the step.
     pub fn violation(
         &self,
         target: &Target,
@@ -66,7 +66,8 @@ impl LoadLimits {
         })
     }
 
-    /// Returns the violation of one state.
+    /// Returns a violation in one state, given by the displacements of the faces: of the ground, else of the first
+    /// hinge that neither holds the torque of gravity nor carries a face that rests on the ground.
     fn violation_at(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Violation> {
         crate::interrupt::checkpoint();
         let up = -target.normal(layout.root);

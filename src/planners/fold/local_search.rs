@@ -19,24 +19,25 @@ use crate::units::number;
 use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
-/// Roots from which local search starts.
+/// The greatest number of roots from which local search starts.
 const STARTS: usize = 8;
 
-/// Exchanges that are weighed by energy alone for each start.
+/// The number of exchanges that are weighed by energy alone for each start.
 const EXCHANGES: u64 = 1_000_000;
 
 /// The options of a search.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The faces that may be the root.
+    /// The faces that may be the root; at least one.
     pub roots: Vec<usize>,
     /// True leaves out layouts whose patterns overlap in the plane.
     pub flat: bool,
-    /// The greatest number of pairs of a layout and a root that are measured.
+    /// The greatest number of pairs of a layout and a root that are measured; if there are no more of them, all are
+    /// enumerated. The starts of the local search, eight at most, are measured in any case.
     pub budget: u64,
-    /// The number of layouts that are kept, the best first.
+    /// The greatest number of layouts that are kept, the best first; 0 counts as 1.
     pub keep: usize,
-    /// The prefilter, where the objective has one.
+    /// The prefilter; `None` if the objective has none.
     pub prefilter: Option<BoundPrefilter>,
 }
 
@@ -46,26 +47,29 @@ pub struct Settings {
 pub struct BoundPrefilter {
     /// The ratio of the first value to the greatest mean torque for steps of one second.
     pub scale: f64,
-    /// The greatest number of pairs of a layout and a root that pass the prefilter.
+    /// The greatest number of pairs of a layout and a root up to which all are enumerated.
     pub budget: u64,
 }
 
 /// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The best layouts with their values, the best first.
+    /// The best layouts with their values, the best first; empty if none was found that may be kept.
     pub best: Vec<(Layout, [f64; 2])>,
-    /// The number of pairs of a layout and a root that are as good as the first.
+    /// The number of pairs of a layout and a root whose first value is that of the best, up to ties. A local search
+    /// counts a pair each time that it meets it.
     pub ties: u64,
-    /// The roots with which the first's value is reached, in order.
+    /// The roots with which that value is reached, in the order of [`Settings::roots`].
     pub roots: Vec<usize>,
-    /// The least first value of all layouts, also of those that overlap.
+    /// The least first value of all layouts measured, also of those that overlap; infinite if none was.
     pub least: f64,
-    /// True if every pair of a layout and a root was visited.
+    /// True if every pair of a layout and a root was visited, or one that is equal to it by symmetry.
     pub complete: bool,
 }
 
-/// Searches the layouts of least value: values are compared by their first number, then by their second.
+/// Searches the layouts of least value; `value` returns the two values of a layout, which are compared by the first,
+/// then by the second. Enumerates all pairs of a layout and a root where the budget reaches, in targets of at most
+/// [`enumerate::FACES_MAX`] faces; else improves greedy trees by edge exchange.
 pub fn search(
     target: &Target,
     weights: &Weights,
@@ -151,7 +155,7 @@ fn improve(
     }
 }
 
-/// Returns the layout of the first exchange that helps, with its value.
+/// Returns the layout of the first exchange that helps, with its value; `None` if none does or the budget ends.
 fn exchanged(
     target: &Target,
     layout: &Layout,
@@ -198,6 +202,7 @@ impl BestLayouts<'_> {
         last.is_some_and(|(_, last)| compare(value, last[0]).is_gt())
     }
 
+    /// Keeps a layout if it is among the best and may overlap or lies flat, and counts it if it ties with the best.
     fn offer(&mut self, layout: Layout, value: [f64; 2]) {
         self.least = self.least.min(value[0]);
         let against = self.best.first().map_or(Ordering::Less, |best| compare(value[0], best.1[0]));

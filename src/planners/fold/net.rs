@@ -16,27 +16,29 @@ pub struct Net {
     pub vertices: Vec<Point>,
     /// A face with which each vertex moves, and the face's corner that it is.
     owners: Vec<(usize, usize)>,
-    /// The corners of each face among the vertices, in the target's order.
+    /// The corners of each face of the target as indices in `vertices`, in the target's order.
     pub faces: Vec<[usize; 3]>,
-    /// First the hinges that fold, in the order of the layout's faces, then the outline, face by face.
+    /// The edges: first the hinges that fold, in the order of the layout's faces without the root, then the outline,
+    /// face by face.
     pub edges: Vec<Edge>,
 }
 
 /// An edge of the net.
 #[derive(Clone, Debug)]
 pub struct Edge {
-    /// Its ends, in the direction in which its first face runs along it.
+    /// The indices of its ends in [`Net::vertices`], in the direction in which its first face runs along it.
     pub vertices: [usize; 2],
-    /// The face on its left, and for a hinge that on its right.
+    /// The face on its left; for a hinge that is the parent, and the child on its right follows.
     pub faces: Vec<usize>,
-    /// The fold angle of a hinge that folds, rad; `None` for outline.
+    /// The fold angle of a hinge of the layout in the target, rad; `None` for outline.
     pub angle: Option<f64>,
-    /// The edge of the outline that meets this one in the target.
+    /// The index in [`Net::edges`] of the edge of the outline that coincides with this one in the target; `None` for a
+    /// hinge of the layout and at the boundary of the target.
     pub glued: Option<usize>,
 }
 
 impl Net {
-    /// Cuts the net of a layout.
+    /// Cuts the net of a layout; faces of it may overlap.
     pub fn of(target: &Target, layout: &Layout) -> Net {
         let pattern = Pattern::of(target, layout);
         let n = target.faces.len();
@@ -64,6 +66,7 @@ impl Net {
         net
     }
 
+    /// Adds the edges of the outline.
     fn outline(&mut self, target: &Target, layout: &Layout) {
         let mut first: Vec<Option<usize>> = vec![None; target.hinges.len()];
         for face in 0..target.faces.len() {
@@ -86,8 +89,9 @@ impl Net {
         }
     }
 
-    /// Returns the vertices (m) with every hinge at an angle (rad, by the face that it carries), in the frame of the
-    /// flat net: the root stays as it lies there.
+    /// Returns the positions (m) of all vertices with the hinge of each face but the root at `angle(face)` (rad, 0 is
+    /// level), in the frame of the flat net: the root stays in the plane z = 0. `target` and `layout`: those that the
+    /// net was cut from.
     pub fn vertices_at(&self, target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Vec3> {
         let X_TF = poses_at(target, layout, angle);
         let [a, b, _] = target.corners(layout.root);

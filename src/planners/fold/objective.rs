@@ -23,24 +23,24 @@ const QUINTIC_SPEED: f64 = QUINTIC / 2.0;
 /// The peak acceleration of the quintic law over one unit in one second: 10/√3.
 const QUINTIC_ACCELERATION: f64 = 5.773_502_691_896_258;
 
-/// Faces, summed over layouts, that are measured by sums over sets of faces: some seconds.
+/// The greatest number of faces, summed over layouts, that are measured by sums over sets of faces: some seconds.
 const SUMMED_MAX: u64 = 400_000_000;
 
-/// Faces, summed over layouts, that are measured by the closed form.
+/// The greatest number of faces, summed over layouts, that are measured by the closed form.
 const CLOSED_MAX: u64 = 10_000_000;
 
-/// Faces, summed over layouts, that are measured by simulation.
+/// The greatest number of faces, summed over layouts, that are measured by simulation.
 const SIMULATED_MAX: u64 = 40_000;
 
 /// The quantity to minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Minimise {
-    /// The sum of mean torques (Eq. 5).
+    /// The sum of the hinges' mean torques over all steps (Eq. 5), N·m; of equal ones the fewest steps.
     #[default]
     Energy,
-    /// The greatest torque of a hinge.
+    /// The greatest torque of a hinge, N·m; of equal ones the least energy.
     PeakTorque,
-    /// The number of steps, then the energy.
+    /// The number of steps; of equal ones the least energy.
     Steps,
 }
 
@@ -51,15 +51,15 @@ pub struct Conventions {
     pub inertia: Inertia,
     /// The joints whose torques count.
     pub count: Count,
-    /// Gravity, m/s², towards the ground on which the root lies with its outside down; 0 without.
+    /// Gravity, m/s², towards the ground on which the root lies with its outside down; 0 for no gravity.
     pub gravity: f64,
     /// The time of a step, s.
     pub step: f64,
 }
 
 impl Conventions {
-    /// Returns true if only a hinge's torque in its own step counts, and depends on what it carries alone: then
-    /// energy and peak have a closed form.
+    /// Returns true if there is no gravity and only moving joints count: then a hinge's torque counts in its own step
+    /// only, depends on nothing but the faces that it carries, and energy and peak torque have a closed form.
     pub fn is_separable(&self) -> bool {
         self.gravity == 0.0 && self.count == Count::Moving
     }
@@ -68,9 +68,9 @@ impl Conventions {
 /// The energy and the peak torque of a folding, N·m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// The energy (Eq. 5), N·m.
+    /// The energy (Eq. 5): the sum of the mean absolute torques of the joints that count, over all steps, N·m.
     pub energy: f64,
-    /// The peak torque of a hinge, N·m.
+    /// The greatest absolute torque of a joint that counts, N·m.
     pub peak: f64,
 }
 
@@ -84,7 +84,7 @@ impl Effort {
     }
 }
 
-/// The objective on the layouts and orders of a target.
+/// The objective function on the layouts and orders of a target.
 pub struct Objective<'t> {
     target: &'t Target,
     /// The mass of each face, kg.
@@ -99,7 +99,7 @@ pub struct Objective<'t> {
 }
 
 impl<'t> Objective<'t> {
-    /// Sets up the objective of a target; `masses`: by face, kg.
+    /// Sets up the objective of a target; `masses`: by face, kg, one for each face of the target.
     pub fn new(
         target: &'t Target,
         masses: Vec<f64>,
@@ -111,23 +111,27 @@ impl<'t> Objective<'t> {
         Objective { target, masses, conventions, minimise, bodies, weights }
     }
 
-    /// Returns true if the objective is a sum over faces of what their own paths cost, as branch and bound needs.
+    /// Returns true if the conventions are separable and energy is minimised, alone or after the steps: the energy is
+    /// then a sum over faces of the costs of their own paths, as branch and bound needs.
     pub fn is_sum_over_faces(&self) -> bool {
         self.conventions.is_separable() && self.minimise != Minimise::PeakTorque
     }
 
-    /// Returns true if the objective is the greatest of sums over sets of faces.
+    /// Returns true if the conventions are separable and the peak torque is minimised: it is then the greatest of
+    /// sums, for each hinge over the faces that it carries.
     pub fn is_greatest_sum(&self) -> bool {
         self.conventions.is_separable() && self.minimise == Minimise::PeakTorque
     }
 
-    /// Returns the bound prefilter for such an objective: how many layouts with roots it may visit.
+    /// Returns the prefilter by bounds for an objective that is a greatest sum, with a budget of at most `budget`
+    /// pairs of a layout and a root; `None` for other objectives.
     pub fn prefilter(&self, budget: u64) -> Option<BoundPrefilter> {
         let most = budget.min(SUMMED_MAX / self.masses.len() as u64);
         self.is_greatest_sum().then(|| BoundPrefilter { scale: self.peak_by_mean(), budget: most })
     }
 
-    /// Returns the energy and peak torque of a layout that folds in these steps.
+    /// Returns the energy and peak torque of a layout that folds in these steps: for each the faces whose hinges fold
+    /// at the same time, no two of them on one path from the root.
     pub fn effort(&self, layout: &Layout, steps: &[Vec<usize>]) -> Effort {
         let Conventions { inertia, count, gravity, step } = self.conventions;
         if self.conventions.is_separable() {
@@ -147,8 +151,8 @@ impl<'t> Objective<'t> {
         self.effort(layout, &super::steps::leaves_first(layout))
     }
 
-    /// Returns the minimised quantity of a layout that folds with the leaves first, and the one that decides
-    /// ties: energy and peak torque, both N·m.
+    /// Returns the value to minimise of a layout that folds with the leaves first, and the value that decides ties, by
+    /// [`Minimise`]: energy (N·m) and steps, peak torque (N·m) and energy (N·m), or steps and energy (N·m).
     pub fn value(&self, layout: &Layout) -> [f64; 2] {
         let steps = layout.heights()[layout.root] as f64;
         let Effort { energy, peak } = self.leaves_first(layout);
@@ -159,14 +163,15 @@ impl<'t> Objective<'t> {
         }
     }
 
-    /// Returns the number of layouts with roots that may be measured: fewer where each is simulated.
+    /// Returns the greatest number of pairs of a layout and a root whose energy and peak torque are computed: 1e7
+    /// divided by the number of faces, and 4e4 by it where each takes a simulation.
     pub fn measures_max(&self) -> u64 {
         let faces = self.masses.len() as u64;
         if self.conventions.is_separable() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }
     }
 
-    /// Returns the lower bound for all layouts with these roots in the orders given: on the peak torque where that
-    /// is minimised, else on the energy; N·m.
+    /// Returns a lower bound for all layouts with these roots in the orders given: on the peak torque where that is
+    /// minimised, else on the energy; N·m; infinite without roots.
     pub fn lower_bound(&self, roots: &[usize], orders: Orders) -> f64 {
         let bounds = match orders {
             Orders::LeavesFirst => self.leaves_first_bounds(roots),
@@ -207,18 +212,19 @@ impl<'t> Objective<'t> {
         roots.iter().map(bound).collect()
     }
 
-    /// Returns the ratio of a peak torque of the closed form to the mean torque, for steps of one second.
+    /// Returns the ratio of a hinge's peak torque for steps of the conventions' time to its mean torque for steps of
+    /// one second, which is the same for all hinges in the closed form.
     pub fn peak_by_mean(&self) -> f64 {
         QUINTIC_ACCELERATION / QUINTIC / (self.conventions.step * self.conventions.step)
     }
 
-    /// Returns the bound for one root with the leaves first, without what gravity asks of each hinge.
+    /// Returns the bound for one root with the leaves first, without the torque that each hinge needs against gravity.
     fn bound(&self, routes: &ShortestPaths, root: usize) -> f64 {
         let by_square = 1.0 / (self.conventions.step * self.conventions.step);
         match (self.minimise, self.conventions.gravity == 0.0) {
             (_, false) => self.by_work(root),
             (Minimise::PeakTorque, true) => self.heaviest(root) * self.peak_by_mean(),
-            // Counting the locked joints adds to what the moving ones spend.
+            // Counting the locked joints adds to the energy of the moving ones.
             (_, true) => routes.bound(root) * by_square,
         }
     }
@@ -240,7 +246,8 @@ impl<'t> Objective<'t> {
         }
     }
 
-    /// Returns the least number of steps of any layout with this root, or with any.
+    /// Returns the least number of steps of any layout with this root, or with any if `None`: the distance of the root
+    /// from the farthest face in hinges. Layouts that overlap or collide count, too.
     pub fn fewest_steps(&self, root: Option<usize>) -> usize {
         let roots = root.map_or(0..self.masses.len(), |root| root..root + 1);
         roots.map(|root| self.radius(root)).min().unwrap_or(0)
@@ -264,7 +271,7 @@ impl<'t> Objective<'t> {
         last
     }
 
-    /// Returns the work that every folding does: what all panels gain over the ground, J.
+    /// Returns the least work of any folding, J: the potential energy that the panels gain or lose in all.
     fn lifted(&self, root: usize) -> f64 {
         let (up, ground) = (-self.target.normal(root), self.target.centroid(root));
         let height = |face: usize| -> f64 { up.dot(&Vec3::from(self.target.centroid(face) - ground)) };
@@ -289,6 +296,7 @@ impl<'t> Objective<'t> {
     }
 }
 
+/// Returns `a / b`, or 0 if `b` is not positive.
 fn quotient(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }

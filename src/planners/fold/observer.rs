@@ -3,7 +3,8 @@
 use crate::planners::Progress;
 use std::cell::{Cell, RefCell};
 
-/// A forwarder of the reports of all searches to one [`Progress`], which remembers that it ended the call.
+/// The observer of one planning call: it forwards the reports of all searches to one [`Progress`] and remembers if that
+/// has ended the call.
 pub struct Observer<'p> {
     progress: RefCell<Option<&'p mut dyn Progress>>,
     ended: Cell<bool>,
@@ -20,7 +21,7 @@ impl<'p> Observer<'p> {
         Observer { progress: RefCell::new(None), ended: Cell::new(false) }
     }
 
-    /// Hands on how far a search is; `how_far` is called only if somebody reads it.
+    /// Forwards the state of a search; `how_far` builds its line of text, and is called only if the text is read.
     pub fn report(&self, how_far: impl Fn() -> String) {
         if let Some(progress) = &mut *self.progress.borrow_mut() {
             progress.report(&how_far);

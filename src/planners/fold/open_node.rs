@@ -11,7 +11,9 @@ const FACE_BYTES: usize = 48;
 /// A node of the search: the layouts of one root with some arcs left out.
 pub(super) struct Node {
     pub(super) root: usize,
+    /// The lower bound on the energy of its layouts, N·m for steps of one second.
     pub(super) bound: f64,
+    /// The number of branchings before it, which orders nodes of equal bound.
     pub(super) number: u64,
     /// The paths of the node; `None` while only its bound is known.
     pub(super) ways: Option<NodePaths>,
@@ -19,9 +21,13 @@ pub(super) struct Node {
 
 /// The relaxed solution of a node.
 pub(super) struct NodePaths {
+    /// The arcs that are not left out.
     pub(super) allowed: Allowed,
+    /// The shortest path to each face, from the face back to the root.
     pub(super) paths: Vec<Rc<[Arc]>>,
+    /// The cost of each path, N·m for steps of one second.
     pub(super) costs: Vec<f64>,
+    /// The multipliers from which the next ascent begins.
     pub(super) multipliers: Rc<Multipliers>,
     /// The length of the next step of an ascent, as a part of the gap.
     pub(super) length: f64,
@@ -51,7 +57,7 @@ impl PartialEq for Node {
 impl Eq for Node {}
 
 impl Node {
-    /// Returns about its size, bytes.
+    /// Returns an estimate of its size, bytes; 0 while only its bound is known.
     pub(super) fn size(&self) -> usize {
         let Some(ways) = &self.ways else { return 0 };
         FACE_BYTES * ways.paths.len() + size_of_val(&*ways.multipliers)

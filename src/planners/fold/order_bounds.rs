@@ -1,12 +1,12 @@
 //! Lower bounds on the energy of other orders than leaves first, without gravity.
 //!
 //! A hinge spends `3.75 |φ| K` on a face that it carries, where K is the moment of inertia of the face about the
-//! line of the hinge, in the place that the face has when the hinge folds. Seen from the hinge, that place depends
+//! line of the hinge, in the pose that the face has when the hinge folds. Seen from the hinge, that pose depends
 //! only on which of the hinges between the two have folded before. So the energy of a layout in any order is a
 //! sum over its faces, and what a face adds is no less than its cheapest path with the least K at each hinge:
-//! over all places in any order, and over the level place alone where the root folds first.
+//! over all poses in any order, and over the level pose alone where the root folds first.
 //!
-//! The paths of a face are enumerated upwards from the face, to a depth that bounds the number of places. From
+//! The paths of a face are enumerated upwards from the face, to a depth that bounds the number of poses. From
 //! there on a hinge spends no less than the least moment of inertia of the face about any line, so the rest of a
 //! path costs no less than that by the least sum of angles on the way to the root.
 
@@ -17,36 +17,36 @@ use super::tolerances::TOLERANCES;
 use super::weights::QUINTIC;
 use crate::geometry::{Pose, Vec3};
 
-/// The greatest number of places of faces over which moments of inertia are computed: some tenths of a second.
-const PLACES_MAX: usize = 1 << 20;
+/// The greatest number of poses of faces over which moments of inertia are computed: some tenths of a second.
+const POSES_MAX: usize = 1 << 20;
 
 /// The orders of folding for which a lower bound holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orders {
-    /// The leaves first, in every layout.
+    /// Orders in which a hinge folds after all hinges that it carries.
     LeavesFirst,
-    /// The root's children first, in every layout.
+    /// Orders in which a hinge folds before all hinges that it carries.
     RootFirst,
     /// Every order.
     Any,
 }
 
 impl Orders {
-    /// Returns the factor by which the places of a face grow with each hinge of its path.
-    fn places(self) -> usize {
+    /// Returns the factor by which the number of poses of a face grows with each hinge of its path.
+    fn growth(self) -> usize {
         match self {
             Orders::LeavesFirst | Orders::RootFirst => 1,
             Orders::Any => 2,
         }
     }
 
-    /// Returns the places of a face seen from the next hinge, from those seen from this one; `level` opens this
-    /// one.
-    fn next(self, places: &[Pose], level: &Pose) -> Vec<Pose> {
+    /// Returns the poses that a face may have seen from the next hinge, from those seen from this one; `level` is the
+    /// rotation that opens this one.
+    fn next(self, poses: &[Pose], level: &Pose) -> Vec<Pose> {
         match self {
-            Orders::LeavesFirst => places.to_vec(),
-            Orders::RootFirst => places.iter().map(|place| level * place).collect(),
-            Orders::Any => places.iter().flat_map(|place| [level * place, *place]).collect(),
+            Orders::LeavesFirst => poses.to_vec(),
+            Orders::RootFirst => poses.iter().map(|pose| level * pose).collect(),
+            Orders::Any => poses.iter().flat_map(|pose| [level * pose, *pose]).collect(),
         }
     }
 }
@@ -70,7 +70,7 @@ pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders
             least: vec![f64::INFINITY; faces],
             cut: vec![f64::INFINITY; faces],
         };
-        search.climb(goal, 0, &[Pose::identity()], 0.0);
+        search.extend_path(goal, 0, &[Pose::identity()], 0.0);
         let slope = QUINTIC * least_moment(&search.corners, mass, inertia);
         let cut = || search.cut.iter().enumerate().filter(|(_, cost)| cost.is_finite());
         for (root, sum) in sums.iter_mut().enumerate() {
@@ -84,8 +84,8 @@ pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders
 /// Returns the number of hinges up to which paths are enumerated, at least one.
 fn depth(faces: usize, orders: Orders) -> usize {
     // A face has three neighbours, and every face after it two that the path has not passed.
-    let growth = 2 * orders.places();
-    let within = |depth: &usize| growth.checked_pow(*depth as u32).is_some_and(|n| n <= PLACES_MAX / faces);
+    let growth = 2 * orders.growth();
+    let within = |depth: &usize| growth.checked_pow(*depth as u32).is_some_and(|n| n <= POSES_MAX / faces);
     (1..faces.max(2)).take_while(within).last().unwrap_or(1)
 }
 
@@ -133,9 +133,9 @@ struct PathSearch<'t> {
 }
 
 impl PathSearch<'_> {
-    /// Goes on from the upper end of a path of so many hinges; `places`: those that the face may have seen from
-    /// the next hinge.
-    fn climb(&mut self, end: usize, hinges: usize, places: &[Pose], cost: f64) {
+    /// Extends a path of `hinges` hinges that ends at the face `end` by one hinge; `poses`: those that the path's face
+    /// may have seen from that hinge; `cost`: the least cost of the path, N·m for steps of one second.
+    fn extend_path(&mut self, end: usize, hinges: usize, poses: &[Pose], cost: f64) {
         self.least[end] = self.least[end].min(cost);
         if hinges == self.depth {
             self.cut[end] = self.cut[end].min(cost);
@@ -149,13 +149,13 @@ impl PathSearch<'_> {
             }
             let hinge = &target.hinges[index];
             let axis = hinge.axis_from(parent);
-            let moment = |place: &Pose| {
-                let corners = self.corners.map(|corner| place.transform_point(&corner.into()).coords);
+            let moment = |pose: &Pose| {
+                let corners = self.corners.map(|corner| pose.transform_point(&corner.into()).coords);
                 moment_about(&corners, self.mass, self.inertia, &hinge.point, &axis)
             };
-            let least = places.iter().map(moment).fold(f64::INFINITY, f64::min);
-            let next = self.orders.next(places, &about(&hinge.point, axis, -hinge.angle));
-            self.climb(parent, hinges + 1, &next, cost + QUINTIC * hinge.angle.abs() * least);
+            let least = poses.iter().map(moment).fold(f64::INFINITY, f64::min);
+            let next = self.orders.next(poses, &about(&hinge.point, axis, -hinge.angle));
+            self.extend_path(parent, hinges + 1, &next, cost + QUINTIC * hinge.angle.abs() * least);
         }
         self.on_path[end] = false;
     }

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::fmt;
 use std::sync::Arc;
 
-/// Steps are as long as the slowest hinge needs, rounded up to a multiple of this, s.
+/// The granularity of the time of steps, s.
 const STEP_GRAIN: f64 = 0.01;
 
 /// The time of a step whose hinges have no limits of speed and acceleration, s.
@@ -21,19 +21,20 @@ const STEP_UNLIMITED: f64 = 1.0;
 pub struct Panel {
     /// The mass, kg.
     pub mass: f64,
-    /// The lengths of the sides from port 0 on, counterclockwise seen from the front, m.
+    /// The lengths of the sides in the order of the ports, counterclockwise seen from the front, m.
     pub sides: [f64; 3],
-    /// The thickness of the uniform plate with the same second moment across itself, m.
+    /// The thickness of a uniform plate of the same mass with the same second moment along its normal, m.
     pub thickness: f64,
-    /// The greatest speed and acceleration of the hinges at its edges, rad/s and rad/s².
+    /// The greatest speed and acceleration of the hinges at its edges, rad/s and rad/s²; each `None` where no limit is
+    /// stated.
     pub able: law::MotionLimits,
     /// The torque that its hinges hold, N·m; `None` where no limit is stated.
     pub torque: Option<f64>,
     /// The depth to which a panel may enter another panel or the ground before that is a collision, m.
     pub touch: f64,
-    /// The distance below which a panel touches the ground, m.
+    /// The height over the ground below which a panel touches it, m.
     pub contact: f64,
-    /// Its convex collision parts, in the panel frame of [`Solids`].
+    /// The convex parts of its collision shape, in the panel frame of [`Solids`].
     pub parts: Vec<Part>,
 }
 
@@ -70,10 +71,10 @@ impl fmt::Display for NotAPanel {
 impl std::error::Error for NotAPanel {}
 
 impl Panel {
-    /// Reads module type `kind` of a library as a panel.
+    /// Reads module type `kind` (an index) of a library as a panel. Panics if the library has no such type.
     ///
     /// # Errors
-    /// The first property that a panel has and this module has not.
+    /// The first property that a panel has and this module type has not.
     pub fn of(library: &Library, kind: usize) -> Result<Panel, NotAPanel> {
         let module = &library.modules[kind];
         let [a, b, c] = &module.ports[..] else { return Err(NotAPanel::Ports) };
@@ -94,13 +95,13 @@ impl Panel {
         })
     }
 
-    /// Returns true if its three sides are equal up to rounding.
+    /// Returns true if its three sides differ by at most `TOLERANCES.side` of the longest.
     pub fn is_equilateral(&self) -> bool {
         equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
     }
 
-    /// Returns the panel with the weaker limits and the greater thickness of the two: what holds for it holds
-    /// for both. Mass, sides and parts stay its own.
+    /// Returns the panel with the lesser limits of its hinges and the greater thickness and `touch` of the two. Mass,
+    /// sides, `contact` and parts stay its own.
     pub fn weaker(self, other: &Panel) -> Panel {
         let least = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::min);
         let able = law::MotionLimits {
@@ -116,8 +117,8 @@ impl Panel {
         }
     }
 
-    /// Returns the least time in which a hinge folds by `angle` (rad) from rest to rest under the quintic law,
-    /// rounded up to a multiple of 10 ms; 1 s where no limit bounds it. In s.
+    /// Returns the least time (s) in which a hinge folds by `angle` (rad) from rest to rest under the quintic law,
+    /// rounded up to a multiple of 10 ms; 1 s if no limit bounds it or the angle is 0.
     pub fn step_time(&self, angle: f64) -> f64 {
         match law::least_duration(Profile::Smooth, angle, self.able) {
             Some(least) if least > 0.0 => (least / STEP_GRAIN).ceil() * STEP_GRAIN,
@@ -126,7 +127,8 @@ impl Panel {
     }
 }
 
-/// Returns true if two triples of sides differ by at most `tol` times the longest side of the first.
+/// Returns true if the sides of two triangles differ, one by one in their order, by at most `tol` times the longest
+/// side of the first.
 pub fn equal_sides(a: [f64; 3], b: [f64; 3], tol: f64) -> bool {
     let longest = a.into_iter().fold(0.0, f64::max);
     a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tol * longest)
@@ -176,23 +178,24 @@ fn thickness(link: &Link, normal: Vec3) -> f64 {
 pub struct Panels {
     /// The module types and connectors that the panels are made of.
     pub library: Arc<Library>,
-    /// The index of each face's module type in the library.
+    /// For each face, the index of its module type in the library.
     pub kinds: Vec<usize>,
     /// The mass of each face, kg.
     pub masses: Vec<f64>,
-    /// The thickness of each face, m.
+    /// The thickness of each face's panel, m.
     pub thickness: Vec<f64>,
-    /// The collision parts of each face.
+    /// The collision parts of each face's panel.
     pub solids: Solids,
-    /// The first face's panel with the weakest limits and the greatest thickness of all.
+    /// The first face's panel with the least limits and the greatest thickness and `touch` of all ([`Panel::weaker`]).
     pub weakest: Panel,
 }
 
 impl Panels {
-    /// Reads the panels of all faces; `kinds` names the module type of each face and must not be empty.
+    /// Reads the panels of all faces; `kinds`: by face, the index of its module type in the library. Panics if `kinds`
+    /// is empty, or an index is none of the library.
     ///
     /// # Errors
-    /// The reason why a module type that is used is no panel.
+    /// The reason why the first module type that is no panel is none.
     pub fn new(library: Arc<Library>, kinds: Vec<usize>) -> Result<Panels, NotAPanel> {
         let mut known: Vec<Option<Panel>> = vec![None; library.modules.len()];
         for &kind in &kinds {

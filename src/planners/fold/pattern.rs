@@ -8,17 +8,18 @@ use robust::{Coord, orient2d};
 /// A point of the plane, m.
 pub type Point = [f64; 2];
 
-/// Faces laid side by side in the plane, the root with its first corner at the origin and its first
-/// side along x; counterclockwise as seen from outside.
+/// The flat pattern of a layout: its faces laid side by side in the plane, the root with its first corner at the origin
+/// and its first side along x; counterclockwise as seen from outside.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// The corners of each face, m.
+    /// The corners of each face, by face, m.
     pub corners: Vec<[Point; 3]>,
-    /// The cell of each face on the triangular lattice, where all sides are equal, as the sum of its corners.
+    /// For each face, its cell on the triangular lattice, written as the sum of its corners ([`lattice_corners`]);
+    /// `None` if the sides are not all equal.
     pub cells: Option<Vec<[i64; 2]>>,
 }
 
-/// Returns true if all sides are of one length.
+/// Returns true if all sides of a target are of one length, to `TOLERANCES.equal_sides` of it.
 pub fn has_equal_sides(target: &Target) -> bool {
     let [a, b, _] = target.corners(0);
     let side = (b - a).norm();
@@ -26,12 +27,12 @@ pub fn has_equal_sides(target: &Target) -> bool {
 }
 
 impl Pattern {
-    /// Lays out a layout.
+    /// Lays the faces of a layout in the plane: on the triangular lattice, exactly, if all sides are equal.
     pub fn of(target: &Target, layout: &Layout) -> Pattern {
         if has_equal_sides(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
     }
 
-    /// Returns the pairs of faces that overlap, each with the lower number first, in order.
+    /// Returns the pairs of faces whose interiors overlap, each with the lesser face first, in order.
     pub fn overlaps(&self) -> Vec<[usize; 2]> {
         match &self.cells {
             Some(cells) => same_cells(cells),
@@ -39,6 +40,7 @@ impl Pattern {
         }
     }
 
+    /// Returns the pairs of triangles that overlap, by tests of all pairs whose circles do.
     fn crossing(&self) -> Vec<[usize; 2]> {
         let mut found = Vec::new();
         let circles: Vec<(Point, f64)> = self.corners.iter().map(circle).collect();
@@ -66,6 +68,7 @@ fn circle(corners: &[Point; 3]) -> (Point, f64) {
     ([x, y], libm::sqrt(far))
 }
 
+/// Returns the pairs of faces on one cell, in order.
 fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {
     let mut sorted: Vec<([i64; 2], usize)> = cells.iter().enumerate().map(|(i, c)| (*c, i)).collect();
     sorted.sort_unstable();
@@ -79,8 +82,9 @@ fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {
     found
 }
 
-/// Returns the corners of all faces in whole numbers of the lattice's two steps. Exact: a face's free corner is
-/// the mirror image of its parent's, `a + b - c`.
+/// Returns the corners of all faces, by face, of a target whose sides are all equal, in whole numbers of the triangular
+/// lattice's two steps, which enclose 60°; the root's are (0, 0), (1, 0) and (0, 1). They are exact: a face's free
+/// corner is the mirror image of its parent's, `a + b - c`.
 pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
     let mut corners = vec![[[0, 0]; 3]; target.faces.len()];
     corners[layout.root] = [[0, 0], [1, 0], [0, 1]];
@@ -95,6 +99,7 @@ pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
     corners
 }
 
+/// Lays out a layout of equal sides on the triangular lattice.
 fn on_lattice(target: &Target, layout: &Layout) -> Pattern {
     let lattice = lattice_corners(target, layout);
     let [a, b, _] = target.corners(layout.root);
@@ -105,6 +110,7 @@ fn on_lattice(target: &Target, layout: &Layout) -> Pattern {
     Pattern { cells: Some(cells.collect()), corners: lattice.iter().map(|c| c.map(point)).collect() }
 }
 
+/// Lays out a layout of any sides, face by face from the root on.
 fn in_plane(target: &Target, layout: &Layout) -> Pattern {
     let mut corners = vec![[[0.0; 2]; 3]; target.faces.len()];
     for &face in &layout.order {

@@ -2,9 +2,8 @@
 //! hinge's torque grows with what it carries, so the hinges at the root carry the most.
 //!
 //! They carry all other faces among them. The partition of the faces is searched by branch and bound, with the
-//! bound of a Lagrangian relaxation: faces in order
-//! of their distance from the root, each to one of the root's hinges. For any shares `λ_r ≥ 0` that sum to 1
-//! the greatest load is at least
+//! bound of a Lagrangian relaxation: faces in order of their distance from the root, each to one of the root's hinges.
+//! For any shares `λ_r ≥ 0` that sum to 1 the greatest load is at least
 //!
 //! ```text
 //! Σ_r λ_r load_r + Σ over faces not yet assigned of min over r of λ_r K(r, j)
@@ -37,7 +36,7 @@ pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64,
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
     let share = shares(weights, &around, &faces);
-    // Behind each face: what those after it add to the bound at least.
+    // For each face: the least sum that it and those after it add to the bound.
     let mut rest = vec![0.0; faces.len() + 1];
     for (at, face) in faces.iter().enumerate().rev() {
         rest[at] = rest[at + 1] + cheapest(weights, &around, &share, *face);
@@ -77,7 +76,7 @@ pub(super) fn relaxed(target: &Target, weights: &Weights, root: usize) -> f64 {
     faces.iter().map(|face| cheapest(weights, &around, &share, *face)).sum::<f64>() * (1.0 - TOLERANCES.tie)
 }
 
-/// Returns what a face adds to the bound wherever it goes.
+/// Returns the least contribution of a face to the bound, over all hinges of the root, N·m for steps of one second.
 fn cheapest(weights: &Weights, around: &[(usize, usize)], share: &[f64], face: usize) -> f64 {
     let of = |((hinge, _), share): (&(usize, usize), &f64)| share * weights.at(*hinge, face);
     around.iter().zip(share).map(of).fold(f64::INFINITY, f64::min)
@@ -133,6 +132,7 @@ fn shares(weights: &Weights, around: &[(usize, usize)], faces: &[usize]) -> Vec<
     kept
 }
 
+/// The state of the search over partitions of the faces among the root's hinges.
 struct PartitionSearch<'t> {
     target: &'t Target,
     weights: &'t Weights,
@@ -146,7 +146,7 @@ struct PartitionSearch<'t> {
     assigned: Vec<usize>,
     loads: Vec<f64>,
     best: Option<(Layout, f64)>,
-    /// The best of what was met, also of what is no layout that lies flat.
+    /// The least peak of the partitions met, also of those whose layouts do not lie flat, N·m for steps of one second.
     cutoff: f64,
     ended: bool,
 }

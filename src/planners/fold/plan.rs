@@ -18,9 +18,9 @@ use crate::planners::{Progress, Solution};
 /// Plans the folding of a sheet of panels into a target, for the least energy (or peak torque, or steps), and
 /// lets the judge decide about every layout in order of that quantity.
 ///
-/// If the judge refuses the order that the settings ask for, layouts made of strips and other orders are
-/// tried, and the lesser of what they find is the answer: then `report.bound` is one for all orders. All actions
-/// of the program have cause 0.
+/// If the judge refuses the order that the settings ask for in every layout tried, and the problem gives no layout,
+/// layouts made of strips and other orders are tried, and the lesser of the two results is the answer: then
+/// `report.bound` is a bound for all orders. All actions of the program have cause 0.
 ///
 /// # Errors
 /// A [`Refusal`]: settings that do not go together, a shape that does not fold, a search that ended without an
@@ -82,12 +82,13 @@ pub fn plan(
     })))
 }
 
+/// Returns the refusal for a given layout, from the reason why it was refused.
 fn given(first: Option<Rejection>) -> Refusal {
     // Nothing but the observer ends an evaluation before its first layout was judged.
     first.map_or(Refusal::NothingFlat, Refusal::GivenLayout)
 }
 
-/// Returns what is known of the layout that would have been the answer.
+/// Returns the value, bound and gap of the best flat layout, for a refusal.
 fn best_pattern(task: &Task, found: &Proposals) -> BestPattern {
     let layout = &found.layouts[0];
     let effort = task.objective.effort(layout, &steps::leaves_first(layout));

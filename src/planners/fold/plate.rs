@@ -20,13 +20,13 @@ const FOLD_MAX: f64 = 2.0 * PI / 3.0;
 pub struct Plate {
     /// The thickness, m.
     pub thickness: f64,
-    /// The distance by which the plate ends inside the edges, so that plates side by side do not meet, m.
+    /// The distance by which the plate ends inside the sides of its face, so that plates side by side do not meet, m.
     pub gap: f64,
-    /// The mass of the motors, whatever the size of the plate, kg.
+    /// The mass of the motors of one plate, whatever its size, spread over it evenly, kg.
     pub motors: f64,
     /// The mass of the plate by its area, kg/m².
     pub density: f64,
-    /// The limits of the hinges at its edges: rad, rad/s, N·m.
+    /// The limits of the hinges at its edges: rad, rad/s, rad/s², N·m.
     pub limits: Limits,
 }
 

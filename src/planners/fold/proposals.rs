@@ -13,7 +13,7 @@ use super::settings::Method;
 use super::task::Task;
 use super::tolerances::TOLERANCES;
 
-/// Layouts that are kept for the judge where every layout is measured.
+/// The greatest number of layouts that are kept for the judge where every layout is measured.
 const KEPT: usize = 4096;
 
 /// The search for the next best layout gets the budget divided by this, so that something is left for other
@@ -47,10 +47,10 @@ impl Proposals {
         self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
     }
 
-    /// Returns the lower bound for all layouts that lie flat but those before a place in the list: the least value
-    /// behind it, if the list is complete.
-    pub(super) fn bound_from(&self, place: usize, minimise: Minimise) -> f64 {
-        self.values.as_ref().map_or(self.bound, |values| least_from(values, place, minimise))
+    /// Returns the lower bound for all layouts that lie flat but those before `index` in the list: the least value from
+    /// there on, if the list is complete.
+    pub(super) fn bound_from(&self, index: usize, minimise: Minimise) -> f64 {
+        self.values.as_ref().map_or(self.bound, |values| least_from(values, index, minimise))
     }
 
     /// Returns true if no layout that lies flat is left out between those proposed: if the steps are minimised,
@@ -60,10 +60,10 @@ impl Proposals {
     }
 }
 
-/// Returns the least energy or peak torque in a complete list from a place on. If the steps are minimised, it is
-/// the energy of what takes as few.
-fn least_from(values: &[[f64; 2]], place: usize, minimise: Minimise) -> f64 {
-    let rest = &values[place..];
+/// Returns the least energy or peak torque in a complete list from `index` on. If the steps are minimised, it is
+/// the least energy of those with as few steps as the first.
+fn least_from(values: &[[f64; 2]], index: usize, minimise: Minimise) -> f64 {
+    let rest = &values[index..];
     let least = match minimise {
         Minimise::Energy | Minimise::PeakTorque => {
             rest.iter().map(|value| value[0]).fold(f64::INFINITY, f64::min)

@@ -7,22 +7,23 @@ use super::steps;
 use super::tolerances::TOLERANCES;
 use crate::planners::random::SplitMix64;
 
-/// The costs of random orders, in the unit of the compared quantity: N·m for energies.
+/// The costs of random orders, compared with a reference, in the unit of the compared quantity: N·m for energies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// The number of orders.
     pub orders: u64,
-    /// The number of orders that cost more than what they are compared with.
+    /// The number of orders that cost more than the reference by more than `TOLERANCES.tie` of it.
     pub worse: u64,
-    /// The least cost.
+    /// The least cost; infinite without orders.
     pub least: f64,
-    /// The mean cost.
+    /// The mean cost; 0 without orders.
     pub mean: f64,
-    /// The greatest cost.
+    /// The greatest cost; minus infinity without orders.
     pub greatest: f64,
 }
 
-/// Compares the costs of `orders` random orders, each laid into steps, with a reference cost.
+/// Compares the costs of `orders` random orders of a layout's faces with a reference cost; `takes` returns the cost of
+/// an order that was laid into steps by [`steps::of_order`]. The same `seed` gives the same orders.
 pub fn sample(
     layout: &Layout,
     orders: u64,

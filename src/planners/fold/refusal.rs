@@ -8,7 +8,7 @@ use crate::plan::Failure;
 use crate::units::{Dimension, quantity};
 use std::fmt;
 
-/// The reason why there is no plan. Faces are numbered as in the mesh; each message names what is wrong.
+/// The reason why there is no plan. Faces are indices in [`Target::faces`](super::Target::faces), from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The root is no face of the target.
@@ -16,42 +16,45 @@ pub enum Refusal {
         /// The number of faces.
         faces: usize,
     },
-    /// The shape reaches below the ground on which its root would lie.
+    /// The shape reaches farther below the ground on which its root would lie than a panel is thick.
     OffGround {
-        /// True if the problem names the root; else no face can be the root.
+        /// True if the problem names the root; false if it names none and no face can be the root.
         is_root_given: bool,
         /// The root, or the first face that was tried as the root.
         root: usize,
-        /// The face that reaches below the ground, and how far.
+        /// The face that reaches the deepest below the ground, and its depth.
         protrusion: Protrusion,
     },
-    /// The heuristic does not measure what the settings ask for.
+    /// The settings ask for the heuristic, which estimates the energy of moving joints without gravity, and for
+    /// another objective or other conventions.
     HeuristicObjective,
-    /// The heuristic is for panels of equal mass.
+    /// The settings ask for the heuristic, and the panels are not of equal mass.
     HeuristicMasses,
-    /// The heuristic is for panels of equal sides.
+    /// The settings ask for the heuristic, and the sides of the panels are not all equal.
     HeuristicSides,
-    /// The order of least energy is defined for moving joints without gravity only.
+    /// The settings ask for the order of least energy, which is defined for moving joints without gravity only.
     SequenceUnderGravity,
-    /// The order of least energy is searched in trees up to a height only.
+    /// The settings ask for the order of least energy, and a layout has more than
+    /// [`HEIGHT_MAX`](super::energy_order::HEIGHT_MAX) hinges on a path.
     SequenceTooHigh,
     /// Two panels penetrate each other in the folded shape.
     Interpenetrating {
         /// The two panels.
         faces: [usize; 2],
-        /// The angle between them at their common edge, rad; `None` where they have none.
+        /// The angle between them at their hinge in the folded shape, rad, π where they are level; `None` where no
+        /// hinge joins them.
         opening: Option<f64>,
     },
     /// The pattern of every layout overlaps itself in the plane.
     AllOverlap,
-    /// The budget ended before a pattern was found that does not overlap.
+    /// The budget or the observer ended the search before a pattern was found that does not overlap.
     NothingFlat,
     /// The target has too many faces for enumeration.
     TooManyFaces {
         /// The greatest number of faces.
         limit: usize,
     },
-    /// The target has too many pairs of a layout and a root for enumeration.
+    /// The target has too many pairs of a layout and a root for enumeration under this objective.
     TooManyLayouts {
         /// The greatest number of pairs.
         limit: u64,
@@ -77,7 +80,7 @@ pub enum Refusal {
     },
     /// The folding program can't be scheduled.
     Schedule(behavior::Refusal),
-    /// The judge refuses the given layout.
+    /// The judge refuses the layout that the problem gives, in the order asked for.
     GivenLayout(Rejection),
     /// The judge refuses every layout and order that was found.
     NoFolding(Box<NoFolding>),
@@ -86,13 +89,14 @@ pub enum Refusal {
 /// The state of knowledge where no folding passes the judge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoFolding {
-    /// The reason why the first layout was refused; `None` where none was evaluated.
+    /// The reason why the first layout was refused; `None` if the search ended before any was evaluated.
     pub first: Option<Rejection>,
-    /// The cost of the best flat pattern.
+    /// The cost of the best flat pattern, with the leaves folded first.
     pub best: BestPattern,
-    /// The torque of hinges under which an order was found, where gravity binds.
+    /// The least torque of hinges for which an order was found, and the hinge that needs it; `None` without gravity,
+    /// and if no order was found for stronger hinges either.
     pub need: Option<TorqueNeed>,
-    /// The torque that the hinges hold, N·m; `None` where no limit is stated.
+    /// The torque that the weakest hinge holds, N·m; `None` where no limit is stated.
     pub torque: Option<f64>,
     /// True if the problem has gravity.
     pub is_under_gravity: bool,
@@ -101,7 +105,7 @@ pub struct NoFolding {
 /// The reason why a layout was refused.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rejection {
-    /// Two thin panels collide in a step, as the samples show.
+    /// Two panels, taken without thickness, collide in a sample of a step.
     Meet {
         /// The two panels.
         faces: [usize; 2],
@@ -119,18 +123,18 @@ pub struct BestPattern {
     pub minimise: Minimise,
     /// The value of the minimised quantity for this pattern: its peak torque, else its energy; N·m.
     pub reached: f64,
-    /// The lower bound for all layouts, N·m.
+    /// The lower bound on that quantity for all layouts with the leaves folded first, N·m; at most `reached`.
     pub bound: f64,
-    /// The gap that the proof leaves, as a part of `reached`.
+    /// The gap between `reached` and `bound` as a part of `reached`; 0 where the bound proves the value.
     pub gap: f64,
 }
 
 /// The least torque limit under which an order was found, and the hinge that needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TorqueNeed {
-    /// The torque, N·m.
+    /// The torque that the hinge has to hold, N·m.
     pub torque: f64,
-    /// The panels on the hinge.
+    /// The panel that the hinge carries, and its parent.
     pub faces: [usize; 2],
 }
 

@@ -12,14 +12,15 @@ use super::steps;
 use super::task::{Outcome, Task};
 use crate::plan::Failure;
 
-/// Panels that are put before the judge, summed over layouts; but at least [`JUDGED_MIN`] layouts.
+/// The number of panels that are put before the judge, summed over layouts; but at least [`JUDGED_MIN`] layouts.
 const JUDGED_PANELS_MAX: usize = 3_000;
+/// The least number of layouts that may be put before the judge.
 const JUDGED_MIN: usize = 16;
 
-/// Layouts that are tried.
+/// The greatest number of layouts that are tried.
 const LAYOUTS_MAX: usize = 4096;
 
-/// Orders of one layout that are searched after the judge has refused one.
+/// The number of orders of one layout that are searched after the judge has refused one.
 const RETRIES: usize = 3;
 
 /// Iterative deepening: sampled steps per panel in the search for the order of one layout. Layouts whose search
@@ -130,6 +131,7 @@ impl<'t> Reordering<'t> {
         ended.transpose()
     }
 
+    /// Tries the usual orders of a layout, then orders from the depth-first search to the depth of this pass.
     fn of_layout(&mut self, layout: &Layout, pass: usize) -> Result<Evaluated, Refusal> {
         let task = self.task;
         if self.samples_left == 0 || !task.observer.should_continue() {

@@ -17,7 +17,7 @@ pub struct Report {
     pub target: Target,
     /// The layout that folds, rooted at its root.
     pub layout: Layout,
-    /// The number of layouts of the target (Kirchhoff's theorem).
+    /// The number of layouts of the target, without regard to roots (Kirchhoff's theorem).
     pub layouts: BigInt,
     /// The order of folding: the faces whose hinges fold at the same time, step by step.
     pub steps: Vec<Vec<usize>>,
@@ -28,23 +28,26 @@ pub struct Report {
     /// with the roots allowed that lie flat and pass the judge, in the order that the settings ask for, or in any
     /// order where none passed in that one.
     pub bound: f64,
-    /// The least number of steps of any folding.
+    /// The least number of steps of any layout with the root that the problem names, or with any root if it names none;
+    /// layouts that overlap or collide count, too.
     pub fewest_steps: usize,
     /// True if it is proved that none of these foldings is better: the bound is below what was minimised by less
     /// than `TOLERANCES.proof` of it, and where the steps are minimised, none takes fewer.
     pub optimal: bool,
-    /// The minimised quantity by the least value that was found for any layout with the leaves first: 1 where
-    /// nothing was given up, less where another order is better.
+    /// The minimised quantity divided by the least value found for any layout with the leaves first: 1 if nothing was
+    /// given up, less if another order is better.
     pub price: f64,
-    /// The roots that are as good as the root of the layout, in order.
+    /// The roots with which the best layouts proposed to the judge reach the least value, in order.
     pub ties: Vec<usize>,
-    /// The number of pairs of a layout and a root that are known to be as good.
+    /// The number of pairs of a layout and a root that are known to reach that value; after a local search, a pair
+    /// counts each time that it was met.
     pub tied: u64,
-    /// The work against gravity (Eq. 17) in the order of the folding, J.
+    /// The work against standard gravity (Eq. 17) in the order of the folding, also where the problem has no gravity,
+    /// J.
     pub lifting: f64,
-    /// The lower bound on that work for all orders of the layout, J.
+    /// The lower bound on that work for all orders of the layout, at most `lifting`, J.
     pub lifting_bound: f64,
-    /// The faces whose hinges do not close (Eq. 1), where a hinge radius was given.
+    /// The faces whose hinges to their parents do not close (Eq. 1), in order; empty if no hinge radius was given.
     pub too_thick: Vec<usize>,
     /// The mass of each face, kg.
     pub masses: Vec<f64>,
@@ -61,14 +64,14 @@ pub struct Report {
 }
 
 impl Report {
-    /// Returns the part of what was minimised by which the bound is below it; 0 where that is less than
-    /// `TOLERANCES.proof`.
+    /// Returns the gap between the bound and the value reached, as a part of that value, 0 to 1; 0 where it is less
+    /// than `TOLERANCES.proof`. If the steps are minimised, both are energies.
     pub fn gap(&self) -> f64 {
         gap(self.effort.minimised(self.minimise), self.bound)
     }
 
-    /// Compares the energy of the folding with that of `orders` random orders of the same layout, under the
-    /// same conventions (Sec. 5.3.2 of the paper).
+    /// Compares the energy of the folding with the energies (N·m) of `orders` random orders of the same layout, under
+    /// the same conventions (Sec. 5.3.2 of the paper).
     pub fn random_orders(&self, orders: u64, seed: u64, progress: &mut dyn Progress) -> Sample {
         let objective = Objective::new(&self.target, self.masses.clone(), self.conventions, self.minimise);
         let energy = |steps: &[Vec<usize>]| objective.effort(&self.layout, steps).energy;
@@ -77,7 +80,7 @@ impl Report {
     }
 }
 
-/// Returns the part of a value by which its lower bound is below it; 0 where that proves the value.
+/// Returns the gap between a value and its lower bound, as a part of the value; 0 where the bound proves the value.
 pub(super) fn gap(value: f64, bound: f64) -> f64 {
     if TOLERANCES.prove(value, bound) { 0.0 } else { 1.0 - bound / value }
 }

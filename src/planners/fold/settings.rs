@@ -14,12 +14,12 @@ pub struct Problem {
     pub target: Target,
     /// The panel of each face.
     pub panels: Panels,
-    /// The face that stays where it is; `None` lets the planner choose.
+    /// The face that keeps its pose, the root; `None` lets the planner choose.
     pub root: Option<usize>,
     /// Gravity towards the ground on which the root lies with its outside down, m/s²; 0 without gravity and
     /// ground.
     pub gravity: f64,
-    /// The layout as pairs of faces that share a hinge; `None` lets the planner choose.
+    /// The layout as pairs of faces that share a hinge, a spanning tree in any order; `None` lets the planner choose.
     pub hinges: Option<Vec<[usize; 2]>>,
 }
 
@@ -33,13 +33,15 @@ impl Problem {
 /// The method by which layouts are searched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Branch and bound where the objective is a sum over faces, else enumeration of few layouts or local
-    /// search among many.
+    /// Branch and bound where the objective is a sum over faces
+    /// ([`Objective::is_sum_over_faces`](super::Objective::is_sum_over_faces)), else enumeration of few layouts or
+    /// local search among many.
     #[default]
     Exact,
-    /// The layout that the paper's own measure prefers (Theorem 1).
+    /// The layout that the paper's own measure prefers (Theorem 1), for targets of at most 64 faces. For energy
+    /// without gravity and panels of equal masses and sides only.
     Heuristic,
-    /// Every layout, one after the other.
+    /// Every layout with every root, one after the other, for targets of at most 64 faces.
     Enumerate,
 }
 
@@ -49,11 +51,12 @@ pub enum Sequence {
     /// Leaves first (the paper's Alg. 2): as many steps as the tree is high.
     #[default]
     LeavesFirst,
-    /// The root's children first; as many steps.
+    /// The root's children first, then theirs; as many steps as the tree is high.
     RootFirst,
-    /// The order that lifts and lowers the least (Eq. 15 to 17).
+    /// The order of least work against standard gravity, also where the problem has none (Eq. 15 to 17).
     LeastWork,
-    /// The order of least energy for the layout.
+    /// The order of least energy for the layout; without gravity, with moving joints counted, and for trees of at
+    /// most 8 hinges on a path only.
     LeastEnergy,
 }
 
@@ -65,7 +68,7 @@ pub enum MassModel {
     Lamina,
     /// Uniform triangles with the panels' thickness.
     Prism,
-    /// All mass in the centroid, to which the paper's numbers amount.
+    /// All mass at the centroid, to which the paper's numbers amount.
     Point,
 }
 
@@ -78,15 +81,16 @@ pub struct Settings {
     pub minimise: Minimise,
     /// The order of folding that is tried first.
     pub sequence: Sequence,
-    /// The time of each step, s; `None`: as long as the widest hinge needs.
+    /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle.
     pub step: Option<f64>,
     /// The model of how the mass of a panel is spread.
     pub inertia: MassModel,
     /// The joints whose torques count.
     pub count: Count,
-    /// The radius of the hinges, m, for the report of panels that are too thick; `None` leaves it out.
+    /// The radius of the hinges, m, for the report of panels that are too thick (Eq. 1); `None` leaves that report
+    /// empty.
     pub hinge_radius: Option<f64>,
-    /// The seed of choices among equals.
+    /// The seed of choices among equal layouts and of random searches.
     pub seed: u64,
     /// The greatest number of search steps: faces settled on paths, layouts measured, exchanges weighed.
     /// 100 million take 5 to 8 s.

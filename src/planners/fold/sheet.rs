@@ -11,15 +11,15 @@ use std::sync::Arc;
 /// A layout as an assembly of panels.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// Panel k stands for face k; bond i joins face `layout.order[i + 1]` to its parent.
+    /// The assembly: module k is the panel of face k; bond i joins face `layout.order[i + 1]` to its parent.
     pub assembly: Assembly,
-    /// The joint of each bond's hinge.
+    /// For each bond, the joint of its hinge.
     pub joints: Vec<JointId>,
-    /// All panels level, the root's panel at the origin.
+    /// The state with all panels level and the root's panel at the origin.
     pub flat: State,
 }
 
-/// The connectors of the panels have no hinge.
+/// The reason why panels are no sheet: the connector of a bond has no hinge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoHinge;
 
@@ -27,7 +27,7 @@ impl Sheet {
     /// Joins the panels of a target by the hinges of a layout.
     ///
     /// # Errors
-    /// [`NoHinge`] where a bond of the layout has no hinge.
+    /// [`NoHinge`] if the connector of a bond of the layout has no hinge.
     pub fn new(target: &Target, panels: &Panels, layout: &Layout) -> Result<Sheet, NoHinge> {
         let name = &panels.library.modules[panels.kinds[layout.root]].name;
         let module =
@@ -54,7 +54,7 @@ impl Sheet {
         Ok(Sheet { assembly, joints, flat })
     }
 
-    /// Returns the state in which every hinge is at its fold angle and the root's panel at the origin.
+    /// Returns the state in which every hinge is at its fold angle in the target and the root's panel at the origin.
     pub fn folded(&self, target: &Target, layout: &Layout) -> State {
         let mut state = self.flat.clone();
         for (joint, face) in self.joints.iter().zip(&layout.order[1..]) {
@@ -69,8 +69,9 @@ impl Sheet {
         self.joints[place - 1]
     }
 
-    /// Returns the program that folds the sheet in steps of `time` seconds: the hinges of the faces of a step
-    /// move at the same time. Hinges that stay level get no action, steps without motion are left out.
+    /// Returns the program that folds the sheet in steps of `time` seconds; `order`: for each step the faces whose
+    /// hinges fold at the same time. Hinges that stay level get no action, steps without motion are left out, and all
+    /// actions have cause 0.
     pub fn program(&self, target: &Target, layout: &Layout, order: &[Vec<usize>], time: f64) -> Arc<Node> {
         let moving = |faces: &Vec<usize>| -> Vec<Arc<Node>> {
             let angles = faces.iter().map(|face| (*face, layout.angle(target, *face)));

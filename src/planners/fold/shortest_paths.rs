@@ -10,25 +10,26 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
-/// An arc into a face across one of its sides: `3 * face + side`.
+/// An arc into a face across one of its sides (0 to 2): `3 * face + side`.
 pub type Arc = u32;
 
-/// The sides across which each face may be entered, as bits.
+/// The sides across which each face may be entered, by face: bit k stands for side k.
 pub type Allowed = Vec<u8>;
 
-/// Returns the arc into a face across a side.
+/// Returns the arc into a face across a side (0 to 2).
 #[inline]
 pub fn arc(face: usize, side: usize) -> Arc {
     (3 * face + side) as Arc
 }
 
-/// Returns the face that an arc enters, and the side.
+/// Returns the face that an arc enters, and the side (0 to 2) of that face.
 #[inline]
 pub fn head(arc: Arc) -> (usize, usize) {
     (arc as usize / 3, arc as usize % 3)
 }
 
-/// Keeps an arc: its face is entered by it alone, and the arc back is removed.
+/// Restricts `allowed` to layouts with an arc: its face is entered by it alone, and the arc back is removed. Panics if
+/// the side has no hinge.
 pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     let (face, side) = head(an_arc);
     allowed[face] = 1 << side;
@@ -36,7 +37,7 @@ pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     allowed[back] &= !(1 << side);
 }
 
-/// Returns by face and side the number of paths that enter there.
+/// Returns by face and side the number of paths, each a list of arcs, that enter there.
 pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     let mut uses = vec![[0u32; 3]; target.faces.len()];
     for &an_arc in paths.iter().flat_map(|path| path.iter()) {
@@ -46,8 +47,9 @@ pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     uses
 }
 
-/// Returns the face into which the most paths differ from the commonest arc, on which a node is branched; `None`
-/// where all agree.
+/// Returns the face other than the root with the most paths that enter by another arc than the commonest, on which a
+/// node is branched; of equal ones the first; `None` if all paths into each face agree. `uses`: as [`uses`] returns
+/// them.
 pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
     let dissent = |face: &usize| {
         let u = uses[*face];
@@ -58,7 +60,8 @@ pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
     faces.rev().max_by_key(dissent).filter(|face| dissent(face) > 0)
 }
 
-/// Returns the layout that paths form which agree.
+/// Returns the layout that agreeing paths form. `paths`: by face, the arcs from the face back to the root. Panics if
+/// they form no tree.
 pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     let arcs = paths.iter().filter_map(|path| path.first());
     let hinge = |a: &Arc| {
@@ -78,15 +81,17 @@ pub struct ShortestPaths<'t> {
     distance: Vec<f64>,
     entered: Vec<Arc>,
     queue: BinaryHeap<QueueEntry>,
-    /// The greatest number of hinges on a path.
+    /// The greatest number of hinges on a path of [`route`](Self::route); no limit at first.
     pub longest: usize,
 }
 
-/// An entry of the queue of Dijkstra's algorithm; the cheapest is the greatest.
+/// An entry of the priority queue of Dijkstra's algorithm and of A*. Its order is reversed for [`BinaryHeap`]: the
+/// cheapest entry is the greatest, and of equal ones that of the smaller face.
 pub struct QueueEntry {
-    /// The least cost of a path through the face.
+    /// The cost of the path to the face so far, with A* plus the least cost from there to the goal; N·m for steps of
+    /// one second.
     pub cost: f64,
-    /// The face.
+    /// The face that the path has reached.
     pub face: usize,
 }
 
@@ -112,7 +117,8 @@ impl Eq for QueueEntry {}
 const UNREACHED: Arc = Arc::MAX;
 
 impl<'t> ShortestPaths<'t> {
-    /// Computes the costs of all shortest paths without restriction, which guide A*.
+    /// Computes the costs of the shortest paths between all pairs of faces over all arcs by Dijkstra's algorithm; they
+    /// are the heuristic of A*.
     pub fn new(target: &'t Target, weights: &'t Weights) -> ShortestPaths<'t> {
         let n = target.faces.len();
         let mut routes = ShortestPaths {
@@ -131,7 +137,8 @@ impl<'t> ShortestPaths<'t> {
         routes
     }
 
-    /// Returns the lower bound for layouts with this root: the sum of all shortest paths, N·m.
+    /// Returns the lower bound on the energy of layouts with this root: the sum of the costs of the shortest paths to
+    /// all faces over all arcs, of any number of hinges; N·m for steps of one second.
     pub fn bound(&self, root: usize) -> f64 {
         self.toward.iter().map(|toward| toward[root]).sum()
     }
@@ -158,8 +165,10 @@ impl<'t> ShortestPaths<'t> {
         }
     }
 
-    /// Returns the cheapest path from the root to `goal` over allowed arcs by A*, with its cost (N·m for
-    /// steps of one second); `None` where there is none. The heuristic is the cost without restriction.
+    /// Returns the cheapest path from the root to `goal` over allowed arcs with at most `longest` hinges, with its
+    /// cost (N·m for steps of one second); `None` if there is none. The path is the list of its arcs from the goal
+    /// back to the root. The method is A*, whose heuristic is the cost over all arcs, or the Bellman-Ford algorithm
+    /// where `longest` is less than the number of faces.
     pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         if self.longest < self.toward.len() {
             return self.route_in_layers(root, goal, allowed);
@@ -196,7 +205,7 @@ impl<'t> ShortestPaths<'t> {
     }
 
     /// Returns the cheapest path with at most `longest` hinges by the Bellman-Ford algorithm, one more hinge
-    /// in each round.
+    /// in each round; `None` if there is none.
     fn route_in_layers(&self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         let mut costs = vec![f64::INFINITY; self.toward.len()];
         costs[root] = 0.0;
@@ -232,6 +241,7 @@ impl<'t> ShortestPaths<'t> {
         costs[goal].is_finite().then(|| (costs[goal], path.into()))
     }
 
+    /// Returns the arcs of the path that was found to `goal`, from there back to the root.
     fn path_to(&self, root: usize, goal: usize) -> Rc<[Arc]> {
         let mut path = Vec::new();
         let mut at = goal;
@@ -243,7 +253,7 @@ impl<'t> ShortestPaths<'t> {
     }
 }
 
-/// Returns the face from which an arc comes.
+/// Returns the face from which an arc comes. Panics if its side has no hinge.
 #[inline]
 pub fn tail(target: &Target, arc: Arc) -> usize {
     let (face, side) = head(arc);
@@ -251,7 +261,7 @@ pub fn tail(target: &Target, arc: Arc) -> usize {
     target.hinges[hinge].other(face)
 }
 
-/// Returns the arc across the same hinge in the opposite direction.
+/// Returns the arc across the same hinge in the opposite direction. Panics if the arc's side has no hinge.
 #[inline]
 pub fn reversed(target: &Target, an_arc: Arc) -> Arc {
     let (face, side) = head(an_arc);

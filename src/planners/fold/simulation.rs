@@ -13,24 +13,25 @@ use crate::geometry::Vec3;
 pub struct Circumstances {
     /// The time of a step, s.
     pub step: f64,
-    /// Gravity, m/s², along the root's outward normal: the root lies on the ground with its outside down.
+    /// Gravity, m/s², along the root's outward normal: the root lies on the ground with its outside down. 0 for none.
     pub gravity: f64,
 }
 
 /// The torques of a folding.
 #[derive(Clone, Debug)]
 pub struct Torques {
-    /// The mean and peak of the absolute torque, N·m, by step, then by face.
+    /// The mean and peak of the absolute torque of each hinge, N·m, by step, then by the face that the hinge carries;
+    /// those of the root are 0.
     pub steps: Vec<Vec<Size>>,
 }
 
 /// The joints whose torques are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Count {
-    /// The joints that move; the others are locked.
+    /// The joints that move in a step; the others, which are locked, do not count.
     #[default]
     Moving,
-    /// All joints, those that are held included.
+    /// All joints, also those that are locked in a step.
     All,
 }
 
@@ -38,8 +39,8 @@ pub enum Count {
 /// sign.
 const HALVES: [f64; 2] = [0.25, 0.75];
 
-/// Simulates a folding in steps: in each, the hinges of these faces go from level to folded by the
-/// quintic law, and all others are locked.
+/// Simulates a folding in steps by inverse dynamics: in each step the hinges of its faces go from level to folded by
+/// the quintic law, and all others are locked. `bodies`: by face, one for each face.
 pub fn simulate(
     target: &Target,
     layout: &Layout,
@@ -91,7 +92,8 @@ pub fn simulate(
     Torques { steps: all }
 }
 
-/// Returns position, speed and acceleration of the quintic law over one unit after a part `x` of the time (s).
+/// Returns position (rad), speed (rad/s) and acceleration (rad/s²) of the quintic law from 0 to 1 rad after the part
+/// `x` (0 to 1) of the time (s).
 pub fn quintic(x: f64, time: f64) -> Hinging {
     Hinging {
         angle: x * x * x * (10.0 - 15.0 * x + 6.0 * x * x),
@@ -101,16 +103,19 @@ pub fn quintic(x: f64, time: f64) -> Hinging {
 }
 
 impl Torques {
-    /// Returns the energy (Eq. 5), the sum of mean torques, N·m; `steps`: those that were simulated.
+    /// Returns the energy (Eq. 5), N·m: the sum of the mean torques of the joints that count. `steps`: those that were
+    /// simulated.
     pub fn energy(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.mean).sum()
     }
 
-    /// Returns the greatest torque, N·m; `steps`: those that were simulated.
+    /// Returns the greatest absolute torque of the joints that count, N·m; 0 without steps. `steps`: those that were
+    /// simulated.
     pub fn peak(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.peak).fold(0.0, f64::max)
     }
 
+    /// Returns the sizes of the torques that count.
     fn counted<'s>(&'s self, count: Count, steps: &'s [Vec<usize>]) -> impl Iterator<Item = &'s Size> {
         self.steps.iter().zip(steps).flat_map(move |(sizes, moving)| {
             let counts = move |face: &usize| count == Count::All || moving.contains(face);

@@ -4,7 +4,8 @@ use super::target::Target;
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-/// Returns the number of spanning trees of the faces, by elimination without fractions (Bareiss): every
+/// Returns the number of layouts of a target without regard to their roots, which are the spanning trees of its faces:
+/// the determinant of the Laplacian without one face, by elimination without fractions (Bareiss), in which every
 /// division is exact.
 pub fn layouts(target: &Target) -> BigInt {
     let n = target.faces.len() - 1;

@@ -1,4 +1,4 @@
-//! The spectrum of energies: which occur, and how often.
+//! The spectrum of energies: the energies that occur, with their multiplicities.
 
 use super::tolerances::TOLERANCES;
 use std::collections::BTreeMap;
@@ -11,17 +11,18 @@ const DIFFERENT_MAX: usize = 4_000_000;
 pub struct Spectrum {
     unit: f64,
     counts: BTreeMap<u64, u64>,
-    /// The number of energies that got no bin.
+    /// The number of energies that were not counted, because they would have needed more than four million bins.
     pub uncounted: u64,
 }
 
 impl Spectrum {
-    /// Makes an empty spectrum; `unit`: a positive energy of the order of those that will come.
+    /// Makes an empty spectrum; `unit`: a positive energy of the order of magnitude of those that will be counted, of
+    /// which a bin is the part `TOLERANCES.energy_grain` wide.
     pub fn new(unit: f64) -> Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }
 
-    /// Counts an energy, in the unit of `unit`.
+    /// Counts an energy, in the same unit of measurement as `unit`; a negative one counts as 0.
     pub fn add(&mut self, energy: f64) {
         let key = (energy / (self.unit * TOLERANCES.energy_grain)).round() as u64;
         if let Some(count) = self.counts.get_mut(&key) {
@@ -33,7 +34,8 @@ impl Spectrum {
         }
     }
 
-    /// Returns the energies with their multiplicities, in order; those nearer than a tie are one.
+    /// Returns the energies with their multiplicities, in ascending order. Energies nearer to the one before than
+    /// `TOLERANCES.tie` of the unit are one, with the least of them.
     pub fn levels(&self) -> Vec<(f64, u64)> {
         let apart = (TOLERANCES.tie / TOLERANCES.energy_grain) as u64;
         let mut levels: Vec<(f64, u64)> = Vec::new();

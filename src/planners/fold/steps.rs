@@ -2,19 +2,22 @@
 
 use super::layout::Layout;
 
-/// Returns the leaves-first order (Alg. 2): the leaves, then what has become a leaf. One list of faces for each
-/// step; there are as many as the tree is high.
+/// Returns the leaves-first order (Alg. 2): the hinges of the leaves fold first, then those of the faces that are
+/// leaves without them. One list of faces for each step, in ascending order; there are as many steps as the tree is
+/// high.
 pub fn leaves_first(layout: &Layout) -> Vec<Vec<usize>> {
     let heights = layout.heights();
     layered(layout, |face| heights[face])
 }
 
-/// Returns the root-first order: the root's children, then theirs. As many steps.
+/// Returns the root-first order: the hinges of the root's children fold first, then those of their children. One list
+/// of faces for each step, in ascending order; there are as many steps as the tree is high.
 pub fn root_first(layout: &Layout) -> Vec<Vec<usize>> {
     let depths = layout.depths();
     layered(layout, |face| depths[face] - 1)
 }
 
+/// Returns the faces but the root by their layer, which counts steps from 0.
 fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
     let mut steps: Vec<Vec<usize>> = Vec::new();
     for face in (0..layout.parent.len()).filter(|face| *face != layout.root) {
@@ -27,10 +30,10 @@ fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
     steps
 }
 
-/// Lays an order of faces into as few steps as keep its cost: a face folds one step after the last of those
-/// before it on its own path.
+/// Lays an order of faces into as few steps as keep its cost: a face folds one step after the last of the faces that
+/// precede it in the order and are above or below it in the tree. One list of faces for each step, in ascending order.
 ///
-/// This is what Alg. 3 is for; as printed it puts all faces into one step, loses the last, and may
+/// This is the purpose of the paper's Alg. 3, which as printed puts all faces into one step, loses the last, and may
 /// let a face overtake another on its path.
 pub fn of_order(layout: &Layout, order: &[usize]) -> Vec<Vec<usize>> {
     let mut step = vec![0; layout.parent.len()];

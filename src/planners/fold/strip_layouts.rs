@@ -22,67 +22,68 @@ use super::weights::Weights;
 use crate::interrupt;
 use std::cell::RefCell;
 
-/// Sampled states of each step, of panels without thickness.
+/// The number of sampled states of each step, of panels without thickness.
 const SAMPLES_THIN: usize = 8;
 
-/// Sampled states of each step, of panels with thickness.
+/// The number of sampled states of each step, of panels with thickness.
 const SAMPLES_THICK: usize = 24;
 
-/// Thin panels are shrunk by this part, so that neighbours do not collide.
+/// The part by which thin panels are shrunk, so that neighbours do not collide.
 const SHRINKAGE: f64 = 0.02;
 
-/// The time of a check of panels with thickness, by that of panels without.
+/// The time of a check of panels with thickness, as a multiple of that of panels without.
 const THICK: usize = 4;
 
 /// The worth of a level hinge beside those that bend, which are worth 1 at most.
-const LEVEL: f64 = 2.0;
+const LEVEL_HINGE_WORTH: f64 = 2.0;
 
 /// The parts of the worth of a tree that may be given up for less energy.
 const SLACKS: [f64; 4] = [0.002, 0.02, 0.08, 0.25];
 
-/// Steps of one improvement of a layout's energy; roots are changed so often.
+/// The number of exchanges weighed in one improvement of a layout's energy.
 const STEPS_IMPROVING: u64 = 2_000_000;
+/// The number of improvements of one tree, each from the best root.
 const ROOTS_TRIED: usize = 3;
 
-/// Cheap layouts that are exchanged as well.
+/// The number of cheap layouts among the starts.
 const CHEAP_MAX: usize = 2;
 
-/// Layouts whose hinges are exchanged until nothing collides.
+/// The number of starts whose hinges are exchanged until nothing collides.
 const SEPARATED_MAX: usize = 6;
 
-/// Rounds of that, with other random numbers.
-const TURNS: u64 = 8;
+/// The number of rounds of such exchanges, each with other random numbers.
+const ROUNDS_MAX: u64 = 8;
 
-/// Exchanges that are sampled before the best is made.
+/// The number of exchanges that are sampled before the best is made.
 const EXCHANGES_SAMPLED: usize = 12;
 
-/// Exchanges in a row that may leave no fewer colliding pairs than ever before.
-const PATIENCE: usize = 12;
+/// The number of exchanges in a row that may leave no fewer conflicting pairs than ever before.
+const STALLED_EXCHANGES_MAX: usize = 12;
 
 /// The number of collision-free layouts at which the search ends.
 const COLLISION_FREE_MAX: usize = 8;
 
-/// Collision-free layouts that are made cheaper.
+/// The number of collision-free layouts that are made cheaper.
 const IMPROVED_MAX: usize = 3;
 
-/// The remaining budget divided by this goes into each of them.
+/// The remaining budget divided by this is that of each improvement of such a layout, and is kept for them.
 const IMPROVEMENT_SHARE: usize = 4;
 
-/// A search for layouts that fold with the leaves first.
+/// A search for layouts that lie flat and fold with the leaves first without collision.
 pub struct StripSearch<'t> {
     /// The target.
     pub target: &'t Target,
-    /// The costs of its hinges.
+    /// The costs of its hinges, which the energy of a layout is the sum of.
     pub weights: &'t Weights,
     /// The panels with their thickness.
     pub solids: &'t Solids,
-    /// The faces that may be the root.
+    /// The faces that may be the root; at least one.
     pub roots: &'t [usize],
-    /// Cheap layouts, which may fold without collisions.
+    /// Layouts of little energy as further starts, the best first; two of them are used.
     pub cheap: &'t [Layout],
     /// The seed of random exchanges.
     pub seed: u64,
-    /// The number of states of pairs of panels that may still be sampled.
+    /// The number of states of pairs of panels that may still be sampled; one of panels with thickness counts as four.
     pub states_left: usize,
 }
 
@@ -104,7 +105,8 @@ impl Conflicts {
 }
 
 impl StripSearch<'_> {
-    /// Returns layouts in which no sample shows a collision, the cheapest first.
+    /// Returns layouts that lie flat and in which no sample shows a collision while they fold with the leaves first,
+    /// that of least energy first; empty if none was found. Panics without roots.
     pub fn layouts(&mut self) -> Vec<Layout> {
         let mut starts: Vec<(Conflicts, Layout)> = Vec::new();
         for layout in self.trees().into_iter().chain(self.cheap.iter().take(CHEAP_MAX).cloned()) {
@@ -117,13 +119,13 @@ impl StripSearch<'_> {
             starts.into_iter().partition(|(conflicts, _)| conflicts.is_clear());
         let mut clear: Vec<Layout> = clear.into_iter().map(|(_, layout)| layout).collect();
         let kept = self.states_left / IMPROVEMENT_SHARE;
-        for turn in 0..TURNS {
+        for round in 0..ROUNDS_MAX {
             for (_, layout) in blocked.iter().take(SEPARATED_MAX) {
                 if self.states_left > kept
                     && clear.len() < COLLISION_FREE_MAX
-                    && (turn == 0 || clear.is_empty())
+                    && (round == 0 || clear.is_empty())
                 {
-                    clear.extend(self.separated(layout.clone(), self.seed + turn, kept));
+                    clear.extend(self.separated(layout.clone(), self.seed + round, kept));
                 }
             }
         }
@@ -148,8 +150,8 @@ impl StripSearch<'_> {
         let is_level = |hinge: &Hinge| hinge.angle.abs() < TOLERANCES.level;
         let worths: [&dyn Fn(&Hinge) -> f64; 4] = [
             &|hinge| length(hinge) / longest,
-            &|hinge| if is_level(hinge) { LEVEL } else { (hinge.angle + most) / (2.0 * most) },
-            &|hinge| if is_level(hinge) { LEVEL } else { hinge.angle.abs() / most },
+            &|hinge| if is_level(hinge) { LEVEL_HINGE_WORTH } else { (hinge.angle + most) / (2.0 * most) },
+            &|hinge| if is_level(hinge) { LEVEL_HINGE_WORTH } else { hinge.angle.abs() / most },
             &|hinge| 1.0 - hinge.angle.abs() / most,
         ];
         let mut trees = Vec::new();
@@ -191,6 +193,7 @@ impl StripSearch<'_> {
         layout
     }
 
+    /// Returns a layout rerooted at the root of least energy.
     fn at_best_root(&self, layout: &Layout) -> Layout {
         let hung = self.roots.iter().map(|root| layout.rerooted(self.target, *root));
         let by_energy = |a: &Layout, b: &Layout| a.energy(self.weights).total_cmp(&b.energy(self.weights));
@@ -229,13 +232,13 @@ impl StripSearch<'_> {
         let target = self.target;
         let mut parting = TabuExchange::new(target, seed);
         let mut now = layout;
-        let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+        let (mut fewest, mut patience) = (usize::MAX, STALLED_EXCHANGES_MAX);
         for round in 1.. {
             interrupt::checkpoint();
             let (_, pairs) = self.conflicts(&now, None);
             patience -= 1;
             if pairs.len() < fewest {
-                (fewest, patience) = (pairs.len(), PATIENCE);
+                (fewest, patience) = (pairs.len(), STALLED_EXCHANGES_MAX);
             }
             if patience == 0 {
                 break;

@@ -11,7 +11,7 @@ use crate::geometry::pose::shifted;
 use crate::geometry::{Part, Pose, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-/// States of each step that are sampled.
+/// The number of states of each step that are sampled.
 const SAMPLES: usize = 24;
 
 type Triangle = [Vec3; 3];
@@ -19,14 +19,15 @@ type Triangle = [Vec3; 3];
 /// Two panels that collide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Collision {
-    /// The first step in which they do, from 0.
+    /// The index of the first step in which they collide, from 0.
     pub step: usize,
-    /// Their faces.
+    /// The two faces, the lesser first.
     pub faces: [usize; 2],
 }
 
-/// Returns the first collision of thin panels while a layout is folded in steps; `shrunk`: the part by which
-/// triangles are shrunk, so that neighbours do not collide.
+/// Returns the first collision of panels without thickness in the samples of a layout that folds in steps; `shrunk`:
+/// the part by which triangles are shrunk towards their centroids, so that neighbours do not collide; `None` if no
+/// sample shows one.
 pub fn first_collision(
     target: &Target,
     layout: &Layout,
@@ -46,13 +47,14 @@ pub fn first_collision(
 /// with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {
-    /// The convex parts of each face.
+    /// The convex parts of each face's panel.
     pub parts: Vec<Vec<Part>>,
-    /// The depth to which two panels may enter each other, m.
+    /// The depth to which two panels may enter each other without a collision, m.
     pub touch: f64,
 }
 
-/// Returns the pairs of panels that penetrate each other in the target itself.
+/// Returns the pairs of panels, the lesser face first, that penetrate each other by more than `touch` in the target
+/// itself, neighbours included.
 pub fn target_collisions(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
     let parts = placed(target, solids);
     let reach = reach(target, &parts);
@@ -113,15 +115,17 @@ impl<'t> SweepCheck<'t> {
         SweepCheck { target, layout, form: Form::Triangles(small), reach }
     }
 
-    /// Sets up the check for panels with thickness.
+    /// Sets up the check for panels with thickness; panels that a hinge of the layout joins are built to touch, and are
+    /// not checked against each other.
     pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> SweepCheck<'t> {
         let parts = placed(target, solids);
         let reach = reach(target, &parts);
         SweepCheck { target, layout, form: Form::Solids(Solids { parts, touch: solids.touch }), reach }
     }
 
-    /// Returns two faces that collide while the hinges of `moving` fold at the same time, none above another;
-    /// `folded`: true, by face, if its hinge has folded before.
+    /// Returns two faces, the lesser first, that collide in a sample of a step in which the hinges of the faces
+    /// `moving` fold at the same time; `None` if no sample shows any. No face of `moving` may be above another;
+    /// `folded`: for each face, true if its hinge has folded before.
     pub fn pair_during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
         let against = moving_against(self.layout, moving);
         (1..=SAMPLES).find_map(|sample| {
@@ -130,8 +134,9 @@ impl<'t> SweepCheck<'t> {
         })
     }
 
-    /// Returns the pairs of faces that collide while the layout is folded in steps, in order; not all of them where
-    /// they are more than `most`. `samples`: states of each step.
+    /// Returns the pairs of faces, the lesser first, that collide in the samples of a layout that folds in steps, in
+    /// order; once more than `most` were met, no others are searched. `samples`: the number of states of each step, at
+    /// least 1.
     pub fn collisions(&self, steps: &[Vec<usize>], samples: usize, most: usize) -> Vec<[usize; 2]> {
         let mut folded = vec![false; self.reach.len()];
         let mut met: Vec<[usize; 2]> = Vec::new();
@@ -168,6 +173,7 @@ impl<'t> SweepCheck<'t> {
         State { poses, middles }
     }
 
+    /// Returns true if two faces collide in a state.
     fn meet(&self, State { poses, middles }: &State, [a, b]: [usize; 2]) -> bool {
         let away = self.reach[a] + self.reach[b];
         if (middles[a] - middles[b]).norm_squared() >= away * away {
@@ -196,8 +202,8 @@ struct State {
 }
 
 impl Solids {
-    /// Returns true if two panels penetrate each other; `X_AB`: the pose of the second's frame in the
-    /// first's.
+    /// Returns true if the panels of two faces penetrate each other by more than `touch`; `X_AB`: the pose of the frame
+    /// of the second's parts in that of the first's.
     pub fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
         let meet =
             |p: &Part, q: &Part| signed_distance_within(p, q, X_AB, None, -self.touch).distance < -self.touch;
@@ -210,7 +216,8 @@ fn place(target: &Target, face: usize) -> Pose {
     panel_pose(&target.corners(face), &target.normal(face))
 }
 
-/// Returns the panel frame of a triangle with these corners (m) and this outward unit normal.
+/// Returns the pose of the panel frame ([`Solids`]) of a triangle with these corners (m) and this outward unit normal,
+/// in the frame of the corners.
 pub fn panel_pose(corners: &Triangle, z: &Vec3) -> Pose {
     let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     let x = ((corners[0] + corners[1]) / 2.0 - middle).normalize();
@@ -219,7 +226,7 @@ pub fn panel_pose(corners: &Triangle, z: &Vec3) -> Pose {
     shifted(middle) * turn
 }
 
-/// Pairs of faces with a moving hinge between them.
+/// Returns the pairs of faces, the lesser first, with a moving hinge between them.
 fn moving_against(layout: &Layout, moving: &[usize]) -> Vec<[usize; 2]> {
     let faces = layout.parent.len();
     let mut carried = vec![0usize; faces];

@@ -4,8 +4,8 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
-/// Returns by face the first face to which an isometry of the target, mirrors included, carries it. Only
-/// isometries that keep every weight count.
+/// Returns by face the least face of its orbit under the isometries of the target, mirrors included, that keep every
+/// weight; two faces with the same one are equal as roots.
 pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     let n = target.faces.len();
     let lengths: Vec<[f64; 3]> = (0..n).map(|face| lengths(target, face)).collect();
@@ -33,6 +33,7 @@ pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     (0..n).map(|face| find(&mut first, face)).collect()
 }
 
+/// Returns the representative of a face's orbit (union-find), and shortens the path to it.
 fn find(first: &mut [usize], face: usize) -> usize {
     let mut at = face;
     while first[at] != at {
@@ -42,6 +43,7 @@ fn find(first: &mut [usize], face: usize) -> usize {
     at
 }
 
+/// Returns the lengths of a face's sides, m.
 fn lengths(target: &Target, face: usize) -> [f64; 3] {
     let corners = target.corners(face);
     [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
@@ -55,6 +57,7 @@ fn equal(a: f64, b: f64) -> bool {
 /// from there.
 type Image = (usize, usize, bool);
 
+/// Returns the side that is the image of side `k`.
 fn side(image: Image, k: usize) -> usize {
     let (_, turn, mirrored) = image;
     if mirrored { (turn + 3 - k) % 3 } else { (turn + k) % 3 }
@@ -109,6 +112,7 @@ fn across(target: &Target, hinge: usize, face: usize, side: usize) -> (usize, us
     (hinge.faces[1 - own], hinge.sides[1 - own])
 }
 
+/// Returns true if an isometry, given by the images of faces and hinges, keeps every weight.
 fn keeps(weights: &Weights, faces: &[usize], hinges: &[usize], scale: f64) -> bool {
     hinges.iter().enumerate().all(|(hinge, &to)| {
         faces.iter().enumerate().all(|(face, &goal)| {

@@ -80,8 +80,8 @@ impl<'t> TabuExchange<'t> {
         pairs.get(self.rng.below(pairs.len().max(1))).copied()
     }
 
-    /// Returns a layout without one of these hinges, and which: another hinge that is not tabu joins the two parts.
-    /// `None` where no such hinge does.
+    /// Returns a layout without one of the hinges `between`, chosen at random, and that hinge: another one that is not
+    /// tabu in this round joins the two parts. `None` if no such hinge does.
     pub(super) fn exchange(
         &mut self,
         now: &Layout,
@@ -98,7 +98,7 @@ impl<'t> TabuExchange<'t> {
         Some((now.exchanged(self.target, dropped, added), dropped))
     }
 
-    /// Makes a hinge tabu from a round on.
+    /// Makes a hinge tabu from a round on, for [`TABU`] rounds.
     pub(super) fn give_up(&mut self, hinge: usize, round: usize) {
         self.out_until[hinge] = round + TABU;
     }

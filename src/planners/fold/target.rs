@@ -6,38 +6,39 @@ use crate::geometry::Vec3;
 use crate::geometry::soundness::EXTENT_MAX;
 use std::collections::BTreeMap;
 
-/// The greatest number of faces: the count of layouts is by elimination, cubic in the faces.
+/// The greatest number of faces of a target: its layouts are counted by elimination, cubic in the faces.
 pub const FACES_MAX: usize = 400;
 
 /// A mesh that can be folded: manifold, oriented, connected, without degenerate faces. It may have a
 /// boundary.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// The corners of all faces, m.
+    /// The corners of all faces in the frame of the target, m.
     pub vertices: Vec<Vec3>,
-    /// The corners of each face among the vertices, counterclockwise seen from outside.
+    /// The corners of each face as indices in `vertices`, counterclockwise seen from outside.
     pub faces: Vec<[usize; 3]>,
-    /// The edges of the dual graph, in order of the first face's number, then of its side.
+    /// The hinges, which are the edges of the dual graph, in order of the first face's index, then of its side.
     pub hinges: Vec<Hinge>,
-    /// The hinge at each side of each face; side `k` runs from corner `k` to the next.
+    /// The index in `hinges` of the hinge at each side of each face; side `k` (0 to 2) runs from corner `k` to the
+    /// next. `None` at the boundary of the mesh, and between faces of which neither has motors.
     pub sides: Vec<[Option<usize>; 3]>,
 }
 
 /// A common edge of two faces, at which they can fold.
 #[derive(Clone, Copy, Debug)]
 pub struct Hinge {
-    /// The two faces.
+    /// The indices of the two faces.
     pub faces: [usize; 2],
-    /// The number of the side of each face that it is.
+    /// The side (0 to 2) of each of the two faces at which the hinge lies.
     pub sides: [usize; 2],
     /// Signed fold angle, rad: 0 where the faces are level, positive where the edge is convex. It is
     /// π less the interior dihedral angle.
     pub angle: f64,
-    /// A point of the edge in the target, m.
+    /// A point of the edge in the frame of the target, m.
     pub point: Vec3,
-    /// The unit vector along the edge, in the direction in which the first face runs along it. Turning the
-    /// second face about it by the angle folds it from level to its pose in the target; for the first face,
-    /// seen from the second, the direction is the opposite.
+    /// The unit vector along the edge in the frame of the target, in the direction in which the first face runs along
+    /// it. The rotation of the second face about it by `angle` folds it from level to its pose in the target; for the
+    /// first face, seen from the second, the direction is the opposite ([`Hinge::axis_from`]).
     pub axis: Vec3,
 }
 
@@ -54,17 +55,20 @@ impl Hinge {
         self.sides[usize::from(self.faces[1] == face)]
     }
 
-    /// Returns the unit axis about which a positive turn folds the face across from `parent`.
+    /// Returns the unit axis about which a positive turn folds the face across from `parent`, which must be one of its
+    /// two faces.
     pub fn axis_from(&self, parent: usize) -> Vec3 {
         if self.faces[0] == parent { self.axis } else { -self.axis }
     }
 }
 
 impl Target {
-    /// Checks a mesh given by vertices (m) and faces by their corners, counterclockwise from outside.
+    /// Checks a mesh and finds its hinges. `vertices`: in m; `faces`: the corners of each face as indices in
+    /// `vertices`, counterclockwise seen from outside.
     ///
     /// # Errors
-    /// The first reason found why the mesh does not fold from one sheet.
+    /// The first reason found why the mesh is no target; [`Unfoldable::Undriven`] and [`Unfoldable::UnequalSides`] are
+    /// not among them.
     pub fn new(vertices: Vec<Vec3>, faces: &[Vec<usize>]) -> Result<Target, Unfoldable> {
         if faces.is_empty() {
             return Err(Unfoldable::Empty);
@@ -91,18 +95,18 @@ impl Target {
         Ok(target)
     }
 
-    /// Checks that all sides have the wanted length, to `tol`, m.
+    /// Checks that the length of every side differs from `wanted` by at most `tol`, both in m.
     ///
     /// # Errors
-    /// [`Unfoldable::UnequalSides`] for the first that has not.
+    /// [`Unfoldable::UnequalSides`] for the first side whose length does not.
     pub fn check_sides(&self, wanted: f64, tol: f64) -> Result<(), Unfoldable> {
         (0..self.faces.len()).try_for_each(|face| self.check_sides_of(face, wanted, tol))
     }
 
-    /// Checks that the sides of one face have the wanted length, to `tol`, m.
+    /// Checks that the lengths of the sides of one face differ from `wanted` by at most `tol`, both in m.
     ///
     /// # Errors
-    /// [`Unfoldable::UnequalSides`] for the first that has not.
+    /// [`Unfoldable::UnequalSides`] for the first side whose length does not.
     pub fn check_sides_of(&self, face: usize, wanted: f64, tol: f64) -> Result<(), Unfoldable> {
         match self.side_lengths(face).into_iter().find(|side| (side - wanted).abs() > tol) {
             Some(side) => Err(Unfoldable::UnequalSides { face, side, wanted }),
@@ -110,17 +114,17 @@ impl Target {
         }
     }
 
-    /// Returns the lengths of a face's sides, m.
+    /// Returns the lengths of a face's sides in their order, m.
     pub fn side_lengths(&self, face: usize) -> [f64; 3] {
         let corners = self.corners(face);
         [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
     }
 
-    /// Returns the target without the hinges between two faces of which neither has motors; `driven`: true,
-    /// by face, if it has.
+    /// Returns the target without the hinges between two faces of which neither has motors. `driven`: for each face,
+    /// true if it has motors.
     ///
     /// # Errors
-    /// [`Unfoldable::Undriven`] where the rest is not connected.
+    /// [`Unfoldable::Undriven`] if the other hinges do not connect all faces.
     pub fn driven(mut self, driven: &[bool]) -> Result<Target, Unfoldable> {
         self.hinges.retain(|hinge| hinge.faces.iter().any(|face| driven[*face]));
         self.sides = sides(&self.hinges, self.faces.len());
@@ -131,34 +135,36 @@ impl Target {
         Ok(self)
     }
 
-    /// Returns the corners of a face, m.
+    /// Returns the corners of a face in the frame of the target, m.
     pub fn corners(&self, face: usize) -> [Vec3; 3] {
         self.faces[face].map(|v| self.vertices[v])
     }
 
-    /// Returns the centroid of a face, m.
+    /// Returns the centroid of a face in the frame of the target, m.
     pub fn centroid(&self, face: usize) -> Vec3 {
         let [a, b, c] = self.corners(face);
         (a + b + c) / 3.0
     }
 
-    /// Returns the outward unit normal of a face.
+    /// Returns the outward unit normal of a face in the frame of the target.
     pub fn normal(&self, face: usize) -> Vec3 {
         let [a, b, c] = self.corners(face);
         (b - a).cross(&(c - a)).normalize()
     }
 
-    /// Returns the hinges of a face with the faces across them, in order of its sides.
+    /// Returns the index of each hinge of a face with the face across it, in order of the sides.
     #[inline]
     pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))
     }
 
-    /// Returns the hinge between two faces; of several the first, `None` where there is none.
+    /// Returns the index of the hinge between two faces; of several that at the first side of `a`; `None` if there is
+    /// none.
     pub fn hinge_between(&self, a: usize, b: usize) -> Option<usize> {
         self.around(a).find(|(_, other)| *other == b).map(|(hinge, _)| hinge)
     }
 
+    /// Checks that hinges connect all faces.
     fn connected(&self) -> Result<(), Unfoldable> {
         let mut seen = vec![false; self.faces.len()];
         seen[0] = true;
@@ -177,6 +183,7 @@ impl Target {
     }
 }
 
+/// Returns true if a triangle names no vertex, has no area, or a coordinate that is not finite.
 fn degenerate(vertices: &[Vec3], triangle: [usize; 3]) -> bool {
     let [Some(a), Some(b), Some(c)] = triangle.map(|v| vertices.get(v)) else { return true };
     let longest = [b - a, c - b, a - c].iter().map(Vec3::norm).fold(0.0, f64::max);
@@ -187,6 +194,7 @@ fn degenerate(vertices: &[Vec3], triangle: [usize; 3]) -> bool {
 
 type Hinges = (Vec<Hinge>, Vec<[Option<usize>; 3]>);
 
+/// Finds the hinges of a mesh, and the hinge at each side of each face.
 fn hinges(vertices: &[Vec3], faces: &[[usize; 3]]) -> Result<Hinges, Unfoldable> {
     let mut edges: BTreeMap<(usize, usize), Vec<(usize, usize)>> = BTreeMap::new();
     for (face, corners) in faces.iter().enumerate() {
@@ -219,9 +227,10 @@ fn sides(hinges: &[Hinge], faces: usize) -> Vec<[Option<usize>; 3]> {
     sides
 }
 
-/// A face and which of its sides.
+/// A face and one of its sides (0 to 2).
 type Side = (usize, usize);
 
+/// Returns the hinge between side `p` and side `c`, with the first's face as its first.
 fn hinge(vertices: &[Vec3], faces: &[[usize; 3]], p: Side, c: Side) -> Result<Hinge, Unfoldable> {
     let both = [p.0, c.0];
     let (start, next) = (faces[p.0][p.1], faces[p.0][(p.1 + 1) % 3]);

@@ -10,13 +10,14 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use std::f64::consts::PI;
 
-/// Returns the least angle between two panels of a thickness on hinges of a radius (m), rad; π where the hinge is
-/// so thin that they do not turn.
+/// Returns the least angle (rad) to which two panels of a thickness (m) can close on a hinge of a radius (m); π, level,
+/// if the radius is at most half the thickness.
 pub fn least_opening(thickness: f64, radius: f64) -> f64 {
     2.0 * libm::asin((thickness / 2.0 / radius).clamp(0.0, 1.0))
 }
 
-/// Returns the faces of a layout whose hinges do not close to `opening` (rad), in order.
+/// Returns the faces of a layout whose hinges would have to close farther than to the angle `opening` (rad) between the
+/// panels, in order: their absolute fold angle is greater than π - `opening`.
 pub fn too_thick(target: &Target, layout: &Layout, opening: f64) -> Vec<usize> {
     let angle = |face: &usize| layout.hinge[*face].map_or(0.0, |hinge| target.hinges[hinge].angle.abs());
     (0..target.faces.len()).filter(|face| angle(face) > PI - opening + TOLERANCES.closing).collect()

@@ -13,7 +13,7 @@ pub struct Tolerances {
     pub mass: f64,
     /// The least height of a face as a part of its longest side; lower ones have no area.
     pub flat_face: f64,
-    /// Two faces whose fold angle is nearer than this to half a turn lie on each other, rad.
+    /// Two faces whose absolute fold angle is nearer than this to π lie on each other, rad.
     pub back_to_back: f64,
     /// Lengths, weights (as a part) and angles (rad) that differ by less are equal by symmetry: far below the
     /// part of the energy to which optima are proved.
@@ -66,7 +66,7 @@ pub struct Tolerances {
 }
 
 impl Tolerances {
-    /// Returns true if a lower bound proves that nothing is better than a value.
+    /// Returns true if a lower bound proves that nothing is better than a value by more than the part `proof` of it.
     pub fn prove(&self, value: f64, bound: f64) -> bool {
         bound >= value * (1.0 - self.proof)
     }

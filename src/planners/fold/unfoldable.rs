@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The reason why a mesh is no target. Faces are numbered as in the mesh.
+/// The reason why a mesh is no target. Faces are indices in the mesh, from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfoldable {
     /// The mesh has no faces.
@@ -14,51 +14,51 @@ pub enum Unfoldable {
         /// The greatest number of faces.
         limit: usize,
     },
-    /// A face with another number of corners than three.
+    /// A face has another number of corners than three.
     NotTriangle {
-        /// The face.
+        /// The index of the face.
         face: usize,
         /// The number of its corners.
         corners: usize,
     },
-    /// A face of no area, or that names a vertex that there isn't, or one twice.
+    /// A face has no area, a coordinate that is not a number, or a corner that is no vertex, or names a vertex twice.
     Degenerate {
-        /// The face.
+        /// The index of the face.
         face: usize,
     },
-    /// A face with a corner farther from the origin than anything may be.
+    /// A coordinate of a face's corner is farther from 0 than [`EXTENT_MAX`](crate::geometry::soundness::EXTENT_MAX).
     TooFar {
-        /// The face.
+        /// The index of the face.
         face: usize,
     },
-    /// An edge at which more than two faces meet.
+    /// More than two faces meet at one edge.
     NonManifold {
-        /// All faces at the edge.
+        /// The indices of all faces at the edge.
         faces: Vec<usize>,
     },
-    /// Two faces that run along their common edge in the same direction.
+    /// Two faces run along their common edge in the same direction, so that one of them is turned over.
     Orientation {
-        /// The two faces.
+        /// The indices of the two faces.
         faces: [usize; 2],
     },
-    /// Two faces with the same corners, back to back.
+    /// Two faces with a common edge lie on each other, back to back: their fold angle is half a turn.
     FoldedFlat {
-        /// The two faces.
+        /// The indices of the two faces.
         faces: [usize; 2],
     },
-    /// Faces that no chain of hinges joins.
+    /// No chain of hinges joins all faces.
     Disconnected {
-        /// One face of two pieces each.
+        /// The indices of two faces of different pieces.
         faces: [usize; 2],
     },
-    /// Faces that no chain of hinges joins of which each has a face with motors.
+    /// No chain of hinges joins all faces if each hinge needs a face with motors.
     Undriven {
-        /// One face of two pieces each.
+        /// The indices of two faces of different pieces.
         faces: [usize; 2],
     },
-    /// A side of another length (m) than all panels have.
+    /// The length of a face's side is not that of the panels.
     UnequalSides {
-        /// The face.
+        /// The index of the face.
         face: usize,
         /// The length of its side, m.
         side: f64,
@@ -68,7 +68,7 @@ pub enum Unfoldable {
 }
 
 impl Unfoldable {
-    /// Returns a hint how to mend the mesh.
+    /// Returns a hint to mend the mesh, in words for a message.
     pub fn remedy(&self) -> &'static str {
         match self {
             Unfoldable::Empty => "a target has at least one triangle",

@@ -1,6 +1,6 @@
 //! The cost of every hinge for every face that it carries, in closed form.
 //!
-//! With the leaves folded first (Alg. 2), what a hinge moves already has its final form and nothing
+//! With the leaves folded first (Alg. 2), the faces that a hinge moves already have their final form and nothing
 //! else moves with it: one rigid body about a fixed axis. With the quintic motion of a step of one
 //! second the mean torque of hinge e is `3.75 |φ_e| Σ_j K(e, j)`, over the faces j that it carries,
 //! where K is the moment of inertia of face j of the target about the line through e. So the energy
@@ -22,7 +22,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Computes the weights of a target; `masses`: by face, kg.
+    /// Computes the weights of a target; `masses`: by face, kg, one for each face.
     pub fn new(target: &Target, masses: &[f64], inertia: Inertia) -> Weights {
         let faces = target.faces.len();
         let mut table = Vec::with_capacity(faces * target.hinges.len());
@@ -36,7 +36,7 @@ impl Weights {
         Weights { faces, table }
     }
 
-    /// Computes the weights for panels of one mass (kg), spread evenly.
+    /// Computes the weights of a target whose panels have one mass each (kg), spread evenly without thickness.
     pub fn uniform(target: &Target, mass: f64) -> Weights {
         Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)
     }
@@ -47,7 +47,7 @@ impl Weights {
         self.table[hinge * self.faces + face]
     }
 
-    /// Returns the costs of a hinge, by face, N·m for steps of one second.
+    /// Returns the costs of a hinge for carrying each face, by face, N·m for steps of one second.
     pub fn of_hinge(&self, hinge: usize) -> &[f64] {
         &self.table[hinge * self.faces..][..self.faces]
     }

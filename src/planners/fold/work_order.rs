@@ -13,24 +13,26 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use crate::geometry::Pose;
 
-/// The greatest number of hinges of a branch whose subsets are all visited.
+/// The greatest number of hinges of a branch of the root whose subsets are all visited.
 pub const BRANCH_MAX: usize = 18;
 
-/// An order of folding, one hinge after the other.
+/// An order of folding, one hinge after the other, with its work against gravity.
 #[derive(Clone, Debug)]
 pub struct WorkOrder {
-    /// All faces but the root in order of folding.
+    /// All faces but the root, in the order in which their hinges fold.
     pub order: Vec<usize>,
-    /// The work of Eq. 17, J.
+    /// The work of the order (Eq. 17), J.
     pub work: f64,
     /// The lower bound on the work of all orders of the layout, J.
     pub bound: f64,
-    /// True if no order takes less work than this one: always, unless a branch has more than
-    /// [`BRANCH_MAX`] hinges.
+    /// True if it is proved that no order takes less work: always, unless a branch of the root has more than
+    /// [`BRANCH_MAX`] hinges and neither usual order of it reaches its bound.
     pub optimal: bool,
 }
 
-/// Returns the order of least work; `weights`: by face, N.
+/// Returns the order of least work of a layout whose root lies on the ground with its outside down, branch by branch of
+/// the root; `weights`: by face, N. Of a branch too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves
+/// first and root first.
 pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrder {
     let mut all = WorkOrder { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {
@@ -44,8 +46,8 @@ pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrde
     all
 }
 
-/// Returns the lower bound on the work of all orders of a layout, J: the potential energy that each branch of the
-/// root gains or loses; `weights`: by face, N.
+/// Returns a lower bound on the work of all orders of a layout, J: the sum over the root's branches of the absolute
+/// change of their potential energy; `weights`: by face, N.
 pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
     let flat = super::kinematics::poses(target, layout, |_| false);
     let gain = |face: usize| {
@@ -103,6 +105,7 @@ struct Branch {
 }
 
 impl Branch {
+    /// Sets up the branch of one child of the root, with its two usual orders and its bound.
     fn new(target: &Target, layout: &Layout, weights: &[f64], child: usize) -> Branch {
         let faces: Vec<usize> =
             layout.order.iter().copied().filter(|&face| layout.is_above(child, face)).collect();
@@ -134,6 +137,7 @@ impl Branch {
         Branch { faces, paths, potentials, known: known.to_vec(), bound: (heights[1] - heights[0]).abs() }
     }
 
+    /// Returns the order of least work of the branch, or the better usual order of a branch that is too large.
     fn least(&self) -> WorkOrder {
         let reached = |work: f64| work <= self.bound * (1.0 + TOLERANCES.work) + f64::MIN_POSITIVE;
         let best = self.known.iter().min_by(|a, b| a.1.total_cmp(&b.1)).expect("there are two");
@@ -176,6 +180,7 @@ impl Branch {
         (order, least[(1 << bits) - 1])
     }
 
+    /// Returns the potential energy of the branch, J, when the faces of a set of bits have folded.
     fn energy(&self, set: usize) -> f64 {
         let of_face = |(path, table): (&Vec<usize>, &Vec<f64>)| {
             let folded: usize = path.iter().enumerate().map(|(i, bit)| (set >> bit & 1) << i).sum();
