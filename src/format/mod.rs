@@ -16,11 +16,12 @@ use crate::syntax::{Outline, parse, skeleton};
 pub struct Formatted {
     /// The text; unreadable chunks are unchanged in it.
     pub text: String,
-    /// The syntax errors of unreadable chunks.
+    /// The syntax errors of unreadable chunks; empty if the whole text could be parsed.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Formats a text; `id` is its file in the diagnostics.
+/// Returns the formatted text; `id` is its file in the diagnostics. A text that is too large or nests too
+/// deeply is returned as it is, with a diagnostic.
 ///
 /// `None` if the result would have been another program, which would be a defect of the formatter; the text
 /// must then be left as it is.

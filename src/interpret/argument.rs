@@ -78,7 +78,7 @@ pub trait Argument<'c>: Sized {
     /// Reads a value.
     ///
     /// # Errors
-    /// A [`ArgumentError`] where the value has another type or is out of range.
+    /// An [`ArgumentError`] where the value has another type or is out of range.
     fn read(value: &'c Value) -> Result<Self, ArgumentError>;
 }
 
@@ -88,7 +88,7 @@ pub trait Choice: Copy + PartialEq + 'static {
     /// Each word with its value, in the order of the declaration.
     const WORDS: &'static [(&'static str, Self)];
 
-    /// Returns the word of this value.
+    /// Returns the word of this value. Panics if [`WORDS`](Choice::WORDS) leaves the value out.
     fn word(self) -> &'static str {
         let found = Self::WORDS.iter().find(|(_, value)| *value == self);
         found.map(|(word, _)| *word).expect("every value has a word")
@@ -100,7 +100,7 @@ pub trait Choice: Copy + PartialEq + 'static {
     }
 }
 
-/// A number above zero, in SI units.
+/// A number above zero, in SI units; any other is refused as out of range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Positive(pub f64);
 
@@ -151,8 +151,8 @@ impl Parameter {
         Parameter { name, kind: T::KIND, rust_type: std::any::type_name::<T> }
     }
 
-    /// Returns a native's own parameters and then those of the part that it shares with others, if any; `N` in
-    /// all.
+    /// Returns a native's own parameters and then those of the part that it shares with others: `part` has one
+    /// list or none. `N` is the number of all; the build fails if it is another.
     pub const fn concatenated<const N: usize>(own: &[Parameter], part: &[&[Parameter]]) -> [Parameter; N] {
         let mut all = [Parameter::new::<bool>(""); N];
         let mut i = 0;
@@ -283,7 +283,7 @@ impl<'c> Argument<'c> for usize {
     }
 }
 
-/// A range of quantities, low to high, in SI units.
+/// The ends of a range of quantities as they are written, in SI units; the first may be the greater.
 impl<'c> Argument<'c> for (f64, f64) {
     const KIND: Kind = Kind::Range;
 

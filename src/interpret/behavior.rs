@@ -34,8 +34,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the one robot that parts of a behaviour move or sense. Equal robots are one; but where the
-    /// program holds them under two names, it means two.
+    /// Returns the one robot that parts of a behaviour move or sense; `None` if neither names one. Equal robots
+    /// are one; but where the program holds them under two names, it means two.
     ///
     /// # Errors
     /// A fault where there are two robots, or two names.
@@ -54,8 +54,8 @@ impl Interpreter<'_> {
         Ok(Some(Subject { design: a.design.clone(), identity }))
     }
 
-    /// Returns the robot of a joint, for an action; `None` where something is wrong with it, which has been
-    /// reported.
+    /// Returns the robot of a joint, for an action, even if its configuration has mistakes; `None` where it
+    /// can't be assembled, which has been reported.
     ///
     /// # Errors
     /// A fault at `span` where the robot is a configuration whose clauses still run.
@@ -103,6 +103,7 @@ impl Interpreter<'_> {
         Ok(Value::Behavior(Rc::new(Behavior { robot: behavior.robot.clone(), node })))
     }
 
+    /// Returns an exemption with the modules or the joint that it names; `None` where one of them is unknown.
     fn exemption_kind(
         &mut self,
         kind: &ExemptionKind,
@@ -135,7 +136,7 @@ impl Interpreter<'_> {
         }))
     }
 
-    /// Returns the condition `a <-> b`, that two ports are docked to each other.
+    /// Returns the condition `a <-> b`, that two ports are docked to each other; unknown where one is no port.
     ///
     /// # Errors
     /// A fault at `span` where the ports belong to two robots.
@@ -164,8 +165,11 @@ impl Interpreter<'_> {
         Err(fault(code::SIZE_LIMIT, span, message, format!("too many {what}")))
     }
 
-    /// Reports what is wrong with a behaviour before any run: too many actions, commands in conflict, limits
-    /// of the joints. Returns true if nothing is. `span` is the place that wants the behaviour.
+    /// Reports the commands in conflict and the actions beyond the limits of the joints, before any run;
+    /// returns true if there are none. `span`: the code that uses the behaviour.
+    ///
+    /// # Errors
+    /// A fault where the behaviour exceeds a limit of its size.
     pub fn check_behavior(&mut self, behavior: &Behavior, span: Span) -> Eval<bool> {
         self.check_extent(behavior, span)?;
         let Some(design) = &behavior.robot else { return Ok(true) };
@@ -188,6 +192,8 @@ impl Interpreter<'_> {
         Ok(!self.failed_since(mark))
     }
 
+    /// Returns the diagnostic of two commands to one joint at one time: an error, or a warning if they are
+    /// equal.
     fn conflict(&self, conflict: &Conflict, robot: &Robot, error: bool) -> Diagnostic {
         let joint = robot.joint_name(conflict.joint);
         let (a, b) = (self.memory.causes.get(conflict.first), self.memory.causes.get(conflict.second));
@@ -226,14 +232,15 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the cause of an action; the instance that the joint belongs to is the subject of its commands.
+    /// Returns the cause of an action on a joint, whose path name is the subject of the cause. `args`: the
+    /// spans of the arguments.
     pub fn action_cause(&mut self, span: Span, args: Vec<(Part, Span)>, joint: &JointValue) -> CauseId {
         let subject = joint.name();
         self.cause(span, args, &subject)
     }
 }
 
-/// Returns `action else b`; `None` where `action` is no single action with a timeout.
+/// Returns the node of `action else b`; `None` where `action` is no single action with a timeout.
 pub(super) fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
     let Node::Action(action) = action else { return None };
     let mut action = action.clone();
@@ -249,8 +256,9 @@ pub(super) fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Nod
 }
 
 impl Interpreter<'_> {
-    /// Returns the cause of a command at `span` in the state of evaluation: with the loop variables, and the
-    /// call in the user's own file where `span` is in the library.
+    /// Returns the cause of a command at `span` in the state of evaluation: with `subject` (may be empty), the
+    /// loop variables, and the call in the user's own file where `span` is in the library. `args`: the spans of
+    /// the arguments.
     pub fn cause(&mut self, span: Span, args: Vec<(Part, Span)>, subject: &str) -> CauseId {
         let notes = self.binder_notes();
         let instance = match (subject.is_empty(), notes.is_empty()) {
@@ -268,7 +276,7 @@ pub(super) fn with_instance(label: String, record: &CauseRecord) -> String {
     if label.contains(&*record.instance) { label } else { format!("{label} [{}]", record.instance) }
 }
 
-/// Labels, behind the user's own line, the one in the library.
+/// Labels, after the user's own line, the one in the library, if the cause is there.
 pub(super) fn in_library(diagnostic: Diagnostic, record: &CauseRecord) -> Diagnostic {
     match record.caller {
         Some(_) => diagnostic.label(record.span, "the command itself, in the library"),
@@ -276,6 +284,7 @@ pub(super) fn in_library(diagnostic: Diagnostic, record: &CauseRecord) -> Diagno
     }
 }
 
+/// Returns the code, the message and the label of an action that a joint can't carry out.
 fn issue_words(kind: &IssueKind) -> (Code, String, String) {
     let unit = |prismatic: bool| if prismatic { Dimension::LENGTH } else { Dimension::ANGLE };
     let speed_unit = |prismatic: bool| if prismatic { Dimension::SPEED } else { Dimension::ANGULAR_SPEED };

@@ -16,7 +16,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Interpreter<'_> {
-    /// Evaluates the arguments of a call in the order of the parameters.
+    /// Evaluates the arguments of a call, which are in the order of the parameters; `None` stays `None`.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`](super::stop::Stop::Halt).
     pub fn eval_args(&mut self, args: &[Option<Expr>], span: Span, frame: &mut Frame) -> Eval<Args> {
         let mut values = Vec::with_capacity(args.len());
         let mut spans = Vec::with_capacity(args.len());
@@ -27,7 +30,8 @@ impl Interpreter<'_> {
         Ok(Args { values, spans })
     }
 
-    /// Calls a declared function or a built-in; unknown for other declarations.
+    /// Calls a declared function or a built-in with arguments in the order of the parameters; unknown for other
+    /// declarations.
     pub fn call_def(
         &mut self,
         def: DefId,
@@ -55,7 +59,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Calls a function value with its arguments, in the order of the parameters.
+    /// Calls a function value with its arguments, in the order of the parameters and one for each; returns its
+    /// result.
     pub fn apply(&mut self, callable: &Callable, values: Vec<Value>, span: Span) -> Eval<Value> {
         match callable {
             Callable::Lambda { body, captured, frame, this } => {
@@ -107,6 +112,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Returns the default of a parameter: its expression's value, an empty list, or the missing value.
     fn default(&mut self, param: &Param, frame: &mut Frame) -> Eval<Value> {
         match &param.default {
             Some(default) => self.eval(default, frame),
@@ -133,7 +139,7 @@ impl Interpreter<'_> {
         (entry.body)(self, &Call { span, native: entry, params: &native.params, args: values, spans: &spans })
     }
 
-    /// Checks behaviours that a statement hands on, as far as that is possible without a run.
+    /// Checks the behaviours among the arguments, as far as that is possible without a run.
     fn check_arguments(&mut self, values: &[Value], span: Span) -> Eval<()> {
         for value in values {
             if let Value::Behavior(behavior) = value {
@@ -143,7 +149,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Calls a behaviour of an instance.
+    /// Calls a behaviour of an instance, by its index in the declaration; unknown if the instance is of no
+    /// configuration or has no such behaviour.
     pub fn call_behavior(
         &mut self,
         object: &Rc<Instance>,
@@ -184,7 +191,7 @@ impl Interpreter<'_> {
         let in_library = self.is_library(declared.span);
         let caller = if in_library { self.user_call().map(|call| call.span) } else { None };
         let call = BehaviorCall { object: object.clone(), behavior, args: args.values.clone(), caller };
-        if let Some(known) = self.memory.recalled.find(call.place(), |other| call.is_same(other)) {
+        if let Some(known) = self.memory.recalled.find(call.key(), |other| call.is_same(other)) {
             return Ok(Value::Behavior(known));
         }
         let (errors, effects, steps) = (self.reported.errors, self.stack.effects, self.stack.steps);
@@ -193,11 +200,12 @@ impl Interpreter<'_> {
         if let Value::Behavior(made) = &value
             && clean
         {
-            self.memory.recalled.keep(call.place(), call, made.clone(), self.stack.steps - steps);
+            self.memory.recalled.keep(call.key(), call, made.clone(), self.stack.steps - steps);
         }
         Ok(value)
     }
 
+    /// Returns the behaviour that the body of a declaration gives, with its exemptions.
     fn run_behavior(&mut self, declared: &BehaviorDef, object: &Rc<Instance>, args: Args) -> Eval<Value> {
         let mut frame = Frame::new(declared.frame, Some(object.clone()));
         self.fill(&declared.params, args, &mut frame)?;
@@ -220,7 +228,11 @@ impl Interpreter<'_> {
             .map(Some)
     }
 
-    /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action.
+    /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action; unknown where one
+    /// of them is.
+    ///
+    /// # Errors
+    /// A fault where the two move different robots, or `action` is no single action with a timeout.
     pub fn timeout_else(&mut self, action: &Value, otherwise: &Value, span: Span) -> Eval<Value> {
         let (Value::Behavior(action), Value::Behavior(otherwise)) = (action, otherwise) else {
             return Ok(Value::Unknown);

@@ -10,13 +10,13 @@ use std::sync::Arc;
 /// The span of a cause in the source, and the call that led there.
 #[derive(Clone, Debug)]
 pub struct CauseRecord {
-    /// The expression that commands.
+    /// The expression that gives the command.
     pub span: Span,
-    /// The spans of the arguments of an action.
+    /// The spans of the arguments of an action, by what they command; empty for other commands.
     pub args: Vec<(Part, Span)>,
-    /// The instance or the loop variables: `leg[2].m[0].tilt`, `i = 3`.
+    /// The instance and the loop variables: `leg[2].m[0].tilt (i = 3)`; may be empty.
     pub instance: Rc<str>,
-    /// The call in the user's own files, where `span` is in the library.
+    /// The call in the user's own files, where `span` is in the library; otherwise `None`.
     pub caller: Option<Span>,
 }
 
@@ -42,7 +42,7 @@ pub struct Causes {
 }
 
 impl Causes {
-    /// Adds a cause and returns its number; one that is known keeps its number.
+    /// Adds a cause and returns its number; one with the same span, instance and caller keeps its number.
     pub fn add(&mut self, record: CauseRecord) -> CauseId {
         let id = CauseId(u32::try_from(self.records.len()).expect("causes are counted in 32 bits"));
         let key = (record.span, record.instance.clone(), record.caller);
@@ -53,7 +53,7 @@ impl Causes {
         known
     }
 
-    /// Returns the record of a cause.
+    /// Returns the record of a cause. Panics if the number is of another run.
     pub fn get(&self, id: CauseId) -> &CauseRecord {
         &self.records[id.0 as usize]
     }
@@ -76,7 +76,7 @@ impl PlanCauses {
         })
     }
 
-    /// Returns the graph with the plan's own numbers. Shared nodes stay shared.
+    /// Returns the action graph with the plan's own numbers of causes. Shared nodes stay shared.
     pub fn renumber(&mut self, node: &Arc<Node>) -> Arc<Node> {
         self.renumber_shared(node, &mut HashMap::new())
     }
@@ -124,7 +124,8 @@ impl PlanCauses {
         action
     }
 
-    /// Returns the table that goes into the plan.
+    /// Returns the table that goes into the plan: each of its causes, by the plan's number, as file, line and
+    /// text.
     pub fn table(&self, causes: &Causes, sources: &Sources) -> Vec<Cause> {
         self.ids.iter().map(|id| described(causes.get(*id), sources)).collect()
     }

@@ -10,10 +10,10 @@ pub struct Cells {
     pub positions: Vec<[i64; 3]>,
 }
 
-/// A character of a cell text that is no cell and no gap.
+/// The first character of a text of cells that is neither cell nor gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadCell {
-    /// The character that is neither cell nor gap.
+    /// The character.
     pub character: char,
     /// The line of the character, from 0.
     pub line: usize,
@@ -21,7 +21,8 @@ pub struct BadCell {
     pub offset: usize,
 }
 
-/// Returns the cells of one layer, at height `z`, from text: `#` is a cell, `.` and a blank are not.
+/// Returns the cells of one layer, at height `z`, from text: `#` is a cell, `.` and a blank are not. The last
+/// line is at y = 0, the first character of a line at x = 0; the cells are in the order of the text.
 ///
 /// # Errors
 /// The first character that is none of these.
@@ -41,7 +42,8 @@ pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
 }
 
 impl Cells {
-    /// Returns a block of cells, `size` along x, y and z, with a corner at the origin.
+    /// Returns a block of cells, `size` along x, y and z, from the cell at the origin on; x runs fastest, then
+    /// y.
     pub fn block(size: [usize; 3]) -> Cells {
         let mut positions = Vec::with_capacity(size.iter().product());
         for z in 0..size[2] {

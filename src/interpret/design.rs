@@ -27,7 +27,7 @@ pub struct Design {
     pub def: DefId,
     /// The name, with the arguments where they differ from the defaults: `Walker(bend: 35deg)`.
     pub name: String,
-    /// One value for every parameter.
+    /// One value for every parameter, in order.
     pub args: Vec<Value>,
     /// The kind of declaration, with what it declares.
     pub kind: DesignKind,
@@ -57,10 +57,10 @@ pub struct ModuleDesign {
     pub module: Rc<ModuleType>,
     /// The declarations of its connectors.
     pub connectors: Vec<DefId>,
-    /// The first port and the number of ports of each of
-    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef).
+    /// The index of the first port in `module`, and the number of ports, of each entry of
+    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports).
     pub port_groups: Vec<(usize, usize)>,
-    /// The dimension of each joint's position.
+    /// The dimension of each joint's position, by joint of `module`.
     pub joint_dimensions: Vec<Dimension>,
     /// The robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
@@ -70,9 +70,9 @@ pub struct ModuleDesign {
 /// already.
 #[derive(Default)]
 pub struct ConfigDesign {
-    /// The parts, by [`PartDef`](crate::check::typed::PartDef).
+    /// The parts, in the order of [`ConfigDef::parts`](crate::check::typed::ConfigDef::parts).
     pub parts: OnceCell<Vec<PartGroup>>,
-    /// All modules, those of the parts in order.
+    /// All modules, those of the parts in order; other indices of modules count in this list.
     pub modules: OnceCell<Vec<FlatModule>>,
     /// The connections, in the order of the clauses.
     pub bonds: RefCell<Vec<BondRecord>>,
@@ -82,7 +82,7 @@ pub struct ConfigDesign {
     pub groups: RefCell<Groups>,
     /// The start positions, in the order of the clauses.
     pub sets: RefCell<Vec<SetRecord>>,
-    /// The index of the module named by `base`.
+    /// The index of the module named by `base`; `None` if none is named.
     pub base: Flag<Option<usize>>,
     /// True if loops may be closed.
     pub closed: bool,
@@ -98,7 +98,7 @@ pub struct ConfigDesign {
 pub struct PartGroup {
     /// True if it was declared as a list.
     pub list: bool,
-    /// The parts.
+    /// The parts in order; one if it is no list.
     pub elements: Vec<PartElement>,
 }
 
@@ -106,7 +106,7 @@ pub struct PartGroup {
 pub struct PartElement {
     /// The elaborated declaration.
     pub design: Rc<Design>,
-    /// The index of its first module.
+    /// The index of its first module in [`ConfigDesign::modules`].
     pub offset: usize,
     /// The name, `leg` or `leg[2]`.
     pub name: Rc<str>,
@@ -124,17 +124,18 @@ pub struct FlatModule {
 /// A connection (`connect`), with its position in the source.
 #[derive(Clone)]
 pub struct BondRecord {
-    /// Module and port of the first end.
+    /// The indices of module and port of the first end.
     pub a: (usize, usize),
-    /// Module and port of the second end.
+    /// The indices of module and port of the second end.
     pub b: (usize, usize),
-    /// The turn of the second connector, in steps of the connectors' symmetry.
+    /// The turn of the second connector about their common normal, in steps of 360° divided by `turns`.
     pub turn: u32,
     /// The clause.
     pub span: Span,
     /// The spans of the two paths.
     pub ends: (Span, Span),
-    /// The instance: the path of the part, the loop variables.
+    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a line of a RoFI file; may be
+    /// empty.
     pub instance: Rc<str>,
 }
 
@@ -147,7 +148,8 @@ pub struct SetRecord {
     pub value: f64,
     /// The clause.
     pub span: Span,
-    /// The instance: the path of the part, the loop variables.
+    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a line of a RoFI file; may be
+    /// empty.
     pub instance: Rc<str>,
 }
 
@@ -165,7 +167,7 @@ pub struct TrussDesign {
     pub of: Rc<Design>,
     /// The nodes, in the order of the declaration.
     pub nodes: Vec<Node>,
-    /// The two nodes of each strut, by index.
+    /// The two nodes of each strut, by index in `nodes`.
     pub struts: Vec<(usize, usize)>,
     /// The rank of the rigidity matrix in the start pose, with the degrees of freedom that follow from it.
     pub rigidity: Rigidity,
@@ -178,14 +180,14 @@ pub struct Node {
     pub name: String,
     /// The name of the array, `ring`; `None` for a single node.
     pub group: Option<Symbol>,
-    /// The position in the start pose, m.
+    /// The position in the start pose, m, in the frame of the declaration.
     pub position: Vec3,
     /// The clause that declares it.
     pub span: Span,
 }
 
 impl TrussDesign {
-    /// Returns the name of a strut: those of its two nodes.
+    /// Returns the name of a strut: those of its two nodes, `a -- b`. Panics if there is no such strut.
     pub fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.struts[strut];
         format!("{} -- {}", self.nodes[a].name, self.nodes[b].name)
@@ -199,7 +201,8 @@ impl TrussDesign {
         }
     }
 
-    /// Returns each free motion in words: the nodes that move, and in which direction.
+    /// Returns each free motion in words: the nodes that move, each with its direction. Components up to 0.005
+    /// are left out, and of more than twelve nodes those after the eleventh.
     pub fn free_motions(&self) -> Vec<String> {
         let moves = |(node, d): &(usize, Vec3)| {
             let axis = ["x", "y", "z"];
@@ -213,7 +216,8 @@ impl TrussDesign {
         motions.map(|m| shorten(&m.nodes.iter().map(moves).collect::<Vec<_>>())).collect()
     }
 
-    /// Returns the position of a node, or the list of those of an array; `None` where there is no such node.
+    /// Returns the position of a node, or the list of those of an array in order of the index; `None` where
+    /// there is no such node.
     pub fn position_of(&self, name: Symbol) -> Option<Value> {
         let position = |node: &Node| Value::Vec3(node.position, Dimension::LENGTH);
         let mut of_group = self.nodes.iter().filter(|n| n.group == Some(name)).peekable();
@@ -250,7 +254,7 @@ impl Groups {
         at
     }
 
-    /// Returns true if two modules are in one component.
+    /// Returns true if two modules, by index, are in one component.
     pub fn together(&mut self, a: usize, b: usize) -> bool {
         self.root(a) == self.root(b)
     }
@@ -263,7 +267,7 @@ impl Groups {
 
 impl ConfigDesign {
     /// Returns a configuration of modules side by side, one list of parts, with no bonds yet, for a robot
-    /// that no declaration's body describes.
+    /// that no declaration's body describes. It is not marked as complete.
     pub fn of_modules(modules: Vec<FlatModule>) -> ConfigDesign {
         let config = ConfigDesign::default();
         let part = |(offset, module): (usize, &FlatModule)| PartElement {
@@ -278,7 +282,7 @@ impl ConfigDesign {
         config
     }
 
-    /// Adds a connection.
+    /// Adds a connection, takes its two ports, and joins the components of its modules.
     pub fn add_bond(&self, bond: BondRecord) {
         let index = self.bonds.borrow().len();
         self.taken.borrow_mut().extend([(bond.a, index), (bond.b, index)]);
@@ -288,7 +292,7 @@ impl ConfigDesign {
 }
 
 impl Design {
-    /// Returns the module, where this is one.
+    /// Returns the module; `None` for other designs.
     pub fn module(&self) -> Option<&ModuleDesign> {
         match &self.kind {
             DesignKind::Module(module) => Some(module),
@@ -296,7 +300,7 @@ impl Design {
         }
     }
 
-    /// Returns the configuration, where this is one.
+    /// Returns the configuration; `None` for other designs.
     pub fn config(&self) -> Option<&ConfigDesign> {
         match &self.kind {
             DesignKind::Config(config) => Some(config),
@@ -343,7 +347,8 @@ impl Design {
         }
     }
 
-    /// Returns 0 for a module, one more than the largest order of its parts for a configuration.
+    /// Returns the order: one more than the largest order of its parts for a configuration, 0 for other
+    /// designs.
     pub fn order(&self) -> usize {
         self.config().map_or(0, |config| config.order.get())
     }
@@ -408,13 +413,13 @@ pub struct Instance {
     pub design: Rc<Design>,
     /// The robot that it is a part of.
     pub robot: Subject,
-    /// The index of its first module among the robot's.
+    /// The index of its first module among the robot's; 0 for the whole.
     pub offset: usize,
     /// The path name within the robot; empty for the whole.
     pub path: Rc<str>,
     /// The parts as values, by part group; made when they are first asked for.
     parts: OnceCell<Vec<Value>>,
-    /// The lets and ports of the body, by member.
+    /// The lets and ports of the body that were asked for, by index of the member.
     pub lazy: RefCell<HashMap<usize, Lazy>>,
 }
 
@@ -432,7 +437,7 @@ impl Instance {
         })
     }
 
-    /// Gives a robot a name; parts go by the names of their robot.
+    /// Gives a robot a name. A part is given none: it goes by the names of its robot.
     pub fn bind(&self, name: Name) {
         if self.path.is_empty() {
             self.robot.identity.bind(name);
@@ -440,7 +445,7 @@ impl Instance {
     }
 
     /// Returns the parts of a configuration as values: an instance or a list of instances for each group.
-    /// `None` while they are being elaborated.
+    /// `None` while they are being elaborated, and for an instance that is no configuration.
     pub fn parts(&self) -> Option<&[Value]> {
         let config = self.design.config()?;
         let groups = config.parts.get()?;
@@ -463,7 +468,8 @@ impl Instance {
         })
     }
 
-    /// Returns a joint of a module instance; `None` for an instance that is no module.
+    /// Returns a joint of a module instance, by its index in the module; `None` for an instance that is no
+    /// module, or if there is no such joint.
     pub fn joint(&self, joint: usize) -> Option<Value> {
         let module = self.design.module()?;
         let dimension = *module.joint_dimensions.get(joint)?;
@@ -471,8 +477,9 @@ impl Instance {
         Some(Value::Joint(JointValue { robot: self.robot.clone(), owner, dimension }))
     }
 
-    /// Returns a port of a module instance, or the list of an array's ports; `None` for an instance that is
-    /// no module.
+    /// Returns a port of a module instance, or with `array` the list of an array's ports, by its index in
+    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports); `None` for an instance that is no module,
+    /// or if there is no such port.
     pub fn port(&self, group: usize, array: bool) -> Option<Value> {
         let module = self.design.module()?;
         let (first, count) = *module.port_groups.get(group)?;
@@ -528,7 +535,7 @@ pub fn join_path(a: &str, b: &str) -> Rc<str> {
     }
 }
 
-/// Returns a list of names in words, cut off where it is too long to read.
+/// Returns a list of names in words; of more than twelve the first eleven, and the number of the rest.
 pub fn shorten(names: &[String]) -> String {
     if names.len() <= NAMES_SHOWN {
         return names.join(", ");
@@ -538,12 +545,12 @@ pub fn shorten(names: &[String]) -> String {
 }
 
 impl Robot {
-    /// Returns the number of a joint among those of the assembly.
+    /// Returns the number of a joint among those of the assembly. Panics if the robot has no such joint.
     pub fn joint(&self, joint: &JointValue) -> JointId {
         self.joint_of(joint.owner)
     }
 
-    /// Returns the pose of a port in the frame of the base module in the start state.
+    /// Returns the pose of a port in the start state, in the frame of the base module's body.
     pub fn port_pose(&self, port: &PortValue) -> Pose {
         self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
     }

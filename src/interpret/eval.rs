@@ -31,7 +31,7 @@ impl Frame {
         self.set_slot(local.0 as usize, value);
     }
 
-    /// Puts a value into a slot, which is made where it is missing.
+    /// Puts a value into a slot; a frame that is too small is enlarged.
     pub fn set_slot(&mut self, slot: usize, value: Value) {
         if slot >= self.slots.len() {
             self.slots.resize(slot + 1, Value::Unknown);
@@ -39,7 +39,7 @@ impl Frame {
         self.slots[slot] = value;
     }
 
-    /// Returns the value of a variable.
+    /// Returns the value of a variable; unknown if none was put into its slot.
     pub fn get(&self, local: Local) -> Value {
         self.slots.get(local.0 as usize).cloned().unwrap_or(Value::Unknown)
     }
@@ -61,17 +61,24 @@ impl Interpreter<'_> {
     }
 
     /// Returns the value of a `let`, which gives a robot a name.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`].
     pub fn eval_bound(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
         let value = self.eval(expr, frame)?;
         value.bind(Name { span: expr.span, index: None });
         Ok(value)
     }
 
-    /// Returns the value of an expression that may be left out.
+    /// Returns the value of an expression that may be left out; `None` for `None`.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`].
     pub fn eval_optional(&mut self, expr: Option<&Expr>, frame: &mut Frame) -> Eval<Option<Value>> {
         expr.map(|e| self.eval(e, frame)).transpose()
     }
 
+    /// Returns the value of an expression by its kind; [`eval`](Self::eval) reports its fault.
     fn eval_kind(&mut self, expr: &Expr, frame: &mut Frame) -> Eval<Value> {
         let span = expr.span;
         match &expr.kind {
@@ -238,6 +245,8 @@ impl Interpreter<'_> {
         Ok(if known { Value::list(out) } else { Value::Unknown })
     }
 
+    /// Adds the elements that the clauses give, from the first of them on, to `out`; `known` becomes false if a
+    /// condition or a list is unknown.
     fn comprehend(
         &mut self,
         body: &Expr,
@@ -271,8 +280,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Runs `body` for every element of a list or of a range of whole numbers. Returns false if the elements
-    /// are unknown.
+    /// Runs `body` for every element of a list, or for the whole numbers of a range without its upper end, each
+    /// in the variable `binder`. Returns false if `values` is neither, because it is unknown.
     ///
     /// # Errors
     /// A fault at `span` where an end of the range is no whole number of 64 bits, besides the errors of
@@ -324,6 +333,10 @@ impl Interpreter<'_> {
         before[start..].into()
     }
 
+    /// Returns an element of a list or a vector; unknown where an operand is.
+    ///
+    /// # Errors
+    /// A fault at `span` where the index is outside.
     fn eval_index(&mut self, object: &Expr, index: &Expr, span: Span, frame: &mut Frame) -> Eval<Value> {
         let list = self.eval(object, frame)?;
         let index = self.eval(index, frame)?;
@@ -357,7 +370,7 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns the value of a top-level `let`; it is evaluated once.
+    /// Returns the value of a top-level `let`; it is evaluated once. Unknown for other declarations.
     ///
     /// # Errors
     /// A fault where the value needs itself.
@@ -387,7 +400,8 @@ impl Interpreter<'_> {
             .into()
     }
 
-    /// Returns a member of an instance, by index in its declaration; a `let` or a port is evaluated once.
+    /// Returns a member of an instance; a `let` or a port is evaluated once. Panics if its declaration has no
+    /// such member.
     ///
     /// # Errors
     /// A fault where the member needs itself, or parts that are still being elaborated.
@@ -433,6 +447,10 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Returns the value of a member that is computed when it is first needed.
+    ///
+    /// # Errors
+    /// A fault at `span` where the member is being computed.
     fn lazy_member(
         &mut self,
         instance: &Rc<Instance>,
@@ -463,6 +481,10 @@ impl Interpreter<'_> {
         result
     }
 
+    /// Refuses a list of ports of another length than the declared one, if one is declared.
+    ///
+    /// # Errors
+    /// A fault at `span` where they differ.
     fn check_port_count(
         &mut self,
         count: Option<&Expr>,
@@ -511,7 +533,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the answer of an instance to a question; unknown where there is no instance.
+/// Returns the result of `ask` for an instance; unknown for other values, and where `ask` gives none.
 fn on_instance(value: &Value, ask: impl FnOnce(&Rc<Instance>) -> Option<Value>) -> Value {
     match value {
         Value::Instance(instance) => ask(instance).unwrap_or(Value::Unknown),

@@ -54,19 +54,22 @@ enum Request {
 #[derive(Clone)]
 pub struct HostProxy {
     requests: SyncSender<Request>,
-    /// The cancellation state of the run.
+    /// The cancellation state of the run, shared with the caller.
     pub cancel_state: CancelState,
-    /// Evaluations within evaluations that the stack bears.
+    /// The greatest depth of evaluations within evaluations that the stack bears.
     pub nesting_max: usize,
 }
 
 impl HostProxy {
-    /// Prints a line, which has no line end.
+    /// Prints a line, given without its line end. Waits while the queue of requests is full; unwinds to
+    /// [`interrupt::catch`] once the work is cancelled or nobody serves requests any more, as all requests do.
     pub fn print(&self, line: String) {
         self.send(Request::Print(line));
     }
 
-    /// Returns a sink that sends progress reports to the host.
+    /// Returns a function that sends a line of progress to the host. A call waits while the queue of requests
+    /// is full, and unwinds to [`interrupt::catch`] once the work is cancelled or nobody serves requests any
+    /// more.
     pub fn progress_sink(&self) -> impl Fn(String) + 'static {
         let proxy = self.clone();
         move |line| proxy.send(Request::Progress(line))
@@ -80,7 +83,7 @@ impl HostProxy {
         self.ask(|reply| Request::Write(path.into(), bytes, reply))
     }
 
-    /// Reads a file of the project.
+    /// Returns the bytes of a file of the project, given by its path from the project's root.
     ///
     /// # Errors
     /// The file can't be read.
@@ -98,8 +101,8 @@ impl HostProxy {
         self.ask(Request::Elapsed)
     }
 
-    /// Returns the function that a search asks whether to continue: true until the user cancels, or `timeout`
-    /// seconds from now have passed.
+    /// Returns a function that is true as long as a search may continue: until the user cancels, or `timeout`
+    /// seconds from now have passed. `None`: no timeout.
     pub fn until(&self, timeout: Option<f64>) -> impl Fn() -> bool {
         let begun = self.elapsed();
         move || !self.cancelled() && timeout.is_none_or(|most| self.elapsed() - begun <= most)

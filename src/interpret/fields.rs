@@ -16,7 +16,8 @@ use std::rc::Rc;
 use super::record::{Field, Record, StateValue, field_names, first_world, read_field};
 
 impl Interpreter<'_> {
-    /// Reads a field of a record; a behaviour is asked as the plan that it gives.
+    /// Returns a field of a record, vector, range or pose; for a behaviour, that of the plan that it gives, and
+    /// unknown where that fails. Panics for other values and unknown fields, which `check` excludes.
     ///
     /// # Errors
     /// A fault where the behaviour can't be planned.

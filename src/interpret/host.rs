@@ -12,21 +12,23 @@ pub enum WriteError {
     Failed(String),
 }
 
-/// The environment of a run: `main` gives it a terminal and an output folder, tests a buffer.
+/// The environment of a run: the command line gives it a terminal and an output folder, tests a buffer.
 pub trait Host {
     /// Prints one line of the program, without its line end.
     fn print(&mut self, line: &str);
 
-    /// Writes a whole file below the output folder, or nothing; returns the path to show.
+    /// Writes a whole file below the output folder, or nothing; returns the path to show. `path` is relative to
+    /// the output folder, with forward slashes.
     ///
     /// # Errors
     /// The path leads out of the output folder, or the system refuses.
     fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError>;
 
-    /// Shows a line about the progress of long work; on terminals only.
+    /// Shows a line about the progress of long work, on terminals only.
     fn progress(&mut self, line: &str);
 
-    /// Returns the token by which the user cancels the run; it is checked every few milliseconds.
+    /// Returns the state by which the user cancels the run; long work checks it every few milliseconds. By
+    /// default a new one, which nobody cancels.
     fn cancel_state(&self) -> CancelState {
         CancelState::default()
     }
@@ -55,11 +57,11 @@ pub enum Mode {
 pub struct Options {
     /// The text that the names of the tests to run contain; `None`: all tests.
     pub filter: Option<String>,
-    /// The default seed of planners.
+    /// The seed of planners that are given none.
     pub seed: u64,
     /// True if a page is drawn of every plan that is emitted; where there is none, of the declared robots.
     pub pages: bool,
-    /// The command that runs the program again, for the pages that it draws.
+    /// The command that runs the program again, for the pages that it draws; may be empty.
     pub command: String,
     /// The width and height of still pictures, pixels; `None`: their natural size.
     pub picture: Option<(usize, usize)>,
@@ -69,10 +71,10 @@ pub struct Options {
     pub threads: usize,
 }
 
-/// Bounds on what a program may use. Reaching one is a diagnostic.
+/// Bounds on what a program may use. Going beyond one is an error, and ends the run or leaves a value unknown.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// The greatest number of evaluation steps: expressions evaluated.
+    /// The greatest number of evaluation steps: expressions, and passes of loops over ranges.
     pub steps: u64,
     /// The greatest depth of calls within calls.
     pub recursion: usize,
@@ -114,11 +116,11 @@ pub struct TestResult {
 /// The outcome of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
-    /// The diagnostics: errors first, then warnings and notes.
+    /// The diagnostics: errors first, then warnings, then notes; else as they were found.
     pub diagnostics: Vec<Diagnostic>,
-    /// The tests that were run, in order.
+    /// The tests that were run, in order; empty but in [`Mode::Test`].
     pub tests: Vec<TestResult>,
-    /// The paths written, as the host showed them.
+    /// The paths written, in order, as the host showed them.
     pub written: Vec<String>,
     /// True if the user ended the run.
     pub cancelled: bool,

@@ -11,12 +11,12 @@ use std::rc::Rc;
 /// Most names that are remembered of one robot; a program that binds it more often means one.
 const NAMES_MAX: usize = 64;
 
-/// A name of a robot: where it is bound, and the place in the list where it is bound as one of several.
+/// A name of a robot: the code that binds it, and the index if it is bound as one of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
     /// The value of a `let`, the declaration of a parameter, or the list that a loop goes through.
     pub span: Span,
-    /// The place in the list.
+    /// The index in the list, from 0; `None` if the robot is bound alone.
     pub index: Option<usize>,
 }
 
@@ -25,7 +25,7 @@ pub struct Name {
 pub struct Identity(Rc<RefCell<Vec<Name>>>);
 
 impl Identity {
-    /// Adds a name.
+    /// Adds a name to all copies. Of one robot 64 names are kept; further ones are dropped.
     pub fn bind(&self, name: Name) {
         let mut names = self.0.borrow_mut();
         if names.len() < NAMES_MAX && !names.contains(&name) {
@@ -33,8 +33,8 @@ impl Identity {
         }
     }
 
-    /// Returns a name of each of two robots that the other lacks; `None` where the program may mean one robot,
-    /// because all names of one are names of the other, as where it has none.
+    /// Returns a name of each of two robots that the other lacks, this one's first. `None` where the program
+    /// may mean one robot: for copies, and where all names of one are names of the other, as where it has none.
     pub fn apart(&self, other: &Identity) -> Option<(Name, Name)> {
         if Rc::ptr_eq(&self.0, &other.0) {
             return None;
@@ -44,7 +44,7 @@ impl Identity {
         Some((lacking(&ours, &theirs)?, lacking(&theirs, &ours)?))
     }
 
-    /// Returns the robot of two that may be one whose names tell more.
+    /// Returns, of two robots that may be one, the one with more names; of equally many, this one.
     pub fn better_known(self, other: &Identity) -> Identity {
         if other.0.borrow().len() > self.0.borrow().len() { other.clone() } else { self }
     }

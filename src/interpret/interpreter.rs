@@ -26,11 +26,12 @@ const CALLS_SHOWN: usize = 4;
 pub struct Interpreter<'a> {
     /// The inputs of the run, which never change.
     pub shared: Shared<'a>,
-    /// The findings and effects so far.
+    /// The findings and outputs so far.
     pub reported: Reported,
-    /// Values by declaration, and what they refer to.
+    /// The values of declarations, and what they refer to.
     pub memory: Memory,
-    /// The members that were computed in this run, for a session that has to forget those that failed.
+    /// The members of instances, by index, that were computed in this run, for a session that has to forget
+    /// those that failed.
     pub computed: Vec<(Rc<Instance>, usize)>,
     /// The position of evaluation: calls and bindings.
     pub stack: Stack,
@@ -57,44 +58,46 @@ pub struct Shared<'a> {
 /// The findings and effects of a run so far.
 #[derive(Default)]
 pub struct Reported {
-    /// The findings, each once.
+    /// The findings: at most 200 errors and 200 others, one for each code and span; findings of the judge
+    /// (E06xx) also one for each message.
     pub reports: Vec<Diagnostic>,
-    /// The number of errors, repeated ones included.
+    /// The number of errors, those included that are not in `reports`.
     pub errors: usize,
     known: HashSet<(Code, Option<Span>, Option<String>)>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
-    /// The tests that were run.
+    /// The tests that were run, in order.
     pub tests: Vec<TestResult>,
-    /// True if something could not be judged because of an error reported before.
+    /// True if a condition of the present test is unknown because of an error reported before.
     pub unjudged: bool,
-    /// The first expression whose value was unknown.
+    /// The span of the first expression whose value was unknown; `None` if there was none.
     pub unknown_at: Option<Span>,
 }
 
 /// The computed values that stay: for the rest of the run, and in a session for the next entries.
 #[derive(Clone, Default)]
 pub struct Memory {
-    /// The top-level lets, by declaration.
+    /// The values of top-level lets, by declaration; others stay [`Lazy::Waiting`].
     pub globals: Vec<Lazy>,
-    /// The elaborated declarations with their arguments, by declaration.
+    /// The designs by declaration: one for each list of arguments.
     pub designs: Vec<Vec<Rc<Design>>>,
-    /// The connectors, by declaration; `Some(None)` for those that are broken.
+    /// The connectors, by declaration; `None` for those not elaborated yet, `Some(None)` for those that are
+    /// broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
     /// The behaviours that calls gave.
     pub recalled: Recalled<BehaviorCall, Rc<Behavior>>,
-    /// The last plans of behaviours.
+    /// The last plans of behaviours, at most 32.
     pub plans: Vec<Rc<PlanValue>>,
     /// The finished searches of `tosnake`.
     pub search_cache: SearchCache,
     /// The causes of commands, with their source lines.
     pub causes: Causes,
-    /// The exemptions of the user's own files that were judged, and true if any plan needed them.
+    /// The exemptions of the user's own files that were judged, each with true if any plan needed it.
     pub exemptions: BTreeMap<Span, bool>,
 }
 
 impl Memory {
-    /// Makes room for `declarations` declarations.
+    /// Makes room for `declarations` declarations; values of any beyond them are dropped.
     pub fn resize(&mut self, declarations: usize) {
         self.globals.resize(declarations, Lazy::Waiting);
         self.designs.resize(declarations, Vec::new());
@@ -109,9 +112,9 @@ pub struct Stack {
     pub calls: Vec<CallSite>,
     /// The loop variables with their values, outermost first.
     pub binders: Vec<Binder>,
-    /// Evaluation steps so far.
+    /// The number of evaluation steps so far.
     pub steps: u64,
-    /// Calls so far that have an effect, as printing has.
+    /// The number of calls so far of built-ins with an effect, such as printing.
     pub effects: u64,
     depth: usize,
 }
@@ -127,7 +130,7 @@ pub struct CallSite {
     binders: usize,
 }
 
-/// A loop variable. Its name is read from the text when a message wants it.
+/// A loop variable with its value.
 #[derive(Clone, Debug)]
 pub struct Binder {
     /// The name of the variable.
@@ -137,7 +140,7 @@ pub struct Binder {
 }
 
 impl<'a> Interpreter<'a> {
-    /// Returns the state at the beginning of a run.
+    /// Returns the state at the beginning of a run, with nothing computed.
     pub fn new(
         routines: &'a Routines,
         checked: &'a Checked,
@@ -213,7 +216,7 @@ impl<'a> Interpreter<'a> {
         result
     }
 
-    /// Runs `body` as the body of a call from `span`.
+    /// Runs `body` as the body of a call of `name` at `span`; loop variables outside are hidden in it.
     ///
     /// # Errors
     /// [`Stop::Halt`] at the limit of recursion, besides the errors of `body`.
@@ -250,7 +253,7 @@ impl<'a> Interpreter<'a> {
         self.halt(diagnostic.hint("a function that calls itself needs a case in which it does not"))
     }
 
-    /// Runs `body` with a loop variable, whose value is part of the findings in it.
+    /// Runs `body` with a loop variable, which errors reported in it name.
     pub fn with_binding<T>(&mut self, name: Symbol, value: &Value, body: impl FnOnce(&mut Self) -> T) -> T {
         self.stack.binders.push(Binder { name, value: value.clone() });
         let result = body(self);
@@ -258,7 +261,7 @@ impl<'a> Interpreter<'a> {
         result
     }
 
-    /// Reports a finding and ends the run.
+    /// Reports a finding, as [`add_report`](Self::add_report) does, and ends the run.
     ///
     /// # Errors
     /// Always [`Stop::Halt`].
@@ -267,15 +270,16 @@ impl<'a> Interpreter<'a> {
         Err(Stop::Halt)
     }
 
-    /// Reports a finding with the calls that led to it and the loop variables it depends on. Of equal
-    /// findings at one span, only the first is reported.
+    /// Reports a finding with the calls that led to it and, for an error, the loop variables, as
+    /// [`add_report`](Self::add_report) does.
     pub fn report(&mut self, diagnostic: Diagnostic) {
         let diagnostic = self.with_calls(diagnostic);
         self.add_report(diagnostic);
     }
 
-    /// Reports a finding that is about more than the position of evaluation, without calls and loop
-    /// variables.
+    /// Reports a finding as it is, for one that is not about the position of evaluation. It is dropped if one
+    /// of its code and span is known (of the judge, also of its message), or after 200 errors, or 200 others;
+    /// errors are counted all the same.
     pub fn add_report(&mut self, diagnostic: Diagnostic) {
         self.reported.errors += usize::from(diagnostic.is_error());
         // The judge's findings differ from robot to robot, at one and the same line.
@@ -288,22 +292,24 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Reports a fault that ended a run because nothing took it.
+    /// Reports the fault that ended a run, if one did. `ended`: the result of the run, `None` if it was
+    /// cancelled.
     pub fn report_end(&mut self, ended: Option<Eval<()>>) {
         if let Some(Err(Stop::Fault(diagnostic))) = ended {
             self.report(*diagnostic);
         }
     }
 
-    /// Returns the first expression that is unknown although no error says why. `check` leaves values unknown
-    /// that only a run computes.
+    /// Returns the span of the first expression that is unknown although no error says why; `None` if there is
+    /// none, if an error was reported, and after cancelling. `None` also in [`Mode::Check`], which leaves
+    /// values unknown that only a run computes.
     pub fn lost_value(&self) -> Option<Span> {
         let told = self.reported.reports.iter().any(Diagnostic::is_error);
         let expected = self.shared.mode == Mode::Check || self.shared.host.cancelled();
         self.reported.unknown_at.filter(|_| !told && !expected)
     }
 
-    /// Reports a value that is unknown although no error says why, which no program may bring about.
+    /// Reports the [`lost_value`](Self::lost_value), if there is one, as a defect of modl.
     pub fn report_lost(&mut self) {
         if let Some(span) = self.lost_value() {
             let message = "this has no value, and no error says why: that is a defect of modl";
@@ -315,7 +321,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs `body` and returns its findings instead of reporting them.
+    /// Runs `body` and returns its findings instead of reporting them. Its errors stay counted.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
         let value = body(self);
@@ -325,12 +331,13 @@ impl<'a> Interpreter<'a> {
         (value, found)
     }
 
-    /// Returns true if an error was found since `mark` (a count of errors), reported before or not.
+    /// Returns true if an error was found since `mark` (a value of [`Reported::errors`]), reported before or
+    /// not.
     pub fn failed_since(&self, mark: usize) -> bool {
         self.reported.errors > mark
     }
 
-    /// Runs a step whose fault is reported and does not hinder the next; `None` after a fault.
+    /// Runs a step, reports its fault, and returns its value; `None` after a fault.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].
@@ -345,7 +352,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Turns a fault into a report and an unknown value.
+    /// Returns the value; a fault is reported and gives an unknown value.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].
@@ -364,11 +371,13 @@ impl<'a> Interpreter<'a> {
         self.shared.sources.file(span.file).library
     }
 
-    /// Returns the innermost call that is written in the user's own files.
+    /// Returns the innermost call that is written in the user's own files; `None` if there is none.
     pub fn user_call(&self) -> Option<&CallSite> {
         self.stack.calls.iter().rev().find(|call| !self.is_library(call.span))
     }
 
+    /// Returns a diagnostic with the loop variables in the message of an error, and labels at the calls that
+    /// led to it: the user's own call first if the primary label is in the library, then the four innermost.
     fn with_calls(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         let Some(primary) = diagnostic.span() else { return diagnostic };
         let notes = self.binder_notes();
@@ -392,7 +401,8 @@ impl<'a> Interpreter<'a> {
         diagnostic
     }
 
-    /// Returns the loop variables of the present body in words: `i = 3, j = 0`.
+    /// Returns the loop variables of the present body in words, `i = 3, j = 0`; empty if there are none. Lists,
+    /// records and other values that have no short form are left out.
     pub fn binder_notes(&self) -> String {
         let from = self.stack.calls.last().map_or(0, |call| call.binders);
         let notes = self.stack.binders[from.min(self.stack.binders.len())..]
@@ -419,6 +429,7 @@ impl<'a> Interpreter<'a> {
     }
 }
 
+/// Returns, by declaration, true if an error of `check` is in it.
 fn faulty(checked: &Checked) -> Vec<bool> {
     let errors = checked.diagnostics.iter().filter(|d| d.is_error());
     let places: Vec<Span> = errors.filter_map(Diagnostic::span).collect();

@@ -16,7 +16,7 @@ pub enum Effect {
     OnRun,
 }
 
-/// The body of an `extern fn`.
+/// The body of an `extern fn`: it gets a call with known arguments, and returns the result.
 pub type NativeBody = fn(&mut Interpreter, &Call) -> Eval<Value>;
 
 /// A built-in function.
@@ -24,7 +24,7 @@ pub type NativeBody = fn(&mut Interpreter, &Call) -> Eval<Value>;
 pub struct Native {
     /// The key: `move`, or `Plan.at` for a method, which takes its object first.
     pub key: &'static str,
-    /// The parameters in any order; a test compares them with the declaration.
+    /// The parameters in any order, the object of a method included; a test compares them with the declaration.
     pub parameters: &'static [Parameter],
     /// The modes in which it does its work.
     pub effect: Effect,
@@ -46,20 +46,20 @@ impl Native {
 
 /// A call of a built-in with all arguments evaluated.
 pub struct Call<'c> {
-    /// The whole call.
+    /// The span of the whole call.
     pub span: Span,
-    /// The function that is called.
+    /// The built-in that is called.
     pub native: &'static Native,
-    /// The declared parameters.
+    /// The declared parameters, in order.
     pub params: &'c [Param],
-    /// The arguments, in the order of the declaration.
+    /// The arguments, one for each of `params`; defaults are filled in, and none is unknown.
     pub args: &'c [Value],
     /// The spans of the arguments; that of the whole call for those left out.
     pub spans: &'c [Span],
 }
 
 impl<'c> Call<'c> {
-    /// Reads an argument.
+    /// Returns the argument of a parameter as a `T`, the type in the table of the native, which is asserted.
     ///
     /// # Errors
     /// A fault where the value is out of range.
@@ -67,7 +67,8 @@ impl<'c> Call<'c> {
         self.get_named(name, name)
     }
 
-    /// Reads an argument that a message calls `what`: "the edge", "a number of cells".
+    /// Returns an argument as [`get`](Self::get) does; messages call it `what`: "the edge", "a number of
+    /// cells".
     ///
     /// # Errors
     /// A fault where the value is out of range.
@@ -82,23 +83,25 @@ impl<'c> Call<'c> {
         }
     }
 
-    /// Returns the span of an argument; that of the call where it was left out.
+    /// Returns the span of an argument; that of the call where it was left out. Panics if the declaration has
+    /// no parameter `name`.
     pub fn at(&self, name: &str) -> Span {
         self.spans.get(self.index(name)).copied().unwrap_or(self.span)
     }
 
-    /// Returns the value of an argument.
+    /// Returns the value of an argument; [`Value::Missing`] where it was left out and has no default. Panics if
+    /// the declaration has no parameter `name`.
     pub fn arg(&self, name: &str) -> &'c Value {
         self.args.get(self.index(name)).unwrap_or(&Value::Missing)
     }
 
-    /// Returns a fault at an argument.
+    /// Returns a fault (E0506) at an argument. Panics if the declaration has no parameter `name`.
     pub fn refuse(&self, name: &str, message: impl Into<String>) -> Stop {
         let message = message.into();
         fault(code::BAD_VALUE, self.at(name), message.clone(), message)
     }
 
-    /// Reads a number above zero that a message calls `what`.
+    /// Returns a number above zero, in SI units; messages call it `what`.
     ///
     /// # Errors
     /// A fault where the number is not above zero.
@@ -106,7 +109,7 @@ impl<'c> Call<'c> {
         self.get_named(name, what).map(|Positive(x)| x)
     }
 
-    /// Reads a number above zero that may be missing.
+    /// Returns a number above zero, in SI units, that may be missing; messages call it `what`.
     ///
     /// # Errors
     /// A fault where there is a number that is not above zero.
@@ -114,7 +117,7 @@ impl<'c> Call<'c> {
         Ok(self.get_named::<Option<Positive>>(name, what)?.map(|Positive(x)| x))
     }
 
-    /// Reads a whole number of at least zero that a machine word holds.
+    /// Returns a whole number of at least zero; messages call it `what`.
     ///
     /// # Errors
     /// A fault where the number is negative or too large.
@@ -139,8 +142,8 @@ impl<'c> Call<'c> {
 }
 
 impl Interpreter<'_> {
-    /// Reads the file of the project that an argument names, relative to the file of the call. Returns its
-    /// path from the project's root, and its bytes.
+    /// Reads the file of the project that the argument `name` names, relative to the file in which the argument
+    /// stands. Returns its path from the project's root, and its bytes.
     ///
     /// # Errors
     /// A fault where the name leads out of the project or the file can't be read.

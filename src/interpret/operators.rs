@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns a whole number as written, of more digits than a machine word holds.
+    /// Returns the whole number of decimal digits as they are written, however many.
     ///
     /// # Errors
     /// A fault where it has more digits than the limit of the run.
@@ -28,7 +28,10 @@ impl Interpreter<'_> {
         Ok(digits.parse::<BigInt>().map_or(Value::Unknown, Value::whole))
     }
 
-    /// Applies a prefix operator to a value; unknown where the operand is.
+    /// Returns the result of a prefix operator; unknown where the operand is.
+    ///
+    /// # Errors
+    /// A fault where the operator does not fit the value.
     pub fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval<Value> {
         Ok(match (op, value) {
             (_, Value::Unknown) => Value::Unknown,
@@ -53,8 +56,11 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Evaluates an infix operator with its two operands; `and` and `or` leave out the second where the first
-    /// decides.
+    /// Returns the result of an infix operator; unknown where an operand is. `and` and `or` leave out the
+    /// second operand where the first decides.
+    ///
+    /// # Errors
+    /// A fault where the operator does not fit the values, divides by zero, or gives a value that is too large.
     pub fn eval_binary(
         &mut self,
         op: BinaryOp,

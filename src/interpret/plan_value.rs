@@ -17,9 +17,9 @@ pub struct PlanValue {
     pub body: Option<Rc<Robot>>,
     /// The plan itself.
     pub plan: Plan,
-    /// The run's numbers of the plan's causes.
+    /// The run's number of each cause of the plan, by the plan's number.
     pub causes: Vec<CauseId>,
-    /// The number of actions.
+    /// The number of actions that the plan carries out; 0 for a lattice or a truss.
     pub actions: u64,
     /// The planner's report; `None` for plans that no planner made.
     report: Option<Rc<dyn PlannerReport>>,
@@ -45,7 +45,7 @@ pub trait PlannerReport: Any {
     fn read(&self, interpreter: &mut Interpreter, plan: &Rc<PlanValue>, field: &str) -> Option<Value>;
 }
 
-/// A field of a report, with the function that reads it.
+/// The name of a field of a report, with the function that reads it.
 pub type ReportField<R> = (&'static str, fn(&mut Interpreter, &Rc<PlanValue>, &R) -> Value);
 
 /// A report whose fields are listed in one table.
@@ -73,7 +73,7 @@ impl std::fmt::Debug for PlanValue {
 }
 
 impl PlanValue {
-    /// Returns a plan that was not judged yet and of which no planner reports.
+    /// Returns a plan that was not judged yet, without a planner's report.
     pub fn new(
         robot: Rc<Design>,
         body: Option<Rc<Robot>>,
@@ -93,7 +93,7 @@ impl PlanValue {
         }
     }
 
-    /// Returns the robot as a value.
+    /// Returns the robot as a value, one and the same at each call.
     pub fn instance(&self) -> Rc<Instance> {
         self.instance.get_or_init(|| Instance::whole(self.robot.clone())).clone()
     }
@@ -103,29 +103,30 @@ impl PlanValue {
         PlanValue { report: Some(Rc::new(report)), ..self }
     }
 
-    /// Returns the report of whichever planner made the plan.
+    /// Returns the planner's report; `None` for a plan that no planner made.
     pub(super) fn any_report(&self) -> Option<Rc<dyn PlannerReport>> {
         self.report.clone()
     }
 
-    /// Returns the report of one planner; `None` where another made the plan.
+    /// Returns the report if it is of the type `R`; `None` where another planner made the plan, or none.
     pub fn report<R: PlannerReport>(&self) -> Option<&R> {
         let report: &dyn Any = self.report.as_deref()?;
         report.downcast_ref()
     }
 
-    /// Keeps the verdict that a planner got on this plan, under the plan's own settings and worlds.
+    /// Keeps the verdict that a planner got on this plan under the plan's own settings and worlds, so that
+    /// [`Interpreter::judge`] finds it.
     pub fn remember_verdict(&self, verdict: Verdict) {
         let (settings, worlds) = (self.plan.settings, self.plan.worlds.clone());
         self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
     }
 
-    /// Returns the number of actions.
+    /// Returns the number of actions, as far as a machine word holds it.
     pub fn actions(&self) -> usize {
         usize::try_from(self.actions).unwrap_or(usize::MAX)
     }
 
-    /// Returns the number of intervals from one change of commands to the next.
+    /// Returns the number of intervals between one change of commands and the next.
     pub fn steps(&self) -> usize {
         self.plan.body.instants().len().saturating_sub(1)
     }

@@ -33,12 +33,12 @@ struct StartCauses {
     bonds: Vec<(usize, CauseId)>,
 }
 
-/// The state in which a behaviour begins, and its world.
+/// The state in which a behaviour begins, and the world that it assumes.
 #[derive(Default)]
 pub struct Beginning {
     /// The state in which the behaviour begins; `None`: the robot's start pose.
     pub start: Option<State>,
-    /// The world that is assumed.
+    /// The world that is assumed for the whole behaviour.
     pub world: World,
 }
 
@@ -52,11 +52,12 @@ impl Interpreter<'_> {
         self.plan_from(behavior, Beginning::default(), span)
     }
 
-    /// Returns the plan of a behaviour from a state and under a world; `None` after an error that was
-    /// reported, and when the program is only checked.
+    /// Returns the plan of a behaviour from a state and under a world, not judged yet; `None` after an error
+    /// that was reported, and when the program is only checked. A plan that is still kept is returned again.
     ///
     /// # Errors
-    /// A fault at `span` where no action names a robot, or where the behaviour has no motion.
+    /// A fault at `span` where no action names a robot, where the behaviour exceeds a limit of its size, or
+    /// where it has no motion.
     pub fn plan_from(
         &mut self,
         behavior: &Behavior,
@@ -104,7 +105,8 @@ impl Interpreter<'_> {
         Ok(Some(planned))
     }
 
-    /// Returns the plan of a scheduled behaviour, with the actions that are too fast for the joints' limits.
+    /// Returns the plan of a scheduled behaviour, with the actions that are too fast for the joints' limits;
+    /// their causes have the plan's numbers.
     pub fn assemble_plan(
         &self,
         design: Rc<Design>,
@@ -120,7 +122,8 @@ impl Interpreter<'_> {
         (PlanValue::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
     }
 
-    /// Returns a plan without a program and without a verdict; `planner` names who made it in its provenance.
+    /// Returns a plan of a motion without a program and without a verdict. `planner`: the name in its
+    /// provenance.
     pub fn bare_plan(
         &self,
         planner: &str,
@@ -136,7 +139,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the causes of a plan that one call of a planner commands as a whole: number 0 is that call.
+    /// Returns the causes of a plan that one call of a planner commands as a whole: cause 0 is that call.
     pub fn planner_causes(&mut self, call: Span) -> PlanCauses {
         let mut causes = PlanCauses::default();
         let cause = self.cause(call, Vec::new(), "");
@@ -149,8 +152,8 @@ impl Interpreter<'_> {
         Settings { samples_max: self.limits().samples, ..Settings::default() }
     }
 
-    /// Reports durations that turned out shorter than the joints' limits allow; returns true if there are
-    /// none. `ids`: the run's number of each cause of the plan.
+    /// Reports the actions beyond the limits of the joints; returns true if there are none. `ids`: the run's
+    /// number of each cause, by the plan's number.
     pub fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
         for issue in issues {
             let issue = behavior::Issue { cause: ids[issue.cause.0 as usize], ..issue.clone() };
@@ -215,7 +218,8 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns the names and hashes of all texts of the program.
+    /// Returns the provenance of a plan of this run: the names and hashes of all texts, sorted by name, the
+    /// seed and the version of modl. No planner is named.
     pub fn provenance(&self) -> Provenance {
         let mut sources: Vec<(String, String)> = self
             .shared
@@ -232,8 +236,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the start pose of a robot as a plan of duration 0; `None` where its design is broken or no
-    /// robot.
+    /// Returns the start pose of a robot as a plan of duration 0, not judged yet; `None` where its design is
+    /// broken or no robot.
     pub fn plan_pose(
         &mut self,
         design: &Rc<Design>,
@@ -256,8 +260,8 @@ impl Interpreter<'_> {
         Ok(Some(Rc::new(self.assemble_plan(design.clone(), robot, scheduled, &causes, world).0)))
     }
 
-    /// Returns the verdict on a plan under these settings; `world`: in place of the plan's worlds. A verdict
-    /// is computed once and kept with the plan.
+    /// Returns the verdict on a plan under these settings, and under `world` if it is given, otherwise under
+    /// the plan's own worlds. A verdict is computed once and kept with the plan.
     pub fn judge(&mut self, planned: &PlanValue, settings: Settings, world: Option<World>) -> Rc<Verdict> {
         let worlds = match world {
             Some(world) => vec![WorldFrom { from: 0.0, world }],
@@ -274,7 +278,7 @@ impl Interpreter<'_> {
         verdict
     }
 
-    /// Returns the state at a time (s), clamped to the duration of the plan.
+    /// Returns the state at a time (s), which is clamped to 0 and the duration of the plan, as a record.
     ///
     /// # Errors
     /// A fault at `span` where the plan's robot has no joints.
@@ -295,8 +299,9 @@ impl Interpreter<'_> {
         }))))
     }
 
-    /// Returns the plan that a value is or gives: a plan, a record about one, a behaviour, or the start pose
-    /// of an instance; `None` for other values.
+    /// Returns the plan that a value is or gives: a plan, a record about one, a behaviour, or the start pose of
+    /// an instance's robot; `None` for other values, and where a plan could not be made, which has been
+    /// reported.
     pub fn plan_of(&mut self, value: &Value, span: Span) -> Eval<Option<Rc<PlanValue>>> {
         match value {
             Value::Behavior(behavior) => self.plan_behavior(behavior, span),
@@ -310,13 +315,15 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the fault of a behaviour that has no motion.
+    /// Returns the fault of a behaviour that has no motion, at the action to blame. `ids`: as for
+    /// [`report_issues`](Self::report_issues).
     pub fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
         super::verdicts::refused(self, refusal, ids, span)
     }
 }
 
-/// Returns the corners of the support polygon of a robot at rest, in the frame of its base, m.
+/// Returns the corners of the support polygon of a robot that stands at rest in its start state, m, in the
+/// frame of its base.
 pub fn footprint(robot: &Robot) -> Vec<Vec3> {
     crate::plan::verify::articulated::area(&robot.assembly, &robot.start)
 }

@@ -5,42 +5,45 @@
 
 use std::collections::HashMap;
 
-/// Most calls of one behaviour of one robot that are remembered.
+/// The greatest number of calls of one behaviour of one object that are remembered.
 const CALLS_MAX: usize = 64;
 
-/// Most evaluation steps that all that is remembered took: a bound on its size.
+/// The greatest number of evaluation steps that the remembered calls may have taken, as a bound on their size.
 const STEPS_MAX: u64 = 2_000_000;
 
-/// The behaviours `B` that calls `C` gave, by object and behaviour.
+/// The behaviours `B` that calls `C` gave, by the key of the call. They are dropped, all but the newest, once
+/// they took more than two million evaluation steps.
 #[derive(Clone)]
 pub struct Recalled<C, B> {
-    by_place: HashMap<Place, Vec<(C, B)>>,
+    by_key: HashMap<CallKey, Vec<(C, B)>>,
+    /// The evaluation steps that all of them took.
     steps: u64,
 }
 
 /// The address of an object, which its calls keep alive, and the index of its behaviour.
-pub type Place = (usize, usize);
+pub type CallKey = (usize, usize);
 
 impl<C, B> Default for Recalled<C, B> {
     fn default() -> Recalled<C, B> {
-        Recalled { by_place: HashMap::new(), steps: 0 }
+        Recalled { by_key: HashMap::new(), steps: 0 }
     }
 }
 
 impl<C, B: Clone> Recalled<C, B> {
-    /// Returns the behaviour that a call gave before.
-    pub fn find(&self, place: Place, is_same: impl Fn(&C) -> bool) -> Option<B> {
-        let known = self.by_place.get(&place)?;
+    /// Returns the behaviour that a call with this key gave before, of those that `is_same` accepts the first;
+    /// `None` if there is none.
+    pub fn find(&self, key: CallKey, is_same: impl Fn(&C) -> bool) -> Option<B> {
+        let known = self.by_key.get(&key)?;
         known.iter().find(|(call, _)| is_same(call)).map(|(_, behavior)| behavior.clone())
     }
 
-    /// Remembers the behaviour that a call gave in so many evaluation steps.
-    pub fn keep(&mut self, place: Place, call: C, behavior: B, steps: u64) {
+    /// Remembers the behaviour that a call gave in so many evaluation steps; of one key at most 64 calls.
+    pub fn keep(&mut self, key: CallKey, call: C, behavior: B, steps: u64) {
         self.steps += steps;
         if self.steps > STEPS_MAX {
             *self = Recalled { steps, ..Recalled::default() };
         }
-        let known = self.by_place.entry(place).or_default();
+        let known = self.by_key.entry(key).or_default();
         if known.len() < CALLS_MAX {
             known.push((call, behavior));
         }

@@ -17,15 +17,15 @@ use std::rc::Rc;
 pub enum Record {
     /// A `Plan`, or what a planner makes of it.
     Plan(Rc<PlanValue>),
-    /// A `Report` of the judge.
+    /// A `Report`: the verdict of the judge, and the headline under which it is shown.
     Report(Rc<Verdict>, String),
     /// A state of a robot, `State`.
     State(StateValue),
     /// The assumptions about the surroundings, `World`.
     World(World),
-    /// A `Frame`: nodes and struts.
+    /// A `Frame`: the positions of nodes, m, and struts by the indices of their nodes.
     Frame(Vec<Vec3>, Vec<(usize, usize)>),
-    /// The `Rigidity` of a truss.
+    /// The `Rigidity` of a truss, given by its design.
     Rigidity(Rc<Design>),
     /// A record that the file of a native defines.
     Native(Rc<dyn NativeRecord>),
@@ -33,7 +33,7 @@ pub enum Record {
 
 /// A record that the file of a native defines, with its fields and how it is shown.
 pub trait NativeRecord: Any + std::fmt::Debug {
-    /// Reads a field that the declaration has.
+    /// Returns a field by its name. Panics for a name that the declaration does not have.
     fn read(&self, field: &str) -> Value;
 
     /// Returns the record on one line, as `print` shows it.
@@ -53,7 +53,7 @@ pub struct StateValue {
     pub body: Rc<Robot>,
     /// The positions of the joints, and the bonds that hold.
     pub state: State,
-    /// The time in the plan, s.
+    /// The time in the plan, s, from 0 to its duration.
     pub time: f64,
     /// The plan that it was taken from.
     pub planned: Rc<PlanValue>,
@@ -61,7 +61,7 @@ pub struct StateValue {
     pub base: OnceCell<Pose>,
 }
 
-/// A field of a record, with the function that reads it.
+/// The name of a field of a record, with the function that reads it.
 pub type Field<T> = (&'static str, fn(&T) -> Value);
 
 /// Returns the value of a field by its table. Panics if the table has no such field, which `check` excludes.
@@ -70,12 +70,12 @@ pub fn read_field<T>(fields: &[Field<T>], record: &T, field: &str) -> Value {
     found.map_or_else(|| unreachable!("`check` knows no field `{field}` here"), |(_, read)| read(record))
 }
 
-/// Returns the names of a table's fields.
+/// Returns the names of a table's fields, in its order.
 pub fn field_names<T>(fields: &[Field<T>]) -> Vec<&'static str> {
     fields.iter().map(|(name, _)| *name).collect()
 }
 
-/// Returns the world that a plan assumes from its beginning.
+/// Returns the world that a plan assumes from its beginning; the default if it states none.
 pub fn first_world(plan: &Plan) -> World {
     plan.worlds.first().map_or_else(World::default, |from| from.world)
 }
@@ -87,7 +87,7 @@ impl std::fmt::Debug for StateValue {
 }
 
 impl StateValue {
-    /// Returns the world poses of all links.
+    /// Returns the world poses of all links, by index in the kinematic tree.
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
@@ -113,7 +113,8 @@ impl StateValue {
 /// Nodes, and struts by pairs of nodes.
 type NodesAndStruts = (Vec<Vec3>, Vec<(usize, usize)>);
 
-/// Returns the nodes (m) and struts of a `Frame`; `None` for other values.
+/// Returns the positions of the nodes (m) of a `Frame`, and its struts by the indices of their nodes; `None`
+/// for other values.
 pub fn frame_parts(value: &Value) -> Option<NodesAndStruts> {
     match value {
         Value::Record(record) => match &**record {

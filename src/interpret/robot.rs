@@ -12,35 +12,36 @@ pub struct Robot {
     pub start: State,
     /// The kinematic tree of the links.
     pub kinematics: Kinematics,
-    /// The poses of all links in the start state, in the frame of the base module.
+    /// The poses of all links in the start state, in the frame of the base module's body.
     pub poses: Vec<Pose>,
 }
 
 impl Robot {
-    /// Returns the number of the joint of a module or a bond.
+    /// Returns the number of the joint of a module or a bond. Panics if there is none.
     pub fn joint_of(&self, owner: JointOwner) -> JointId {
         let index = joint_index(&self.kinematics, owner);
         JointId(u32::try_from(index).expect("joints are counted in 32 bits"))
     }
 
-    /// Returns the path name of a joint.
+    /// Returns the path name of a joint; empty if there is no such joint.
     pub fn joint_name(&self, joint: JointId) -> String {
         let owner = self.assembly.joints().nth(joint.0 as usize);
         owner.map_or_else(String::new, |owner| self.assembly.joint_name(owner))
     }
 
-    /// Returns the residual of each bond that closes a loop in the start state.
+    /// Returns the residual of each bond that closes a loop, in the start state; empty for a kinematic tree.
     pub fn residuals(&self) -> Vec<Residual> {
         self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
     }
 
-    /// Returns the centre of mass in the frame of the base module (m), and mass (kg).
+    /// Returns the centre of mass in the start state (m, in the frame of the base module's body), and the mass
+    /// (kg).
     pub fn centre_of_mass(&self) -> (Vec3, f64) {
         self.kinematics.centre_of_mass(&self.assembly, &self.poses)
     }
 }
 
-/// Returns the index of a joint among those of the kinematic tree. Panics if it is a bond without a joint.
+/// Returns the index of a joint among those of the kinematic tree. Panics if there is no such joint.
 pub fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
     match owner {
         JointOwner::Module { module, joint } => kinematics.joint(module, joint),

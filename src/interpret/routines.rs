@@ -30,18 +30,18 @@ impl Args {
     }
 }
 
-/// A robot; `None` where its design is broken or describes none.
+/// A robot that was assembled; `None` where its design is broken or describes none.
 pub type Assembled = Eval<Option<Rc<Robot>>>;
 
-/// The functions of the rooms above the evaluator.
+/// The functions of the rooms above the evaluator. Those that return [`Eval`] fail as the evaluator does.
 pub struct Routines {
-    /// Finds a built-in by its key.
+    /// Finds a built-in by its key, such as `move` or `Plan.at`; `None` if there is none.
     pub native: fn(Symbol) -> Option<&'static Native>,
-    /// Elaborates a declaration with arguments to an instance.
+    /// Elaborates a declaration with arguments to an instance; unknown where it is broken.
     pub instantiate: fn(&mut Interpreter, DefId, Args, Span) -> Eval<Value>,
-    /// Assembles the robot of a design.
+    /// Assembles the robot of a design, once; `None` where the design is broken or no robot.
     pub robot_of: fn(&mut Interpreter, &Rc<Design>, Span) -> Assembled,
-    /// Finds the joint of the connection at a port.
+    /// Finds the joint of the connection at a port; a fault where there is none.
     pub hinge_of: fn(&mut Interpreter, &PortValue, Span) -> Eval<Value>,
     /// Elaborates a declaration with its defaults and checks all that its body declares.
     pub check_declaration: fn(&mut Interpreter, DefId) -> Eval<()>,

@@ -10,8 +10,8 @@ use crate::check::typed::DefKind;
 use crate::interrupt;
 use crate::source::{Diagnostic, Files, Severity, code};
 
-/// Runs a checked program. Faults that `check` reported are not repeated; parts that it could not understand
-/// are passed over in silence.
+/// Runs a checked program on a thread of its own and returns the outcome. Faults that `check` reported are not
+/// repeated; parts that it could not understand are passed over in silence.
 pub fn run(
     routines: &Routines,
     checked: &Checked,
@@ -44,8 +44,9 @@ fn no_memory(why: &str) -> Diagnostic {
     Diagnostic::error(code::NO_MEMORY, message).hint("end other programs, or raise the limit of this one")
 }
 
-/// Calls `work` with the interpreter of a checked program, of which nothing was run, on the evaluator's thread. `None`
-/// where it met a fault or a limit, or where the system gives no memory for the thread.
+/// Returns the result of `work`, which is called on a thread of its own with the interpreter of a checked
+/// program, of which nothing was run. `None` where it met a fault or a limit, reported an error or was
+/// cancelled, or where the system gives no memory for the thread.
 pub fn with_interpreter<T: Send>(
     routines: &Routines,
     checked: &Checked,
@@ -64,7 +65,7 @@ pub fn with_interpreter<T: Send>(
     done.ok().flatten()
 }
 
-/// Errors before warnings before notes; else as they were found.
+/// Sorts findings: errors before warnings before notes; else as they were found.
 fn in_order(mut reports: Vec<Diagnostic>) -> Vec<Diagnostic> {
     reports.sort_by_key(|d| match d.severity {
         Severity::Error => 0,
@@ -75,6 +76,7 @@ fn in_order(mut reports: Vec<Diagnostic>) -> Vec<Diagnostic> {
 }
 
 impl Interpreter<'_> {
+    /// Runs the part of the program that the mode names.
     fn drive(&mut self) -> Eval<()> {
         let program = self.shared.program;
         match self.shared.mode {
@@ -102,7 +104,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Lets that no statement needed: what is wrong with them is wrong with the program.
+    /// Evaluates the lets that no statement needed, since their faults are faults of the program.
     fn force_lets(&mut self) -> Eval<()> {
         let program = self.shared.program;
         for &def in &program.own {

@@ -24,13 +24,13 @@ pub const UNDO_MAX: usize = 200;
 /// Evaluates entries one after the other, each with what those before it left.
 pub struct Evaluator(EvaluatorThread<Task, Answer>);
 
-/// A task of the session: an entry and the work on it.
+/// A task of the session: the work, with the program that it is about.
 pub struct Task {
     /// The checked session.
     pub checked: Arc<Checked>,
     /// The options of the run.
     pub options: Options,
-    /// The work on it.
+    /// The work to be done.
     pub work: Work,
 }
 
@@ -38,7 +38,7 @@ pub struct Task {
 pub enum Work {
     /// Evaluate the newest entry.
     Enter(Entered),
-    /// Take back the last entry that was kept.
+    /// Take back the last entry that was kept; without one, forget all values.
     Undo,
     /// Texts changed: elaborate declarations with their defaults, and forget values that do not hold any
     /// more. Earlier entries can't be taken back.
@@ -54,15 +54,15 @@ pub enum Work {
 
 /// An entry of a session.
 pub struct Entered {
-    /// The text of the entry.
+    /// The file of the entry; its declarations, statements and tests are evaluated in the order of the text.
     pub file: FileId,
-    /// The declarations of other files to elaborate first.
+    /// The declarations of other files to elaborate first, with their defaults.
     pub check: Vec<DefId>,
     /// The declarations whose values do not hold any more.
     pub stale: Vec<DefId>,
     /// True if the declarations stay. Otherwise all is as if the entry had never been.
     pub keep: bool,
-    /// The printed part of it.
+    /// The part of the result that is printed.
     pub shown: Shown,
 }
 
@@ -80,17 +80,17 @@ pub enum Shown {
 /// The result of a task.
 #[derive(Default)]
 pub struct Answer {
-    /// The diagnostics found.
+    /// The diagnostics, in the order in which they were found.
     pub diagnostics: Vec<Diagnostic>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
     /// True if all went well. If not, the memory is as it was before.
     pub ok: bool,
-    /// True if the user ended it.
+    /// True if the user cancelled or abandoned it.
     pub interrupted: bool,
     /// True if the evaluator itself panicked; a session survives this.
     pub defect: bool,
-    /// True if the memory changed, so that there is something to take back.
+    /// True if an entry or a reload changed the memory.
     pub kept: bool,
 }
 
@@ -125,6 +125,8 @@ impl Evaluator {
     }
 }
 
+/// Does a task on the evaluator's thread. `memory`: the values so far; `before`: their copies from before each
+/// entry that was kept, the last last.
 fn work(
     routines: &Routines,
     task: &Task,
@@ -167,6 +169,8 @@ fn work(
     }
 }
 
+/// Does `work` with a copy of the memory, of which stale values are dropped. Returns the answer, and the memory
+/// after it; `None` if anything failed.
 fn evaluate(
     routines: &Routines,
     task: &Task,
@@ -217,6 +221,8 @@ enum Piece<'p> {
 }
 
 impl<'a> Interpreter<'a> {
+    /// Takes over the memory of earlier entries, without the values of the stale declarations. If all are
+    /// stale, kept plans, causes and exemptions are dropped, too.
     fn resume(&mut self, memory: Memory, stale: &[DefId]) {
         let count = self.shared.program.defs.len();
         self.memory = memory;
@@ -287,6 +293,8 @@ impl<'a> Interpreter<'a> {
         pieces.into_iter().map(|(_, piece)| piece).collect()
     }
 
+    /// Evaluates a declaration: the value of a `let`, otherwise an elaboration with defaults; prints it as
+    /// `shown` says.
     fn enter_declaration(&mut self, def: DefId, shown: Shown) -> Eval<()> {
         let program = self.shared.program;
         let declared = program.def(def);

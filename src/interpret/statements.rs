@@ -11,6 +11,9 @@ use crate::source::{Diagnostic, code};
 impl Interpreter<'_> {
     /// Executes the statements of a body; a statement that fails leaves its names unknown, and the
     /// others go on.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`].
     pub fn execute_body(&mut self, body: &Body) -> Eval<()> {
         let mut frame = Frame::new(body.frame, None);
         for statement in &body.statements {
@@ -19,7 +22,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Executes a statement.
+    /// Executes a statement; faults are reported.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`].
     pub fn execute(&mut self, statement: &Stmt, frame: &mut Frame) -> Eval<()> {
         match &statement.kind {
             StmtKind::Let { local, value } => {
@@ -73,7 +79,11 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns the sides of a comparison in words: `1.2 mm > 2 mm`.
+    /// Returns a comparison that is false with the values of its sides, `1.2 mm > 2 mm is false`; empty for
+    /// other expressions. The sides are evaluated again.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`].
     pub fn sides(&mut self, condition: &Expr, frame: &mut Frame) -> Eval<String> {
         use crate::check::typed::{BinaryOp as Op, ExprKind};
         let ExprKind::Binary { op, left, right } = &condition.kind else { return Ok(String::new()) };
@@ -90,8 +100,11 @@ impl Interpreter<'_> {
         Ok(format!("{} {sign} {} is false", self.show(&left), self.show(&right)))
     }
 
-    /// Runs the tests whose name contains the filter; each passes unless it reported an error or
-    /// something in it could not be judged.
+    /// Runs the tests whose name contains the filter, and records their results; each passes unless it reported
+    /// an error or a condition in it is unknown.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`].
     pub fn run_tests(&mut self) -> Eval<()> {
         let program = self.shared.program;
         let filter = self.shared.options.filter.as_deref().unwrap_or_default();

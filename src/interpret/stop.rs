@@ -27,7 +27,7 @@ impl From<Diagnostic> for Stop {
     }
 }
 
-/// Returns a fault with one label that repeats nothing of the message.
+/// Returns a fault with one label at `span`, whose text should add to the message.
 pub fn fault(code: Code, span: Span, message: impl Into<String>, label: impl Into<String>) -> Stop {
     Diagnostic::error(code, message).label(span, label).into()
 }

@@ -6,6 +6,7 @@
 use super::cells::Cells;
 use super::design::{Instance, Subject};
 use super::identity::Name;
+use super::recalled::CallKey;
 use super::record::Record;
 use crate::check::typed::{DefId, Expr, Local};
 use crate::geometry::{HeightField, Placed, Pose, Vec3};
@@ -24,7 +25,7 @@ pub enum Value {
     /// The value where an error was reported, or that only a run can know. Whatever is computed from it is
     /// unknown too, without another report. Lists, records and instances never contain it: they are unknown.
     Unknown,
-    /// The result of `print`.
+    /// The result of what has none, such as `print`.
     Nothing,
     /// The missing value of an optional type.
     Missing,
@@ -38,11 +39,11 @@ pub enum Value {
     Quantity(f64, Dimension),
     /// A text.
     Text(Rc<str>),
-    /// A word of a choice.
+    /// A word of a choice, such as `auto`.
     Word(Symbol),
     /// A list.
     List(Rc<Vec<Value>>),
-    /// A vector in SI units, with the dimension of its components.
+    /// A vector in SI units, with the one dimension of its components.
     Vec3(Vec3, Dimension),
     /// A pose: position (m) and orientation.
     Pose(Rc<Pose>),
@@ -70,7 +71,7 @@ pub enum Value {
     Cells(Rc<Cells>),
     /// A polygon mesh.
     Mesh(Rc<Mesh>),
-    /// Points, m.
+    /// A point cloud: the positions of its points, m.
     Cloud(Rc<Vec<Vec3>>),
     /// A height field.
     Terrain(Rc<HeightField>),
@@ -123,7 +124,7 @@ pub struct JointValue {
     pub robot: Subject,
     /// The module or the connection that has the joint.
     pub owner: JointOwner,
-    /// The dimension of its position.
+    /// The dimension of its position: an angle or a length.
     pub dimension: Dimension,
 }
 
@@ -138,16 +139,16 @@ pub struct PortValue {
     pub port: usize,
 }
 
-/// An action graph with the robot that it moves; `None` where no action names one, as in `wait(1s)`.
+/// An action graph with the robot that it moves.
 #[derive(Debug)]
 pub struct Behavior {
-    /// The robot; `None` where nothing names one.
+    /// The robot; `None` where no action names one, as in `wait(1s)`.
     pub robot: Option<Subject>,
     /// The series-parallel graph of actions.
     pub node: Arc<plan::Node>,
 }
 
-/// A call of a behaviour, to tell whether another gives the same.
+/// A call of a behaviour, to be compared with later ones, which may give the same.
 #[derive(Clone, Debug)]
 pub struct BehaviorCall {
     /// The object that it is called of.
@@ -156,18 +157,20 @@ pub struct BehaviorCall {
     pub behavior: usize,
     /// The arguments; `None` where the default is wanted.
     pub args: Vec<Option<Value>>,
-    /// The user's call that led into the library, where the behaviour stands there: causes name it.
+    /// The user's call that led into the library, if the behaviour is declared there, since causes name it;
+    /// otherwise `None`.
     pub caller: Option<Span>,
 }
 
 impl BehaviorCall {
-    /// Returns the object, by its address, and the behaviour.
-    pub fn place(&self) -> (usize, usize) {
+    /// Returns the key of the call: the address of the object, and the index of the behaviour.
+    pub fn key(&self) -> CallKey {
         (Rc::as_ptr(&self.object).addr(), self.behavior)
     }
 
-    /// Returns true if two calls of one behaviour of one object are alike, as far as that can be told at a
-    /// glance.
+    /// Returns true if two calls of one behaviour of one object surely give the same: they have the same
+    /// caller, and their arguments are equal or one shared value. Lists and other compound values are not
+    /// compared in depth.
     pub fn is_same(&self, other: &BehaviorCall) -> bool {
         let same = |a: &Option<Value>, b: &Option<Value>| match (a, b) {
             (Some(a), Some(b)) => a.identical(b),
@@ -179,7 +182,7 @@ impl BehaviorCall {
     }
 }
 
-/// A signal, with the robot that gives it.
+/// A signal of a sensor, with the robot that gives it.
 #[derive(Debug)]
 pub struct SignalValue {
     /// The robot; `None` where nothing names one.
@@ -200,13 +203,14 @@ pub struct ConditionValue {
 /// A shape with what it declares about its link.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
-    /// The shapes in the frame of the whole.
+    /// The shapes, each with its pose in the frame of the whole.
     pub parts: Vec<Placed>,
     /// The mass, kg; `None`: not stated.
     pub mass: Option<f64>,
-    /// The centre of mass, m; `None`: not stated.
+    /// The centre of mass, m, in the frame of the whole; `None`: not stated.
     pub com: Option<Vec3>,
-    /// The inertia xx, yy, zz, xy, xz, yz about the centre of mass, kg·m²; `None`: not stated.
+    /// The inertia xx, yy, zz, xy, xz, yz about the centre of mass, kg·m², along the axes of the whole; `None`:
+    /// not stated.
     pub inertia: Option<[f64; 6]>,
     /// The coefficient of friction; `None`: not stated.
     pub friction: Option<f64>,
@@ -217,7 +221,7 @@ pub struct Solid {
 pub struct JointSpec {
     /// Revolute, prismatic or fixed.
     pub kind: JointKind,
-    /// The axis as written; it need not be of unit length.
+    /// The axis in the joint's frame as it is written; it need not be of unit length.
     pub axis: Vec3,
     /// Ranges of position, speed, acceleration and effort.
     pub limits: Limits,
@@ -228,7 +232,7 @@ pub struct JointSpec {
 /// A polygon mesh: a surface of flat faces over shared vertices.
 #[derive(Debug)]
 pub struct Mesh {
-    /// The vertices, m.
+    /// The positions of the vertices, m.
     pub vertices: Vec<Vec3>,
     /// The indices of each face's corners in `vertices`, counterclockwise from outside; at least three each.
     pub faces: Vec<Vec<usize>>,
@@ -270,7 +274,8 @@ impl Value {
         i64::try_from(&n).map_or_else(|_| Value::Big(Rc::new(n)), Value::Int)
     }
 
-    /// Gives a name to a robot, and to each robot of a list its own.
+    /// Gives a name to a robot, and to each robot of a list its own, with its index; other values have no
+    /// names.
     pub fn bind(&self, name: Name) {
         match self {
             Value::Instance(instance) => instance.bind(name),
@@ -295,7 +300,8 @@ impl Value {
         matches!(self, Value::Unknown)
     }
 
-    /// Returns a quantity or whole number in SI units; `None` for other values.
+    /// Returns a quantity in SI units, or a whole number, rounded, infinite beyond 1.8e308; `None` for other
+    /// values.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Value::Quantity(x, _) => Some(*x),
@@ -323,7 +329,7 @@ impl Value {
         }
     }
 
-    /// Returns true if two values are the same to every question, as far as that can be told at a glance.
+    /// Returns true if two values are surely the same: equal simple values of one type, or one shared value.
     fn identical(&self, other: &Value) -> bool {
         use Value::*;
         match (self, other) {
@@ -341,7 +347,8 @@ impl Value {
         }
     }
 
-    /// Returns true if two values are equal, as `==` says; `None` where that is not defined.
+    /// Returns true if two values are equal, as `==` says; `None` where one is unknown, or where values of
+    /// these types can't be compared. Elements of lists that can't be compared count as different.
     pub fn same(&self, other: &Value) -> Option<bool> {
         Comparison::default().same(self, other)
     }

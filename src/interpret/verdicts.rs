@@ -20,12 +20,12 @@ fn seconds(t: f64) -> String {
     quantity(t, Dimension::TIME)
 }
 
-/// Returns a failure on one line, with its time.
+/// Returns a failure on one line: `at 1.2 s: ...`.
 pub fn failure_line(failure: &Failure) -> String {
     format!("at {}: {}", seconds(failure.time), failure.message)
 }
 
-/// Returns a check with its result on one line.
+/// Returns a check of the judge with its result, on one line.
 pub fn check_line(check: &Check) -> String {
     format!("{}: {}", check.kind.name(), check.status)
 }
@@ -44,7 +44,8 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     verdict.worst_values().map(line).collect()
 }
 
-/// Returns a verdict in words, as `print` shows it, below its headline.
+/// Returns a verdict in words, as `print` shows it: a first line with the headline, and below it failures (at
+/// most eight), worst values, dynamics, checks and notes.
 pub fn in_words(verdict: &Verdict, headline: &str) -> String {
     let [x, y, _] = verdict.travel;
     let travel = quantity(libm::hypot(x, y), Dimension::LENGTH);
@@ -59,6 +60,7 @@ pub fn in_words(verdict: &Verdict, headline: &str) -> String {
     lines.join("\n  ")
 }
 
+/// Returns the error code of a failed check.
 fn failure_code(kind: CheckKind) -> Code {
     match kind {
         CheckKind::Form | CheckKind::Momentum => code::NOT_VERIFIED,
@@ -78,9 +80,9 @@ fn failure_code(kind: CheckKind) -> Code {
 }
 
 impl Interpreter<'_> {
-    /// Reports the failures at the commands to blame for them: one finding for all of a kind that the same
-    /// commands caused. Failures after a fall follow from it and are not reported. `page` is the file that
-    /// shows them.
+    /// Reports the failures of a verdict at the commands to blame for them: one finding for all of a kind that
+    /// the same commands caused. Failures after a fall follow from it and are not reported. `span`: the call
+    /// that wants the verdict; `page`: the file that shows the motion, if one was written.
     pub fn report_failures(
         &mut self,
         planned: &PlanValue,
@@ -113,6 +115,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Returns the diagnostic of a failure, with labels at the commands to blame and at `span`.
     fn failure(&self, planned: &PlanValue, failure: &Failure, span: Span) -> Diagnostic {
         let time = seconds(failure.time);
         let message = if failure.message.contains(&time) {
@@ -160,7 +163,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Reports the exemptions that no plan of the run needed, as warnings.
+    /// Reports the exemptions that no plan of the run needed, as warnings, and forgets all.
     pub fn report_unneeded(&mut self) {
         for (span, needed) in std::mem::take(&mut self.memory.exemptions) {
             if needed {
@@ -175,7 +178,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the exemptions of a plan and its looser options, to be printed when it is written.
+    /// Returns a line for each exemption of a plan and for each option of the judge that is less strict than by
+    /// default, each once, to be printed when the plan is written.
     pub fn excuses(&self, planned: &PlanValue, settings: &Settings) -> Vec<String> {
         let strict = self.judge_settings();
         let mut lines = Vec::new();
@@ -215,7 +219,8 @@ fn add_label(mut diagnostic: Diagnostic, span: Span, text: String) -> Diagnostic
     diagnostic
 }
 
-/// Returns the fault of a behaviour that gives no plan, at the action to blame.
+/// Returns the fault of a behaviour that gives no plan, at the action to blame if there is one, and at `span`.
+/// `ids`: the run's number of each cause, by the plan's number.
 pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], span: Span) -> Stop {
     let diagnostic = Diagnostic::error(refusal_code(&refusal.reason), refusal.reason.to_string());
     let diagnostic = match refusal.cause {
@@ -229,6 +234,7 @@ pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], sp
     add_label(diagnostic, span, "planned here".to_string()).into()
 }
 
+/// Returns the error code of a refused behaviour.
 fn refusal_code(reason: &Reason) -> Code {
     match reason {
         Reason::NoCommands { .. } => code::PASSIVE_JOINT,

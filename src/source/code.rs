@@ -13,7 +13,7 @@ impl std::fmt::Display for Code {
 macro_rules! codes {
     ($($name:ident = $code:literal, $title:literal;)*) => {
         $(#[doc = $title] pub const $name: Code = Code($code);)*
-        /// Every code with its title, in order.
+        /// Every code with its title, in the order of the lists in this file: errors, then lints, then notes.
         pub const ALL: &[(Code, &str)] = &[$((Code($code), $title)),*];
     };
 }

@@ -34,7 +34,7 @@ pub struct Diagnostic {
     pub message: String,
     /// The labels; the first one is the primary one. Empty only if no text is at fault.
     pub labels: Vec<Label>,
-    /// Hints for correction, each a sentence without a final full stop.
+    /// Hints for correction, each a sentence without a final full stop; may be empty.
     pub hints: Vec<String>,
 }
 

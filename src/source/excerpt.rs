@@ -68,7 +68,7 @@ struct LabelPlace {
     end: usize,
 }
 
-/// Returns the excerpt that shows all `labels`, with no line wider than `columns`.
+/// Returns the excerpt that shows all `labels`, with no line wider than `columns`, or than 8.
 pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
     let places: Vec<LabelPlace> = labels.iter().map(|label| place(sources, label)).collect();
     let mut excerpt = Excerpt::default();

@@ -19,22 +19,26 @@ pub enum ReadError {
 /// Read access to the files of a project and of the standard library.
 pub trait Files {
     /// Returns the bytes of a project file. `path` is relative to the project root, with forward slashes
-    /// and without `.` and `..` (see [`join`]). Fails with the reason of a failed read.
+    /// and without `.` and `..` (see [`join`]).
+    ///
+    /// # Errors
+    /// The reason why the file can't be read.
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError>;
 
     /// Returns the text of a file of the standard library, such as `smores.mod` for `std.smores`; `None` if
     /// there is none.
     fn library(&self, path: &str) -> Option<Cow<'static, str>>;
 
-    /// Returns the names in a folder of the project, sorted, for completion: files, and folders with a
-    /// slash at the end.
+    /// Returns the names in a folder of the project, sorted, for completion: files, and folders with a slash at
+    /// the end. `folder` is relative to the project root, empty for the root. Empty if the folder can't be
+    /// read, and by default.
     fn list(&self, _folder: &str) -> Vec<String> {
         Vec::new()
     }
 }
 
-/// Returns the path that `path`, as written in the file `from`, has relative to the project root; `None` if
-/// it leads out of the root or is absolute.
+/// Returns the path that `path`, as written in the file `from`, has relative to the project root, without `.`
+/// and `..`; `None` if it leads out of the root, is absolute, or has a backslash, colon or NUL in it.
 pub fn join(from: &str, path: &str) -> Option<String> {
     if path.starts_with('/') || path.contains(['\\', '\0', ':']) {
         return None;

@@ -1,21 +1,22 @@
 //! Words of other languages with their counterparts in modl, for hints.
 
-/// Returns the hint for a word that means nothing in modl but does in another language.
+/// Returns the hint for a word that means nothing in modl but does in another language; `None` for other words.
 pub(crate) fn instead(word: &str) -> Option<&'static str> {
     INSTEAD.iter().find(|(words, _)| words.contains(&word)).map(|(_, instead)| *instead)
 }
 
-/// Returns the type with this name in another language.
+/// Returns the type with this name in another language, in words; `None` for other names.
 pub(crate) fn of_type(name: &str) -> Option<&'static str> {
     TYPES.iter().find(|(names, _)| names.contains(&name)).map(|(_, ty)| *ty)
 }
 
-/// Returns the unit with this longer name.
+/// Returns the unit with this longer name: `deg` for `degrees`; `None` for other names.
 pub(crate) fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
 }
 
-/// Returns the present name of a renamed parameter or field `word` of the function or record `of`.
+/// Returns the present name of a renamed parameter or field `word` of the function or record `of`; `None` if it
+/// was not renamed.
 pub(crate) fn renamed(of: &str, word: &str) -> Option<&'static str> {
     RENAMED.iter().find(|(owner, old, _)| (*owner, *old) == (of, word)).map(|(_, _, new)| *new)
 }

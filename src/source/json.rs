@@ -9,24 +9,24 @@ use serde::Serialize;
 pub struct JsonDiagnostic {
     /// The code, such as `E0201`.
     pub code: String,
-    /// The severity.
+    /// The severity, in lower case.
     pub severity: Severity,
-    /// The message.
+    /// The message: one sentence without a final full stop.
     pub message: String,
-    /// The labels; the first one is the primary one.
+    /// The labels; the first one is the primary one. Empty if no text is at fault.
     pub labels: Vec<JsonLabel>,
-    /// The hints.
+    /// The hints for correction; may be empty.
     pub hints: Vec<String>,
 }
 
 /// A span in a file. Lines and columns count from 1; columns count characters.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub struct JsonLabel {
-    /// The name of the file.
+    /// The name of the file, as the style gives it.
     pub file: String,
     /// True if the file belongs to the standard library and may not exist on disk.
     pub library: bool,
-    /// The offset of the first byte in the file.
+    /// The offset of the first byte in the file, from 0.
     pub offset: usize,
     /// The length in bytes.
     pub length: usize,
@@ -34,11 +34,11 @@ pub struct JsonLabel {
     pub line: usize,
     /// The column of the first character.
     pub column: usize,
-    /// The line of the first character behind the span.
+    /// The line of the first character after the span.
     pub end_line: usize,
-    /// The column of the first character behind the span.
+    /// The column of the first character after the span.
     pub end_column: usize,
-    /// The text of the label.
+    /// A few words about the span; may be empty.
     pub text: String,
 }
 

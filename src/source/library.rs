@@ -7,7 +7,7 @@ macro_rules! embed {
     };
 }
 
-/// The name and text of each file, by name.
+/// The name, such as `smores.mod`, and the text of each file, sorted by name; the prelude is one of them.
 pub const FILES: &[(&str, &str)] = embed![
     "crystal.mod",
     "gaits.mod",
@@ -19,12 +19,13 @@ pub const FILES: &[(&str, &str)] = embed![
     "truss.mod",
 ];
 
-/// Returns the text of a library file, such as `smores.mod` for `std.smores`.
+/// Returns the text of a library file, such as `smores.mod` for `std.smores`; `None` if there is no such file.
 pub fn text(name: &str) -> Option<&'static str> {
     FILES.iter().find(|(file, _)| *file == name).map(|(_, text)| *text)
 }
 
-/// Returns the library file that declares a public name, without its ending: `smores` for `Smores`.
+/// Returns the library file, without its ending, that declares a public name: `smores` for `Smores`; `None` if
+/// none does. The prelude is not searched.
 pub fn declares(name: &str) -> Option<&'static str> {
     let keywords =
         ["module", "config", "connector", "cell", "strut", "lattice", "truss", "fn", "let", "extern fn"];

@@ -17,7 +17,7 @@ pub struct Style {
     pub color: bool,
     /// The project folder as the user would name it, put before the names of its files; may be empty.
     pub folder: String,
-    /// The most diagnostics that are drawn; the rest are counted.
+    /// The most diagnostics that [`render`] draws; the rest are counted.
     pub shown_max: usize,
 }
 
@@ -31,8 +31,8 @@ impl Default for Style {
 }
 
 impl Style {
-    /// Returns the name of a file as the user would type it. `<stdin>` and other names in `<>` are not
-    /// files.
+    /// Returns the name of a file as the user would type it: with the project folder before it, unless it is
+    /// one of the library, or a name in `<>` such as `<stdin>`, which is no file.
     pub fn name(&self, name: &str, library: bool) -> String {
         match self.folder.as_str() {
             "" => name.to_owned(),
@@ -42,7 +42,8 @@ impl Style {
     }
 }
 
-/// Returns the diagnostics by file and position, errors before warnings, without duplicates.
+/// Returns the diagnostics without duplicates, by file and position of the primary label, at one span errors
+/// before warnings; those without a label come last.
 pub fn sorted(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
     let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
     sorted.sort_by(|a, b| key(a).cmp(&key(b)));
@@ -57,7 +58,8 @@ fn key(d: &Diagnostic) -> impl Ord + '_ {
     (d.span().is_none(), d.span(), d.severity, d.code, d.message.as_str(), texts, &d.hints)
 }
 
-/// Returns all diagnostics as text that ends with a line end; empty if there are none.
+/// Returns the diagnostics as text, [`sorted`] and without duplicates, up to `shown_max` of the style; each
+/// ends with an empty line. Empty if there are none.
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> String {
     let sorted = sorted(diagnostics);
     let mut out = String::new();
@@ -71,7 +73,8 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> S
     out
 }
 
-/// Returns one diagnostic as text: code, message, a snippet for each label, hints.
+/// Returns one diagnostic as text that ends with a line end: code, message, a snippet for each label, hints.
+/// Characters that control a terminal are replaced.
 pub fn render_one(sources: &Sources, diagnostic: &Diagnostic, style: &Style) -> String {
     let width = style.width.max(WIDTH_MIN);
     let gutter = gutter_width(sources, diagnostic);

@@ -1,6 +1,6 @@
 //! Positions: a file and a range of bytes in it.
 
-/// The identity of a text among [`Sources`](super::Sources).
+/// The identity of a text among [`Sources`](super::Sources): its index, from 0, in order of adding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FileId(pub u32);
 
@@ -11,12 +11,12 @@ pub struct Span {
     pub file: FileId,
     /// The offset of the first byte.
     pub start: u32,
-    /// The offset behind the last byte.
+    /// The offset after the last byte; that of an empty span is `start`.
     pub end: u32,
 }
 
 impl Span {
-    /// Returns the span `start..end` of a file. Panics on offsets beyond 4 GiB.
+    /// Returns the span of the bytes `start..end` of a file. Panics on offsets of 4 GiB or more.
     pub fn new(file: FileId, start: usize, end: usize) -> Span {
         Span {
             file,
@@ -25,18 +25,18 @@ impl Span {
         }
     }
 
-    /// Returns the smallest span that covers both. Both must be in one file.
+    /// Returns the smallest span that covers both. Both must be in one file, which debug builds check.
     pub fn to(self, other: Span) -> Span {
         debug_assert_eq!(self.file, other.file);
         Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
-    /// Returns the range of bytes.
+    /// Returns the range of bytes in the file.
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }
 
-    /// Returns true if `other` is inside this span.
+    /// Returns true if `other` is inside this span, or the same; false for another file.
     pub fn contains(self, other: Span) -> bool {
         self.file == other.file && self.start <= other.start && other.end <= self.end
     }

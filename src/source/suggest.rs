@@ -1,7 +1,8 @@
 //! Suggestions for misspelt names.
 
-/// Returns the candidate nearest to `name` by edit distance, if it is near enough to be a misspelling of
-/// it. Of equally near candidates the first in alphabetical order is returned.
+/// Returns the candidate nearest to `name` by edit distance; `None` if none is near enough to be a misspelling
+/// of it. The distance may be 1, and one more for every four letters of the shorter name. Names that begin with
+/// `_` are left out; of equally near ones the first in alphabetical order is returned.
 pub(crate) fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()

@@ -13,7 +13,7 @@ static NAMES: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Default::de
 pub struct Symbol(&'static str);
 
 impl Symbol {
-    /// Returns the symbol of a text.
+    /// Returns the symbol of a text, which stays in memory until the process ends.
     pub fn new(text: &str) -> Symbol {
         let mut names = NAMES.lock().expect("interning cannot panic");
         if let Some(name) = names.get(text) {

@@ -28,7 +28,8 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// Returns the position of a byte offset. An offset beyond the text is taken as its end.
+    /// Returns the position of a byte offset. An offset beyond the text is taken as its end, and one within a
+    /// character as the character's begin.
     pub fn line_column(&self, offset: usize) -> LineColumn {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
@@ -39,7 +40,8 @@ impl SourceFile {
         LineColumn { line: line + self.first_line, column: self.text[start..offset].chars().count() + 1 }
     }
 
-    /// Returns the text of a line without its line end; empty if there is no such line.
+    /// Returns the text of a line without its line end; empty if there is no such line. Lines count from
+    /// `first_line`.
     pub fn line(&self, line: usize) -> &str {
         let Some(&start) = line.checked_sub(self.first_line).and_then(|i| self.line_starts.get(i)) else {
             return "";
@@ -48,14 +50,14 @@ impl SourceFile {
         self.text[start as usize..end].trim_end_matches(['\n', '\r'])
     }
 
-    /// Returns the offset at which a line begins; the end of the text if there is no such line.
+    /// Returns the offset in bytes at which a line begins; the end of the text if there is no such line.
     pub fn line_start(&self, line: usize) -> usize {
         line.checked_sub(self.first_line)
             .and_then(|i| self.line_starts.get(i))
             .map_or(self.text.len(), |&start| start as usize)
     }
 
-    /// Returns the number of the last line.
+    /// Returns the number of the last line, which is empty if the text ends with a line end.
     pub fn last_line(&self) -> usize {
         self.line_starts.len() + self.first_line - 1
     }
@@ -68,7 +70,7 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Adds a text, and returns its identity.
+    /// Adds a text, and returns its identity. `library`: true for a file of the standard library.
     pub fn add(&mut self, name: &str, text: &str, library: bool) -> FileId {
         self.add_piece(name, text, library, 1)
     }
@@ -93,12 +95,12 @@ impl Sources {
         self.files.iter().enumerate().map(|(i, f)| (FileId(i as u32), f))
     }
 
-    /// Returns the text of a span.
+    /// Returns the text of a span. Panics if the span is of another run.
     pub fn text(&self, span: Span) -> &str {
         &self.file(span.file).text[span.range()]
     }
 
-    /// Returns the position at which a span begins.
+    /// Returns the position at which a span begins. Panics if the span is of another run.
     pub fn line_column(&self, span: Span) -> LineColumn {
         self.file(span.file).line_column(span.start as usize)
     }
