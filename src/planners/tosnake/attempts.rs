@@ -30,7 +30,7 @@ pub(super) struct Done {
     pub(super) work: u64,
 }
 
-/// Jobs done before threads start: the first often succeeds.
+/// The number of jobs done before threads start: the first often succeeds.
 const SEQUENTIAL_JOBS: usize = 1;
 
 /// Does jobs and calls `take` with their results, in the order of the jobs, until it returns true. With more

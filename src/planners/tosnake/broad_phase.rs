@@ -6,19 +6,21 @@ use super::tree::Tree;
 use crate::geometry::RigidTransform;
 use crate::geometry::broad_phase::near_points;
 
-/// Calls `found` with every pair of indices whose balls are nearer than `reach` (pitches), the smaller index first, and
-/// with the squared distance of their centres, in the order of [`near_points`].
+/// Calls `found` with every pair of indices of balls whose centres are nearer than `reach`, the smaller index first,
+/// and with the squared distance of the centres, in the order of [`near_points`]. `poses`: by index of the tree;
+/// lengths in pitches.
 pub fn pairs(poses: &[RigidTransform], reach: f64, found: &mut dyn FnMut(usize, usize, f64)) {
     near_points(poses.len(), |index| poses[index].translation, reach, found);
 }
 
-/// Returns true if two shoes, given by index, are of one module or docked to each other: then their balls touch
-/// at all times.
+/// Returns true if two shoes, given by index, are of one module or docked to each other, so that their balls touch at
+/// all times. `docked`: as by [`docked`].
 pub fn always_touch(tree: &Tree, a: usize, b: usize, docked: &[(usize, usize)]) -> bool {
     tree.shoe[a] / 2 == tree.shoe[b] / 2 || docked.binary_search(&(a.min(b), a.max(b))).is_ok()
 }
 
-/// Returns the pairs of indices whose shoes are docked to each other, the smaller first, in order.
+/// Returns the pairs of indices of the tree whose shoes are docked to each other by closed bonds, the smaller first, in
+/// ascending order.
 pub fn docked(robot: &Robot, tree: &Tree) -> Vec<(usize, usize)> {
     let mut all: Vec<(usize, usize)> = robot
         .held()
@@ -31,8 +33,8 @@ pub fn docked(robot: &Robot, tree: &Tree) -> Vec<(usize, usize)> {
     all
 }
 
-/// Returns the least distance in pitches of the centres of two balls that do not touch by design; infinite if
-/// there are none nearer than `reach`.
+/// Returns the least distance of the centres of two balls that do not touch by design; infinite if none are nearer than
+/// `reach`. `docked`: as by [`docked`]; `poses`: by index of the tree; lengths in pitches.
 pub fn least_distance(tree: &Tree, docked: &[(usize, usize)], poses: &[RigidTransform], reach: f64) -> f64 {
     let mut least = f64::INFINITY;
     pairs(poses, reach, &mut |a, b, squared| {

@@ -10,7 +10,8 @@ use std::rc::Rc;
 /// Greatest number of stored sequences; beyond it the oldest goes.
 const STORED_MAX: usize = 100;
 
-/// Everything that a step sequence depends on.
+/// The problem and the settings by which a step sequence is found again. It depends on the other settings as well,
+/// which are not compared.
 #[derive(Clone, PartialEq)]
 pub(crate) struct SearchKey {
     pub(crate) robot: Robot,
@@ -20,15 +21,17 @@ pub(crate) struct SearchKey {
     pub(crate) gravity: Option<GravityModel>,
 }
 
-/// The step sequences of the last searches. Clones share the sequences, not the list.
+/// The step sequences of the last 100 searches that found one. Clones share the sequences, not the list.
 #[derive(Clone, Default)]
 pub struct SearchCache(Vec<(Rc<SearchKey>, Rc<StepSequence>)>);
 
 impl SearchCache {
+    /// Returns the step sequence of a key; `None` if it is not stored.
     pub(crate) fn get(&self, key: &SearchKey) -> Option<Rc<StepSequence>> {
         self.0.iter().find(|(known, _)| **known == *key).map(|(_, found)| found.clone())
     }
 
+    /// Stores a step sequence; beyond [`STORED_MAX`] the oldest is dropped.
     pub(crate) fn insert(&mut self, key: SearchKey, found: Rc<StepSequence>) {
         if self.0.len() >= STORED_MAX {
             self.0.remove(0);

@@ -14,7 +14,7 @@ pub(super) struct ConcurrentMerges {
     pub(super) joints: Joints,
 }
 
-/// Failed attempts in a row after which no more pairs are tried.
+/// The number of failed attempts in a row after which no more pairs are tried.
 const FAILURES_MAX: usize = 4;
 
 /// Spread of the random start of further pairs, as a fraction of the joints' ranges: they are wanted only
@@ -69,7 +69,7 @@ impl ConcurrentMerges {
     }
 }
 
-/// Everything that pairs need for themselves.
+/// The edges, docks and chains that pairs need for themselves.
 struct Reservations {
     /// True, by index of the tree, if the edge to the parent is in a loop.
     edges: Vec<bool>,
@@ -99,6 +99,7 @@ impl Reservations {
             && Reservations::edges(state, pair).iter().all(|&edge| !self.edges[edge])
     }
 
+    /// Reserves the edges, docks and chains of a pair.
     fn reserve(&mut self, state: &State, pair: &Pair) {
         Reservations::edges(state, pair).iter().for_each(|&edge| self.edges[edge] = true);
         self.docks.extend([pair.a, pair.b]);

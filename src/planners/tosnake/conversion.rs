@@ -6,10 +6,11 @@ use super::tolerances::TOLERANCES;
 use crate::robot::rofi;
 use crate::robot::{Assembly, Kinematics, PortRef, State};
 
-/// The names of alpha, beta and gamma.
+/// The names of alpha, beta and gamma in the library's module, in the order of [`Robot::joints`].
 pub const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
-/// Returns the configuration of a file, with joints in radians.
+/// Returns the configuration of a RoFI file, with joints in radians and all bonds closed. Docks of edges must name
+/// modules by their indices in the file.
 pub fn from_world(world: &rofi::World) -> Robot {
     let dock = |dock: &rofi::Dock| {
         let index = (0..DOCKS).find(|&index| port_name(dock.module, index) == dock.port());
@@ -22,7 +23,8 @@ pub fn from_world(world: &rofi::World) -> Robot {
     }
 }
 
-/// Returns the configuration as a file states it, with joints in degrees and without open bonds.
+/// Returns the configuration as a RoFI file states it, with joints in degrees, rounded to a billionth of one, and
+/// without open bonds.
 pub fn to_world(robot: &Robot) -> rofi::World {
     let joints = |q: &[f64; 3]| q.map(|angle| libm::round(angle.to_degrees() * DEGREE_PARTS) / DEGREE_PARTS);
     let module = |(id, q): (usize, &[f64; 3])| rofi::Module { id: id as u64, joints: joints(q), line: 0 };
@@ -83,6 +85,7 @@ pub(super) fn translated<'a>(assembly: &'a Assembly, state: &State) -> Result<Tr
     Ok(Translated { assembly, joints, robot })
 }
 
+/// Returns the dock that a port of the assembly is; `None` if it is none.
 fn dock_of(assembly: &Assembly, port: PortRef) -> Option<Dock> {
     let name = &assembly.module_type(port.module).ports[port.port].name;
     (0..DOCKS)
@@ -90,7 +93,8 @@ fn dock_of(assembly: &Assembly, port: PortRef) -> Option<Dock> {
         .map(|dock| Dock { module: port.module, dock })
 }
 
-/// Returns the name of a dock's port in the library's module, such as `a_plus_x`.
+/// Returns the name of a dock's port in the library's module, such as `a_plus_x`; `dock`: 0 to 5 as in [`Dock::dock`],
+/// others panic. The name is the same for every `module`.
 pub fn port_name(module: usize, dock: usize) -> &'static str {
     let sides = [rofi::Side::A, rofi::Side::B];
     let faces = [rofi::Face::PlusX, rofi::Face::MinusX, rofi::Face::MinusZ];

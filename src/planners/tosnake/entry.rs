@@ -15,7 +15,7 @@ use crate::planners::{Progress, Solution};
 use crate::robot::{Assembly, State};
 use std::rc::Rc;
 
-/// A robot that is to be unwound.
+/// A robot that is to be unwound into a snake, with its start and its world.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// An assembly of RoFI modules of one pitch.
@@ -30,17 +30,17 @@ pub struct Problem<'a> {
 /// Figures of a plan to the snake and of the search for it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
-    /// Docking actions.
+    /// The number of docking actions.
     pub docks: usize,
-    /// Undocking actions.
+    /// The number of undocking actions.
     pub undocks: usize,
-    /// Joint travel: the sum of the angles by which all joints turn, rad.
+    /// Joint travel: the sum of the absolute angles of all turns of all joints, rad.
     pub joint_travel: f64,
-    /// Pairs of ends that were tried.
+    /// The number of attempts to bring a pair of ends together; that of the search that the cache kept, if it was used.
     pub tried: u64,
-    /// Forward kinematics of the whole robot that were evaluated.
+    /// The number of forward kinematics of the whole robot that were evaluated; likewise.
     pub work: u64,
-    /// Actions of the program.
+    /// The number of actions of the program.
     pub actions: u64,
 }
 
@@ -48,12 +48,12 @@ pub struct Report {
 /// dock -Z on dock -Z.
 ///
 /// All causes of the solution are cause 0; its program is a series of steps, in each of which all joints
-/// move at once. The robot never falls apart and its modules never overlap, provided that
-/// [`Settings::collisions`] is [`Collisions::Motion`]; the judge has to confirm it.
+/// move at once. The robot never falls apart and its modules never overlap, as far as the planner checks and provided
+/// that [`Settings::collisions`] is [`Collisions::Motion`]; the judge has to confirm it.
 ///
 /// # Errors
 /// [`Refusal`]: the assembly is none of RoFI modules, the start is invalid, torque limits or the budget do
-/// not suffice, or `progress` ended the search.
+/// not suffice, the paper's method fails, the steps can't be scheduled, or `progress` ended the search.
 ///
 /// # Examples
 /// ```
@@ -82,8 +82,9 @@ pub fn plan(
     plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
 }
 
-/// Plans as [`plan`] does, and takes the steps from a cache if the same robot was unwound before with the
-/// same seed, budget, collision checks and gravity.
+/// Plans as [`plan`] does, and takes the steps from a cache if the same robot was unwound before with the same seed,
+/// budget, collision checks and gravity. The cache does not compare the other settings: use one cache for one choice
+/// of them.
 ///
 /// # Errors
 /// As [`plan`].
@@ -108,6 +109,10 @@ pub(crate) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
+    /// Translates a problem.
+    ///
+    /// # Errors
+    /// [`Refusal::NotRofi`] or [`Refusal::GravityUnsupported`].
     pub(crate) fn new(problem: &Problem<'a>, settings: &Settings) -> Result<Task<'a>, Refusal> {
         let Problem { robot, start, world } = *problem;
         let translated = translated(robot, start).map_err(Refusal::NotRofi)?;
@@ -126,6 +131,7 @@ impl<'a> Task<'a> {
         Task { gravity: Some(gravity), ..self.clone() }
     }
 
+    /// Returns the start configuration.
     fn start(&self) -> &Robot {
         &self.translated.robot
     }

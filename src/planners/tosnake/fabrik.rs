@@ -12,15 +12,15 @@ use super::tolerances::TOLERANCES;
 use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Settings of FABRIK.
+/// The settings of FABRIK.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// Greatest number of iterations, each a backward and a forward pass. Default 1000, as the paper's program.
     pub iterations_max: usize,
-    /// Greatest deviation of an entry of the last transform, in pitches or without unit. Default 0.02, as the
-    /// paper's program.
+    /// Deviation of the entries of the last shoe's pose from the goal below which the chain is closed, in pitches for
+    /// positions and without unit for the rotation matrix. Default 0.02, as the paper's program.
     pub tol_closed: f64,
-    /// Iterations without a hundredth of progress after which the chain is given up. Default 100; the paper's
+    /// Number of iterations without a hundredth of progress after which the chain is given up. Default 100; the paper's
     /// program goes on.
     pub patience: usize,
 }
@@ -31,7 +31,7 @@ impl Default for Settings {
     }
 }
 
-/// The chain of two tentacles.
+/// The chain of two tentacles joined at their tips, for FABRIK.
 pub struct Chain {
     segments: Vec<Segment>,
     /// Pose of the first shoe.
@@ -43,8 +43,8 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// Returns the chain from the shoulder of dock `a`'s tentacle over both tips to that of `b`'s. Both
-    /// shoulders are on the module of the common ancestor, which does not move.
+    /// Returns the chain from the shoulder of dock `a`'s tentacle over both tips, which are to meet with their docks
+    /// -Z, to the shoulder of `b`'s. Both shoulders are on the module of the common ancestor, which does not move.
     pub fn new(state: &State, a: Dock, b: Dock) -> Chain {
         let tree = &state.tree;
         let path = tree.path(tree.index[a.shoe()], tree.index[b.shoe()]);
@@ -73,9 +73,9 @@ impl Chain {
         }
     }
 
-    /// Closes the chain from given joint positions. Returns the positions of all joints, or `None` if it does
-    /// not converge, and the number of iterations. With `avoid`, tilts keep out of positions in which a ball
-    /// would overlap an obstacle. `work` counts forward kinematics.
+    /// Closes the chain from given joint positions (rad). Returns the positions of all joints of the robot, or `None`
+    /// if it does not converge, and the number of iterations. With `avoid`, tilts keep out of positions in which a
+    /// ball would overlap one that does not move, where they can. `work` counts forward kinematics.
     pub fn solve(
         &self,
         from: &Joints,
@@ -107,11 +107,12 @@ impl Chain {
         (None, settings.iterations_max)
     }
 
-    /// Returns false if the chain, stretched out, is shorter than the distance of its ends.
+    /// Returns true if the chain, stretched out, is at least as long as the distance of its ends.
     pub fn is_long_enough(&self) -> bool {
         (self.goal.translation - self.base.translation).norm() <= self.segments.len() as f64
     }
 
+    /// Returns the greatest deviation of an entry of the last frame from the goal.
     fn residual(&self, frames: &[RigidTransform]) -> f64 {
         let end = frames[frames.len() - 1];
         let turn = (end.rotation - self.goal.rotation).amax();
@@ -127,6 +128,7 @@ impl Chain {
         frames
     }
 
+    /// Puts the last shoe at the goal and attaches segment after segment, from the end to the base.
     fn backward_pass(&self, joints: &mut Joints, frames: &mut [RigidTransform]) {
         let last = frames.len() - 1;
         frames[last] = self.goal;
@@ -138,6 +140,7 @@ impl Chain {
         }
     }
 
+    /// Puts the first shoe at the base and attaches segment after segment, from the base to the end.
     fn forward_pass(&self, joints: &mut Joints, frames: &mut [RigidTransform], avoid: bool) {
         frames[0] = self.base;
         let obstacles: &[Vec3] = if avoid { &self.obstacles } else { &[] };
@@ -195,6 +198,7 @@ fn fit_module(
     }
 }
 
+/// Returns a point given in the frame of a pose.
 fn at(pose: &RigidTransform, point: &[f64; 3]) -> Vec3 {
     pose.rotation * Vec3::from(*point) + pose.translation
 }

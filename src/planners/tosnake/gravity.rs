@@ -1,10 +1,10 @@
-//! Static joint torques of a robot of which one shoe is held fast: each joint bears the weight of all distal
-//! to it, at rest. Forces in N, torques in N times the pitch.
+//! Static joint torques of a robot of which one shoe is held fast: the product of the transposed Jacobian with the
+//! weights, for each joint bears all that is distal to it, at rest. Forces in N, torques in N times the pitch.
 
 use super::tree::{JointRef, Tree};
 use crate::geometry::{RigidTransform, Vec3};
 
-/// A gravity model: how the robot is held, its weights, and the torque limits of its joints.
+/// A gravity model: the shoe by which the robot is held, its weights, and the torque limits of its joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GravityModel {
     /// The shoe that is held fast: twice the module, plus one for shoe B.
@@ -20,14 +20,14 @@ pub struct GravityModel {
     pub limits: Vec<[f64; 3]>,
 }
 
-/// The load of a joint.
+/// The load of a joint as a fraction of its torque limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLoad {
-    /// The module.
+    /// The index of the module.
     pub module: usize,
-    /// [`ALPHA`](super::robot::ALPHA), [`BETA`](super::robot::BETA) or [`GAMMA`](super::robot::GAMMA).
+    /// The joint: [`ALPHA`](super::robot::ALPHA), [`BETA`](super::robot::BETA) or [`GAMMA`](super::robot::GAMMA).
     pub joint: usize,
-    /// Torque divided by the torque limit; 0 without a limit. Above 1 the joint is overloaded.
+    /// The absolute torque divided by the torque limit; 0 without a limit. Above 1 the joint is overloaded.
     pub ratio: f64,
 }
 
@@ -41,15 +41,15 @@ impl JointLoad {
 }
 
 impl GravityModel {
-    /// Returns the greatest load of a joint; `poses`: in pitches, by index of the tree. Bonds that close
-    /// loops are taken to carry nothing.
+    /// Returns the greatest load of a joint, that of joint 0 of module 0 with ratio 0 if no joint bears anything;
+    /// `poses`: in pitches, by index of the tree. Bonds that close loops are taken to carry nothing.
     pub fn greatest(&self, tree: &Tree, poses: &[RigidTransform]) -> JointLoad {
         self.loads(tree, poses).into_iter().fold(JointLoad::NONE, JointLoad::greater)
     }
 
-    /// Returns the loads of all joints: the torque of a joint is `axis · ((m - w · point) × down)`, with the
-    /// weight w and its first moment m of all that the joint carries. Both are differences of prefix sums, for
-    /// subtrees are ranges of indices.
+    /// Returns the loads of all joints, in the order of [`Tree::all_joints`]; `poses`: in pitches, by index of the
+    /// tree. The torque of a joint is `axis · ((m - w · point) × down)`, with the weight w and its first moment m of
+    /// all shoes that the joint carries. Both are differences of prefix sums, for subtrees are ranges of indices.
     pub fn loads(&self, tree: &Tree, poses: &[RigidTransform]) -> Vec<JointLoad> {
         let held = tree.index[self.held];
         let down = poses[held].rotation * self.down;

@@ -21,43 +21,47 @@ use std::f64::consts::FRAC_PI_2;
 /// The mode of the inverse kinematics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IkMode {
-    /// The endpoint alone has to be free of overlap, and only the loop's joints move: before it balls are
-    /// repelled, and may pass through each other.
+    /// Only the loop's joints move, and only the last posture has to be free of overlap: before it balls repel each
+    /// other, and may pass through each other.
     Endpoint,
-    /// All joints of the robot move, and balls in contact do not approach: the descent itself is free.
+    /// All joints of the robot move, and constraints keep balls in contact from approaching, so that the whole descent
+    /// is nearly free of overlap; its motions are to be checked.
     CollisionFree,
 }
 
 /// Settings of the descent. Lengths are in pitches, angles in radians.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Greatest number of iterations for a short loop. Default 200; most loops close in 20.
+    /// Greatest number of iterations, before [`Settings::loop_scale`]. Default 200; most loops close in 20.
     pub iterations_max: usize,
     /// Greatest step of a joint in one iteration, rad. Default 0.2, where linearisation still holds.
     pub joint_step_max: f64,
-    /// Greatest displacement of a ball in one iteration of a collision-free descent. Default 0.3, below the
-    /// distance at which balls could pass through each other between iterations.
+    /// Greatest displacement of a ball in one iteration of a collision-free descent, in pitches, before
+    /// [`Settings::loop_scale`]. Default 0.3, below the distance at which balls could pass through each other between
+    /// iterations.
     pub ball_step_max: f64,
-    /// Norm of translation and rotation error below which the loop is closed. Default 1e-11: far below what
-    /// docking needs, well above rounding.
+    /// Norm of the closure error, translation in pitches with rotation in radians, below which the loop is closed.
+    /// Default 1e-11: far below what docking needs, well above rounding.
     pub tol_closed: f64,
-    /// Least distance of balls that constraints keep. Default 1.002, a little more than touching.
+    /// Least distance of the centres of balls that constraints keep, in pitches. Default 1.002, a little more than
+    /// touching.
     pub min_distance: f64,
-    /// Threshold distance below which balls repel each other, in pitches. Default 1.2.
+    /// Threshold distance of centres below which balls repel each other, in pitches. Default 1.2.
     pub repulsion_reach: f64,
-    /// Gain of the repulsion in the endpoint mode. Default 0.3.
+    /// Gain of the repulsion in the endpoint mode, rad per squared pitch of torque. Default 0.3.
     pub endpoint_repulsion_gain: f64,
-    /// Gain of the repulsion in the collision-free mode. Default 0.05: constraints do the rest.
+    /// Gain of the repulsion in the collision-free mode, rad per squared pitch of torque. Default 0.05: constraints do
+    /// the rest.
     pub collision_free_repulsion_gain: f64,
-    /// Error below which balls that do not overlap no longer repel each other, so that the last iterations
-    /// converge quadratically. Default 1e-2.
+    /// Norm of the closure error below which balls that do not overlap no longer repel each other, so that the last
+    /// iterations converge quadratically. Default 1e-2.
     pub nearly_closed: f64,
-    /// Relative growth of [`Settings::iterations_max`] and of the steps for every module of the loop: long
-    /// loops have a greater distance to close. Default 0.1.
+    /// Relative growth, for every module of the loop, of [`Settings::iterations_max`], [`Settings::ball_step_max`] and
+    /// the translation that one step is to close: long loops have a greater distance to close. Default 0.1.
     pub loop_scale: f64,
-    /// Iterations that the initial bias lasts. Default 12.
+    /// Number of iterations in which the initial bias is preferred. Default 12.
     pub initial_bias_steps: usize,
-    /// Iterations without a tenth of progress after which the descent is given up. Default 25.
+    /// Number of iterations without a tenth of progress after which the descent is given up. Default 25.
     pub patience: usize,
 }
 
@@ -82,17 +86,17 @@ impl Default for Settings {
 
 /// A kinematic loop that is to be closed, seen from its first dock.
 pub struct Loop {
-    /// Index of the shoe of the first dock.
+    /// Index in the tree of the shoe of the first dock.
     pub from: usize,
-    /// Index of the shoe of the second dock.
+    /// Index in the tree of the shoe of the second dock.
     pub to: usize,
-    /// The joints between them, each with the sign with which its turn carries the second dock against the
+    /// The joints between them, each with the sign (1 or -1) with which its turn moves the second dock relative to the
     /// first.
     pub joints: Vec<(JointRef, f64)>,
 }
 
 impl Loop {
-    /// Returns the loop that closes when two docks -Z meet.
+    /// Returns the loop that closes when the docks -Z of the shoes of `a` and `b` meet.
     pub fn new(tree: &Tree, a: Dock, b: Dock) -> Loop {
         let (from, to) = (tree.index[a.shoe()], tree.index[b.shoe()]);
         Loop { from, to, joints: joints_between(tree, from, to) }
@@ -108,7 +112,7 @@ impl Loop {
     }
 }
 
-/// Returns the joints between two shoes, each with the sign with which its turn carries the second.
+/// Returns the joints between two shoes, each with the sign with which its turn moves the second relative to the first.
 fn joints_between(tree: &Tree, from: usize, to: usize) -> Vec<(JointRef, f64)> {
     let mut joints = Vec::new();
     for step in tree.path(from, to).indices.windows(2) {
@@ -118,23 +122,23 @@ fn joints_between(tree: &Tree, from: usize, to: usize) -> Vec<(JointRef, f64)> {
     joints
 }
 
-/// The closure of a loop by inverse kinematics.
+/// The problem of closing a loop by damped least-squares inverse kinematics.
 pub struct LoopClosure<'a> {
-    /// The robot.
+    /// The robot as collision checks see it.
     pub scene: &'a Scene<'a>,
-    /// The loop.
+    /// The loop that is to be closed.
     pub lp: &'a Loop,
-    /// The mode.
+    /// The mode of the inverse kinematics.
     pub mode: IkMode,
-    /// Settings of the descent.
+    /// The settings of the descent.
     pub settings: &'a Settings,
 }
 
 impl LoopClosure<'_> {
-    /// Closes the loop from given joint positions. Returns all postures of the descent, the last of which is
-    /// closed and without overlap; `None` if it does not converge. `initial_bias` holds a step of each joint
-    /// (rad, indexed by three times the module plus the joint) that the first iterations prefer; it may be
-    /// empty. `work` counts forward kinematics.
+    /// Closes the loop from the joint positions `start` (rad, by module). Returns all postures of the descent, `start`
+    /// first, the last of which is closed and without overlap; `None` if it does not converge. `initial_bias` holds a
+    /// step of each joint (rad, indexed by three times the module plus the joint) that the first iterations prefer; it
+    /// may be empty. `work` counts forward kinematics.
     pub fn solve(&self, start: &[[f64; 3]], initial_bias: &[f64], work: &mut u64) -> Option<Vec<Joints>> {
         let LoopClosure { scene, lp, mode, settings } = *self;
         let tree = scene.tree;
@@ -189,7 +193,7 @@ fn range(joint: usize) -> (f64, f64) {
     if joint == GAMMA { (f64::NEG_INFINITY, f64::INFINITY) } else { (-FRAC_PI_2, FRAC_PI_2) }
 }
 
-/// Returns a joint position within its range: ±π/2 for tilts (rad), any for gamma.
+/// Returns the position nearest to `q` (rad) in the range of a joint: ±π/2 for tilts, any for gamma.
 pub fn clamped(joint: usize, q: f64) -> f64 {
     let (low, high) = range(joint);
     q.clamp(low, high)
@@ -350,6 +354,7 @@ impl IkProblem for Descent<'_> {
 }
 
 impl Descent<'_> {
+    /// Returns the kinematic tree of the robot.
     fn tree(&self) -> &Tree {
         self.closure.scene.tree
     }
@@ -391,7 +396,7 @@ struct Repulsion {
 }
 
 impl Repulsion {
-    /// Forces along the normals that grow linearly below the distance `reach`.
+    /// Returns forces along the normals that grow linearly below the distance `reach`, in pitches as the distances.
     fn new(poses: &[RigidTransform], neighbours: &[Neighbours], reach: f64) -> Repulsion {
         let mut force = vec![Vec3::zeros(); poses.len()];
         for pair in neighbours.iter().filter(|n| n.distance < reach) {

@@ -15,9 +15,10 @@ struct Ball {
     y: f64,
 }
 
-/// Returns the angle by which a joint can turn before two balls come nearer than `min_distance` (pitches): all of
-/// `angle` (rad, either sign), or a part of it. Balls that are nearer than that at once may only part. Balls
-/// on one side of the joint do not move against each other.
+/// Returns the angle by which a joint can turn before the centres of two balls come nearer than `min_distance`
+/// (pitches): all of `angle` (rad, either sign), or a part of it with the same sign. Balls that are nearer than that
+/// at the start may only move apart. `poses`: by index of the tree, in pitches. Loops that the turn would break are
+/// not looked for.
 pub fn free_angle(
     tree: &Tree,
     joint: JointRef,

@@ -17,7 +17,7 @@ pub(super) const LENGTH_MAX: usize = 3;
 const POSTURES: usize = 36;
 
 /// Returns the posture of quarter turns that brings a pair's docks together by a free straight motion; of
-/// several the one with the smallest joint travel. `work` counts forward kinematics.
+/// several the one with the smallest joint travel; `None` if there is none. `work` counts forward kinematics.
 pub(super) fn closed_posture(state: &State, pair: &Pair, work: &mut u64) -> Option<Joints> {
     let tree = &state.tree;
     let path = tree.path(tree.index[pair.a.shoe()], tree.index[pair.b.shoe()]);
@@ -38,6 +38,7 @@ pub(super) fn closed_posture(state: &State, pair: &Pair, work: &mut u64) -> Opti
     closed.into_iter().find(|to| scene.is_free(here, to, work))
 }
 
+/// The enumeration of the postures of a loop.
 struct Enumeration {
     segments: Vec<Segment>,
     /// The pose that the last shoe is to have in the frame of the first.

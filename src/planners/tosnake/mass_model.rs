@@ -54,12 +54,12 @@ pub(super) fn gravity_model(assembly: &Assembly, X_WB: &Pose, gravity: f64) -> R
     Ok(GravityModel { held: 2 * base + side, root: base, down, shoes, limits })
 }
 
-/// Returns the link that carries a dock.
+/// Returns the link that carries a dock; `None` if the module type has no such port.
 fn link_of(kind: &ModuleType, module: usize, dock: usize) -> Option<usize> {
     kind.ports.iter().find(|port| port.name == port_name(module, dock)).map(|port| port.link)
 }
 
-/// Returns true, by link, if it is beyond the joint gamma, seen from the body.
+/// Returns for each link true if it is beyond the joint gamma, seen from the body; `None` if there is no such joint.
 fn beyond_gamma(kind: &ModuleType) -> Option<Vec<bool>> {
     let gamma = kind.joints.iter().position(|joint| joint.name == JOINTS[2])?;
     let mut beyond = vec![false; kind.links.len()];

@@ -14,14 +14,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Two free docks -Z at the ends of different chains.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
-    /// The dock of the smaller shoe.
+    /// The dock -Z of the shoe with the smaller number.
     pub a: Dock,
-    /// The dock of the greater shoe.
+    /// The dock -Z of the shoe with the greater number.
     pub b: Dock,
-    /// Number of modules that bend between them.
+    /// Number of modules between them whose joints can bend the loop.
     pub length: usize,
-    /// Estimated cost, smaller is more promising: the logit of failure for a floating robot, a number of
-    /// modules under gravity.
+    /// Estimated cost, smaller is more promising: the logit of failure, up to a constant, for a floating robot; a
+    /// number of modules under gravity.
     pub cost: f64,
 }
 
@@ -125,16 +125,16 @@ fn bending(state: &State, a: Dock, b: Dock) -> (usize, usize) {
     (count, moved[0] + moved[1])
 }
 
-/// One attempt at bringing the docks of a pair together.
+/// The options of one attempt to bring the docks of a pair together.
 pub struct Attempt<'a> {
-    /// The pair.
+    /// The pair whose docks are to meet.
     pub pair: &'a Pair,
     /// The mode of the inverse kinematics.
     pub mode: IkMode,
-    /// True if RRT-Connect looks for a detour where the straight motion to the endpoint is not free.
+    /// True if, in the endpoint mode, RRT-Connect looks for a detour where the straight motion is not free.
     pub detour: bool,
-    /// Spread of the random start (endpoint mode) or initial bias (collision-free mode), as a fraction from
-    /// 0 to 1 of the joints' ranges or of the greatest bias.
+    /// Spread of the random start (endpoint mode) as a fraction, 0 to 1, of half the joints' ranges, or of the random
+    /// initial bias (collision-free mode) as a fraction of the greatest.
     pub spread: f64,
     /// The side whose joints move.
     pub side: MovingSide,
@@ -147,15 +147,15 @@ pub struct Attempt<'a> {
 pub enum MovingSide {
     /// All joints between the two docks.
     Both,
-    /// Those between the first dock and the common ancestor.
+    /// The joints between the first dock and its common ancestor with the second in the tree.
     First,
-    /// Those between the second dock and the common ancestor.
+    /// The joints between the second dock and its common ancestor with the first in the tree.
     Second,
 }
 
 impl Attempt<'_> {
     /// Returns a path in joint space whose last posture has the docks together and whose straight segments
-    /// are free, without the first posture `here`. `work` counts forward kinematics.
+    /// are free, without the first posture `here`; `None` if this attempt finds none. `work` counts forward kinematics.
     pub fn path(
         &self,
         scene: &Scene,
@@ -169,7 +169,7 @@ impl Attempt<'_> {
         }
     }
 
-    /// Returns a straight path to the endpoint, or a detour.
+    /// Returns a straight path to the endpoint, or a detour; `None` if neither is found.
     fn path_to_endpoint(
         &self,
         scene: &Scene,
@@ -190,7 +190,8 @@ impl Attempt<'_> {
         RrtConnect { scene, joints: &joints }.path(here, &there, &mut own, work)
     }
 
-    /// Returns the postures of a collision-free descent, in as few straight segments as bisection finds.
+    /// Returns the postures of a collision-free descent, in as few straight segments as bisection finds; `None` if the
+    /// descent does not close the loop, or two successive postures have no free motion between them.
     fn path_of_descent(
         &self,
         scene: &Scene,
@@ -212,8 +213,8 @@ impl Attempt<'_> {
         connect(scene, &descent, 0, descent.len() - 1, work, &mut path).then_some(path)
     }
 
-    /// Returns a posture with the docks together and without overlap, found from a random start near given
-    /// positions; the motion there is not checked.
+    /// Returns a posture with the docks together and without overlap, found by inverse kinematics from a random start
+    /// near the positions `from`; the motion there is not checked; `None` if the descent does not close the loop.
     pub fn closed_posture(
         &self,
         scene: &Scene,
@@ -231,11 +232,12 @@ impl Attempt<'_> {
         self.closure(scene, &lp).solve(&start, &[], work)?.pop()
     }
 
-    /// Returns the number of random numbers that [`Attempt::path`] draws.
+    /// Returns the number of random numbers that [`Attempt::path`] draws at most.
     pub fn draws(&self, tree: &Tree) -> usize {
         self.moving_loop(tree).joints.len() + usize::from(self.detour)
     }
 
+    /// Returns the loop of the pair with the joints of the moving side alone.
     fn moving_loop(&self, tree: &Tree) -> Loop {
         let mut lp = Loop::new(tree, self.pair.a, self.pair.b);
         match self.side {
@@ -246,13 +248,14 @@ impl Attempt<'_> {
         lp
     }
 
+    /// Returns the problem of inverse kinematics that closes a loop.
     fn closure<'a>(&'a self, scene: &'a Scene<'a>, lp: &'a Loop) -> LoopClosure<'a> {
         LoopClosure { scene, lp, mode: self.mode, settings: self.settings }
     }
 }
 
-/// Docks the ends of pairs that were brought together, and undocks for each of them the best of the bonds
-/// that it replaces.
+/// Docks the ends of pairs that were brought together, and undocks for each of them one of the bonds that it can
+/// replace, of which one that frees the most docks -Z. Panics if a pair is of one chain.
 pub fn merge(state: &mut State, pairs: &[Pair]) {
     let replaced: Vec<usize> = pairs.iter().map(|pair| replaceable_bonds(state, pair)[0]).collect();
     for (pair, bond) in pairs.iter().zip(replaced) {
@@ -262,8 +265,9 @@ pub fn merge(state: &mut State, pairs: &[Pair]) {
     state.rebuild_tree();
 }
 
-/// Returns the state after the ends of a pair docked and the best of those bonds was undocked without which
-/// no joint is overloaded. `None` if there is no such bond; then `state` notes the smallest overload.
+/// Returns the state of a robot under gravity after the ends of a pair docked and the first bond was undocked, in the
+/// order that [`merge`] prefers, without which no joint is overloaded. `None` if there is no such bond, in which case
+/// `state` notes the smallest overload, and for a floating robot.
 pub fn merged_within_limits(state: &State, pair: &Pair) -> Option<State> {
     replaceable_bonds(state, pair).into_iter().find_map(|bond| {
         let mut after = state.clone();

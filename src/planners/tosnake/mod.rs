@@ -8,10 +8,10 @@
 //! brought together by damped least-squares inverse kinematics ([`inverse_kinematics`]), and the bond is
 //! undocked that the new one replaces. Between that the robot is straightened ([`straighten`]), and at last
 //! the path is shortened by shortcuts. Every motion is checked over its whole duration ([`motion_check`],
-//! [`joint_sweep`]), not only where it ends; where the straight motion in joint space is not free,
+//! [`joint_sweep`]), not only at its end; where the straight motion in joint space is not free,
 //! RRT-Connect looks for another ([`rrt_connect`]). The entry is [`plan`].
 
-// The robot, and where its bodies are.
+// The robot and its forward kinematics.
 pub mod robot;
 pub mod tree;
 

@@ -1,9 +1,9 @@
 //! Continuous collision checking of a straight motion in joint space: many joints turn at once, each at its
 //! own constant rate.
 //!
-//! The motion is followed in steps of adaptive length, within which balls go nearly straight. Their deviation
-//! from the straight line is measured in the middle of each step, and the required distance is enlarged by
-//! it. So this is not a proof; the judge proves the motion afterwards.
+//! The motion is followed in steps of adaptive length as in conservative advancement, but without its proof: within a
+//! step balls go nearly straight. Their deviation from the straight line is measured in the middle of each step, and
+//! the required distance is enlarged by it. The judge proves the motion afterwards.
 
 use super::broad_phase::{self, always_touch};
 use super::gravity::{GravityModel, JointLoad};
@@ -19,15 +19,15 @@ const STEP_MAX: f64 = 0.4;
 const FIRST_STEP: f64 = 1.0 / 16.0;
 /// The neighbour list reaches this far beyond touching, in pitches (Verlet skin).
 const SKIN: f64 = 1.5;
-/// Instants checked before all others, as fractions of the motion: of the motions that are not free, about
-/// eight in ten are found out at the first, more than nine in ten at all three.
+/// Instants checked before all others, as fractions of the motion: of the motions that are not free, the first finds
+/// about eight in ten, all three more than nine in ten.
 const PRECHECK_INSTANTS: [f64; 3] = [0.5, 0.25, 0.75];
 
-/// A robot as collision and load checks see it.
+/// The robot as collision and load checks see it.
 pub struct Scene<'a> {
     /// The kinematic tree.
     pub tree: &'a Tree,
-    /// Pairs of indices that are docked; see [`broad_phase::docked`].
+    /// Pairs of indices of the tree whose shoes are docked to each other; see [`broad_phase::docked`].
     pub docked: Vec<(usize, usize)>,
     /// The limit on loads of joints; `None` if the robot floats.
     pub load_limit: Option<LoadLimit<'a>>,
@@ -38,9 +38,11 @@ pub struct Scene<'a> {
 pub struct LoadLimit<'a> {
     /// The gravity model.
     pub gravity: &'a GravityModel,
-    /// Greatest load, as a fraction of the joint's torque limit.
+    /// Greatest load, as a fraction of the joint's torque limit, less [`load_spare`](super::Tolerances::load_spare)
+    /// of it.
     pub share: f64,
-    /// The smallest overload so far; of each motion the greatest load counts that was found.
+    /// The smallest overload so far, which checks of motions write; `None` without any. Of each overloaded motion the
+    /// greatest load found counts.
     pub least_overload: &'a Cell<Option<JointLoad>>,
 }
 
@@ -63,19 +65,20 @@ pub(super) fn note_overload(least_overload: &Cell<Option<JointLoad>>, load: Join
 }
 
 impl<'a> Scene<'a> {
-    /// Returns a floating robot.
+    /// Returns the scene of a floating robot; `tree`: that of its closed bonds.
     pub fn new(robot: &Robot, tree: &'a Tree) -> Scene<'a> {
         Scene { tree, docked: broad_phase::docked(robot, tree), load_limit: None }
     }
 
-    /// Returns true if two balls, given by index, are of different rigid parts ([`Tree::parts`]) and do not
-    /// touch by design.
+    /// Returns true if two balls, given by index, are of different rigid parts (`parts` as by [`Tree::parts`]) and do
+    /// not touch by design.
     pub fn may_meet(&self, parts: &[usize], a: usize, b: usize) -> bool {
         parts[a] != parts[b] && !always_touch(self.tree, a, b, &self.docked)
     }
 
-    /// Returns true if on the straight motion between two joint positions (rad) no balls overlap and no joint
-    /// is overloaded. `work` counts forward kinematics.
+    /// Returns true if a check of the straight motion between two joint positions (rad, by module) finds no overlap of
+    /// balls and no overloaded joint. A motion that would need too short steps is refused. `work` counts forward
+    /// kinematics.
     pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
         let parts = self.tree.parts(|module| from[module] != to[module]);
         let carried = self.tree.carried(|module| from[module] != to[module]);
@@ -112,8 +115,7 @@ impl Motion<'_> {
         self.scene.tree.poses_of(&self.carried, &self.joints, poses);
     }
 
-    /// Returns false if balls overlap at one of a few instants: most motions that are not free are found out
-    /// so, quickly.
+    /// Returns false if balls overlap at one of a few instants, which rules out most motions that are not free.
     fn may_be_free(&mut self, here: &[RigidTransform]) -> bool {
         let mut poses = here.to_vec();
         PRECHECK_INSTANTS.iter().all(|&t| {
@@ -184,7 +186,7 @@ impl Motion<'_> {
         note_overload(limit.least_overload, most);
     }
 
-    /// Pairs of balls that may meet before one has gone half the skin.
+    /// Returns the pairs of balls that may meet before one has gone half the skin.
     fn neighbours(&self, poses: &[RigidTransform]) -> Vec<(u32, u32)> {
         let mut list = Vec::new();
         broad_phase::pairs(poses, 1.0 + SKIN, &mut |a, b, _| {

@@ -8,13 +8,13 @@ use crate::geometry::{RigidTransform, Vec3};
 
 /// Two balls that are near each other.
 pub struct Neighbours {
-    /// Index of the one ball, the smaller.
+    /// Index in the tree of the one ball's shoe, the smaller.
     pub a: usize,
-    /// Index of the other.
+    /// Index in the tree of the other ball's shoe.
     pub b: usize,
     /// Distance of their centres, in pitches.
     pub distance: f64,
-    /// Unit vector from a to b.
+    /// Unit vector from the centre of a to that of b, in the frame of the root; x if the centres coincide.
     pub normal: Vec3,
 }
 
@@ -24,7 +24,7 @@ const LASTING_STEP_MAX: f64 = 0.2;
 /// Skin of a list that is to last, in pitches: five such steps, of which two balls take two.
 const SKIN: f64 = 1.0;
 
-/// A list of pairs of balls, kept from one call to the next.
+/// A neighbour list (Verlet list): pairs of balls that may be near each other, kept from one call to the next.
 pub struct NeighbourList<'a> {
     scene: &'a Scene<'a>,
     /// Two indices whose balls come as near as their docks ask, and are left out.
@@ -79,6 +79,7 @@ impl<'a> NeighbourList<'a> {
         all
     }
 
+    /// Makes the list anew.
     fn renew(&mut self, poses: &[RigidTransform]) {
         let NeighbourList { scene, docking_pair, parts, list, reach, listed, .. } = self;
         list.clear();

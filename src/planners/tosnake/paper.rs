@@ -86,7 +86,8 @@ pub(super) fn unwind(
 }
 
 /// Returns the state with the tips of a pair docked, and the first bond between them undocked that is no
-/// snake bond (`CONNECTANDCUT` of the paper).
+/// snake bond (`CONNECTANDCUT` of the paper); `None` if the tips do not come together, or balls overlap then and
+/// collisions are checked.
 fn connected_and_cut(state: &State, [a, b]: [Dock; 2], settings: &Settings, work: &mut u64) -> Option<State> {
     let chain = Chain::new(state, a, b);
     if !chain.is_long_enough() {
@@ -126,7 +127,7 @@ fn root_in_centre(state: &mut State) {
     state.update_poses();
 }
 
-/// Pairs of free tips of different chains, the first to be tried last.
+/// Returns the pairs of free tips of different chains, the first to be tried last.
 fn pairs(state: &State) -> Vec<[Dock; 2]> {
     let mut pairs = merging::free_ends(state);
     pairs.reverse();

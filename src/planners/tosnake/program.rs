@@ -1,5 +1,5 @@
-//! The program of a step sequence: series of docks, undocks and parallel moves, with durations from the
-//! joints' limits.
+//! The program of a step sequence: series of docks, undocks and parallel moves, whose trajectories are quintic, with
+//! durations from the joints' limits.
 
 use super::conversion::{JOINTS, Translated, port_name};
 use super::robot::{Bond, Dock};
@@ -33,7 +33,7 @@ impl Translated<'_> {
                 }
                 Step::Undock(bond) => action(Command::Undock { port: self.port(bonds[*bond].a) }),
                 Step::Turn(turns) => {
-                    // The slowest joint sets the pace.
+                    // The slowest joint determines the duration.
                     let duration = turns
                         .iter()
                         .map(|&(module, joint, to)| {
@@ -68,6 +68,7 @@ impl Translated<'_> {
         f64::max(SMOOTH_PEAK_SPEED * by_speed, by_acceleration) * (1.0 + TOLERANCES.duration_spare)
     }
 
+    /// Returns the port of a dock in the assembly.
     fn port(&self, dock: Dock) -> PortRef {
         let name = port_name(dock.module, dock.dock);
         let ports = &self.assembly.module_type(dock.module).ports;

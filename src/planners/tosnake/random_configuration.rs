@@ -9,15 +9,16 @@ use crate::geometry::{RigidTransform, Vec3};
 use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// One action in this many docks, and one undocks; the others turn a joint.
+/// The number of attempts of which on average one docks and one undocks; the others turn a joint.
 const DOCKING_PERIOD: usize = 10;
 
 /// Greatest number of attempts for each action: a configuration that can do little is left as it is.
 const ATTEMPTS_MAX: usize = 100;
 
-/// Returns a snake of `modules` modules after `actions` random actions: quarter turns of joints that are free
-/// of collisions, docking where docks meet, and undocking where the robot stays connected. All bonds in its
-/// list are closed. The same seed gives the same configuration.
+/// Returns a snake of `modules` modules, at least one, after `actions` random actions: quarter turns of joints that
+/// are free of collisions, docking where docks meet, and undocking where the robot stays connected. If 100 attempts
+/// for each action do not suffice, fewer are made. All bonds in its list are closed. The same seed gives the same
+/// configuration. Panics without modules.
 pub fn random_configuration(modules: usize, actions: usize, seed: u64) -> Robot {
     let bond = |m: usize| Bond { a: Dock::red(2 * m + 1), b: Dock::red(2 * (m + 1)), turn: 0 };
     let bonds: Vec<Bond> = (0..modules.saturating_sub(1)).map(bond).collect();
@@ -92,6 +93,7 @@ impl RandomWalk {
         })
     }
 
+    /// Docks a random pair of free docks that meet.
     fn dock(&mut self, rng: &mut SplitMix64) -> bool {
         let possible = self.bonds_possible();
         if possible.is_empty() {
@@ -103,6 +105,7 @@ impl RandomWalk {
         true
     }
 
+    /// Undocks a random bond, if the robot stays connected.
     fn undock(&mut self, rng: &mut SplitMix64) -> bool {
         let held: Vec<usize> = self.robot.held().map(|(bond, _)| bond).collect();
         if held.is_empty() {
@@ -118,6 +121,7 @@ impl RandomWalk {
         connected
     }
 
+    /// Rebuilds the tree after bonds changed.
     fn rebuild_tree(&mut self) {
         *self = RandomWalk::new(self.robot.clone());
     }

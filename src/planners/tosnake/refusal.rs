@@ -7,78 +7,79 @@ use crate::behavior;
 use std::error::Error;
 use std::fmt;
 
-/// A reason for which there is no plan to the snake. Modules and bonds are named by their indices in the assembly.
+/// The reason why there is no plan to the snake. Modules and bonds are named by their indices in the assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// The assembly is none of RoFI modules.
+    /// The assembly is none of RoFI modules of one pitch.
     NotRofi(NotRofi),
     /// The start is no valid configuration.
     InvalidStart(InvalidStart),
     /// The docks of a bond that closes a loop do not meet.
     OpenLoop {
-        /// The bond.
+        /// The index of the bond.
         bond: usize,
         /// Greatest deviation: of positions in pitches, of entries of the rotation matrix without unit.
         residual: f64,
     },
-    /// The paper's method, chosen by [`Collisions`](super::Collisions), does not know gravity.
+    /// The world has gravity, which the paper's method, chosen by [`Collisions`](super::Collisions), does not know.
     GravityUnsupported,
-    /// The budget of forward kinematics is spent.
+    /// The budget of forward kinematics is spent, and no joint was overloaded on the way.
     BudgetSpent(SearchStatus),
     /// The observer ended the search.
     Stopped(SearchStatus),
     /// The paper's method tried all pairs in every order that it came to.
     Exhausted(SearchStatus),
-    /// There are no two free ends of different chains.
+    /// The paper's method found no two free ends of different chains.
     NoFreeTips(SearchStatus),
-    /// Joints would have to hold more than their torque limits.
+    /// Joints would have to hold more than their torque limits in all that was tried.
     Overload(Overload),
     /// The steps can't be scheduled.
     Schedule(behavior::Refusal),
 }
 
-/// A reason for which an assembly is no robot of RoFI modules.
+/// The reason why an assembly is no robot of RoFI modules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRofi {
-    /// This module has other joints or ports.
+    /// The module of this index has other joints or ports than RoFI's.
     Kind(usize),
-    /// This module has another pitch than the first.
+    /// The module of this index has another pitch than the first.
     Pitch(usize),
 }
 
-/// A reason for which a configuration is no valid start.
+/// The reason why a configuration is no valid start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InvalidStart {
-    /// This module is not connected to the first.
+    /// The module of this index is not connected to the first by closed bonds.
     Disconnected(usize),
     /// Two modules overlap.
     Overlap {
         /// The two modules, the smaller index first.
         modules: [usize; 2],
-        /// Distance of the centres of two of their balls, in pitches; below 1.
+        /// Distance of the centres of two of their balls, in pitches; below
+        /// [`min_distance`](super::Tolerances::min_distance).
         distance: f64,
     },
 }
 
-/// The smallest overload of all that was tried and came as far as any.
+/// The smallest overload in those searches under gravity that made the most merges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overload {
-    /// The joint, and its torque by its limit.
+    /// The overloaded joint, with its torque as a fraction of its limit.
     pub load: JointLoad,
-    /// The operation that was refused.
+    /// The operation that the overload ruled out.
     pub operation: Operation,
-    /// The progress of the search.
+    /// The progress of that search; attempts and work are those of all searches.
     pub status: SearchStatus,
 }
 
-/// The operation of a robot that is held by one module at which a joint would have been overloaded.
+/// The operation in which a joint of a robot that is held by one module would have been overloaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// Holding the start configuration.
     HoldingStart,
-    /// Letting go the bonds that close loops.
+    /// Undocking the bonds that close loops.
     OpeningLoops,
-    /// Bringing these docks together, and letting go the bond that the new one replaces.
+    /// Bringing these docks together, and undocking the bond that the new one replaces.
     Joining(Dock, Dock),
     /// Straightening the snake.
     Straightening,

@@ -45,9 +45,9 @@ pub struct Bond {
 pub struct Robot {
     /// Positions of alpha, beta and gamma of each module, rad.
     pub joints: Vec<[f64; 3]>,
-    /// All bonds, those included that were let go.
+    /// All bonds, closed and open ones.
     pub bonds: Vec<Bond>,
-    /// True, by bond, if it is closed.
+    /// For each bond, true if it is closed.
     pub holds: Vec<bool>,
 }
 
@@ -74,7 +74,7 @@ impl Dock {
 }
 
 impl Bond {
-    /// Returns true if a snake may have this bond: two docks -Z in orientation N.
+    /// Returns true if a snake may have this bond: between two docks -Z, in orientation N.
     pub fn is_snake_bond(&self) -> bool {
         self.a.is_red() && self.b.is_red() && self.turn == 0
     }
@@ -86,12 +86,12 @@ impl Robot {
         self.joints.len()
     }
 
-    /// Returns the closed bonds with their indices.
+    /// Returns the closed bonds with their indices in [`Robot::bonds`], in order.
     pub fn held(&self) -> impl Iterator<Item = (usize, &Bond)> {
         self.bonds.iter().enumerate().filter(|(index, _)| self.holds[*index])
     }
 
-    /// Returns by module and dock the closed bond there.
+    /// Returns by module and dock the index of the closed bond there; `None` for a free dock.
     pub fn bond_at(&self) -> Vec<[Option<usize>; DOCKS]> {
         let mut at = vec![[None; DOCKS]; self.modules()];
         for (index, bond) in self.held() {
@@ -101,7 +101,8 @@ impl Robot {
         at
     }
 
-    /// Returns the number of balls of a chain beyond the dock -Z of a shoe; stops after one round of a ring.
+    /// Returns the number of balls of the chain that is docked to the dock -Z of a shoe, two for each module; it goes
+    /// on from the dock -Z of each module's other shoe. Of a ring it is a number greater than that of all balls.
     pub fn beyond(&self, shoe: usize) -> usize {
         let at = self.bond_at();
         let (mut shoe, mut count) = (shoe, 0);
@@ -116,7 +117,7 @@ impl Robot {
         count
     }
 
-    /// Opens the bond of an index.
+    /// Opens the bond of an index. Panics if there is none.
     pub fn undock(&mut self, bond: usize) {
         self.holds[bond] = false;
     }
@@ -136,8 +137,9 @@ impl Robot {
     }
 }
 
-/// Returns the pose of one shoe of a module in the frame of the other. `near` is the tilt of the shoe whose
-/// frame it is and `far` that of the other (rad): `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`.
+/// Returns the pose of one shoe of a module in the frame of the other, in pitches. `near` is the tilt of the shoe whose
+/// frame it is, `far` that of the other, `gamma` the twist between them (rad):
+/// `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`.
 pub fn across(near: f64, far: f64, gamma: f64) -> RigidTransform {
     let half_turn = Matrix3::new(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0);
     let tilt = rotation_x(near);
@@ -147,8 +149,9 @@ pub fn across(near: f64, far: f64, gamma: f64) -> RigidTransform {
     }
 }
 
-/// Returns the pose of a shoe docked by face `b` in the frame of the shoe that holds it by face `a`:
-/// `F(a) · Rz(turn) · T(0, 0, -1) · Rx(180°) · F(b)⁻¹`, with F the pose of a face.
+/// Returns the pose of a shoe docked by face `b` in the frame of the shoe that holds it by face `a`, in pitches:
+/// `F(a) · Rz(turn) · T(0, 0, -1) · Rx(180°) · F(b)⁻¹`, with F the frame of a face, `turn` in quarter turns, and faces
+/// counted as by [`Dock::face`].
 pub fn mate(a: usize, turn: u32, b: usize) -> RigidTransform {
     let half_turn = Matrix3::new(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0);
     let quarter = rotation_z(FRAC_PI_2 * f64::from(turn)).map(libm::round);

@@ -19,17 +19,18 @@ const STEP_MAX: f64 = 0.5;
 /// A posture with the index of its parent; the root is its own.
 type Node = (Joints, usize);
 
-/// A planner of paths in the space of some joints.
+/// RRT-Connect in the space of some joints.
 pub struct RrtConnect<'a> {
-    /// The robot.
+    /// The robot as collision and load checks see it.
     pub scene: &'a Scene<'a>,
-    /// The joints that turn.
+    /// The joints that turn; the others keep their positions at the start of the path.
     pub joints: &'a [JointRef],
 }
 
 impl RrtConnect<'_> {
-    /// Returns postures from the first, which is left out, to the last, between which straight motions are
-    /// free. `work` counts forward kinematics.
+    /// Returns a path of postures from `from`, left out, to `to`, between which straight motions in joint space are
+    /// free; `None` if [`SAMPLES_MAX`] samples find none. `to` must differ from `from` in `joints` only. `work`
+    /// counts forward kinematics.
     pub fn path(
         &self,
         from: &Joints,

@@ -27,7 +27,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The attempts of a round, cheap ones first: mode of the inverse kinematics, spread of its random start
-/// as a fraction of the joints' ranges, and number of pairs that are tried so.
+/// as a fraction of the joints' ranges, and the number of pairs, the most promising first, that are tried with them.
 const ATTEMPTS: [(IkMode, f64, usize); 5] = [
     (IkMode::Endpoint, 0.02, 60),
     (IkMode::Endpoint, 0.3, 60),
@@ -45,7 +45,7 @@ const PARALLEL_MODULES_MIN: usize = 16;
 /// Greatest number of pairs tried of each kind under gravity, where each pair is tried with more settings.
 const GRAVITY_PAIRS_MAX: usize = 20;
 
-/// Under gravity it matters which tentacle moves: both of them, and each alone, are tried.
+/// The sides that move under gravity, where that makes a difference: both of them, and each alone.
 const GRAVITY_SIDES: [MovingSide; 3] = [MovingSide::Both, MovingSide::First, MovingSide::Second];
 
 /// Relative noise on the costs of pairs for each round in which none came together.
@@ -74,18 +74,19 @@ pub struct StepSequence {
     /// The configuration in the end: alpha and beta are 0, gamma is a multiple of a whole turn. Its list
     /// of bonds begins with those of the start, and holds all that the steps dock.
     pub robot: Robot,
-    /// The steps in order.
+    /// The steps in order, from the start; bonds are indices in the list of `robot`.
     pub steps: Vec<Step>,
-    /// Figures of the search.
+    /// The figures of the search at its end.
     pub status: SearchStatus,
 }
 
-/// Searches for the steps from a configuration to the snake. With a gravity model, no joint exceeds its
-/// torque limit during the motion; without one the robot floats.
+/// Searches for the steps from a configuration to the snake. With a gravity model, no joint exceeds its torque limit
+/// during the motion, as far as the planner checks; without one the robot floats. The paper's method, chosen by
+/// [`Settings::collisions`], ignores the gravity model.
 ///
 /// # Errors
-/// [`Refusal`]: the start is invalid, torque limits or the budget do not suffice, or `progress` ended the
-/// search.
+/// [`Refusal`]: the start is invalid, torque limits or the budget do not suffice, the paper's method has tried all
+/// pairs, or `progress` ended the search.
 pub fn unwind(
     robot: &Robot,
     gravity: Option<&GravityModel>,
@@ -166,7 +167,7 @@ struct Search<'s, 'p> {
     settings: &'s Settings,
     reporter: &'s mut Reporter<'p>,
     status: SearchStatus,
-    /// The smallest overload so far, and what the robot was to do.
+    /// The smallest overload so far, and the operation that it ruled out.
     overload: Option<(JointLoad, Operation)>,
     /// The number of modules that bent between the ends at the last failed attempt, and the number of
     /// attempts that failed with it, by pair.
@@ -185,7 +186,7 @@ impl<'s, 'p> Search<'s, 'p> {
         Search { state, rng, settings, reporter, status, overload: None, failed_attempts: BTreeMap::new() }
     }
 
-    /// Searches, and shortens what was found. `robot` is the start.
+    /// Searches, and shortens the steps found. `robot` is the start.
     fn sequence(&mut self, robot: &Robot) -> Result<StepSequence, Refusal> {
         self.reach_snake()?;
         self.report()?;
@@ -261,6 +262,7 @@ impl<'s, 'p> Search<'s, 'p> {
         }
     }
 
+    /// Returns the refusal for an overload.
     fn overloaded(&self, load: JointLoad, operation: Operation) -> Refusal {
         Refusal::Overload(Overload { load, operation, status: self.status })
     }
@@ -439,6 +441,7 @@ impl<'s, 'p> Search<'s, 'p> {
         self.state.move_to(&joints);
     }
 
+    /// Reports the status with the work so far, as [`report`] does.
     fn report(&mut self) -> Result<(), Refusal> {
         self.status.work = self.state.work;
         report(&self.status, self.settings, self.reporter)
@@ -454,7 +457,7 @@ fn report(status: &SearchStatus, settings: &Settings, reporter: &mut Reporter) -
 }
 
 /// Moves the overload that the state noted last, if there is one and it is the smallest so far, to
-/// `overload`, with what the robot was to do.
+/// `overload`, with the operation that it ruled out.
 fn record_overload(overload: &mut Option<(JointLoad, Operation)>, state: &State, operation: Operation) {
     let Some(load) = state.least_overload.take() else { return };
     if overload.is_none_or(|(known, _)| load.ratio < known.ratio) {

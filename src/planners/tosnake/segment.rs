@@ -9,8 +9,9 @@ use crate::geometry::RigidTransform;
 pub(super) enum Segment {
     /// The step from a shoe to the one docked to it, at a constant pose.
     Mate(RigidTransform),
-    /// Across a module.
+    /// The step across a module, from one of its shoes to the other.
     Module {
+        /// The index of the module.
         module: usize,
         /// The tilt of the shoe that comes first on the chain.
         near: usize,
@@ -20,7 +21,8 @@ pub(super) enum Segment {
 }
 
 impl Segment {
-    /// Returns the segments between successive shoes, given by index.
+    /// Returns the segments between successive shoes, given by their indices in the tree: one less than there are
+    /// shoes.
     pub(super) fn along(tree: &Tree, poses: &[RigidTransform], indices: &[usize]) -> Vec<Segment> {
         let segment = |step: &[usize]| {
             let (from, to) = (tree.shoe[step[0]], tree.shoe[step[1]]);

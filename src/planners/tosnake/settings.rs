@@ -9,12 +9,13 @@ pub struct Settings {
     /// Seed of all random numbers; the same seed gives the same plan. Default 0.
     pub seed: u64,
     /// Greatest number of forward kinematics of the whole robot, a measure of work that does not depend
-    /// on the machine. Default [`BUDGET`].
+    /// on the machine; it is compared between attempts, which may exceed it a little. Default [`BUDGET`].
     pub budget: u64,
-    /// Fraction of its spread (sum of squared distances from the centroid) by which one perturbation may
-    /// contract the robot. Default 0.02: the robot spreads in the long run, and yet gets past bottlenecks.
+    /// Greatest fraction of the robot's spread (sum of squared distances of balls from their centroid) by which one
+    /// turn of a perturbation may reduce it. Default 0.02: the robot spreads in the long run, and yet gets past
+    /// bottlenecks.
     pub perturbation_slack: f64,
-    /// Random turns that one perturbation tries. Default 100, about one for each joint of 33 modules.
+    /// Number of random turns that one perturbation tries. Default 100, about one for each joint of 33 modules.
     pub perturbation_turns: usize,
     /// Greatest number of pairs of ends that are brought together in one step. Default 8; more are hardly
     /// ever independent of each other.
@@ -28,7 +29,8 @@ pub struct Settings {
     pub collisions: Collisions,
     /// Settings of FABRIK, the paper's own inverse kinematics.
     pub fabrik: fabrik::Settings,
-    /// Threads that may work at once; the plan does not depend on their number. Default 1.
+    /// Number of threads that may work at once, on floating robots of 16 modules or more; the plan does not depend on
+    /// it. Default 1; 0 counts as 1.
     pub threads: usize,
 }
 
@@ -55,13 +57,13 @@ impl Default for Settings {
 /// The states in which collisions are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collisions {
-    /// All instants of every motion are checked: this planner's own search.
+    /// Every motion is checked over its whole duration: this planner's own search.
     Motion,
-    /// Nowhere: the paper's method.
+    /// No state is checked: the paper's method.
     None,
     /// The states in which tips meet are checked: the paper's method.
     Detection,
-    /// The states in which tips meet are checked, and avoided in the inverse kinematics: the paper's method.
+    /// The states in which tips meet are checked, and the inverse kinematics avoids collisions: the paper's method.
     Avoidance,
 }
 

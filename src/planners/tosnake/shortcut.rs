@@ -7,7 +7,7 @@ use super::robot::Robot;
 use super::state::{Joints, State, Step};
 use std::sync::Arc;
 
-/// Returns the same docks and undocks with as few motions between them as bisection finds. `robot` is the
+/// Returns steps with the same docks and undocks, and as few motions between them as bisection finds. `robot` is the
 /// start, with all bonds in its list that the steps name. `work` counts forward kinematics.
 pub(super) fn shortened(
     robot: Robot,

@@ -15,12 +15,12 @@ pub type Joints = Vec<[f64; 3]>;
 /// One step of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// Joints turn at once, each at a constant rate, so that joint space is crossed in a straight line:
-    /// (module, joint, final position in rad).
+    /// Joints turn at once, each at a constant rate, so that joint space is crossed in a straight line: for each joint
+    /// (module, joint, final position in rad), with joints counted as [`ALPHA`](super::robot::ALPHA) says.
     Turn(Vec<(usize, usize, f64)>),
-    /// The bond of this index docks.
+    /// The bond of this index in [`Robot::bonds`] docks.
     Dock(usize),
-    /// The bond of this index undocks.
+    /// The bond of this index in [`Robot::bonds`] undocks.
     Undock(usize),
 }
 
@@ -43,12 +43,13 @@ pub struct State {
     pub gravity: Option<Arc<GravityModel>>,
     /// Greatest load of a joint that motions may cause, as a fraction of its torque limit.
     pub load_share: f64,
-    /// The smallest overload since the last was taken; see [`LoadLimit::least_overload`].
+    /// The smallest overload noted since the last was taken, `None` without any; see [`LoadLimit::least_overload`].
     pub least_overload: Cell<Option<JointLoad>>,
 }
 
 impl State {
-    /// Returns the state of a floating robot, which must be connected, with the tree rooted in its middle.
+    /// Returns the state of a floating robot, with the tree rooted at the module in the middle of its longest path.
+    /// Panics if closed bonds do not connect the robot.
     pub fn new(robot: Robot) -> State {
         let tree = Tree::grow(&robot, 0).expect("a robot that was validated is connected");
         let mut state = State {
@@ -66,8 +67,8 @@ impl State {
         state
     }
 
-    /// Returns the state of a robot, which must be connected. With a gravity model, the tree is rooted at the
-    /// module that the model names, near which loops stay closed.
+    /// Returns the state of a robot. With a gravity model, the tree is rooted at the module that the model names, near
+    /// which loops stay closed; without, as [`State::new`] has it. Panics if closed bonds do not connect the robot.
     pub fn with_gravity(robot: Robot, gravity: Option<Arc<GravityModel>>) -> State {
         let mut state = State::new(robot);
         if let Some(gravity) = &gravity {
@@ -79,13 +80,13 @@ impl State {
         state
     }
 
-    /// Returns the greatest load of a joint by its limit; `None` if the robot floats.
+    /// Returns the joint with the greatest load as a fraction of its torque limit; `None` if the robot floats.
     pub fn load(&self) -> Option<JointLoad> {
         self.gravity.as_ref().map(|gravity| gravity.greatest(&self.tree, &self.poses))
     }
 
-    /// Rebuilds the tree after bonds changed, rooted in the middle of its longest path, so that little moves
-    /// far.
+    /// Rebuilds the tree and the poses after bonds changed, rooted at the module in the middle of the longest path, so
+    /// that few balls move far. Panics if closed bonds do not connect the robot any more.
     pub fn rebuild_tree(&mut self) {
         let middle = middle(&self.tree, &self.robot);
         self.tree = Tree::grow(&self.robot, middle).expect("the bond that was undocked closed a loop");
@@ -114,7 +115,7 @@ impl State {
         motion_check::note_overload(&self.least_overload, load);
     }
 
-    /// Moves all joints at once to new positions, rad.
+    /// Moves all joints at once to new positions, rad, one entry for each module; adds a step if any position changes.
     pub fn move_to(&mut self, to: &[[f64; 3]]) {
         let mut turns = Vec::new();
         for (module, (from, to)) in self.robot.joints.iter().zip(to).enumerate() {
@@ -127,20 +128,20 @@ impl State {
         self.update_poses();
     }
 
-    /// Moves one joint to a new position (rad).
+    /// Moves one joint of a module to a new position (rad), and adds a step.
     pub fn turn(&mut self, module: usize, joint: usize, to: f64) {
         self.steps.push(Step::Turn(vec![(module, joint, to)]));
         self.robot.joints[module][joint] = to;
         self.update_poses();
     }
 
-    /// Undocks the bond of an index; the tree is to be rebuilt afterwards.
+    /// Undocks the bond of an index, and adds a step; the tree is to be rebuilt afterwards.
     pub fn undock(&mut self, bond: usize) {
         self.robot.undock(bond);
         self.steps.push(Step::Undock(bond));
     }
 
-    /// Docks a bond; the tree is to be rebuilt afterwards.
+    /// Docks a bond, and adds a step; the tree is to be rebuilt afterwards.
     pub fn dock(&mut self, bond: Bond) {
         let index = self.robot.dock(bond);
         self.steps.push(Step::Dock(index));
@@ -151,7 +152,7 @@ impl State {
         spread(&self.poses)
     }
 
-    /// Returns by module a number of its chain: modules joined by snake bonds have equal numbers
+    /// Returns by module its chain, named by the least index of the modules that a series of snake bonds joins to it
     /// (disjoint-set forest).
     pub fn chains(&self) -> Vec<usize> {
         let mut chain: Vec<usize> = (0..self.robot.modules()).collect();
@@ -175,7 +176,8 @@ impl State {
     }
 }
 
-/// Returns the spread of balls: the sum of their squared distances from their centroid, in pitches².
+/// Returns the spread of balls: the sum of their squared distances from their centroid, in squared pitches. Poses in
+/// pitches; NaN without any.
 pub fn spread(poses: &[RigidTransform]) -> f64 {
     let count = poses.len() as f64;
     let sum = poses.iter().fold(Vec3::zeros(), |sum, pose| sum + pose.translation);

@@ -1,4 +1,4 @@
-//! The state of a search in figures, and how it is reported to an observer.
+//! The state of a search in figures, and its reports to an observer.
 
 use super::state::State;
 use crate::planners::Progress;
@@ -6,19 +6,20 @@ use crate::planners::Progress;
 /// Figures of a search that is running or has ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SearchStatus {
-    /// Merges of chains that lead to a snake: one less than there are chains once all loops are open.
+    /// Number of merges of chains that lead to a snake: one less than there are chains once all loops are open.
     pub needed: usize,
-    /// Merges made.
+    /// Number of merges made; in a refusal of the paper's method the greatest that it came to.
     pub made: usize,
-    /// Pairs of ends tried.
+    /// Number of attempts to bring a pair of ends together.
     pub tried: u64,
-    /// Forward kinematics of the whole robot that were evaluated.
+    /// Number of forward kinematics of the whole robot that were evaluated.
     pub work: u64,
-    /// Rounds in which no pair came together, each of which ended with a perturbation.
+    /// Number of perturbations: one after each round in which no pair came together, or the last chain did not become
+    /// straight.
     pub perturbations: u64,
-    /// Modules of the longest chain.
+    /// Number of modules of the longest chain.
     pub longest: usize,
-    /// Number of chains.
+    /// Number of chains; a module without snake bonds is one.
     pub chains: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The tolerances of the planner of RoFI modules, all in one place.
+//! The tolerances and thresholds of the planner of RoFI modules.
 
 /// The tolerances with which `tosnake` computes. Lengths are in pitches, angles in radians.
 #[derive(Clone, Copy, Debug)]

@@ -10,16 +10,16 @@ use crate::geometry::{RigidTransform, Vec3};
 /// A kinematic tree over the shoes of a robot.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    /// The shoe of each index.
+    /// The shoe of each index, counted as by [`Dock::shoe`](super::robot::Dock::shoe).
     pub shoe: Vec<usize>,
     /// The index of each shoe.
     pub index: Vec<usize>,
-    /// The index of each body's parent; 0 for the root.
+    /// For each index, the index of the shoe's parent; 0 for the root, whose index is 0.
     pub parent: Vec<usize>,
-    /// One past the last index of each body's subtree.
+    /// For each index, one past the last index of the shoe's subtree.
     pub end: Vec<usize>,
     link: Vec<Link>,
-    /// Closed bonds that are not of the tree: each closes a kinematic loop.
+    /// The indices of the closed bonds that are not of the tree, in order: each closes a kinematic loop.
     pub closing: Vec<usize>,
 }
 
@@ -38,7 +38,7 @@ enum Link {
     },
 }
 
-/// A joint of a module, as the tree has it.
+/// A joint of a module, with its position in the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointRef {
     /// The index of that shoe of the module whose parent is the other.
@@ -50,7 +50,8 @@ pub struct JointRef {
 }
 
 impl Tree {
-    /// Grows the tree from shoe A of a root module; returns `None` if the robot is not connected.
+    /// Grows the tree of a robot from shoe A of the module `root`; returns `None` if closed bonds do not connect all
+    /// modules. Panics if there is no such module.
     pub fn grow(robot: &Robot, root: usize) -> Option<Tree> {
         let at = robot.bond_at();
         // Breadth-first search chooses the bonds of the tree, so that branches are short.
@@ -102,8 +103,8 @@ impl Tree {
         self.shoe.len()
     }
 
-    /// Computes the poses of all shoes by index, in pitches, in the frame of the root (forward kinematics);
-    /// `joints`: rad.
+    /// Computes the poses of all shoes by index, in pitches, in the frame of the root, and replaces `poses` by them
+    /// (forward kinematics); `joints`: rad, by module.
     pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<RigidTransform>) {
         poses.clear();
         for index in 0..self.shoes() {
@@ -111,14 +112,15 @@ impl Tree {
         }
     }
 
-    /// Recomputes the poses of some shoes, given in order of index; the others stay. `joints`: rad; poses in
-    /// pitches.
+    /// Recomputes the poses of some shoes, given by their indices in ascending order; the others stay. `joints`: rad,
+    /// by module; poses in pitches.
     pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
         for &index in moved {
             poses[index] = self.pose(index, joints, poses);
         }
     }
 
+    /// Returns the pose of a shoe from that of its parent.
     fn pose(&self, index: usize, joints: &[[f64; 3]], poses: &[RigidTransform]) -> RigidTransform {
         match &self.link[index] {
             Link::Root => RigidTransform::identity(),
@@ -132,8 +134,8 @@ impl Tree {
         }
     }
 
-    /// Returns in order the indices of the shoes that move against the root when the modules move for which
-    /// `turns` is true.
+    /// Returns in ascending order the indices of the shoes that move against the root when the joints of the modules
+    /// move for which `turns` is true.
     pub fn carried(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut carried = vec![false; self.shoes()];
         for index in 1..self.shoes() {
@@ -143,8 +145,8 @@ impl Tree {
         (0..self.shoes()).filter(|&index| carried[index]).collect()
     }
 
-    /// Returns by index the rigid part that a shoe belongs to when the modules move for which `turns` is
-    /// true: shoes of equal numbers do not move against each other.
+    /// Returns by index the rigid part that a shoe belongs to when the joints of the modules move for which `turns` is
+    /// true, named by the least index in it: shoes of one part do not move against each other.
     pub fn parts(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut part = vec![0; self.shoes()];
         for index in 1..part.len() {
@@ -154,7 +156,8 @@ impl Tree {
         part
     }
 
-    /// Returns the bond by which a shoe is docked to its parent.
+    /// Returns the index of the bond by which a shoe is docked to its parent; `None` for the root, and where the parent
+    /// is the other shoe of the module.
     pub fn bond(&self, index: usize) -> Option<usize> {
         match self.link[index] {
             Link::Mate { bond, .. } => Some(bond),
@@ -162,8 +165,9 @@ impl Tree {
         }
     }
 
-    /// Returns the closure residual of a bond: the greatest deviation of an entry of its second shoe's pose
-    /// from where the first wants it, in pitches for positions and without unit for rotations.
+    /// Returns the closure residual of a bond: the greatest absolute deviation of an entry of its second shoe's pose
+    /// from the pose that the bond asks for, in pitches for positions and without unit for rotation matrices.
+    /// `poses`: by index, in pitches.
     pub fn residual(&self, robot: &Robot, bond: usize, poses: &[RigidTransform]) -> f64 {
         let ends = robot.bonds[bond];
         let wanted = poses[self.index[ends.a.shoe()]].then(&mate(ends.a.face(), ends.turn, ends.b.face()));
@@ -179,14 +183,14 @@ impl Tree {
         (0..count).map(move |joint| JointRef { child: index, module, joint })
     }
 
-    /// Returns all joints of the robot.
+    /// Returns all joints of the robot, in order of their child's index, then of joint.
     pub fn all_joints(&self) -> Vec<JointRef> {
         (0..self.shoes()).flat_map(|index| self.joints_at(index)).collect()
     }
 
-    /// Returns the unit axis about which a joint turns the subtree of its shoe, and a point on it, in the
-    /// frame of the root. The joint's column of the Jacobian of a point p of the subtree is
-    /// `axis × (p - point)`, and of its angular velocity `axis`.
+    /// Returns the unit axis about which a joint turns the subtree of its child, and a point on it, in pitches, in
+    /// the frame of the root. The joint's column of the Jacobian of a point p of the subtree is `axis × (p - point)`,
+    /// and of its angular velocity `axis`. `poses`: by index, in pitches.
     pub fn axis(&self, joint: JointRef, poses: &[RigidTransform]) -> (Vec3, Vec3) {
         let (child, parent) = (&poses[joint.child], &poses[self.parent[joint.child]]);
         let child_is_b = self.shoe[joint.child] % 2 == 1;
@@ -200,12 +204,12 @@ impl Tree {
         }
     }
 
-    /// Returns true if the shoe at `index` is in the subtree of the one at `root`.
+    /// Returns true if the shoe at `index` is in the subtree of the one at `root`, itself included.
     pub fn is_in_subtree(&self, index: usize, root: usize) -> bool {
         (root..self.end[root]).contains(&index)
     }
 
-    /// Returns the path from one shoe to another along the tree.
+    /// Returns the path from one shoe to another, both given by index, along the tree.
     pub fn path(&self, from: usize, to: usize) -> Path {
         let mut up = vec![from];
         let mut down = vec![to];
@@ -231,7 +235,7 @@ impl Tree {
 pub struct Path {
     /// The indices of the shoes on the path, both ends included.
     pub indices: Vec<usize>,
-    /// The position in [`Path::indices`] of the common ancestor.
+    /// The index in [`Path::indices`] of the common ancestor.
     pub top: usize,
 }
 

@@ -29,11 +29,12 @@ pub(super) fn check(robot: &Robot) -> Result<(), Refusal> {
     }
 }
 
-/// Opens the bonds that do not meet, and returns their indices. Of two bonds that contradict each other the
-/// first counts, unless only the other leaves no overlap.
+/// Opens the closed bonds whose docks do not meet, and returns their indices in order. Of two bonds between the same
+/// modules that contradict each other the one in the tree of a breadth-first search from module 0 counts, unless only
+/// the other leaves no overlap; up to ten contradictions are tried in all combinations.
 ///
 /// # Errors
-/// [`InvalidStart`]: the robot is not connected, or modules overlap whichever bonds are opened.
+/// [`InvalidStart`]: the robot is not connected, or modules overlap in all combinations; then nothing is opened.
 pub fn repair(robot: &mut Robot) -> Result<Vec<usize>, InvalidStart> {
     let first = Choice::without(robot, &[])?;
     // Bonds for which the open ones could stand in.
@@ -57,7 +58,7 @@ pub fn repair(robot: &mut Robot) -> Result<Vec<usize>, InvalidStart> {
 /// Greatest number of contradictions of which all combinations are tried: 1,024 forward kinematics.
 const TWINS_MAX: usize = 10;
 
-/// Returns another bond between the same two modules.
+/// Returns another closed bond between the same two modules; `None` if there is none.
 fn twin(robot: &Robot, bond: usize) -> Option<usize> {
     let modules = |bond: usize| {
         let ends = robot.bonds[bond];
@@ -90,7 +91,7 @@ impl Choice {
     }
 }
 
-/// Returns the first overlap of two modules that is found.
+/// Returns the first overlap of two modules that is found; `None` if there is none.
 fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<InvalidStart> {
     let docked = broad_phase::docked(robot, tree);
     let mut found = None;
