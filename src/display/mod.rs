@@ -13,12 +13,14 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 
-/// Returns a value on one line: as it could be written, with units that suit its size.
+/// Returns a value as `print` shows it: as it could be written, with units that suit its size, or in a few
+/// words. A text stays as it is, and a report of the judge has several lines.
 pub fn show(interpreter: &Interpreter, value: &Value) -> String {
     interpreter.show_value(value)
 }
 
-/// Returns a value on as many lines as it needs, the first of which can stand alone.
+/// Returns a value as a session shows it, on as many lines as it needs, the first of which can stand alone;
+/// texts are in quotes. After 64 KiB it is cut.
 ///
 /// # Errors
 /// A halt while the value is judged or planned.
@@ -26,7 +28,8 @@ pub fn display(interpreter: &mut Interpreter, value: &Value) -> Eval<String> {
     interpreter.display_value(value)
 }
 
-/// Returns what a declaration declares on one line.
+/// Returns a line about what a declaration declares, with its defaults: `config Walker: order 1, 4 modules, 600
+/// g`.
 ///
 /// # Errors
 /// A halt while it is elaborated.

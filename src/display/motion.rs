@@ -15,22 +15,24 @@ use crate::units::{Dimension, quantity};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Nodes of a behaviour that are drawn, and that are walked for their times.
+/// The greatest number of nodes of a behaviour that are drawn.
 const NODES_DRAWN: usize = 200;
+/// The greatest number of nodes of a behaviour that are visited for their times.
 const NODES_TIMED: usize = 100_000;
-/// Branches within branches that are drawn.
+/// The greatest depth of branches within branches that are drawn.
 const DEPTH_DRAWN: usize = 30;
-/// Characters of a sketch's time.
+/// The number of characters for the duration of a plan in a sketch.
 const SKETCH_WIDTH: usize = 48;
-/// Joints in a sketch.
+/// The greatest number of joints in a sketch.
 const SKETCH_ROWS: usize = 16;
-/// Failures under a sketch.
+/// The greatest number of failures under a sketch.
 const FAILURES_SHOWN: usize = 3;
-/// Instants nearer than this are one, s.
+/// Instants nearer to each other than this are one, s.
 const TOL_INSTANT: f64 = 1e-9;
 
 impl Interpreter<'_> {
-    /// Returns the tree of a behaviour with its times, as far as it can be planned from the start pose.
+    /// Returns the tree of a behaviour, with its times if it can be planned from the start pose. Reports
+    /// nothing.
     pub(super) fn display_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
         let Some(design) = behavior.robot.as_ref().map(|robot| robot.design.clone()) else {
             return Ok("a behaviour that moves no robot".to_owned());
@@ -54,7 +56,7 @@ impl Interpreter<'_> {
         Ok(Branch { text, below: vec![branch] }.drawn())
     }
 
-    /// Asks without telling what is wrong.
+    /// Returns the result of `ask` without reporting anything; `None` also for a fault.
     fn quietly<T>(&mut self, ask: impl FnOnce(&mut Self) -> Eval<Option<T>>) -> Eval<Option<T>> {
         let errors = self.reported.errors;
         let (found, _) = self.capture_diagnostics(ask);
@@ -65,7 +67,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns a sketch of a plan's time with its verdict.
+    /// Returns a sketch of a plan: its duration and verdict, the times at which joints move, and its failures.
     pub(super) fn display_plan(&mut self, planned: &Rc<PlanValue>) -> Eval<String> {
         let duration = planned.plan.body.duration();
         let settings = self.judge_settings();
@@ -96,7 +98,8 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the times at which each thing moves: a joint, or the whole of what has no joints.
+/// Returns the rows of a sketch: for each joint that moves its name with marks at its times, or one row with
+/// the stages of a plan without joints.
 fn rows(planned: &PlanValue, duration: f64) -> Vec<(String, String)> {
     match (planned.plan.body.tracks(), &planned.body) {
         (Some(tracks), Some(robot)) => {
@@ -116,6 +119,7 @@ fn rows(planned: &PlanValue, duration: f64) -> Vec<(String, String)> {
     }
 }
 
+/// Returns the marks of a joint: one character for each part of the duration.
 fn marks(track: &Track, duration: f64) -> String {
     let mut marks = vec!['·'; SKETCH_WIDTH];
     for segment in &track.segments {
@@ -165,6 +169,7 @@ impl Names {
         quantity(x, if slides { Dimension::LENGTH } else { Dimension::ANGLE })
     }
 
+    /// Returns an action in words: `move leg.bend to 30deg`.
     fn action(&self, action: &Action) -> String {
         let time = |t: f64| quantity(t, Dimension::TIME);
         let words = match &action.command {
@@ -197,7 +202,7 @@ struct Drawer<'a> {
 }
 
 impl Drawer<'_> {
-    /// Returns a node that begins at a time, if that is known.
+    /// Returns the branch of a node; `from`: the time (s) at which it begins, if that is known.
     fn branch(&mut self, node: &Node, from: Option<f64>, depth: usize) -> Branch {
         self.drawn += 1;
         if self.drawn > NODES_DRAWN || depth > DEPTH_DRAWN {
@@ -239,7 +244,8 @@ impl Drawer<'_> {
         Branch { text: format!("{words}{}", times.unwrap_or_default()), below }
     }
 
-    /// Returns the time at which a node ends that begins at a time, s, as the tracks have it.
+    /// Returns the time at which a node ends that begins at the time `from`, s, by the tracks; `None` where it
+    /// can't be known.
     fn end(&mut self, node: &Node, from: f64) -> Option<f64> {
         self.timed += 1;
         if self.timed > NODES_TIMED {
@@ -264,6 +270,7 @@ impl Drawer<'_> {
         }
     }
 
+    /// Returns the time at which an action ends, s: by its duration, or by the segments of its joint's track.
     fn action_end(&self, action: &Action, from: f64) -> Option<f64> {
         let (joint, pieces) = match &action.command {
             Command::Wait { duration } => return Some(from + duration),

@@ -9,10 +9,10 @@ use crate::interpret::value::Value;
 use crate::natives::folding::LayoutValue;
 use std::any::Any;
 
-/// Lines of a display; what is beyond is counted.
+/// The greatest number of lines of a tree; the rest are counted.
 pub(super) const LINES_MAX: usize = 40;
 
-/// Bytes of a display.
+/// The greatest number of bytes of a display; the rest is cut.
 const BYTES_MAX: usize = 1 << 16;
 
 impl Interpreter<'_> {
@@ -116,7 +116,7 @@ pub(super) fn counted(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-/// Returns names in words, with the ends of equal beginnings joined, no more of them than fit a line.
+/// Returns names in words: the first six, and the number of the rest.
 pub(super) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 6;
     let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");

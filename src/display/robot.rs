@@ -12,10 +12,11 @@ use crate::robot::{Joint, JointKind};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// Elements of a list of parts that are drawn each by itself.
+/// The number of elements of a list of different parts that are drawn, if there are more than one beyond it.
 const ELEMENTS_DRAWN: usize = 3;
 
 impl Interpreter<'_> {
+    /// Returns an instance by its family: a tree of joints, ports or parts, a picture, or a line of facts.
     pub(super) fn display_instance(&mut self, instance: &Rc<Instance>) -> Eval<String> {
         let design = &instance.design;
         Ok(match &design.kind {
@@ -61,6 +62,7 @@ impl Interpreter<'_> {
         Branch { text: format!("{title}: a module of {}", mass_words(design)), below }
     }
 
+    /// Returns the tree of a configuration: its parts, named and free ports, and behaviours.
     fn config_tree(&self, instance: &Instance) -> Branch {
         let design = &instance.design;
         let title = if instance.path.is_empty() {
@@ -94,7 +96,7 @@ impl Interpreter<'_> {
         Branch { text, below }
     }
 
-    /// Returns the parts, each with its own, elements of a list that are alike together.
+    /// Returns the branches of the parts, each with its own parts; equal elements of a list are one branch.
     fn parts(&self, design: &Rc<Design>) -> Vec<Branch> {
         let Some(groups) = design.config().and_then(|config| config.parts.get()) else { return Vec::new() };
         let mut found = Vec::new();
@@ -124,7 +126,7 @@ impl Interpreter<'_> {
         Branch { text: format!("{name}: {}", design.name), below: self.parts(design) }
     }
 
-    /// Ports that a configuration hands on under names of its own.
+    /// Returns the names that a configuration gives to ports.
     fn named_ports(&self, def: DefId) -> Vec<String> {
         use crate::check::typed::MemberKind;
         let DefKind::Config(config) = &self.shared.program.def(def).kind else { return Vec::new() };
@@ -137,7 +139,7 @@ impl Interpreter<'_> {
         config.behaviors.iter().map(|b| b.name.to_string()).collect()
     }
 
-    /// Returns the declaration in one line.
+    /// Returns a line about a declaration, with its defaults; without facts where it can't be elaborated.
     pub(super) fn describe_declaration_line(&mut self, def: DefId) -> Eval<String> {
         let program = self.shared.program;
         let declared = program.def(def);
@@ -181,7 +183,7 @@ fn plural(n: usize, what: &str) -> String {
     if n == 1 { what.to_owned() } else { format!("{what}s") }
 }
 
-/// Returns a joint in words: `turns about [0, 1, 0], -90deg..90deg, at most 60deg/s`.
+/// Returns a joint in words: `revolute, -90deg..90deg, at most 1.5rad/s`.
 fn joint_words(joint: &Joint, dimension: Dimension) -> String {
     let kind = match joint.kind {
         JointKind::Revolute => "revolute",

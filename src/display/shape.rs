@@ -5,8 +5,9 @@ use crate::interpret::cells::Cells;
 use crate::planners::fold::Report;
 use crate::planners::fold::pattern::Pattern;
 
-/// Larger lattices are only counted.
+/// The greatest number of columns of a picture; of larger lattices only the size is shown.
 const COLUMNS_MAX: i64 = 120;
+/// The greatest number of rows of a picture, over all layers.
 const ROWS_MAX: i64 = 60;
 
 /// Returns the cells layer by layer from the highest, each as `cells` reads it: y up, x to the right.
@@ -36,10 +37,11 @@ pub(super) fn cells(cells: &Cells) -> String {
     lines.join("\n")
 }
 
-/// Columns between the middles of two triangles side by side.
+/// The number of columns between the middles of two triangles side by side, half a side apart.
 const PITCH: usize = 4;
 
-/// Returns a pattern of equal triangles: each with its number between its sides, rows as they lie.
+/// Returns a picture of a flat pattern of equal triangles, each with its number between its sides; only its
+/// size if the triangles differ or the picture would be too large.
 pub(super) fn pattern(pattern: &Report) -> String {
     let count = counted(pattern.target.faces.len(), "panel");
     let flat = Pattern::of(&pattern.target, &pattern.layout);

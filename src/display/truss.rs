@@ -10,12 +10,13 @@ use crate::planners::{locomote, morph};
 use crate::units::number;
 use crate::units::{Dimension, quantity};
 
-/// Characters of a picture; each holds two dots by four.
+/// The width of a picture in characters; each holds two dots by four.
 const WIDTH: usize = 32;
+/// The height of a picture in characters.
 const HEIGHT: usize = 10;
-/// Characters between two pictures.
+/// The number of characters between two pictures.
 const APART: usize = 4;
-/// More struts are only counted.
+/// The greatest number of struts that are drawn; a larger truss has no picture.
 const STRUTS_DRAWN: usize = 2_000;
 
 /// The side from which nodes are seen: a function to their coordinates to the right and up.
@@ -97,7 +98,7 @@ fn before_and_after(paths: &NodePaths) -> Vec<String> {
     pictures(&views, &paths.struts)
 }
 
-/// Pictures side by side, each under its words, in one scale.
+/// Returns the lines of pictures side by side, each under its words, in one scale.
 fn pictures(views: &[(&str, &[Vec3], Side)], struts: &[(usize, usize)]) -> Vec<String> {
     if struts.len() > STRUTS_DRAWN {
         return Vec::new();
@@ -116,7 +117,7 @@ fn pictures(views: &[(&str, &[Vec3], Side)], struts: &[(usize, usize)]) -> Vec<S
     let rows = drawn.iter().map(Vec::len).max().unwrap_or(0);
     let titles: Vec<String> = views.iter().map(|(words, ..)| (*words).to_owned()).collect();
     let mut lines = vec![beside(&titles)];
-    // Both stand on one line.
+    // The pictures are aligned at their lowest rows.
     for row in 0..rows {
         let pieces: Vec<String> = drawn
             .iter()
@@ -141,7 +142,8 @@ fn bounds(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
     [of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)]
 }
 
-/// Lines between points, as rows of characters of dots (U+2800 and what follows).
+/// Returns the segments between points as rows of braille characters (U+2800 to U+28FF), `scale` dots for each
+/// metre.
 fn dots(points: &[[f64; 2]], low: [f64; 2], scale: f64, struts: &[(usize, usize)]) -> Vec<String> {
     let place = |p: [f64; 2]| [0, 1].map(|axis| (p[axis] - low[axis]) * scale);
     let top = points.iter().map(|p| place(*p)[1]).fold(0.0, f64::max);

@@ -8,12 +8,13 @@ use crate::interpret::value::{Callable, Value};
 use crate::interpret::verdicts;
 use crate::units::{Dimension, number, quantity};
 
-/// Most elements of a list that are shown; the rest is counted.
+/// The greatest number of elements of a list that are shown; the rest are counted.
 const ELEMENTS_SHOWN: usize = 1000;
-/// Rounding below this is no part of a coordinate, m or 1.
+/// Coordinates and angles below this are shown as 0, SI.
 const COORDINATE_ROUNDING: f64 = 1e-12;
 
 impl Interpreter<'_> {
+    /// Returns a value as `print` shows it.
     pub(super) fn show_value(&self, value: &Value) -> String {
         match value {
             Value::Unknown => "?".into(),
@@ -57,8 +58,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Writes a list. Lists may share their elements over and over, so writing stops behind the limit of a
-    /// text, which whoever prints it refuses.
+    /// Appends a value, of a list each element. Lists may share their elements over and over, so writing stops
+    /// beyond the limit of a text, which is then refused where it is printed.
     fn write_nested(&self, value: &Value, text: &mut String) {
         let Value::List(elements) = value else { return text.push_str(&self.show_value(value)) };
         text.push('[');
@@ -75,6 +76,7 @@ impl Interpreter<'_> {
         text.push(']');
     }
 
+    /// Returns a record as `print` shows it.
     fn show_record(&self, record: &Record) -> String {
         match record {
             Record::Plan(planned) => format!(
@@ -113,7 +115,8 @@ impl Interpreter<'_> {
     }
 }
 
-/// Radians are dropped where that gives a dimension with a name: `2rad/s * 45mm` is a speed.
+/// Returns the dimension without radians where that gives one with a name, `2rad/s * 45mm` is a speed; else
+/// itself.
 fn without_radians(dimension: Dimension) -> Dimension {
     let dropped = Dimension { angle: 0, ..dimension };
     let named = dimension.name().is_none() && dropped.name().is_some();
@@ -141,7 +144,8 @@ fn show_pose(pose: &crate::geometry::Pose) -> String {
     )
 }
 
-/// Axis and angle in 0..π, by `libm`, so that they are the same everywhere.
+/// Returns the axis (a unit vector) and the angle of a rotation, 0 to π rad, by `libm`, so that they are the
+/// same on every platform; the z axis for no rotation.
 fn axis_angle(pose: &crate::geometry::Pose) -> (Vec3, f64) {
     let q = pose.rotation.quaternion();
     let v = if q.w < 0.0 { -q.vector().into_owned() } else { q.vector().into_owned() };

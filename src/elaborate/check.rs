@@ -8,7 +8,7 @@ use crate::interpret::value::Value;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Elaborates a declaration with its defaults, and evaluates all that its body declares.
+    /// Elaborates a declaration with its defaults, evaluates all that its body declares, and checks its links.
     pub(super) fn elaborate_with_defaults(&mut self, def: DefId) -> Eval<()> {
         let program = self.shared.program;
         let declared = program.def(def);

@@ -23,6 +23,8 @@ pub(super) struct Deferred<'d> {
 }
 
 impl Interpreter<'_> {
+    /// Elaborates the body of a configuration into its design, which already stands in memory so that a body
+    /// that needs itself is found. Faults are reported; where parts are unknown the design is marked as broken.
     pub(super) fn elaborate_config(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let config = design.config().expect("made as a configuration");
         let this = self.whole(design);
@@ -92,6 +94,7 @@ impl Interpreter<'_> {
         Ok(complete)
     }
 
+    /// Ends the run where a robot has more modules than the limit.
     fn check_modules(&mut self, count: usize, span: Span) -> Eval<()> {
         let limit = self.limits().modules;
         if count <= limit {
@@ -101,6 +104,8 @@ impl Interpreter<'_> {
         self.halt(Diagnostic::error(code::SIZE_LIMIT, message).label(span, "too many parts"))
     }
 
+    /// Returns a part or a list of parts, whose modules count from `offset`; `None` where a part or the length
+    /// of the list is unknown.
     fn elaborate_part(
         &mut self,
         part: &PartDef,
@@ -144,6 +149,7 @@ impl Interpreter<'_> {
         Ok(known.then_some(PartGroup { list: part.count.is_some(), elements }))
     }
 
+    /// Returns the length of a list of parts; `None` where it is unknown.
     fn part_count(&mut self, count: &Expr, frame: &mut Frame) -> Eval<Option<i64>> {
         match self.eval(count, frame)? {
             Value::Int(n) if n >= 0 => Ok(Some(n)),
@@ -157,6 +163,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Returns the design of a part; `None` where it is broken.
     fn part_design(&mut self, part: &PartDef, frame: &mut Frame) -> Eval<Option<Rc<Design>>> {
         let args: Args = self.eval_args(&part.args, part.ty_span, frame)?;
         let design = self.design_of(part.of, args, part.ty_span)?;
@@ -211,6 +218,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Runs a clause: makes its connection, sets its joint, binds its local, or collects its requirement.
     fn run_clause<'d>(
         &mut self,
         clause: &'d ConfigClause,
@@ -247,6 +255,10 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Adds the start position of a clause `set joint = value`.
+    ///
+    /// # Errors
+    /// A fault where the joint follows others, or the position is outside its range.
     fn set(
         &mut self,
         config: &ConfigDesign,
@@ -297,6 +309,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Finds the module that the clause `base` names: of a part that is a configuration, that part's base.
     fn find_base(&mut self, def: &ConfigDef, config: &ConfigDesign, this: &Rc<Instance>) -> Eval<()> {
         let Some(base) = &def.base else { return Ok(()) };
         let value = self.eval(base, &mut Frame::new(def.frame, Some(this.clone())))?;
@@ -315,6 +328,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Reports a requirement whose condition is false.
     pub(super) fn check_requirement(&mut self, require: &Require, frame: &mut Frame) -> Eval<()> {
         if !matches!(self.eval(&require.condition, frame)?, Value::Bool(false)) {
             return Ok(());

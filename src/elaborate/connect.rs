@@ -15,7 +15,11 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Adds the connection `connect a -- b turn t`.
+    /// Adds the connection `connect a -- b turn t`; none where one of them is unknown.
+    ///
+    /// # Errors
+    /// A fault where a port is taken, the two are one, the connectors do not mate, the turn is not allowed, or
+    /// the connection closes a loop in a configuration that is not `closed`.
     pub(super) fn connect(
         &mut self,
         config: &ConfigDesign,
@@ -66,6 +70,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Refuses a port that a connection has already.
+    ///
+    /// # Errors
+    /// A fault at `span` where it is taken.
     fn check_free(&self, config: &ConfigDesign, port: &PortValue, span: Span) -> Eval<()> {
         let key = (port.module, port.port);
         let Some(&index) = config.taken.borrow().get(&key) else { return Ok(()) };
@@ -87,6 +95,7 @@ impl Interpreter<'_> {
         Err(diagnostic.into())
     }
 
+    /// Returns the connector at a port; `None` where it is broken.
     pub(super) fn connector_at(&mut self, port: &PortValue) -> Eval<Option<Rc<ConnectorDesign>>> {
         let design = port.robot.module_at(port.module);
         let module = design.module().expect("only modules have ports of their own");
@@ -94,6 +103,7 @@ impl Interpreter<'_> {
         self.connector(def)
     }
 
+    /// Returns the fault of connectors that do not mate, with the free ports of either module that would.
     fn no_mate(
         &mut self,
         config: &ConfigDesign,
@@ -120,7 +130,7 @@ impl Interpreter<'_> {
         diagnostic.into()
     }
 
-    /// Returns the free ports of the module of `port` whose connectors mate with `wanted`.
+    /// Returns the names of the free ports of the module of `port` whose connectors mate with `wanted`.
     fn mating_ports(
         &mut self,
         config: &ConfigDesign,
@@ -147,7 +157,7 @@ impl Interpreter<'_> {
             .into()
     }
 
-    /// Checks that every module is connected with the first.
+    /// Reports modules that are not connected with the first, by their parts.
     pub(super) fn check_connected(
         &mut self,
         def: &ConfigDef,
@@ -184,7 +194,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Checks that the loops that are declared close.
+    /// Reports connections whose ports do not meet in the start state, in a configuration that is `closed`.
     pub(super) fn check_closure(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let Some(closed) = def.closed else { return Ok(()) };
         if design.broken.get() || design.module_count() == 0 {
@@ -213,7 +223,10 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the number of steps of the connector's turns that an angle is.
+/// Returns the number of steps of 360° divided by `turns` that an angle (rad) is, below `turns`.
+///
+/// # Errors
+/// A fault at `span` where it is no whole number of steps.
 fn allowed_turn(connector: &ConnectorDesign, angle: f64, span: Span) -> Eval<u32> {
     let turns = f64::from(connector.connector.turns);
     let steps = angle / std::f64::consts::TAU * turns;
@@ -242,8 +255,8 @@ fn neighbours(config: &ConfigDesign, count: usize) -> Vec<Vec<usize>> {
     lists
 }
 
-/// Returns the modules on the path from `from` to `to`, both included, in order of index; `None` where no
-/// connection leads there.
+/// Returns the modules on a shortest path of connections from `from` to `to`, both included, in order of index;
+/// `None` where none leads there. Breadth-first search.
 fn path_between(config: &ConfigDesign, from: usize, to: usize) -> Option<Vec<usize>> {
     let count = config.modules.get().map_or(0, Vec::len);
     if from == to {
@@ -266,7 +279,7 @@ fn path_between(config: &ConfigDesign, from: usize, to: usize) -> Option<Vec<usi
     Some(path)
 }
 
-/// Returns the names of the free ports of a module.
+/// Returns the names of the free ports of a module of a robot, in the order of the module's ports.
 pub(crate) fn free_ports<'c>(
     config: &'c ConfigDesign,
     robot: &Rc<Design>,

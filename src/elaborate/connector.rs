@@ -12,7 +12,7 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::Dimension;
 use std::rc::Rc;
 
-/// Orientation that docking tolerates where `capture` states only a distance: as much as there is.
+/// The angle (rad) that docking tolerates where `capture` states only a distance: any.
 const CAPTURE_ANGLE_DEFAULT: f64 = std::f64::consts::PI;
 
 impl Interpreter<'_> {
@@ -38,6 +38,10 @@ impl Interpreter<'_> {
         Ok(design)
     }
 
+    /// Returns the connector of a declaration.
+    ///
+    /// # Errors
+    /// A fault where a value is out of range, or the connectors that it mates do not mate it.
     fn elaborate_connector(&mut self, def: DefId, declared: &ConnectorDef) -> Eval<ConnectorDesign> {
         let mut frame = Frame::new(declared.frame, None);
         let mut connector = Connector {
@@ -70,6 +74,7 @@ impl Interpreter<'_> {
         Ok(ConnectorDesign { def, connector, mates: declared.mates.iter().map(|(mate, _)| *mate).collect() })
     }
 
+    /// Returns the number of turns at which a connector mates; 1 where none is stated, or it is unknown.
     fn turns(&mut self, declared: &ConnectorDef, frame: &mut Frame) -> Eval<u32> {
         let Some(turns) = &declared.turns else { return Ok(1) };
         match self.eval(turns, frame)? {
@@ -99,6 +104,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Returns the hinge of a connector, made as the prelude's `revolute` makes joints; `None` where it is
+    /// unknown.
     fn hinge(&mut self, span: Span, args: &[Option<Expr>], frame: &mut Frame) -> Eval<Option<Hinge>> {
         let Some(revolute) = self.native_named("revolute") else { return Ok(None) };
         let Value::JointKind(spec) = self.call_def(revolute, args, span, frame)? else { return Ok(None) };
@@ -106,13 +113,17 @@ impl Interpreter<'_> {
         Ok(Some(Hinge { axis: axis.normalize(), limits }))
     }
 
-    /// Returns the built-in of this name.
+    /// Returns the built-in with this key; `None` if the program has none.
     pub(super) fn native_named(&self, key: &str) -> Option<DefId> {
         let is_it = |kind: &DefKind| matches!(kind, DefKind::Native(native) if native.key == key);
         let index = self.shared.program.defs.iter().position(|def| is_it(&def.kind))?;
         Some(DefId(u32::try_from(index).expect("declarations are counted in 32 bits")))
     }
 
+    /// Refuses a connector whose mates do not mate it, or have another number of turns.
+    ///
+    /// # Errors
+    /// A fault at the clause `mates`.
     fn check_mutual(&mut self, def: DefId, declared: &ConnectorDef) -> Eval<()> {
         let program = self.shared.program;
         for (mate, span) in &declared.mates {
@@ -139,7 +150,11 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns the value of an expression that must be a positive number.
+    /// Returns the value of an expression that must be a positive number, SI; 1 where it is unknown, which has
+    /// been reported.
+    ///
+    /// # Errors
+    /// A fault where it is not positive.
     pub(super) fn positive(&mut self, expr: &Expr, what: &str, frame: &mut Frame) -> Eval<f64> {
         match self.eval(expr, frame)?.as_number() {
             Some(x) if x > 0.0 => Ok(x),

@@ -63,7 +63,8 @@ impl Stated {
 }
 
 impl Interpreter<'_> {
-    /// Elaborates a cell or a strut; `None` where a fact is out of range, which is reported.
+    /// Returns the design of a cell or a strut; `None` where a fact is missing, unknown or out of range, which
+    /// has been reported.
     pub(super) fn elaborate_facts(
         &mut self,
         def: &FactsDef,

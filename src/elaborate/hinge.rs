@@ -11,7 +11,11 @@ use crate::units::Dimension;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns the joint of the connection at a port, from whichever of its two sides it is named.
+    /// Returns the joint of the connection at a port, from either of its two sides; unknown where its connector
+    /// is broken.
+    ///
+    /// # Errors
+    /// A fault at `span` where nothing is connected there, or the connector has no hinge.
     pub(super) fn find_hinge(&mut self, port: &PortValue, span: Span) -> Eval<Value> {
         let at = (port.module, port.port);
         let bond = port.robot.config().and_then(|config| config.taken.borrow().get(&at).copied());
@@ -33,14 +37,16 @@ impl Interpreter<'_> {
         Ok(Value::Joint(JointValue { robot: port.robot.clone(), owner, dimension: Dimension::ANGLE }))
     }
 
-    /// Returns the limits of the joint that a connection makes.
+    /// Returns the limits of the joint that a connection makes; none where its connector is broken or has no
+    /// hinge.
     pub(super) fn hinge_limits(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Limits> {
         let connector = self.connector_of(robot, bond)?;
         let hinge = connector.and_then(|connector| connector.connector.hinge.as_ref().map(|h| h.limits));
         Ok(hinge.unwrap_or_default())
     }
 
-    /// Returns the connector whose hinge a connection has: that of its first port, as in an assembly.
+    /// Returns the connector whose hinge a connection has: that of its first port, as in an assembly. `None`
+    /// where it is broken.
     fn connector_of(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Option<Rc<ConnectorDesign>>> {
         let (module, port) = robot.bond(bond).a;
         self.connector_at(&PortValue { robot: Subject::new(robot.clone()), module, port })

@@ -13,7 +13,8 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns the instance `Walker(bend: 35deg)`.
+    /// Returns an instance of a declaration with these arguments, such as `Walker(bend: 35deg)`; unknown where
+    /// the declaration is broken.
     pub(super) fn make_instance(&mut self, def: DefId, args: Args, span: Span) -> Eval<Value> {
         Ok(match self.design_of(def, args, span)? {
             Some(design) if !design.broken.get() => Value::Instance(self.whole(&design)),
@@ -21,8 +22,8 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns the design of a declaration with these arguments, elaborated once; `None` where an argument is
-    /// unknown or the declaration was not understood.
+    /// Returns the design of a declaration with these arguments, elaborated once; it may be broken. `None`
+    /// where an argument is unknown, the declaration has no instances, or `check` found mistakes in it.
     ///
     /// # Errors
     /// A fault at `span` where the declaration needs itself.
@@ -53,7 +54,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns all arguments with the defaults filled in, and those that differ from the defaults as text.
+    /// Returns all arguments with the defaults filled in, and those that differ from the defaults as text;
+    /// `None` where one is unknown.
     fn fill_params(
         &mut self,
         def: DefId,
@@ -108,6 +110,8 @@ impl Interpreter<'_> {
         Instance::whole(Rc::new(design))
     }
 
+    /// Elaborates a declaration with these arguments and keeps its design, which is marked as broken where an
+    /// error was found. `shown`: the arguments that differ from the defaults, in words.
     fn elaborate(&mut self, def: DefId, args: Vec<Value>, shown: &str, span: Span) -> Eval<Rc<Design>> {
         let program = self.shared.program;
         let name = self.name(def);
@@ -165,7 +169,8 @@ impl Interpreter<'_> {
         design
     }
 
-    /// Returns the design of a declaration with its defaults; `None` where a parameter has none.
+    /// Returns the design of a declaration with its defaults; `None` where a parameter has none, and as
+    /// [`design_of`](Self::design_of).
     pub fn default_design(&mut self, def: DefId) -> Eval<Option<Rc<Design>>> {
         let declared = self.shared.program.def(def);
         let Some(Instantiable { params, .. }) = declared.kind.instantiable() else { return Ok(None) };

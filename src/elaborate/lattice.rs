@@ -10,6 +10,8 @@ use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
 impl Interpreter<'_> {
+    /// Returns the design of a lattice; `None` where it is unknown, empty or not connected, which has been
+    /// reported.
     pub(super) fn elaborate_lattice(
         &mut self,
         lattice: &LatticeDef,

@@ -34,16 +34,17 @@ use crate::robot::Library;
 use crate::source::Span;
 use std::rc::Rc;
 
-/// Returns an instance of a declaration with these arguments; unknown where it is broken.
+/// Returns an instance of a declaration with these arguments; unknown where it is broken or an argument is
+/// unknown.
 ///
 /// # Errors
-/// A fault where the declaration needs itself, or a halt.
+/// A fault at `span` where the declaration needs itself, or a halt.
 pub fn instantiate(interpreter: &mut Interpreter, def: DefId, args: Args, span: Span) -> Eval<Value> {
     interpreter.make_instance(def, args, span)
 }
 
-/// Returns the library of a declaration with its defaults: a module type or those of a configuration, a cell, a strut.
-/// `None` where it is broken or declares none of these.
+/// Returns the library of a declaration with its defaults: its module types with their connectors, its cell, or
+/// its strut. `None` where it is broken, a parameter has no default, or it declares none of these.
 ///
 /// # Errors
 /// A halt, or a fault of a declaration that it needs.
@@ -61,23 +62,26 @@ pub fn library_of(interpreter: &mut Interpreter, def: DefId) -> Eval<Option<Libr
     })
 }
 
-/// Returns the robot of a design that is complete, asked for at `span`; `None` where it is broken or no robot.
+/// Returns the robot of a design, assembled once; `None` where the design is broken, not complete yet, or no
+/// robot. `span`: the code that asks for it.
 ///
 /// # Errors
-/// A halt, a configuration without modules, or a fault of a declaration that the robot needs.
+/// A halt, a fault at `span` for a configuration without modules, or one of a declaration that the robot needs.
 pub fn robot_of(interpreter: &mut Interpreter, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
     interpreter.assemble_robot(design, span)
 }
 
-/// Returns the joint of the connection at a port.
+/// Returns the joint of the connection at a port, from either of its sides; unknown where its connector is
+/// broken.
 ///
 /// # Errors
-/// A fault where nothing is connected there, or the connection does not turn.
+/// A fault at `span` where nothing is connected there, or the connector has no hinge.
 pub fn hinge_of(interpreter: &mut Interpreter, port: &PortValue, span: Span) -> Eval<Value> {
     interpreter.find_hinge(port, span)
 }
 
-/// Elaborates a declaration with its defaults, and evaluates all that its body declares.
+/// Elaborates a declaration with its defaults, evaluates all that its body declares, and warns of links that
+/// overlap or are too thin. A `let` is evaluated.
 ///
 /// # Errors
 /// A halt; faults are reported.

@@ -24,7 +24,7 @@ struct Draft<'d> {
     module: ModuleType,
     solids: Vec<Solid>,
     connectors: Vec<Rc<ConnectorDesign>>,
-    /// (group, index in the group, span, port)
+    /// The ports so far as (index of the group, index in the group, span of the clause, port).
     ports: Vec<(usize, i64, Span, Port)>,
 }
 
@@ -64,6 +64,7 @@ impl Interpreter<'_> {
         })))
     }
 
+    /// Returns the module before its links, joints, ports and motors are read.
     fn draft<'d>(&mut self, def: &'d ModuleDef, title: &str, frame: &mut Frame) -> Eval<Draft<'d>> {
         let touch = match &def.touch {
             Some(touch) => self.positive(touch, "`touch`", frame)?,
@@ -95,6 +96,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Returns the shape of a link as it is declared, and the link, still without mass, centre and inertia.
     fn read_link(&mut self, link: &LinkDef, frame: &mut Frame) -> Eval<(Solid, Link)> {
         let shape = self.eval(&link.shape, frame)?;
         let collides = self.eval_optional(link.collides.as_ref(), frame)?;
@@ -126,7 +128,11 @@ impl Interpreter<'_> {
         Ok((solid, built))
     }
 
-    /// Returns the pose of `at [x, y, z] turned(Z, 90deg)`.
+    /// Returns the pose of `at [x, y, z] turned(Z, 90deg)`, of which each turn is about an axis of the frame
+    /// turned so far; the identity for `None`.
+    ///
+    /// # Errors
+    /// A fault where the position is farther than 1 km along an axis, or an axis is zero.
     pub(super) fn placement(&mut self, at: Option<&Placement>, frame: &mut Frame) -> Eval<Pose> {
         let Some(at) = at else { return Ok(Pose::identity()) };
         let mut pose = match self.eval(&at.position, frame)? {
@@ -147,7 +153,10 @@ impl Interpreter<'_> {
         Ok(pose)
     }
 
-    /// Returns a unit vector; `None` where it is unknown.
+    /// Returns the direction of an expression as a unit vector; `None` where it is unknown.
+    ///
+    /// # Errors
+    /// A fault where it is zero.
     fn direction(&mut self, expr: &crate::check::typed::Expr, frame: &mut Frame) -> Eval<Option<Vec3>> {
         match self.eval(expr, frame)? {
             Value::Vec3(v, _) if v.norm() > 0.0 => Ok(Some(v.normalize())),
@@ -159,6 +168,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Reads the joints; one of unknown kind becomes a fixed one, and a mimic joint moves no link.
     fn read_joints(&mut self, draft: &mut Draft, frame: &mut Frame) -> Eval<()> {
         for (index, joint) in draft.def.joints.iter().enumerate() {
             let built = match &joint.kind {
@@ -187,7 +197,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns the joints that one follows, with factors.
+    /// Returns the linear combination of joints that the joint at `index` follows.
+    ///
+    /// # Errors
+    /// A fault where it follows itself.
     fn followed(
         &mut self,
         index: usize,
@@ -218,6 +231,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Runs a clause: reads its port, takes its pair of links that may touch, binds its local, or checks its
+    /// requirement.
     fn module_clause(&mut self, clause: &ModuleClause, draft: &mut Draft, frame: &mut Frame) -> Eval<()> {
         match clause {
             ModuleClause::Port(port) => self.read_port(port, draft, frame),
@@ -246,6 +261,11 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Adds the port of a clause: its x axis along `facing`, its z axis in the plane of `facing` and `up`. Adds
+    /// none where something is unknown.
+    ///
+    /// # Errors
+    /// A fault where `up` and `facing` lie on one line.
     fn read_port(&mut self, clause: &PortClause, draft: &mut Draft, frame: &mut Frame) -> Eval<()> {
         let PortClause { group, index, connector, link, at, facing, up, span } = clause;
         let index = match index {
@@ -283,7 +303,11 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Puts ports in the order of their declarations and array indices, which must be 0, 1, 2, ...
+    /// Puts ports in the order of their declarations and array indices, which must be 0, 1, 2, ... Returns the
+    /// index of the first port and the number of ports of each group.
+    ///
+    /// # Errors
+    /// A fault where an index is left out or given twice, or a single port is never declared.
     fn order_ports(&mut self, draft: &mut Draft) -> Eval<Vec<(usize, usize)>> {
         draft.ports.sort_by_key(|(group, index, ..)| (*group, *index));
         let mut groups = Vec::new();
@@ -339,7 +363,11 @@ impl Interpreter<'_> {
         Ok(Motor { name: motor.name.to_string(), joints, limits })
     }
 
-    /// Checks that links and joints form a tree whose root is the first link, and that shapes are solids.
+    /// Refuses a module without links, one whose links and joints form no tree with the first link as its root,
+    /// and one with a joint whose range ends before it begins.
+    ///
+    /// # Errors
+    /// A fault at the link or joint to blame.
     fn check_module(&mut self, draft: &Draft, name: Span) -> Eval<()> {
         let (def, module) = (draft.def, &draft.module);
         if def.links.is_empty() {
@@ -372,6 +400,8 @@ impl Interpreter<'_> {
         self.check_rooted(draft, &carried_by)
     }
 
+    /// Refuses a link that no chain of joints connects with the first one. `carried_by`: the joint of which
+    /// each link is the child.
     fn check_rooted(&mut self, draft: &Draft, carried_by: &[Option<usize>]) -> Eval<()> {
         let parent = |link: usize| carried_by[link].map(|joint| draft.module.joints[joint].parent);
         for (link, declared) in draft.def.links.iter().enumerate() {
@@ -387,7 +417,11 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Computes masses, centres and inertias of the links: as stated, else from the module's mass by volume.
+    /// Computes masses, centres of mass and inertias of the links: as stated, else from the module's mass by
+    /// volume.
+    ///
+    /// # Errors
+    /// A fault where no mass is stated, or the links are heavier than the module.
     fn mass_properties(&mut self, draft: &mut Draft, name: Span, frame: &mut Frame) -> Eval<()> {
         let stated: Vec<_> = draft.solids.iter().map(|s| (s.parts.as_slice(), s.mass)).collect();
         let (whole, span) = match &draft.def.mass {
@@ -438,8 +472,8 @@ fn fixed_joint(joint: &JointDef, parent: usize, child: usize, pose: Pose) -> Joi
     declared_joint(joint, parent, child, &spec, pose)
 }
 
-/// Returns the frame of a port: x along `facing`, z along what of `up` is square to it. `None` where they lie
-/// on one line.
+/// Returns the orientation of a port: x along `facing`, z along the part of `up` that is perpendicular to it.
+/// `None` where they lie on one line.
 fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>> {
     let y = up.cross(&facing);
     if y.norm() < TOLERANCES.parallel {
@@ -450,7 +484,8 @@ fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>
     Some(nalgebra::UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(axes)))
 }
 
-/// Upwards, or forwards for a port that faces up or down.
+/// Returns the direction from which turns are counted by default: upwards, or forwards for a port that faces up
+/// or down.
 fn default_up(facing: Vec3) -> Vec3 {
     if facing.cross(&Vec3::z()).norm() < TOLERANCES.parallel { Vec3::x() } else { Vec3::z() }
 }

@@ -14,8 +14,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Interpreter<'_> {
-    /// Returns the robot of a design that is complete, asked for at `span`; `None` where it is broken or no
-    /// robot.
+    /// Returns the robot of a design, assembled once; `None` where it is broken, not complete yet, or no robot.
+    ///
+    /// # Errors
+    /// A fault at `span` where it has no modules.
     pub(super) fn assemble_robot(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let cell = match &design.kind {
             DesignKind::Module(module) => &module.robot,
@@ -45,6 +47,8 @@ impl Interpreter<'_> {
         diagnostic.hint("a `part` of a module, or of a configuration with modules, is missing").into()
     }
 
+    /// Assembles the robot of a design in its start state; `None` where a connector is broken. Where no base is
+    /// named, it is the most central of the candidates.
     fn build_robot(&mut self, design: &Rc<Design>) -> Eval<Option<Robot>> {
         let Some((library, kinds)) = self.library_of(design)? else { return Ok(None) };
         let modules = kinds
@@ -106,7 +110,8 @@ impl Interpreter<'_> {
         Ok(candidates)
     }
 
-    /// Returns the module types and connectors of a robot, and the type of each module.
+    /// Returns the module types and connectors of a robot, and the index of the type of each module; `None`
+    /// where a connector is broken.
     pub(crate) fn library_of(&mut self, design: &Rc<Design>) -> Eval<Option<(Library, Vec<usize>)>> {
         let mut types: Vec<Rc<Design>> = Vec::new();
         let mut kinds = Vec::new();
@@ -139,7 +144,8 @@ impl Interpreter<'_> {
         Ok(Some((library, kinds)))
     }
 
-    /// Returns the connectors and, transitively, those that they mate with, each once.
+    /// Returns the connectors and, transitively, those that they mate with, each once; `None` where one is
+    /// broken.
     fn with_mates(&mut self, first: Vec<DefId>) -> Eval<Option<Vec<DefId>>> {
         let mut all: Vec<DefId> = Vec::new();
         let mut waiting: std::collections::VecDeque<DefId> = first.into();
@@ -155,6 +161,7 @@ impl Interpreter<'_> {
     }
 }
 
+/// Returns the positions of all joints at the start, rad or m: as `set`, else 0.
 fn start_joints(design: &Rc<Design>, assembly: &Assembly, kinematics: &Kinematics) -> Vec<f64> {
     let mut joints = vec![0.0; assembly.joints().count()];
     for set in design.sets() {
@@ -163,7 +170,8 @@ fn start_joints(design: &Rc<Design>, assembly: &Assembly, kinematics: &Kinematic
     joints
 }
 
-/// Returns the candidate whose centre of mass is nearest to that of the whole; of several the first by name.
+/// Returns the candidate module whose centre of mass is nearest to that of the whole; of several the first by
+/// name, and 0 without candidates.
 fn central_module(
     assembly: &Assembly,
     kinematics: &Kinematics,

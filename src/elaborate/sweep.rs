@@ -16,12 +16,15 @@ const POSITIONS: usize = 72;
 
 /// The deepest overlap of the two links of a joint.
 struct Overlap {
+    /// The position of the joint, rad or m.
     position: f64,
+    /// The penetration depth, m.
     depth: f64,
 }
 
 impl Interpreter<'_> {
-    /// Warns where the two links that a joint joins overlap within its range, deeper than as drawn.
+    /// Warns of joints whose two links overlap at a sampled position of its range, deeper than at position 0 by
+    /// more than the module's `touch`.
     pub(super) fn check_sweep(&mut self, def: DefId, design: &Rc<Design>) -> Eval<()> {
         let program = self.shared.program;
         let (DefKind::Module(declared), Some(module)) = (&program.def(def).kind, design.module()) else {
@@ -45,6 +48,8 @@ impl Interpreter<'_> {
     }
 }
 
+/// Returns the deepest overlap of the links of a joint at 73 positions over its range; `None` if it is no
+/// deeper than allowed, and for joints that are fixed, follow others, or join links that may touch.
 fn sweep(module: &ModuleType, joint: &Joint) -> Option<Overlap> {
     let pair = (joint.parent, joint.child);
     let exempt = module.touching.iter().any(|&(a, b)| (a, b) == pair || (b, a) == pair);

@@ -1,12 +1,12 @@
-//! The tolerances of elaboration, all in one place.
+//! The tolerances (thresholds) of elaboration, all in one file.
 
 /// The tolerances with which declarations are elaborated. Lengths in metres, angles in radians.
 pub(super) struct Tolerances {
-    /// Nodes of a truss nearer to each other than this are one place, m.
+    /// Nodes of a truss nearer to each other than this count as coincident, m.
     pub node_distance: f64,
     /// Struts may be this much outside of their range, m: a rounding of what was meant.
     pub strut_length: f64,
-    /// A turn of a bond this near to an allowed one, as a part of a whole turn, is meant to be it: a rounding of
+    /// A turn of a bond within this of an allowed one, as a part of a whole turn, counts as that: a rounding of
     /// `360deg / 4`.
     pub turn: f64,
     /// Loops of bonds may miss closing by this much, m: rounding, not slack.

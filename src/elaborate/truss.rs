@@ -18,7 +18,7 @@ use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// More nodes make the rigidity matrix too large to decompose in a few seconds.
+/// The greatest number of nodes: more make the rigidity matrix too large to decompose in a few seconds.
 const NODES_MAX: usize = 1000;
 /// The greatest number of faults of one truss that are reported.
 const FAULTS_REPORTED_MAX: usize = 8;
@@ -28,7 +28,7 @@ const NODES_WITHOUT_NOTICE: usize = 100;
 /// The greatest number of free motions of a truss that are reported.
 const MOTIONS_REPORTED_MAX: usize = 6;
 
-/// A truss while its body is read; struts with where they stand.
+/// A truss while its body is read: its nodes, and its struts as (node, node, span).
 #[derive(Default)]
 struct Draft {
     nodes: Vec<Node>,
@@ -36,6 +36,8 @@ struct Draft {
 }
 
 impl Interpreter<'_> {
+    /// Returns the design of a truss; `None` where it is unknown, has a fault, or is not rigid, which has been
+    /// reported.
     pub(super) fn elaborate_truss(
         &mut self,
         def: &TrussDef,
@@ -98,6 +100,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Runs a clause: adds its node or strut, binds its local, or collects its requirement.
     fn truss_clause<'d>(
         &mut self,
         clause: &'d TrussClause,
@@ -144,6 +147,10 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Adds a node; with an index it is one of an array, `group[index]`.
+    ///
+    /// # Errors
+    /// A fault where the node is there already, and a halt beyond the greatest number of nodes.
     fn add_node(
         &mut self,
         draft: &mut Draft,
@@ -172,6 +179,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Returns the index of a node of the draft; `None` where it is unknown.
+    ///
+    /// # Errors
+    /// A fault where an array has no node of this index.
     fn find_node(
         &mut self,
         node: &NodeRef,
@@ -242,6 +253,11 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Refuses a strut without length, one of a length out of range, one that is there already, and one that is
+    /// nearer than its clearance to one of the struts before it that shares no node with it.
+    ///
+    /// # Errors
+    /// A fault at the strut.
     fn check_strut(
         &mut self,
         draft: &Draft,
@@ -300,17 +316,19 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the nodes at the position of an earlier one, with that.
+/// Returns the pairs of a node and the first node before it at the same position.
 fn twins(nodes: &[Node]) -> Vec<(usize, usize)> {
     let near = |a: usize, b: usize| (nodes[a].position - nodes[b].position).norm() < TOLERANCES.node_distance;
     (0..nodes.len()).filter_map(|a| Some((a, (0..a).find(|&b| near(a, b))?))).collect()
 }
 
+/// Returns nodes that are named by their numbers, from 0.
 fn numbered(positions: Vec<Vec3>, span: Span) -> Vec<Node> {
     let node = |(i, position)| Node { name: format!("{i}"), group: None, position, span };
     positions.into_iter().enumerate().map(node).collect()
 }
 
+/// Returns the error of a truss that is not rigid, with its free motions.
 fn not_rigid(truss: &TrussDesign, name: Span) -> Diagnostic {
     let rigidity = &truss.rigidity;
     let message = format!("the truss is not rigid: rank {} of {}", rigidity.rank, rigidity.rank_rigid);

@@ -15,7 +15,7 @@ use std::borrow::Cow;
 const NAME_MAX: usize = 2000;
 /// The evaluation steps that a declaration of the library may take.
 const STEPS_MAX: u64 = 200_000;
-/// Names show numbers in six digits: what an argument makes of a declaration is known to this part.
+/// The relative tolerance of numbers of a declaration whose name states arguments: names show six digits.
 const TOL_ARGUMENT: f64 = 2e-5;
 
 /// A declaration of the standard library.
@@ -23,15 +23,17 @@ const TOL_ARGUMENT: f64 = 2e-5;
 pub struct Standard {
     /// Its path in programs: `std.smores.Smores`.
     pub path: String,
-    /// The declaration with the arguments of the name, the first and only one of its kind; `None` where the arguments
-    /// are none that it takes.
+    /// The declaration with the arguments of the name: as a module type, cell or strut the first of its kind,
+    /// with the connectors that it needs. `None` where it does not take these arguments.
     pub library: Option<Library>,
-    /// The part of a number by which it may differ from that of the same name: the rounding of arguments in names.
+    /// The relative tolerance with which numbers of a declaration of this name agree: the rounding of arguments
+    /// in the name; 0 without arguments.
     pub tolerance: f64,
 }
 
-/// Returns the declaration of the standard library that has a name, with the name's arguments; `None` where the
-/// library has none of that name.
+/// Returns the declaration of the standard library that has a name such as `Mori(side: 40mm)`, with the name's
+/// arguments; `None` where the library has none of that name. The arguments are evaluated only if they are
+/// names, numbers and lists.
 pub fn standard(name: &str) -> Option<Standard> {
     let (own, arguments) =
         name.split_once('(').map_or((name, ""), |(own, rest)| (own, rest.trim_end_matches(')')));
@@ -52,7 +54,8 @@ fn is_plain(arguments: &str) -> bool {
     sound && !words.any(|word| matches!(word, "for" | "in" | "if" | "else" | "match" | "fn"))
 }
 
-/// Returns the library of a declaration with arguments, by a program of two lines.
+/// Returns the library of a declaration with arguments, by a program of two lines; `None` where that has an
+/// error.
 fn elaborated(path: &str, own: &str, arguments: &str) -> Option<Library> {
     const ROBOT: &str = "It";
     let with = |text: String, name: &str| {
